@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace armature::base {
+
+/// The candidate that a user most likely meant by `name`: equal but for case, or at most a third of
+/// its letters away. Empty if none is near.
+std::string near_name(std::string_view name, const std::vector<std::string>& candidates);
+
+/// `did you mean 'X'?`, or `known: A, B, C` for at most eight candidates, or nothing.
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
+}  // namespace armature::base

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/platform/shared_object.hpp"
+
+#include <dlfcn.h>
+
+namespace armature::platform {
+
+base::Result<SharedObject> SharedObject::load(const std::string& path) {
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (handle != nullptr) return SharedObject(handle);
+  const char* reason = dlerror();
+  return base::Error{reason != nullptr ? reason : "unknown loader error"};
+}
+
+void* SharedObject::symbol(const char* name) const { return dlsym(handle_, name); }
+
+}  // namespace armature::platform

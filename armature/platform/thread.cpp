@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/platform/thread.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <condition_variable>
+#include <cstdint>
+#include <ctime>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+#include <alloca.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace armature::platform {
+namespace {
+
+/// The kernel's structure; its own header cannot be included beside <sched.h>.
+struct DeadlineAttributes {
+  std::uint32_t size;
+  std::uint32_t policy;
+  std::uint64_t flags;
+  std::int32_t nice;
+  std::uint32_t priority;
+  std::uint64_t runtime;
+  std::uint64_t deadline;
+  std::uint64_t period;
+};
+
+std::string why(int error) { return std::generic_category().message(error); }
+
+void apply_cpus(const ThreadRequest& request, ThreadGrant& grant) {
+  if (request.cpus.empty()) return;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (const int cpu : request.cpus) {
+    if (cpu >= 0 && cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(cpu), &set);
+  }
+  const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+  if (error == 0) {
+    grant.cpus = request.cpus;
+    return;
+  }
+  grant.refusals.push_back("CPU affinity: " + why(error) + "; this machine has CPUs 0.." +
+                           std::to_string(sysconf(_SC_NPROCESSORS_ONLN) - 1));
+}
+
+void apply_fifo(const ThreadRequest& request, ThreadGrant& grant) {
+  sched_param parameters{};
+  parameters.sched_priority = request.priority;
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  if (error == 0) {
+    grant.scheduler = Scheduler::kFifo;
+    grant.priority = request.priority;
+    return;
+  }
+  grant.refusals.push_back("SCHED_FIFO priority " + std::to_string(request.priority) + ": " +
+                           why(error) +
+                           "; run as root, or allow rtprio in /etc/security/limits.conf, or "
+                           "give the program CAP_SYS_NICE");
+}
+
+void apply_deadline(const ThreadRequest& request, ThreadGrant& grant) {
+  // glibc 2.36 has no wrapper for this system call.
+  DeadlineAttributes attributes{};
+  attributes.size = sizeof attributes;
+  attributes.policy = SCHED_DEADLINE;
+  attributes.runtime = static_cast<std::uint64_t>(request.runtime.count());
+  attributes.deadline = static_cast<std::uint64_t>(request.period.count());
+  attributes.period = static_cast<std::uint64_t>(request.period.count());
+  if (syscall(SYS_sched_setattr, 0, &attributes, 0) == 0) {
+    grant.scheduler = Scheduler::kDeadline;
+    return;
+  }
+  grant.refusals.push_back("SCHED_DEADLINE: " + why(errno) +
+                           "; it needs root, a runtime below the period, free bandwidth, and no "
+                           "CPU affinity narrower than the machine");
+}
+
+void apply_scheduler(const ThreadRequest& request, ThreadGrant& grant) {
+  if (request.scheduler == Scheduler::kFifo) apply_fifo(request, grant);
+  if (request.scheduler == Scheduler::kDeadline) apply_deadline(request, grant);
+}
+
+}  // namespace
+
+void prefault_stack(std::size_t bytes) {
+  auto* stack = static_cast<volatile char*>(alloca(bytes));
+  constexpr std::size_t kPage = 4096;
+  for (std::size_t i = 0; i < bytes; i += kPage) stack[i] = 0;
+}
+
+struct Thread::State {
+  ThreadRequest request;
+  std::function<void()> body;
+  ThreadGrant grant;
+  pthread_t handle{};
+  bool joinable = false;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool granted = false;
+
+  static void* enter(void* argument) {
+    const std::unique_ptr<std::shared_ptr<State>> self(
+        static_cast<std::shared_ptr<State>*>(argument));
+    (*self)->run();
+    return nullptr;
+  }
+
+  void run() {
+    pthread_setname_np(pthread_self(), request.name.substr(0, 15).c_str());
+    apply_cpus(request, grant);
+    apply_scheduler(request, grant);
+    constexpr std::size_t kHeadroom = 64 * 1024;
+    if (request.stack_bytes > 2 * kHeadroom) prefault_stack(request.stack_bytes - kHeadroom);
+    {
+      const std::lock_guard lock(mutex);
+      granted = true;
+    }
+    changed.notify_all();
+    body();
+  }
+};
+
+Thread::Thread(const ThreadRequest& request, std::function<void()> body)
+    : state_(std::make_shared<State>()) {
+  state_->request = request;
+  state_->body = std::move(body);
+  // The thread holds its own reference: an abandoned one may outlive this object.
+  auto argument = std::make_unique<std::shared_ptr<State>>(state_);
+
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  constexpr std::size_t kLeastStack = 64 * 1024;
+  pthread_attr_setstacksize(&attributes, std::max(request.stack_bytes, kLeastStack));
+  const int error = pthread_create(&state_->handle, &attributes, State::enter, argument.get());
+  pthread_attr_destroy(&attributes);
+  if (error != 0) {
+    throw std::system_error(error, std::generic_category(),
+                            "cannot start the thread '" + request.name + "'");
+  }
+  static_cast<void>(argument.release());
+  state_->joinable = true;
+  std::unique_lock lock(state_->mutex);
+  state_->changed.wait(lock, [this] { return state_->granted; });
+}
+
+Thread::~Thread() { join(); }
+
+const ThreadGrant& Thread::grant() const { return state_->grant; }
+
+void Thread::join() {
+  if (!state_->joinable) return;
+  pthread_join(state_->handle, nullptr);
+  state_->joinable = false;
+}
+
+bool Thread::join_within(base::Duration limit) {
+  if (!state_->joinable) return true;
+  timespec until{};
+  clock_gettime(CLOCK_MONOTONIC, &until);
+  const std::int64_t ns = until.tv_nsec + limit.count();
+  until.tv_sec += ns / 1'000'000'000;
+  until.tv_nsec = ns % 1'000'000'000;
+  if (pthread_clockjoin_np(state_->handle, nullptr, CLOCK_MONOTONIC, &until) != 0) return false;
+  state_->joinable = false;
+  return true;
+}
+
+void Thread::abandon() {
+  if (!state_->joinable) return;
+  pthread_detach(state_->handle);
+  state_->joinable = false;
+}
+
+}  // namespace armature::platform
