@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "armature/rt/atomics.hpp"
+
+namespace armature::rt {
+
+/// The newest value from one writer thread to one reader thread.
+///
+/// Specification: `fetch` moves the reader to the last value whose `write` had finished, or leaves
+/// it where it is if there was none since; the reader never sees a value torn, nor an older one
+/// after a newer one. Both sides finish in a bounded number of steps whatever the other does.
+///
+/// Three slots: one is the writer's, one the reader's, one lies in the middle; each side swaps its
+/// own with the middle one in a single atomic exchange.
+template <typename T, typename Atomics = StdAtomics>
+class Latest {
+ public:
+  /// @param initial  what the reader sees before the first write; gives vectors their size
+  explicit Latest(const T& initial) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
+
+  /// @rt nonblocking; allocates only if assigning a T of this shape does
+  /// @thread the writer only
+  void write(const T& value) {
+    slots_[back_].value = value;
+    back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) &
+            kIndex;
+  }
+
+  /// Moves on to the newest value; false if nothing was written since the last call.
+  /// @rt nonblocking, no allocation
+  /// @thread the reader only
+  bool fetch() {
+    if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
+    front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
+    return true;
+  }
+
+  /// The value that the last `fetch` moved to.
+  /// @thread the reader only
+  const T& value() const { return slots_[front_].value; }
+
+ private:
+  static constexpr std::uint8_t kIndex = 3;
+  static constexpr std::uint8_t kFresh = 4;
+
+  struct alignas(kCacheLine) Slot {
+    T value;
+  };
+
+  std::array<Slot, 3> slots_;
+  alignas(kCacheLine) std::uint8_t back_ = 0;
+  alignas(kCacheLine) typename Atomics::template Atomic<std::uint8_t> middle_{std::uint8_t{1}};
+  alignas(kCacheLine) std::uint8_t front_ = 2;
+};
+
+}  // namespace armature::rt
