@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+# Part of the installed package: the same function inside this tree and after find_package(armature).
+
+# armature_component_library(NAME motion SOURCES pid.cpp axes_generator.cpp LINK ...)
+#
+# A library of components that the deployment loads: lib/armature/lib<NAME>.so. It exports its one
+# extern "C" function and nothing else, and shares the runtime with the program that loads it.
+function(armature_component_library)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;LINK")
+  if(NOT arg_NAME OR NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "armature_component_library(NAME <name> SOURCES <files> [LINK <targets>]) "
+                        "was called with: ${ARGV}")
+  endif()
+  add_library(${arg_NAME} MODULE ${arg_SOURCES})
+  target_link_libraries(${arg_NAME} PRIVATE armature::component ${arg_LINK})
+  target_compile_options(${arg_NAME} PRIVATE -ffp-contract=off)
+  set_target_properties(
+    ${arg_NAME}
+    PROPERTIES PREFIX lib
+               SUFFIX .so
+               CXX_VISIBILITY_PRESET hidden
+               VISIBILITY_INLINES_HIDDEN ON
+               LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/armature)
+  if(COMMAND armature_warnings)
+    armature_warnings(${arg_NAME})
+  endif()
+endfunction()

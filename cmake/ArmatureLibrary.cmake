@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+# armature_library() for the folders of armature/, armature_test() for everything else.
+include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
+
+if(BUILD_TESTING)
+  find_package(GTest REQUIRED)
+endif()
+
+# Stops the configuration if `library` declares a use that layers.cmake does not allow.
+function(armature_check_uses library)
+  set(layers ${ARMATURE_LAYERS})
+  list(FILTER layers INCLUDE REGEX "^${library}:")
+  if(NOT layers)
+    message(FATAL_ERROR "${library} is not in cmake/layers.cmake: give it its place there")
+  endif()
+  string(REGEX MATCHALL "[a-z_]+" allowed "${layers}")
+  list(REMOVE_AT allowed 0)
+  foreach(used IN LISTS ARGN)
+    if(NOT used IN_LIST allowed)
+      list(JOIN allowed ", " allowed_text)
+      message(FATAL_ERROR "armature/${library} may not use ${used}; it may use: ${allowed_text} "
+                          "(cmake/layers.cmake)")
+    endif()
+  endforeach()
+endfunction()
+
+# TEMPORARY: files that are listed but not written yet do not stop the others.
+function(armature_skip_missing list)
+  foreach(file IN LISTS ${list})
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+      message(WARNING "${CMAKE_CURRENT_SOURCE_DIR}/${file} does not exist yet")
+      list(REMOVE_ITEM ${list} ${file})
+    endif()
+  endforeach()
+  set(${list} "${${list}}" PARENT_SCOPE)
+endfunction()
+
+# armature_library(NAME rt USES platform LINK fmt::fmt SOURCES log.cpp TESTS log_test.cpp ...)
+#
+# The library of one folder: libarmature_rt.so, target armature::rt; header-only without SOURCES.
+#   USES       other libraries of armature/, passed on to whoever uses this one
+#   LINK       third-party targets; private, because public headers do not include theirs
+#   TESTS      each file becomes the executable and test <NAME>_<file>
+#   TEST_USES, TEST_LINK   what the tests need beyond that
+#
+# Shared, so that a process has one copy of each registry and thread-local variable no matter how
+# many component libraries it loads, and so that a test builds only what lies below it.
+function(armature_library)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "USES;LINK;SOURCES;TESTS;TEST_USES;TEST_LINK")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "armature_library(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  armature_check_uses(${arg_NAME} ${arg_USES})
+  armature_skip_missing(arg_SOURCES)  # TEMPORARY while the tree grows
+  armature_skip_missing(arg_TESTS)
+  set(target armature_${arg_NAME})
+  list(TRANSFORM arg_USES PREPEND armature::)
+
+  if(arg_SOURCES)
+    add_library(${target} SHARED ${arg_SOURCES})
+    set(public PUBLIC)
+    target_link_libraries(${target} PRIVATE ${arg_LINK})
+    armature_warnings(${target})
+    armature_runtime_options(${target})
+  else()
+    add_library(${target} INTERFACE)
+    set(public INTERFACE)
+  endif()
+  add_library(armature::${arg_NAME} ALIAS ${target})
+  target_link_libraries(${target} ${public} ${arg_USES})
+  target_compile_features(${target} ${public} cxx_std_20)
+  target_include_directories(
+    ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_NAME})
+  set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES ${arg_NAME})
+
+  foreach(test IN LISTS arg_TESTS)
+    cmake_path(GET test STEM stem)
+    armature_test(NAME ${arg_NAME}_${stem} SOURCES ${test} USES ${arg_NAME} ${arg_TEST_USES}
+                  LINK ${arg_LINK} ${arg_TEST_LINK})
+  endforeach()
+endfunction()
+
+# Calls inside the library and accesses to its thread-local variables cost no detour.
+function(armature_runtime_options target)
+  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0.1)
+  target_compile_options(${target} PRIVATE -fno-semantic-interposition -ftls-model=initial-exec)
+  target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
+  if(NOT ARMATURE_SANITIZE)
+    target_link_options(${target} PRIVATE -Wl,-z,defs)  # an undeclared use does not link
+  endif()
+endfunction()
+
+# armature_test(NAME stop_order SOURCES stop_order_test.cpp USES exec testing LINK ...)
+#
+# A GoogleTest executable and the test of that name. A test that would take minutes under a
+# sanitizer gets the label `slow`: set_tests_properties(<name> PROPERTIES LABELS slow).
+function(armature_test)
+  if(NOT BUILD_TESTING)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "armature_test(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  list(TRANSFORM arg_USES PREPEND armature::)
+  add_executable(${arg_NAME} ${arg_SOURCES})
+  target_link_libraries(${arg_NAME} PRIVATE ${arg_USES} ${arg_LINK} GTest::gmock GTest::gtest_main)
+  armature_warnings(${arg_NAME})
+  set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
+endfunction()
+
+# armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)
+#
+# A libFuzzer executable in build/fuzz/fuzz/, with its corpus in tests/fuzz/corpus/<NAME>/. Exists
+# only where ARMATURE_FUZZ is on.
+function(armature_fuzz_target)
+  if(NOT ARMATURE_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
+  list(TRANSFORM arg_USES PREPEND armature::)
+  add_executable(${arg_NAME} ${arg_SOURCES})
+  target_link_libraries(${arg_NAME} PRIVATE ${arg_USES} ${arg_LINK})
+  target_link_options(${arg_NAME} PRIVATE -fsanitize=fuzzer)
+  armature_warnings(${arg_NAME})
+  set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
+endfunction()

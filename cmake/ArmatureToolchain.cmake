@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# Language, compiler and linker settings of everything in this tree.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
+endif()
+# Assertions stay on while developing; only Release turns them off.
+string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
+
+# A fused multiply-add here and none there would make simulations differ between machines.
+add_compile_options(-ffp-contract=off)
+
+option(ARMATURE_WERROR "Treat warnings as errors" OFF)
+function(armature_warnings target)
+  target_compile_options(
+    ${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Wnon-virtual-dtor
+                      $<$<BOOL:${ARMATURE_WERROR}>:-Werror>)
+endfunction()
+
+# The same layout as an installation, so that the program finds its libraries in the same way.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+
+set(ARMATURE_SANITIZE "" CACHE STRING
+    "Sanitizers as -fsanitize= takes them, such as address,undefined, thread or realtime")
+option(ARMATURE_FUZZ "Build the fuzz targets (clang only)" OFF)
+# A test that is too slow or meaningless under a sanitizer can ask for it: "" if there is none.
+add_compile_definitions(ARMATURE_SANITIZER="${ARMATURE_SANITIZE}")
+if(ARMATURE_SANITIZE)
+  add_compile_options(-fsanitize=${ARMATURE_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${ARMATURE_SANITIZE})
+endif()
+
+find_program(ARMATURE_CCACHE ccache)
+if(ARMATURE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ARMATURE_CCACHE})
+endif()
+find_program(ARMATURE_MOLD mold)
+if(ARMATURE_MOLD)
+  add_link_options(-fuse-ld=mold)
+endif()

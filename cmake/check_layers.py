@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks what the files of a source tree include against cmake/layers.cmake.
+
+usage: check_layers.py SOURCE_DIR
+
+- a library includes only libraries that layers.cmake allows, its tests also testing;
+- internal/ headers are included only by their own library;
+- public headers include the standard library, Eigen and Armature, nothing else;
+- headers of the operating system are included only by platform/.
+"""
+import re
+import sys
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+OPERATING_SYSTEM = re.compile(
+    r"(sys|linux|asm|net|netinet|arpa|bits)/.*|"
+    r"(aio|cpuid|dirent|dlfcn|errno|execinfo|fcntl|fnmatch|glob|grp|ifaddrs|link|malloc|mqueue|"
+    r"netdb|poll|pthread|pwd|sched|semaphore|signal|spawn|strings|syslog|termios|ucontext|unistd|"
+    r"wait|x86intrin|immintrin)\.h")
+EVERYONE = "base"
+TEST_ONLY = "testing"
+
+
+def read_layers(source_dir):
+    """library -> the set of libraries it may use."""
+    text = (source_dir / "cmake/layers.cmake").read_text()
+    return {name: set(uses.split()) for name, uses in re.findall(r'"(\w+):([^"]*)"', text)}
+
+
+def closure(layers, library):
+    """Everything a library may use, directly or through others."""
+    found, pending = set(), [library]
+    while pending:
+        for used in layers.get(pending.pop(), set()) - found:
+            found.add(used)
+            pending.append(used)
+    return found
+
+
+class Tree:
+    """The C++ files below a source directory and what each includes."""
+
+    def __init__(self, source_dir):
+        self.layers = read_layers(source_dir)
+        self.includes = {}
+        for top in ("armature", "robots", "examples", "benchmarks", "tests"):
+            for path in sorted((source_dir / top).rglob("*.?pp")):
+                self.includes[path.relative_to(source_dir).as_posix()] = parse(path.read_text())
+        self.public = self.find_public_headers()
+
+    def find_public_headers(self):
+        """Headers that a user sees: those outside internal/, and what they include."""
+        pending = [path for path in self.includes if is_public_header(path)]
+        found = set()
+        while pending:
+            path = pending.pop()
+            if path not in found and path in self.includes:
+                found.add(path)
+                pending += [name for _, _, name in self.includes[path] if not is_test_code(name)]
+        return found
+
+    def problems(self):
+        for path, includes in self.includes.items():
+            for line, bracket, name in includes:
+                reason = self.check(path, bracket, name)
+                if reason:
+                    yield f"{path}:{line}: error: {path} may not include {name}: {reason}"
+
+    def check(self, path, bracket, name):
+        if name.startswith("armature/"):
+            return self.check_own(path, name)
+        if path.startswith("armature/") and not is_test_code(path):
+            return self.check_foreign(path, bracket, name)
+        return None
+
+    def check_own(self, path, name):
+        user, used = library_of(path), name.split("/")[1]
+        if user == used:
+            return None
+        if "/internal/" in name:
+            return f"what is in internal/ belongs to {used} alone"
+        if user is None:
+            return None
+        if user not in self.layers:
+            return f"{user} is not in cmake/layers.cmake"
+        allowed = self.layers[user]
+        if is_test_code(path):
+            allowed = closure(self.layers, user) | {TEST_ONLY}
+        if used not in allowed:
+            return f"{user} may use only {', '.join(sorted(allowed)) or 'the standard library'}"
+        return None
+
+    def check_foreign(self, path, bracket, name):
+        if library_of(path) != "platform" and OPERATING_SYSTEM.fullmatch(name):
+            return "only armature/platform includes headers of the operating system"
+        if path not in self.public or OPERATING_SYSTEM.fullmatch(name):
+            return None
+        if bracket == '"':
+            return "write the whole path, as in \"armature/rt/latest.hpp\""
+        if re.search(r"[./]", name) and not name.startswith("Eigen/"):
+            return "users of this header would need it too; include it in a .cpp file or internal/"
+        return None
+
+
+def parse(text):
+    return [(text.count("\n", 0, match.start(1)) + 1, match[1], match[2])
+            for match in INCLUDE.finditer(text)]
+
+
+def library_of(path):
+    """The library a file belongs to; None for examples, benchmarks and tests across libraries."""
+    top, _, rest = path.partition("/")
+    if top == "armature":
+        return rest.split("/")[0]
+    return "robots" if top == "robots" and not path.endswith("_test.cpp") else None
+
+
+def is_test_code(path):
+    return path.endswith("_test.cpp") or path.startswith(f"armature/{TEST_ONLY}/")
+
+
+def is_public_header(path):
+    return (path.startswith("armature/") and path.endswith(".hpp") and "/internal/" not in path
+            and not is_test_code(path))
+
+
+def main():
+    problems = list(Tree(Path(sys.argv[1])).problems())
+    print("\n".join(problems), file=sys.stderr, end="\n" if problems else "")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

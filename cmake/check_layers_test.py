@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Shows that check_layers.py refuses what it should, on small trees that break one rule each."""
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+from check_layers import Tree
+
+LAYERS = Path(__file__).with_name("layers.cmake")
+
+
+class CheckLayers(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.root)
+        (self.root / "cmake").mkdir()
+        shutil.copy(LAYERS, self.root / "cmake")
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text)
+
+    def assert_refused(self, path, include, reason):
+        self.write(path, f"#pragma once\n#include {include}\n")
+        problems = list(Tree(self.root).problems())
+        self.assertEqual(len(problems), 1, problems)
+        self.assertTrue(problems[0].startswith(f"{path}:2: error: "), problems)
+        self.assertIn(reason, problems[0])
+
+    def assert_accepted(self, path, include):
+        self.write(path, f"#include {include}\n")
+        self.assertEqual(list(Tree(self.root).problems()), [])
+
+    def test_a_lower_layer_does_not_include_a_higher_one(self):
+        self.assert_refused("armature/component/port.hpp", '"armature/deploy/plan.hpp"',
+                            "component may use only base, rt, types")
+
+    def test_a_higher_layer_includes_a_lower_one(self):
+        self.assert_accepted("armature/component/port.hpp", '"armature/rt/latest.hpp"')
+
+    def test_one_robot_does_not_reach_into_deploy(self):
+        self.assert_refused("robots/janus/aic.cpp", '"armature/deploy/plan.hpp"', "robots may use")
+
+    def test_a_product_does_not_include_testing(self):
+        self.assert_refused("armature/cli/run.cpp", '"armature/testing/guard.hpp"', "cli may use")
+
+    def test_a_test_includes_testing(self):
+        self.assert_accepted("armature/base/unit_test.cpp", '"armature/testing/guard.hpp"')
+
+    def test_a_test_does_not_include_a_higher_layer(self):
+        self.assert_refused("armature/rt/ring_test.cpp", '"armature/exec/engine.hpp"',
+                            "rt may use only base, platform, testing")
+
+    def test_internal_headers_belong_to_their_library(self):
+        self.assert_refused("examples/hello/hello.cpp", '"armature/rt/internal/futex.hpp"',
+                            "belongs to rt alone")
+
+    def test_a_library_includes_its_own_internal_headers(self):
+        self.assert_accepted("armature/rt/ring.cpp", '"armature/rt/internal/futex.hpp"')
+
+    def test_a_library_without_a_place_is_refused(self):
+        self.assert_refused("armature/magic/wand.hpp", '"armature/base/unit.hpp"',
+                            "not in cmake/layers.cmake")
+
+    def test_a_public_header_does_not_include_third_party_headers(self):
+        self.assert_refused("armature/deploy/document.hpp", "<yaml-cpp/yaml.h>", "internal/")
+
+    def test_neither_does_an_internal_header_that_a_public_one_includes(self):
+        self.write("armature/deploy/document.hpp", '#include "armature/deploy/internal/node.hpp"\n')
+        self.assert_refused("armature/deploy/internal/node.hpp", "<yaml-cpp/yaml.h>", "internal/")
+
+    def test_sources_and_internal_headers_may_include_third_party_headers(self):
+        self.assert_accepted("armature/deploy/internal/node.hpp", "<yaml-cpp/yaml.h>")
+        self.assert_accepted("armature/deploy/document.cpp", "<yaml-cpp/yaml.h>")
+
+    def test_eigen_and_the_standard_library_are_free_for_all(self):
+        self.assert_accepted("armature/base/vector.hpp", "<Eigen/Core>")
+        self.assert_accepted("armature/base/text.hpp", "<string>")
+
+    def test_only_platform_includes_headers_of_the_operating_system(self):
+        self.assert_accepted("armature/platform/thread.hpp", "<pthread.h>")
+        self.assert_refused("armature/rt/loop.cpp", "<sys/mman.h>", "only armature/platform")
+
+    def test_includes_are_whole_paths(self):
+        self.assert_refused("armature/rt/ring.hpp", '"latest.hpp"', "whole path")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# Who may use whom, as ARCHITECTURE.md has it: "library: the libraries it may use". Everything may
+# use base, only tests may use testing. Read by ArmatureLibrary.cmake (what a library declares) and
+# by check_layers.py (what its files include).
+set(ARMATURE_LAYERS
+    "base:"
+    "platform: base"
+    "types: base"
+    "rt: base platform"
+    "control: base"
+    "component: base rt types"
+    "can: base platform rt"
+    "ride: base platform rt types"
+    "exec: base component rt platform"
+    "record: base exec component types rt platform"
+    "deploy: base exec component types platform"
+    "script: base deploy component"
+    "remote: base ride deploy component types"
+    "library: base component control record"
+    "sim: base exec component can control"
+    "robots: base library component can control sim"
+    "studio: base remote record"
+    "cli: base platform types rt control component can ride exec record deploy script remote library sim studio"
+    "testing: base platform types rt control component can ride exec record deploy script remote library sim studio")
