@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/base/time.hpp"
+
+namespace armature::deploy {
+
+struct Property;
+
+/// What a user wrote for a property: text, a list or a map. Which type and unit it must have is the
+/// model's affair.
+struct Value {
+  enum class Kind { kNone, kText, kList, kMap };
+
+  Kind kind = Kind::kNone;
+  std::string text;               ///< of a text
+  std::vector<Value> items;       ///< of a list
+  std::vector<Property> entries;  ///< of a map, in the order written
+  std::string type;      ///< OROCOS type, where an OROCOS file gave one that the text does not show
+  bool literal = false;  ///< `{i}` and `${name}` in it are ordinary text
+  base::Location where;
+};
+
+struct Property {
+  std::string name;
+  Value value;
+  std::string description;  ///< from OROCOS files; empty elsewhere
+  base::Location where;     ///< of the name
+};
+
+/// A name or path that the user wrote somewhere.
+struct Reference {
+  std::string name;
+  base::Location where;
+};
+
+enum class ActivityKind { kSequential, kPeriodic, kTriggered };
+enum class Scheduler { kRealtime, kDeadline, kOther };
+enum class Overrun { kSkip, kCatchUp, kFault };
+
+/// How a component runs. A component without an activity is sequential.
+struct Activity {
+  ActivityKind kind = ActivityKind::kSequential;
+  base::Duration period{};  ///< > 0 if periodic, else 0
+  int priority = 0;         ///< 1..99, 99 most urgent; 0 if not given
+  Scheduler scheduler = Scheduler::kRealtime;
+  std::vector<int> cpus;                 ///< empty: any
+  Overrun overrun = Overrun::kFault;     ///< what a late cycle leads to; kFault skips until then
+  int overrun_limit = 5;                 ///< kFault: late cycles in a row that fault the component
+  std::string thread;                    ///< periodic activities of the same name share a thread
+  std::optional<base::Duration> budget;  ///< declared execution time of one cycle
+  base::Location where;
+};
+
+/// A component that this one may use, one way.
+struct Peer {
+  std::string name;       ///< as the component itself knows it
+  std::string component;  ///< full name
+  base::Location where;
+};
+
+/// Which peer's operation or event serves one that the component requires.
+struct Binding {
+  std::string name;       ///< what the component requires
+  std::string component;  ///< full name of the peer
+  std::string member;     ///< the peer's operation or event
+  base::Location where;
+};
+
+/// A .cpf file read before `properties`, which win over it.
+struct PropertyFile {
+  std::string path;       ///< relative to the document's folder, or absolute
+  bool complete = false;  ///< the file must have every property of the component
+  base::Location where;
+};
+
+struct Component {
+  std::string name;  ///< parts of composites: `instance.part`
+  std::string model;
+  Activity activity;
+  std::vector<Property> properties;
+  std::vector<Peer> peers;
+  std::vector<Binding> bindings;
+  std::vector<Reference> delays;  ///< components whose results of the previous cycle it uses
+  std::vector<PropertyFile> property_files;
+  bool autoconf = true;
+  bool autostart = true;
+  bool autosave = false;  ///< properties are written to the last property file at stop
+  base::Location where;   ///< of the name
+  base::Location model_where;
+};
+
+enum class Reaction { kDefault, kHold, kZero, kStop, kFault };
+enum class Overflow { kDropNewest, kDropOldest };
+
+/// How data travels along a connection.
+struct ConnectionPolicy {
+  int fifo_size = 0;  ///< 0: the latest value only
+  Overflow overflow = Overflow::kDropNewest;
+  std::optional<base::Duration> max_age;  ///< of a sample when it is read
+  Reaction on_old = Reaction::kDefault;   ///< when a sample is older than `max_age`
+  Reaction on_lost = Reaction::kDefault;  ///< when the writer has stopped or is gone
+  bool one_cycle_delay = false;           ///< the reader uses the previous cycle's sample
+  bool fan_in = false;                    ///< the input has several writers on purpose
+};
+
+struct Endpoint {
+  std::string component;
+  std::string port;
+  base::Location where;
+};
+
+struct Connection {
+  Endpoint from;
+  Endpoint to;
+  ConnectionPolicy policy;
+  base::Location where;
+};
+
+/// Ports that share a connection's name: each output among them goes to each input.
+struct NamedConnection {
+  std::string name;
+  std::vector<Endpoint> ports;
+  ConnectionPolicy policy;
+  base::Location where;
+};
+
+enum class ExportKind { kPort, kOperation, kEvent, kProperty };
+
+/// What a composite shows of a part as its own.
+struct Export {
+  ExportKind kind = ExportKind::kPort;
+  std::string name;       ///< the composite's
+  std::string component;  ///< full name of the part
+  std::string member;     ///< the part's
+  base::Location where;
+};
+
+/// An instance of a composite; its parts are components named `name.part`.
+struct Composite {
+  std::string name;
+  std::string model;
+  std::vector<Property> parameters;
+  std::vector<Export> exports;
+  base::Location where;
+};
+
+struct Script {
+  std::string path;       ///< relative to the document's folder, or absolute
+  std::string component;  ///< in whose engine it runs; empty: in the application's own
+  base::Location where;
+};
+
+/// What follows when a component faults.
+enum class OnFault { kStopDependents, kStopAll, kKeepRunning };
+
+/// An application as a user described it: ranges, parameters and composites are expanded, names are
+/// resolved as far as the document alone can; nothing is checked against models yet.
+struct Document {
+  std::string file;
+  std::string application;
+  OnFault on_fault = OnFault::kStopDependents;
+  std::vector<Reference> libraries;
+  std::vector<Property> parameters;  ///< their final values
+  std::vector<Component> components;
+  std::vector<Connection> connections;
+  std::vector<NamedConnection> named_connections;
+  std::vector<Composite> composites;
+  std::vector<Script> scripts;
+  Value recorder;  ///< kNone if the document has none
+};
+
+/// The entry of a map or property list with that name, or nullptr.
+const Property* find(const std::vector<Property>& properties, std::string_view name);
+Property* find(std::vector<Property>& properties, std::string_view name);
+
+/// Value as YAML on one line: `0.5`, `[1, 2]`, `{x: 1, y: "a b"}`.
+std::string to_text(const Value& value);
+
+/// As the files spell them.
+std::string_view to_text(ActivityKind kind);
+std::string_view to_text(Scheduler scheduler);
+std::string_view to_text(Overrun overrun);
+std::string_view to_text(Reaction reaction);
+std::string_view to_text(Overflow overflow);
+std::string_view to_text(OnFault on_fault);
+std::string_view to_text(ExportKind kind);
+
+/// `10 ms`, `1.5 s`, `250 us`: exact, in the largest unit that needs no exponent.
+std::string to_text(base::Duration duration);
+
+/// `path` as the program opens it: relative ones count from the document's folder.
+std::string path_from(const Document& document, std::string_view path);
+
+}  // namespace armature::deploy
