@@ -20,7 +20,9 @@ option(ARMATURE_WERROR "Treat warnings as errors" OFF)
 function(armature_warnings target)
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Wnon-virtual-dtor
-                      $<$<BOOL:${ARMATURE_WERROR}>:-Werror>)
+                      $<$<BOOL:${ARMATURE_WERROR}>:-Werror>
+                      # std::stable_sort of libstdc++ 12 itself uses a deprecated function
+                      $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>)
 endfunction()
 
 # The same layout as an installation, so that the program finds its libraries in the same way.
