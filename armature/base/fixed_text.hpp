@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <string_view>
 
@@ -14,8 +15,10 @@ template <std::size_t Capacity>
 class FixedText {
  public:
   constexpr FixedText() = default;
-  constexpr FixedText(std::string_view text) { assign(text); }  // NOLINT: text is text
-  constexpr FixedText(const char* text) : FixedText(std::string_view(text)) {}  // NOLINT
+  template <std::convertible_to<std::string_view> Text>
+  constexpr FixedText(const Text& text) {  // NOLINT: text is text
+    assign(text);
+  }
 
   constexpr void assign(std::string_view text) {
     size_ = std::min(text.size(), Capacity);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/base/near_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature::base {
+namespace {
+
+const std::vector<std::string> kPorts{"reference", "position", "velocity", "act"};
+
+TEST(NearName, FindsANameWithOneWrongLetter) {
+  EXPECT_EQ(near_name("positoin", kPorts), "position");
+  EXPECT_EQ(near_name("velocty", kPorts), "velocity");
+  EXPECT_EQ(near_name("referencee", kPorts), "reference");
+}
+
+TEST(NearName, IgnoresCase) { EXPECT_EQ(near_name("POSITION", kPorts), "position"); }
+
+TEST(NearName, PrefersTheNearest) {
+  EXPECT_EQ(near_name("joint2", {"joint1", "joint2", "joint3"}), "joint2");
+}
+
+TEST(NearName, CountsTwoSwappedLettersOnce) { EXPECT_EQ(near_name("atc", kPorts), "act"); }
+
+TEST(NearName, IsEmptyIfMoreThanAThirdOfTheLettersDiffer) {
+  EXPECT_EQ(near_name("torque", kPorts), "");
+  EXPECT_EQ(near_name("pos", kPorts), "");
+}
+
+TEST(NearName, IsEmptyWithoutCandidates) { EXPECT_EQ(near_name("act", {}), ""); }
+
+TEST(NearName, AcceptsAnEmptyName) { EXPECT_EQ(near_name("", kPorts), ""); }
+
+TEST(Suggestion, AsksForTheNearName) {
+  EXPECT_EQ(suggestion("positon", kPorts), "did you mean 'position'?");
+}
+
+TEST(Suggestion, ListsAFewKnownNames) {
+  EXPECT_EQ(suggestion("torque", kPorts), "known: reference, position, velocity, act");
+}
+
+TEST(Suggestion, SaysNothingRatherThanListManyNames) {
+  const std::vector<std::string> nine(9, "reference");
+  EXPECT_EQ(suggestion("torque", nine), "");
+  EXPECT_EQ(suggestion("torque", {}), "");
+}
+
+}  // namespace
+}  // namespace armature::base

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/base/time.hpp"
+
+#include <gtest/gtest.h>
+
+namespace armature::base {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Time, CountsNanosecondsSinceTheClockStarted) {
+  EXPECT_EQ(to_ns(time_from_ns(1'500)), 1'500);
+  EXPECT_EQ(to_ns(Time{}), 0);
+}
+
+TEST(Time, DifferencesAreDurations) {
+  const Time start = time_from_ns(2'000'000);
+  EXPECT_EQ(start + 1ms - start, Duration{1'000'000});
+  EXPECT_LT(start, start + 1ns);
+}
+
+}  // namespace
+}  // namespace armature::base
