@@ -72,8 +72,7 @@ function(armature_library)
   target_include_directories(
     ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_NAME})
-  set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES ${arg_NAME})
+  armature_install_library(${arg_NAME})
 
   foreach(test IN LISTS arg_TESTS)
     cmake_path(GET test STEM stem)
@@ -92,12 +91,36 @@ function(armature_runtime_options target)
   endif()
 endfunction()
 
+# testing is for the tests of this tree, everything else goes into the package.
+function(armature_install_library name)
+  if(name STREQUAL testing)
+    return()
+  endif()
+  set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS armature_${name} EXPORT armature)
+  set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES armature::${name})
+endfunction()
+
+# armature_program(NAME armature SOURCES main.cpp USES cli LINK CLI11::CLI11)
+#
+# An executable that is installed into bin/; the package knows it as armature::program.
+function(armature_program)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
+  list(TRANSFORM arg_USES PREPEND armature::)
+  add_executable(${arg_NAME} ${arg_SOURCES})
+  add_executable(armature::program ALIAS ${arg_NAME})
+  target_link_libraries(${arg_NAME} PRIVATE ${arg_USES} ${arg_LINK})
+  armature_warnings(${arg_NAME})
+  set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME program)
+  install(TARGETS ${arg_NAME} EXPORT armature)
+endfunction()
+
 # armature_test(NAME stop_order SOURCES stop_order_test.cpp USES exec testing LINK ...)
 #
 # A GoogleTest executable and the test of that name. A test that would take minutes under a
 # sanitizer gets the label `slow`: set_tests_properties(<name> PROPERTIES LABELS slow).
 function(armature_test)
-  if(NOT BUILD_TESTING)
+  if(NOT BUILD_TESTING OR ARMATURE_FUZZ)
     return()
   endif()
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
@@ -114,17 +137,30 @@ endfunction()
 
 # armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)
 #
-# A libFuzzer executable in build/fuzz/fuzz/, with its corpus in tests/fuzz/corpus/<NAME>/. Exists
-# only where ARMATURE_FUZZ is on.
+# A libFuzzer target with its corpus in the folder corpus/<NAME> beside it. With ARMATURE_FUZZ the
+# test of that name fuzzes for a minute, and keeps what it finds in build/fuzz/fuzz/<NAME>.found;
+# without, it replays the corpus.
 function(armature_fuzz_target)
-  if(NOT ARMATURE_FUZZ)
+  if(NOT BUILD_TESTING)
     return()
   endif()
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
   list(TRANSFORM arg_USES PREPEND armature::)
   add_executable(${arg_NAME} ${arg_SOURCES})
   target_link_libraries(${arg_NAME} PRIVATE ${arg_USES} ${arg_LINK})
-  target_link_options(${arg_NAME} PRIVATE -fsanitize=fuzzer)
   armature_warnings(${arg_NAME})
-  set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
+  set(folder ${PROJECT_BINARY_DIR}/fuzz)
+  set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${folder})
+  set(corpus ${CMAKE_CURRENT_SOURCE_DIR}/corpus/${arg_NAME})
+  if(ARMATURE_FUZZ)
+    target_link_options(${arg_NAME} PRIVATE -fsanitize=fuzzer)
+    set(found ${folder}/${arg_NAME}.found)
+    file(MAKE_DIRECTORY ${found})
+    add_test(NAME ${arg_NAME} COMMAND ${arg_NAME} ${found} ${corpus} -artifact_prefix=${found}/
+                                      -max_total_time=60 -timeout=10 -print_final_stats=1)
+    set_tests_properties(${arg_NAME} PROPERTIES LABELS fuzz)
+  else()
+    target_sources(${arg_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/fuzz/replay.cpp)
+    add_test(NAME ${arg_NAME} COMMAND ${arg_NAME} ${corpus})
+  endif()
 endfunction()

@@ -28,6 +28,7 @@ endfunction()
 # The same layout as an installation, so that the program finds its libraries in the same way.
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(CMAKE_INSTALL_RPATH $ORIGIN $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 
 set(ARMATURE_SANITIZE "" CACHE STRING
     "Sanitizers as -fsanitize= takes them, such as address,undefined, thread or realtime")
