@@ -5,6 +5,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <ctime>
+
 namespace armature::platform {
 
 static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t),
@@ -12,6 +15,17 @@ static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t),
 
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected) {
   syscall(SYS_futex, &word, FUTEX_WAIT_PRIVATE, expected, nullptr, nullptr, 0);
+}
+
+bool futex_wait_until(std::atomic<std::uint32_t>& word, std::uint32_t expected,
+                      base::Time deadline) {
+  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+  const std::int64_t ns = base::to_ns(deadline);
+  const timespec until{.tv_sec = static_cast<time_t>(ns / kNsPerSecond),
+                       .tv_nsec = static_cast<long>(ns % kNsPerSecond)};
+  const long result = syscall(SYS_futex, &word, FUTEX_WAIT_BITSET_PRIVATE, expected, &until, nullptr,
+                              FUTEX_BITSET_MATCH_ANY);
+  return result == 0 || errno != ETIMEDOUT;
 }
 
 void futex_wake_one(std::atomic<std::uint32_t>& word) {

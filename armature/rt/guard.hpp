@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 namespace armature::rt {
 
 /// What the real-time guard needs to know of the current thread. The framework keeps it true; a
@@ -10,8 +8,10 @@ namespace armature::rt {
 struct GuardState {
   int realtime_depth = 0;   ///< > 0: allocation and blocking are violations
   int permitted_depth = 0;  ///< > 0: they are allowed for a moment, for a stated reason
-  /// Name of the component that runs now, nullptr outside of components.
-  const std::string* component = nullptr;
+  /// Where the thread keeps what runs now (a component or nullptr), and how to name that; set once
+  /// for each thread, so that switching components costs the guard nothing.
+  const void* const* running = nullptr;
+  const char* (*name_of)(const void* running) = nullptr;
 };
 
 /// The state of the calling thread; never allocates.
@@ -34,20 +34,6 @@ class PermitScope {
   PermitScope(const PermitScope&) = delete;
   PermitScope& operator=(const PermitScope&) = delete;
   ~PermitScope() { --guard_state().permitted_depth; }
-};
-
-/// Names the component whose code runs in its scope.
-class ComponentScope {
- public:
-  explicit ComponentScope(const std::string& name) noexcept : outer_(guard_state().component) {
-    guard_state().component = &name;
-  }
-  ComponentScope(const ComponentScope&) = delete;
-  ComponentScope& operator=(const ComponentScope&) = delete;
-  ~ComponentScope() { guard_state().component = outer_; }
-
- private:
-  const std::string* outer_;
 };
 
 }  // namespace armature::rt

@@ -12,7 +12,7 @@ class BasicMessage {
  public:
   using Deliver = void (*)(BasicMessage&);
 
-  explicit BasicMessage(Deliver deliver) : deliver_(deliver) {}
+  explicit BasicMessage(Deliver action) : deliver_(action) {}
   BasicMessage(const BasicMessage&) = delete;
   BasicMessage& operator=(const BasicMessage&) = delete;
 
@@ -28,7 +28,7 @@ class BasicMessage {
   friend class BasicInbox;
 
   Deliver deliver_;
-  BasicMessage* next_ = nullptr;
+  typename Atomics::template Plain<BasicMessage*> next_{nullptr};
 };
 
 /// Messages from any number of threads to one.

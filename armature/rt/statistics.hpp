@@ -46,7 +46,7 @@ class Distribution {
   /// The bucket of a value, and the largest value of a bucket.
   static constexpr std::size_t bucket_of(std::uint64_t value) {
     if (value < 4) return static_cast<std::size_t>(value);
-    const int exponent = std::bit_width(value) - 1;
+    const auto exponent = static_cast<int>(std::bit_width(value)) - 1;
     const auto quarter = static_cast<std::size_t>((value >> (exponent - 2)) & 3u);
     return static_cast<std::size_t>(exponent - 1) * 4 + quarter;
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "armature/base/time.hpp"
 #include "armature/platform/futex.hpp"
 #include "armature/rt/atomics.hpp"
 
@@ -13,6 +14,11 @@ struct FutexParker {
   using Atomics = StdAtomics;
   static void wait(std::atomic<std::uint32_t>& word, std::uint32_t expected) {
     platform::futex_wait(word, expected);
+  }
+  /// False once `deadline` has passed.
+  static bool wait_until(std::atomic<std::uint32_t>& word, std::uint32_t expected,
+                         base::Time deadline) {
+    return platform::futex_wait_until(word, expected, deadline);
   }
   static void wake_one(std::atomic<std::uint32_t>& word) { platform::futex_wake_one(word); }
 };
@@ -49,6 +55,25 @@ class BasicWakeup {
       Parker::wait(state_, kAsleep);
       seen = kNotified;
     } while (!take(seen));
+  }
+
+  /// Sleeps until notified or until `deadline`; false if the time ran out.
+  /// @thread the owner only
+  bool wait_until(base::Time deadline) {
+    std::uint32_t seen = kNotified;
+    if (take(seen)) return true;
+    seen = kIdle;
+    if (!state_.compare_exchange_strong(seen, kAsleep, std::memory_order_acq_rel,
+                                        std::memory_order_acquire)) {
+      state_.exchange(kIdle, std::memory_order_acq_rel);
+      return true;
+    }
+    while (Parker::wait_until(state_, kAsleep, deadline)) {
+      seen = kNotified;
+      if (take(seen)) return true;
+    }
+    // Time is up; a notification that came in the meantime is taken along.
+    return state_.exchange(kIdle, std::memory_order_acq_rel) == kNotified;
   }
 
   /// Takes a pending notification without sleeping; false if there is none.

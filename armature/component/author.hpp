@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Everything that the author of a component needs.
+
+#include "armature/component/command.hpp"
+#include "armature/component/component.hpp"
+#include "armature/component/event.hpp"
+#include "armature/component/input_port.hpp"
+#include "armature/component/operation.hpp"
+#include "armature/component/output_port.hpp"
+#include "armature/component/port_array.hpp"
+#include "armature/component/property.hpp"
+#include "armature/component/registry.hpp"
+#include "armature/types/struct.hpp"

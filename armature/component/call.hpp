@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Calls between threads: a record travels to the thread that executes it and keeps the result for
+// the caller.
+
+#include <atomic>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "armature/base/time.hpp"
+#include "armature/rt/inbox.hpp"
+#include "armature/rt/ticks.hpp"
+#include "armature/rt/wakeup.hpp"
+
+namespace armature::component {
+
+enum class CallStatus : std::uint8_t {
+  kDone,
+  kPending,       ///< sent, not finished
+  kNotConnected,  ///< the caller is bound to no operation
+  kNotReady,      ///< the operation's component is not configured, or in an exception
+  kFailed,        ///< an exception escaped from the operation; its component has faulted
+  kCancelled,
+  kQueueFull,  ///< too many calls of this caller are under way; this one was not taken
+  kTimeout,    ///< the operation's thread did not answer in time
+};
+
+std::string_view name_of(CallStatus status);
+
+template <typename R>
+struct [[nodiscard]] CallResult {
+  CallStatus status = CallStatus::kPending;
+  std::decay_t<R> value{};
+  explicit operator bool() const { return status == CallStatus::kDone; }
+};
+
+template <>
+struct CallResult<void> {
+  CallStatus status = CallStatus::kPending;
+  explicit operator bool() const { return status == CallStatus::kDone; }
+};
+
+/// A call on its way. Free -> queued -> running -> finished -> free; a queued one may be cancelled.
+/// It becomes free when both sides are done with it: the thread that delivers it and the handle.
+template <typename R>
+class CallRecord : public rt::Message {
+ public:
+  using rt::Message::Message;
+
+  /// @thread the caller's
+  bool try_claim() {
+    if (users_.load(std::memory_order_acquire) != 0) return false;
+    users_.store(2, std::memory_order_relaxed);
+    stage_.store(kQueued, std::memory_order_relaxed);
+    return true;
+  }
+  bool try_cancel() {
+    std::uint32_t expected = kQueued;
+    return stage_.compare_exchange_strong(expected, kCancelled, std::memory_order_acq_rel);
+  }
+  bool finished() const { return stage_.load(std::memory_order_acquire) >= kFinished; }
+  bool cancelled() const { return stage_.load(std::memory_order_acquire) == kCancelled; }
+  const CallResult<R>& result() const { return result_; }
+  void wait_until(base::Time deadline) {
+    while (!finished() && done_.wait_until(deadline)) {
+    }
+  }
+  void release() { users_.fetch_sub(1, std::memory_order_acq_rel); }
+
+  /// @thread the executing one
+  bool try_begin() {
+    std::uint32_t expected = kQueued;
+    if (stage_.compare_exchange_strong(expected, kRunning, std::memory_order_acq_rel)) return true;
+    release();
+    return false;
+  }
+  void finish(const CallResult<R>& result) {
+    result_ = result;
+    stage_.store(kFinished, std::memory_order_release);
+    done_.notify();
+    release();
+  }
+
+ private:
+  static constexpr std::uint32_t kQueued = 0;
+  static constexpr std::uint32_t kRunning = 1;
+  static constexpr std::uint32_t kFinished = 2;
+  static constexpr std::uint32_t kCancelled = 3;
+
+  std::atomic<std::uint32_t> users_{0};
+  std::atomic<std::uint32_t> stage_{kQueued};
+  rt::Wakeup done_;
+  CallResult<R> result_{};
+};
+
+/// What `send` returns; letting go of it does not cancel the call.
+template <typename R>
+class [[nodiscard]] SendHandle {
+ public:
+  explicit SendHandle(CallStatus refusal) : refusal_(refusal) {}
+  explicit SendHandle(CallRecord<R>& record) : record_(&record) {}
+  SendHandle(SendHandle&& other) noexcept
+      : record_(std::exchange(other.record_, nullptr)), refusal_(other.refusal_) {}
+  SendHandle& operator=(SendHandle&& other) noexcept {
+    std::swap(record_, other.record_);
+    std::swap(refusal_, other.refusal_);
+    return *this;
+  }
+  ~SendHandle() {
+    if (record_ != nullptr) record_->release();
+  }
+
+  /// False if the call was not taken; `collect` says why.
+  bool sent() const { return record_ != nullptr; }
+  bool done() const { return record_ == nullptr || record_->finished(); }
+
+  /// The result if the call is finished, else kPending.
+  /// @rt nonblocking; copies the result
+  CallResult<R> collect() const {
+    if (record_ == nullptr) return {refusal_};
+    if (!record_->finished()) return {CallStatus::kPending};
+    if (record_->cancelled()) return {CallStatus::kCancelled};
+    return record_->result();
+  }
+
+  /// Takes the call back if it has not begun; false if it is too late.
+  /// @rt nonblocking
+  bool cancel() { return record_ != nullptr && record_->try_cancel(); }
+
+  /// Waits for the result, at most `limit`; kTimeout then, and the call is taken back if it has not
+  /// begun.
+  CallResult<R> wait(base::Duration limit) {
+    if (record_ == nullptr) return {refusal_};
+    record_->wait_until(rt::monotonic_now() + limit);
+    if (!done()) {
+      cancel();
+      return {CallStatus::kTimeout};
+    }
+    return collect();
+  }
+
+ private:
+  CallRecord<R>* record_ = nullptr;
+  CallStatus refusal_ = CallStatus::kPending;
+};
+
+}  // namespace armature::component

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/time.hpp"
+#include "armature/component/context.hpp"
+#include "armature/component/outcome.hpp"
+#include "armature/rt/log.hpp"
+#include "armature/rt/statistics.hpp"
+#include "armature/rt/ticks.hpp"
+
+namespace armature::component {
+
+class PropertyBase;
+class InputPortBase;
+class OutputPortBase;
+class PortArrayBase;
+class OperationBase;
+class OperationCallerBase;
+class EventBase;
+class EventHandlerBase;
+
+/// Where a component is in its life (component-model: life cycle). Ordered so that everything from
+/// kStopped on serves operations.
+enum class State : std::uint8_t { kPreOperational, kException, kStopped, kRunning, kRunTimeError };
+
+std::string_view name_of(State state);
+
+/// Something a component does around its update hook: a state machine, a command under way.
+class Step {
+ public:
+  virtual void step() = 0;
+  /// The component was stopped or faulted: what was under way is over.
+  virtual void halt(std::string_view reason) = 0;
+  virtual void start() {}
+
+ protected:
+  ~Step() = default;
+};
+
+/// What a component declares, in the order of declaration.
+struct Interface {
+  std::vector<PropertyBase*> properties;
+  std::vector<InputPortBase*> inputs;
+  std::vector<OutputPortBase*> outputs;
+  std::vector<PortArrayBase*> port_arrays;
+  std::vector<OperationBase*> operations;
+  std::vector<OperationCallerBase*> callers;
+  std::vector<EventBase*> events;
+  std::vector<EventHandlerBase*> handlers;
+};
+
+/// The base of every component. Its interface consists of members (Property, InputPort, OutputPort,
+/// Operation, Event, ...) that are constructed with `this` and so make themselves known.
+///
+/// All hooks of a component, its handlers and its own-thread operations run in one thread, one
+/// after the other: none of them needs a lock. A constructor only declares; it touches no hardware,
+/// since tools construct components to describe them.
+class Component {
+ public:
+  explicit Component(std::string name);
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+  virtual ~Component();
+
+  const std::string& name() const { return name_; }
+  /// @thread any
+  State state() const { return state_.load(std::memory_order_relaxed); }
+  /// Serves operations: configured and without an exception.
+  bool ready() const { return state() >= State::kStopped; }
+  /// Why the component is in its state after a refusal, an error or a fault; empty if all is well.
+  /// @thread its own, or any while it does not run
+  std::string_view reason() const { return reason_.view(); }
+
+  /// The cycle time of the thread: one value for everything that happens in a cycle.
+  /// @rt nonblocking
+  base::Time time() const { return context_->cycle_time; }
+
+  /// The transitions of the life cycle; each runs its hook. A refusal leaves the state as it was.
+  /// @thread the component's own; before the application runs, the one that builds it
+  Outcome configure();
+  Outcome activate();
+  Outcome start();
+  void stop();
+  void cleanup();
+  Outcome recover();  ///< from kRunTimeError back to kRunning
+  Outcome reset();    ///< from kException to kStopped
+
+  /// One cycle: state machines, the update hook (or the error hook), then commands under way.
+  /// @rt as the hooks are
+  void update();
+
+  /// Takes the component out of service from within or by a declared reaction: kException, and what
+  /// depends on it reacts as declared.
+  /// @rt nonblocking, no allocation
+  void fault(std::string_view reason);
+  /// Stops by a declared reaction; the application is told.
+  void stop_because(std::string_view reason);
+
+  /// True if a handler may run now: the component runs, and no input's data is so old that the
+  /// declared reaction takes it out of service.
+  /// @rt nonblocking
+  bool admits() {
+    if (aging_) [[unlikely]]
+      check_ages();
+    return state() == State::kRunning;
+  }
+  bool has_aging_inputs() const { return aging_; }
+
+  const Interface& interface() const { return interface_; }
+  /// The declaration lists, for the members that enter themselves.
+  Interface& declare() { return interface_; }
+  void add_step(Step& step, bool before_update);
+
+  ExecutionContext& context() const { return *context_; }
+  void assign_context(ExecutionContext& context) { context_ = &context; }
+
+  /// Execution time of the component in each measured cycle, in ticks, without what it called.
+  const rt::Distribution& execution_ticks() const { return execution_ticks_; }
+  /// Adds up a measured cycle; the engine calls it once at the end of each.
+  void close_measurement();
+
+  /// Runs `code` as this component's: what escapes from it faults this component and goes no
+  /// further, and its time is this component's.
+  /// @return false if an exception escaped
+  /// @rt as the code is; itself a few nanoseconds
+  template <typename Code>
+  bool run(ExecutionContext& where, Code&& code) noexcept {
+    Component* const outer = where.running;
+    if (where.measuring) [[unlikely]]
+      take_time(where);
+    where.running = this;
+    bool completed = true;
+    try {
+      code();
+    } catch (...) {
+      completed = false;
+      contain(std::current_exception());
+    }
+    if (where.measuring) [[unlikely]]
+      take_time(where);
+    where.running = outer;
+    return completed;
+  }
+
+ protected:
+  virtual Outcome on_configure() { return accepted(); }
+  virtual Outcome on_activate() { return accepted(); }
+  virtual Outcome on_start() { return accepted(); }
+  virtual void on_update() {}
+  virtual void on_stop() {}
+  virtual void on_cleanup() {}
+  virtual void on_error() {}
+  virtual Outcome on_reset() { return accepted(); }
+
+  /// From kRunning to kRunTimeError: the error hook runs in place of the update hook.
+  /// @rt nonblocking, no allocation
+  void error(std::string_view reason);
+
+  /// Log lines; `format` is a literal with `{}` for each of at most four arguments.
+  /// @rt nonblocking, no allocation: becomes text in another thread
+  template <typename... Arguments>
+  void log_debug(const char* format, const Arguments&... arguments) {
+    log(rt::LogLevel::kDebug, format, {rt::LogArgument(arguments)...});
+  }
+  template <typename... Arguments>
+  void log_info(const char* format, const Arguments&... arguments) {
+    log(rt::LogLevel::kInfo, format, {rt::LogArgument(arguments)...});
+  }
+  template <typename... Arguments>
+  void log_warning(const char* format, const Arguments&... arguments) {
+    log(rt::LogLevel::kWarning, format, {rt::LogArgument(arguments)...});
+  }
+  template <typename... Arguments>
+  void log_error(const char* format, const Arguments&... arguments) {
+    log(rt::LogLevel::kError, format, {rt::LogArgument(arguments)...});
+  }
+
+ private:
+  using LogArguments = std::array<rt::LogArgument, 4>;
+  void log(rt::LogLevel level, const char* format, const LogArguments& arguments);
+  /// Adds the time since the last mark to what ran until now.
+  static void take_time(ExecutionContext& where);
+  void contain(const std::exception_ptr& exception) noexcept;
+  void enter(State state) { state_.store(state, std::memory_order_relaxed); }
+  void check_ages();
+  void tell_readers_lost();
+  void halt_steps(std::string_view why);
+  Outcome run_hook(Outcome (Component::*hook)());
+  Outcome wrong_state(std::string_view transition) const;
+
+  std::string name_;
+  ExecutionContext* context_;
+  std::atomic<State> state_{State::kPreOperational};
+  Interface interface_;
+  std::vector<Step*> steps_before_;
+  std::vector<Step*> steps_after_;
+  std::uint64_t measured_ticks_ = 0;
+  bool measured_ = false;
+  bool aging_ = false;
+  rt::Distribution execution_ticks_;
+  Reason reason_;
+};
+
+}  // namespace armature::component

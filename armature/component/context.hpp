@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "armature/base/time.hpp"
+#include "armature/rt/guard.hpp"
+#include "armature/rt/inbox.hpp"
+#include "armature/rt/log.hpp"
+#include "armature/rt/wakeup.hpp"
+
+namespace armature::component {
+
+class Component;
+
+/// Told by components of what the application must react to.
+/// @rt both functions are called on real-time threads
+class Supervisor {
+ public:
+  virtual void component_faulted(Component& component) = 0;
+  virtual void component_stopped_itself(Component& component) = 0;
+
+ protected:
+  ~Supervisor() = default;
+};
+
+/// The thread that runs a component, as far as the component needs to know it. The execution engine
+/// owns it; all components that share a thread share its context.
+struct ExecutionContext {
+  explicit ExecutionContext(std::string context_name) : name(std::move(context_name)) {}
+
+  std::string name;
+  base::Time cycle_time{};       ///< read from the clock once in each cycle
+  std::uint64_t cycle = 0;       ///< counts the cycles
+  Component* running = nullptr;  ///< whose code runs now
+  bool measuring = false;        ///< this cycle's execution times are taken for each component
+  std::uint64_t mark = 0;        ///< tick at which `running` last changed, while measuring
+  bool live = false;       ///< the thread runs cycles: others reach its components by messages
+  bool simulated = false;  ///< several contexts take turns in one thread
+  bool wakes_on_messages = false;
+  rt::Inbox inbox;
+  rt::Wakeup wakeup;
+  rt::LogQueue* log = nullptr;
+  Supervisor* supervisor = nullptr;
+
+  /// Has `message` delivered by this context's thread.
+  /// @rt nonblocking, no allocation
+  /// @thread any
+  void post(rt::Message& message) {
+    inbox.push(message);
+    if (wakes_on_messages) wakeup.notify();
+  }
+  void raise(rt::Signal& signal) {
+    if (signal.raise(inbox) && wakes_on_messages) wakeup.notify();
+  }
+};
+
+}  // namespace armature::component

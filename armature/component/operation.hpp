@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/component/call.hpp"
+#include "armature/component/component.hpp"
+#include "armature/component/requirement.hpp"
+#include "armature/component/signature.hpp"
+
+namespace armature::component {
+
+/// Option of an operation: it is executed by its component's thread, in the order of the calls;
+/// without it, it runs in the thread of the caller.
+struct InOwnThread {};
+inline constexpr InOwnThread in_own_thread{};
+
+/// Option of an operation or command: names of the arguments, `args("position [rad]", "time [s]")`.
+struct ArgumentNames {
+  std::array<std::string_view, 6> names{};
+};
+template <typename... Names>
+ArgumentNames args(Names... names) {
+  return {{std::string_view(names)...}};
+}
+
+/// A function of a component that its peers may call.
+class OperationBase {
+ public:
+  OperationBase(const OperationBase&) = delete;
+  OperationBase& operator=(const OperationBase&) = delete;
+  virtual ~OperationBase() = default;
+
+  std::string_view name() const { return name_; }
+  std::string_view doc() const { return doc_; }
+  const Signature& signature() const { return signature_; }
+  Component& owner() const { return owner_; }
+  bool runs_in_own_thread() const { return own_thread_; }
+  /// True if accepting it is not the end of it: it has progress and completion.
+  virtual bool is_command() const { return false; }
+
+  /// Calls it with values of the argument types, for tools; the result if it has one.
+  /// @thread the component's own for own-thread operations, else any
+  virtual base::Result<std::optional<types::Value>> invoke(
+      const std::vector<types::Value>& arguments) = 0;
+
+ protected:
+  OperationBase(Component& owner, std::string_view name, std::string_view doc, Signature signature,
+                bool own_thread)
+      : owner_(owner),
+        name_(name),
+        doc_(doc),
+        signature_(std::move(signature)),
+        own_thread_(own_thread) {
+    owner.declare().operations.push_back(this);
+  }
+  void apply(InOwnThread) { own_thread_ = true; }
+  void apply(const ArgumentNames& given) {
+    for (std::size_t i = 0; i < signature_.arguments.size() && i < given.names.size(); ++i) {
+      signature_.arguments[i].name = given.names[i];
+    }
+  }
+  /// What is wrong with `arguments`, empty if nothing.
+  std::string mismatch(const std::vector<types::Value>& arguments) const;
+
+ private:
+  Component& owner_;
+  std::string_view name_;
+  std::string_view doc_;
+  Signature signature_;
+  bool own_thread_;
+};
+
+template <typename Function>
+class Operation;
+template <typename Function>
+class OperationCaller;
+
+template <typename R, typename... Args>
+class Operation<R(Args...)> final : public OperationBase {
+ public:
+  /// Options: in_own_thread, args(names...).
+  template <auto Function, typename... Options>
+  Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
+            Options... options)
+      : OperationBase(*owner, name, doc, Signature::of<R, Args...>({}), false),
+        function_([](Component& component, Args... arguments) -> R {
+          using Owner = typename internal::MemberOf<decltype(Function)>::Owner;
+          return (static_cast<Owner&>(component).*Function)(static_cast<Args>(arguments)...);
+        }) {
+    (apply(options), ...);
+  }
+
+  /// Executes it here, as its component's code.
+  /// @param where  the context of the calling thread
+  CallResult<R> execute(ExecutionContext& where, Args... arguments) noexcept {
+    Component& component = owner();
+    if (!component.ready()) return {CallStatus::kNotReady};
+    CallResult<R> result{CallStatus::kFailed};
+    component.run(where, [&] {
+      if constexpr (std::is_void_v<R>) {
+        function_(component, static_cast<Args>(arguments)...);
+      } else {
+        result.value = function_(component, static_cast<Args>(arguments)...);
+      }
+      result.status = CallStatus::kDone;
+    });
+    return result;
+  }
+
+  base::Result<std::optional<types::Value>> invoke(
+      const std::vector<types::Value>& arguments) override {
+    if (std::string problem = mismatch(arguments); !problem.empty()) {
+      return base::Error{std::move(problem)};
+    }
+    return invoke_with(arguments, std::index_sequence_for<Args...>{});
+  }
+
+ private:
+  template <std::size_t... I>
+  base::Result<std::optional<types::Value>> invoke_with(
+      [[maybe_unused]] const std::vector<types::Value>& arguments, std::index_sequence<I...>) {
+    const CallResult<R> result =
+        execute(owner().context(), *static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
+    if (result.status != CallStatus::kDone) {
+      return base::Error{std::string(name()) + ": " + std::string(name_of(result.status)) + ": " +
+                         std::string(owner().reason())};
+    }
+    if constexpr (std::is_void_v<R>) {
+      return std::optional<types::Value>();
+    } else {
+      return std::optional(types::Value::of<std::decay_t<R>>(result.value));
+    }
+  }
+
+  R (*function_)(Component&, Args...);
+};
+
+/// A component's declared use of an operation of one of its peers.
+class OperationCallerBase : public Requirement {
+ public:
+  const Signature& signature() const { return signature_; }
+  OperationBase* target() const { return target_; }
+  bool bound() const override { return target_ != nullptr; }
+
+  /// True if it uses a command with completion, false if a plain operation.
+  virtual bool needs_command() const { return false; }
+
+  /// Connects to `operation`, which has the same signature, for the threads that both components
+  /// are assigned to.
+  /// @thread configuration only
+  virtual void connect(OperationBase& operation) = 0;
+  virtual void disconnect() = 0;
+
+ protected:
+  OperationCallerBase(Component& owner, std::string_view name, std::string_view doc,
+                      Signature signature)
+      : Requirement(owner, name, doc), signature_(std::move(signature)) {
+    owner.declare().callers.push_back(this);
+  }
+  OperationBase* target_ = nullptr;
+
+ private:
+  Signature signature_;
+};
+
+/// How many sent calls of one caller may be under way; one more is answered kQueueFull.
+struct Outstanding {
+  std::size_t count;
+};
+inline Outstanding outstanding(std::size_t count) { return {count}; }
+inline constexpr std::size_t kDefaultOutstanding = 4;
+
+template <typename R, typename... Args>
+class OperationCaller<R(Args...)> final : public OperationCallerBase {
+ public:
+  /// Options: from(property), optional, only_if(property), outstanding(n).
+  template <typename... Options>
+  OperationCaller(Component* owner, std::string_view name, std::string_view doc, Options... options)
+      : OperationCallerBase(*owner, name, doc, Signature::of<R, Args...>({})) {
+    (apply(options), ...);
+  }
+
+  /// Calls and waits for the result. An operation of this thread runs at once; one of another
+  /// thread is queued there and waited for, at most `limit`.
+  /// @rt nonblocking if the operation runs in the caller's thread, else it waits
+  /// @thread the component's own
+  CallResult<R> operator()(Args... arguments) {
+    if (operation_ == nullptr) [[unlikely]]
+      return {CallStatus::kNotConnected};
+    if (direct_) return operation_->execute(owner().context(), static_cast<Args>(arguments)...);
+    return send(static_cast<Args>(arguments)...).wait(kCallLimit);
+  }
+
+  /// Queues the call for the operation's own thread and returns at once.
+  /// @rt nonblocking; allocates only to make room for larger vectors than ever sent
+  /// @thread the component's own
+  SendHandle<R> send(Args... arguments) {
+    if (operation_ == nullptr) return SendHandle<R>(CallStatus::kNotConnected);
+    for (std::size_t tried = 0; tried < records_.size(); ++tried) {
+      Record& record = *records_[next_];
+      if (++next_ == records_.size()) next_ = 0;
+      if (!record.try_claim()) continue;
+      record.arguments = std::tuple<const std::decay_t<Args>&...>(arguments...);
+      operation_->owner().context().post(record);
+      return SendHandle<R>(record);
+    }
+    ++refused_;
+    return SendHandle<R>(CallStatus::kQueueFull);
+  }
+
+  /// Gives the queue's memory the shape of these arguments, so that sending them never allocates.
+  void prepare(Args... sample) {
+    for (auto& record : records_) {
+      record->arguments = std::tuple<const std::decay_t<Args>&...>(sample...);
+    }
+  }
+
+  /// Calls that were not taken because too many were under way.
+  std::uint64_t refused() const { return refused_; }
+
+  void connect(OperationBase& base) override {
+    operation_ = static_cast<Operation<R(Args...)>*>(&base);
+    target_ = &base;
+    ExecutionContext& theirs = base.owner().context();
+    direct_ = !base.runs_in_own_thread() || &theirs == &owner().context() || theirs.simulated;
+    records_.clear();
+    for (std::size_t i = 0; i < outstanding_; ++i) {
+      records_.push_back(std::make_unique<Record>(*operation_));
+    }
+  }
+  void disconnect() override {
+    operation_ = nullptr;
+    target_ = nullptr;
+    records_.clear();
+  }
+
+ private:
+  static constexpr base::Duration kCallLimit = std::chrono::seconds(1);
+
+  struct Record final : CallRecord<R> {
+    explicit Record(Operation<R(Args...)>& target)
+        : CallRecord<R>(&Record::deliver), operation(target) {}
+    static void deliver(rt::Message& message) {
+      auto& record = static_cast<Record&>(message);
+      if (!record.try_begin()) return;
+      record.finish(std::apply(
+          [&record](const std::decay_t<Args>&... given) {
+            return record.operation.execute(record.operation.owner().context(), given...);
+          },
+          record.arguments));
+    }
+    Operation<R(Args...)>& operation;
+    std::tuple<std::decay_t<Args>...> arguments{};
+  };
+
+  using OperationCallerBase::apply;
+  void apply(Outstanding option) { outstanding_ = option.count; }
+
+  Operation<R(Args...)>* operation_ = nullptr;
+  bool direct_ = false;
+  std::size_t outstanding_ = kDefaultOutstanding;
+  std::vector<std::unique_ptr<Record>> records_;
+  std::size_t next_ = 0;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace armature::component

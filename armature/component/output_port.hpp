@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "armature/component/input_port.hpp"
+#include "armature/component/port.hpp"
+
+namespace armature::component {
+
+/// What losses an output saw.
+struct OutputCounters {
+  std::uint64_t refused = 0;     ///< values that a full FIFO did not take
+  std::uint64_t dropped = 0;     ///< values that were dropped from a full FIFO to make room
+  std::uint64_t wrong_size = 0;  ///< writes of a vector of another size
+};
+
+class OutputPortBase : public PortBase {
+ public:
+  OutputCounters counters() const { return counters_; }
+  const std::vector<InputPortBase*>& readers() const { return readers_; }
+
+  /// Connects `input`, which has the same type (see exec's checks), for the threads that both
+  /// components are assigned to.
+  /// @thread configuration only
+  virtual void connect(InputPortBase& input, const ConnectionPolicy& policy) = 0;
+  virtual void disconnect_all() = 0;
+
+  /// Gives vectors their declared size; the number of elements of the current value otherwise.
+  virtual void prepare() = 0;
+  /// True if `input` expects vectors of the size that this port writes.
+  virtual bool fits(const InputPortBase& input) const = 0;
+
+ protected:
+  using PortBase::PortBase;
+  OutputCounters counters_;
+  std::vector<InputPortBase*> readers_;
+};
+
+/// Writes typed data to any number of inputs.
+///
+/// The written value lives in the port itself. A reader in the same thread reads it there: writing
+/// costs one copy whatever the number of readers. Readers in other threads, FIFOs and delayed
+/// readers each have a channel.
+template <PortData T>
+class OutputPort final : public OutputPortBase {
+ public:
+  /// Name, documentation and unit are literals. Options: size_of(property, factor).
+  template <typename... Options>
+  OutputPort(Component* owner, std::string name, std::string_view doc, std::string_view unit = {},
+             Options... options)
+      : OutputPortBase(*owner, std::move(name), doc, unit, types::type_of<T>()) {
+    (apply(options), ...);
+    owner->declare().outputs.push_back(this);
+  }
+
+  /// Writes `value` and runs the handlers that are to run on it in this thread.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  WriteStatus write(const T& value) {
+    if constexpr (!std::is_trivially_copyable_v<T>) {
+      if (!types::same_shape(type(), &sample_.value, &value)) {
+        ++counters_.wrong_size;
+        return WriteStatus::kWrongSize;
+      }
+    }
+    sample_.value = value;
+    sample_.time = owner().time();
+    ++sample_.sequence;
+    return deliver();
+  }
+
+  /// Gives the port its shape, e.g. a vector its size, where no property declares it.
+  /// @thread configuration only, before the connections are made
+  void set_sample(const T& value) { sample_.value = T(value); }
+
+  /// The value last written.
+  const T& last() const { return sample_.value; }
+
+  const void* current() const override { return &sample_.value; }
+  base::Time current_time() const override { return sample_.time; }
+  std::uint64_t current_sequence() const override { return sample_.sequence; }
+
+  void prepare() override {
+    if constexpr (internal::is_vector<T>) {
+      if (declared_size().declared()) sample_.value.resize(declared_size().value());
+    }
+  }
+
+  bool fits(const InputPortBase& input) const override {
+    if constexpr (internal::is_vector<T>) {
+      const PortSize& expected = input.declared_size();
+      return !expected.declared() || expected.value() == sample_.value.size();
+    } else {
+      return true;
+    }
+  }
+
+  void connect(InputPortBase& base, const ConnectionPolicy& policy) override {
+    auto& input = static_cast<InputPort<T>&>(base);
+    readers_.push_back(&base);
+    input.set_shape(sample_.value);
+    const bool same_thread = &owner().context() == &base.owner().context();
+    const bool latest = policy.kind == ConnectionPolicy::Kind::kLatest;
+    if (same_thread && latest && !policy.one_cycle_delay && !base.allows_fan_in()) {
+      input.connect_source(sample_);
+      if (base.triggers()) triggered_.push_back(&input);
+      return;
+    }
+    auto& channel = input.connect_channel(make_channel(input, policy, same_thread));
+    channel.last_sequence = sample_.sequence;
+    (base.triggers() ? telling_ : channels_).push_back(&channel);
+  }
+
+  void disconnect_all() override {
+    for (InputPortBase* reader : readers_) static_cast<InputPort<T>*>(reader)->disconnect();
+    readers_.clear();
+    triggered_.clear();
+    channels_.clear();
+    telling_.clear();
+  }
+
+ private:
+  using Channel = internal::Channel<T>;
+
+  std::unique_ptr<Channel> make_channel(InputPort<T>& input, const ConnectionPolicy& policy,
+                                        bool same_thread) {
+    if (policy.one_cycle_delay && same_thread) {
+      return std::make_unique<internal::DelayChannel<T>>(input, sample_);
+    }
+    if (policy.kind == ConnectionPolicy::Kind::kLatest) {
+      return std::make_unique<internal::LatestChannel<T>>(input, same_thread, sample_);
+    }
+    if (same_thread) {
+      return std::make_unique<internal::FifoChannel<T, rt::PlainAtomics>>(input, true, policy,
+                                                                          sample_);
+    }
+    return std::make_unique<internal::FifoChannel<T, rt::StdAtomics>>(input, false, policy,
+                                                                      sample_);
+  }
+
+  WriteStatus deliver() {
+    WriteStatus status = readers_.empty() ? WriteStatus::kNotConnected : WriteStatus::kWritten;
+    for (Channel* channel : channels_) note(channel->push(sample_), status);
+    for (Channel* channel : telling_) {
+      note(channel->push(sample_), status);
+      channel->tell_reader();
+    }
+    for (InputPort<T>* input : triggered_) input->arrived();
+    return status;
+  }
+
+  void note(rt::PushResult result, WriteStatus& status) {
+    if (result == rt::PushResult::kTaken) [[likely]]
+      return;
+    if (result == rt::PushResult::kRefused) {
+      ++counters_.refused;
+      status = WriteStatus::kFull;
+    } else {
+      ++counters_.dropped;
+      if (status != WriteStatus::kFull) status = WriteStatus::kDropped;
+    }
+  }
+
+  Sample<T> sample_{};
+  std::vector<InputPort<T>*> triggered_;  ///< readers in this thread whose handlers run now
+  std::vector<Channel*> channels_;
+  std::vector<Channel*> telling_;  ///< channels whose readers are to be told
+};
+
+}  // namespace armature::component

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/component/port.hpp"
+
+#include "armature/component/input_port.hpp"
+
+namespace armature::component {
+
+std::string_view name_of(ReadStatus status) {
+  switch (status) {
+    case ReadStatus::kNotConnected:
+      return "not connected";
+    case ReadStatus::kNone:
+      return "none";
+    case ReadStatus::kOld:
+      return "old";
+    case ReadStatus::kNew:
+      return "new";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(Reaction reaction) {
+  switch (reaction) {
+    case Reaction::kHold:
+      return "hold";
+    case Reaction::kZero:
+      return "zero";
+    case Reaction::kStop:
+      return "stop";
+    case Reaction::kFault:
+      return "fault";
+  }
+  return "unknown";
+}
+
+InputPortBase::InputPortBase(Component& owner, std::string name, std::string_view doc,
+                             std::string_view unit, const types::Type& type)
+    : PortBase(owner, std::move(name), doc, unit, type), lost_(*this) {}
+
+void InputPortBase::begin() {
+  started_ = owner().time();
+  stale_ = false;
+  zeroed_ = false;
+}
+
+void InputPortBase::check_age() {
+  if (max_age_ <= base::Duration::zero() || owner().state() != State::kRunning) return;
+  look_for_newer();
+  const base::Time written = current_sequence() == 0 ? started_ : current_time();
+  if (owner().time() - std::max(written, started_) <= max_age_) {
+    stale_ = false;
+    return;
+  }
+  if (stale_) return;
+  stale_ = true;
+  ++counters_.stale;
+  react(stale_reaction_, "its data is older than declared");
+}
+
+void InputPortBase::Lost::deliver(rt::Message& message) {
+  auto& lost = static_cast<Lost&>(message);
+  lost.lower();
+  ++lost.self.counters_.lost;
+  lost.self.react(lost.self.lost_reaction_, "the component that writes it is out of service");
+}
+
+void InputPortBase::react(Reaction reaction, std::string_view what) {
+  if (owner().state() != State::kRunning && owner().state() != State::kRunTimeError) return;
+  Reason reason("input '");
+  reason.append(name()).append("': ").append(what);
+  switch (reaction) {
+    case Reaction::kHold:
+      break;
+    case Reaction::kZero:
+      zeroed_ = true;
+      break;
+    case Reaction::kStop:
+      owner().stop_because(reason);
+      break;
+    case Reaction::kFault:
+      owner().fault(reason);
+      break;
+  }
+}
+
+}  // namespace armature::component

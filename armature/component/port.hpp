@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What input and output ports have in common: samples, connections, options.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "armature/base/time.hpp"
+#include "armature/component/component.hpp"
+#include "armature/component/property.hpp"
+#include "armature/rt/ring.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::component {
+
+/// What a read found. Ordered: everything from kOld on comes with a value.
+enum class ReadStatus : std::uint8_t { kNotConnected, kNone, kOld, kNew };
+
+std::string_view name_of(ReadStatus status);
+
+enum class WriteStatus : std::uint8_t {
+  kWritten,
+  kNotConnected,  ///< nobody reads it; the value is kept for tools
+  kFull,          ///< a FIFO refused the value
+  kDropped,       ///< a FIFO dropped its oldest value
+  kWrongSize,     ///< a vector has not the size it was configured with; nothing was written
+};
+
+/// What an input does when its data is older than declared, or its writer faulted.
+enum class Reaction : std::uint8_t {
+  kHold,   ///< goes on with the last value, counts
+  kZero,   ///< reads zero
+  kStop,   ///< its component stops
+  kFault,  ///< its component faults
+};
+
+std::string_view name_of(Reaction reaction);
+
+/// How a connection carries values; what a deployment calls its policy.
+struct ConnectionPolicy {
+  enum class Kind : std::uint8_t { kLatest, kFifo };
+  Kind kind = Kind::kLatest;
+  std::size_t capacity = 1;  ///< of a FIFO
+  rt::WhenFull when_full = rt::WhenFull::kRefuse;
+  bool one_cycle_delay = false;  ///< read one cycle after it was written: how a loop is closed
+};
+
+/// A value with the cycle time at which it was written and its number, counted from 1.
+template <typename T>
+struct Sample {
+  T value{};
+  base::Time time{};
+  std::uint64_t sequence = 0;
+};
+
+/// The size of a vector port: `factor` times an integer property, e.g. `size_of(joints_, 3)`.
+struct PortSize {
+  const Property<int>* property = nullptr;
+  std::size_t factor = 0;
+
+  bool declared() const { return factor != 0; }
+  std::size_t value() const {
+    if (property == nullptr) return factor;
+    const int count = property->get();
+    return count > 0 ? factor * static_cast<std::size_t>(count) : 0;
+  }
+};
+inline PortSize size_of(const Property<int>& property, std::size_t factor = 1) {
+  return {&property, factor};
+}
+inline PortSize fixed_size(std::size_t count) { return {nullptr, count}; }
+
+/// Options of an input port, given behind its unit.
+struct MaxAge {
+  base::Duration age;
+  Reaction reaction;
+};
+/// Data older than `age` is stale, and then `reaction` happens.
+inline MaxAge max_age(base::Duration age, Reaction reaction = Reaction::kStop) {
+  return {age, reaction};
+}
+struct OnLost {
+  Reaction reaction;
+};
+/// What happens when the component that writes this input faults; kStop unless declared.
+inline OnLost on_lost(Reaction reaction) { return {reaction}; }
+struct MayStayOpen {};
+/// It is no mistake to leave the port unconnected.
+inline constexpr MayStayOpen may_stay_open{};
+struct FanIn {};
+/// Several writers may be connected; every value counts, in the order of arrival per writer.
+inline constexpr FanIn fan_in{};
+
+class PortBase {
+ public:
+  PortBase(const PortBase&) = delete;
+  PortBase& operator=(const PortBase&) = delete;
+  virtual ~PortBase() = default;
+
+  const std::string& name() const { return name_; }
+  std::string_view doc() const { return doc_; }
+  std::string_view unit() const { return unit_; }
+  const types::Type& type() const { return type_; }
+  Component& owner() const { return owner_; }
+  const PortSize& declared_size() const { return size_; }
+  bool stays_open() const { return may_stay_open_; }
+
+  /// The value that a tool shows.
+  /// @thread the component's own
+  virtual const void* current() const = 0;
+  virtual base::Time current_time() const = 0;
+  virtual std::uint64_t current_sequence() const = 0;
+
+ protected:
+  PortBase(Component& owner, std::string name, std::string_view doc, std::string_view unit,
+           const types::Type& type)
+      : owner_(owner), name_(std::move(name)), doc_(doc), unit_(unit), type_(type) {}
+
+  void apply(PortSize size) { size_ = size; }
+  void apply(MayStayOpen) { may_stay_open_ = true; }
+
+ private:
+  Component& owner_;
+  std::string name_;
+  std::string_view doc_;
+  std::string_view unit_;
+  const types::Type& type_;
+  PortSize size_;
+  bool may_stay_open_ = false;
+};
+
+/// Data on ports never grows: no text inside; vectors keep the size they were configured with.
+template <typename T>
+concept PortData = !std::is_same_v<T, std::string> && std::is_default_constructible_v<T>;
+
+namespace internal {
+template <typename T>
+inline constexpr bool is_vector = false;
+template <typename E>
+inline constexpr bool is_vector<std::vector<E>> = true;
+}  // namespace internal
+
+}  // namespace armature::component

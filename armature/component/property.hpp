@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/component/component.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::component {
+
+/// The smallest and largest value a number may have, both included.
+struct Range {
+  double low;
+  double high;
+};
+
+/// Options of a property, given behind its unit.
+inline Range range(double low, double high) { return {low, high}; }
+struct ChangeableWhileRunning {};
+inline constexpr ChangeableWhileRunning changeable_while_running{};
+struct Mandatory {};
+/// The property has no useful default: a deployment must give it.
+inline constexpr Mandatory mandatory{};
+
+/// A named value of a component: what tools, files and the deployment know of it.
+class PropertyBase {
+ public:
+  PropertyBase(const PropertyBase&) = delete;
+  PropertyBase& operator=(const PropertyBase&) = delete;
+  virtual ~PropertyBase() = default;
+
+  std::string_view name() const { return name_; }
+  std::string_view doc() const { return doc_; }
+  std::string_view unit() const { return unit_; }
+  const types::Type& type() const { return type_; }
+  Component& owner() const { return owner_; }
+  /// False for an attribute, which no file keeps.
+  bool persistent() const { return persistent_; }
+  bool changeable() const { return changeable_; }
+  bool is_mandatory() const { return mandatory_; }
+  bool was_set() const { return set_; }
+  const std::optional<Range>& limits() const { return limits_; }
+
+  virtual const void* data() const = 0;
+
+  /// What is wrong with `value` (of this property's type), empty if nothing.
+  std::string check(const types::Value& value) const;
+
+  /// Sets the value; refused outside the range, and while the component runs unless changeable.
+  /// @thread the component's own; before the application runs, the one that builds it
+  base::Result<void> set(const types::Value& value);
+
+  /// Trades the value with `value`, which `check` accepted.
+  /// @rt nonblocking, no allocation
+  virtual void swap(types::Value& value) = 0;
+
+  /// `resized` is called whenever the value was set: ports whose number or size follows from it.
+  void on_set(std::function<void()> resized) { followers_.push_back(std::move(resized)); }
+
+ protected:
+  PropertyBase(Component& owner, std::string_view name, std::string_view doc, std::string_view unit,
+               const types::Type& type, bool persistent);
+
+  void apply(Range limits) { limits_ = limits; }
+  void apply(ChangeableWhileRunning) { changeable_ = true; }
+  void apply(Mandatory) { mandatory_ = true; }
+  void tell_followers();
+
+ private:
+  Component& owner_;
+  std::string_view name_;
+  std::string_view doc_;
+  std::string_view unit_;
+  const types::Type& type_;
+  bool persistent_;
+  bool changeable_ = false;
+  bool mandatory_ = false;
+  bool set_ = false;
+  std::optional<Range> limits_;
+  std::vector<std::function<void()>> followers_;
+};
+
+/// A configuration value that persists to files.
+/// Names, documentation and units are literals: they must live as long as the component.
+template <typename T>
+class Property : public PropertyBase {
+ public:
+  template <typename... Options>
+  Property(Component* owner, std::string_view name, std::type_identity_t<T> initial,
+           std::string_view doc, std::string_view unit = {}, Options... options)
+      : Property(owner, name, std::move(initial), doc, unit, true, options...) {}
+
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  const T& get() const { return value_; }
+  operator const T&() const { return value_; }  // NOLINT: reads like the value it is
+  const T& operator()() const { return value_; }
+
+  /// Changes the value from within the component.
+  /// @thread the component's own
+  void assign(const T& value) {
+    value_ = value;
+    tell_followers();
+  }
+
+  const void* data() const override { return &value_; }
+
+  void swap(types::Value& value) override { std::swap(value_, *static_cast<T*>(value.data())); }
+
+ protected:
+  template <typename... Options>
+  Property(Component* owner, std::string_view name, T initial, std::string_view doc,
+           std::string_view unit, bool persistent, Options... options)
+      : PropertyBase(*owner, name, doc, unit, types::type_of<T>(), persistent),
+        value_(std::move(initial)) {
+    (apply(options), ...);
+  }
+
+ private:
+  T value_;
+};
+
+/// Like a property, but not kept in files.
+template <typename T>
+class Attribute final : public Property<T> {
+ public:
+  template <typename... Options>
+  Attribute(Component* owner, std::string_view name, std::type_identity_t<T> initial,
+            std::string_view doc, std::string_view unit = {}, Options... options)
+      : Property<T>(owner, name, std::move(initial), doc, unit, false, options...) {}
+};
+
+}  // namespace armature::component

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "armature/types/type.hpp"
+
+namespace armature::component {
+
+/// What an operation or event takes and gives, for checks and tools.
+struct Signature {
+  struct Argument {
+    std::string_view name;  ///< with the unit in brackets: `position [rad]`; may be empty
+    const types::Type* type;
+  };
+  const types::Type* result = nullptr;  ///< nullptr: nothing
+  std::vector<Argument> arguments;
+
+  template <typename R, typename... Args>
+  static Signature of(std::initializer_list<std::string_view> names) {
+    Signature signature;
+    if constexpr (!std::is_void_v<R>) signature.result = &types::type_of<std::decay_t<R>>();
+    signature.arguments = {Argument{{}, &types::type_of<std::decay_t<Args>>()}...};
+    auto argument = signature.arguments.begin();
+    for (const std::string_view name : names) {
+      if (argument == signature.arguments.end()) break;
+      (argument++)->name = name;
+    }
+    return signature;
+  }
+
+  /// Same result and argument types; names do not count.
+  bool same_as(const Signature& other) const;
+  /// `double(double position [rad], int)`.
+  std::string text() const;
+};
+
+/// Names the member function that serves an operation, a command or an event.
+template <auto Function>
+struct Serve {};
+template <auto Function>
+inline constexpr Serve<Function> serve{};
+
+namespace internal {
+
+template <typename Member>
+struct MemberOf;
+template <typename Class, typename R, typename... Args>
+struct MemberOf<R (Class::*)(Args...)> {
+  using Owner = Class;
+};
+template <typename Class, typename R, typename... Args>
+struct MemberOf<R (Class::*)(Args...) const> {
+  using Owner = Class;
+};
+template <typename Class, typename R, typename... Args>
+struct MemberOf<R (Class::*)(Args...) noexcept> {
+  using Owner = Class;
+};
+
+}  // namespace internal
+}  // namespace armature::component
