@@ -63,9 +63,10 @@ void Diagnostics::append(const Diagnostics& others) {
 std::string Diagnostics::to_text() const {
   std::vector<const Diagnostic*> ordered;
   for (const Diagnostic& one : all_) ordered.push_back(&one);
-  std::stable_sort(ordered.begin(), ordered.end(), [](const Diagnostic* a, const Diagnostic* b) {
-    return std::tie(a->where.file, a->where.line, a->where.column) <
-           std::tie(b->where.file, b->where.line, b->where.column);
+  // The address, last, keeps the order in which they were found.
+  std::sort(ordered.begin(), ordered.end(), [](const Diagnostic* a, const Diagnostic* b) {
+    return std::tie(a->where.file, a->where.line, a->where.column, a) <
+           std::tie(b->where.file, b->where.line, b->where.column, b);
   });
   std::string text;
   for (const Diagnostic* one : ordered) text += base::to_text(*one) + "\n";

@@ -21,9 +21,7 @@ std::string excerpt(std::string_view text) {
   return "'" + std::string(text.substr(0, kLongest)) + "...'";
 }
 
-std::string article(const Type& type) {
-  return type.name.find_first_of("aeiou") == 0 ? "an " : "a ";
-}
+std::string article(const Type& type) { return type.name.starts_with("int") ? "an " : "a "; }
 
 }  // namespace
 
