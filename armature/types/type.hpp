@@ -85,15 +85,16 @@ std::string layout_text(const Type& type);
 /// @rt nonblocking, no allocation, O(vectors)
 bool same_shape(const Type& type, const void* a, const void* b);
 
-/// Readable text: `0.5`, `[1, 2]`, `{x: 1, y: 2}`, text in quotes where it is nested.
+/// Readable text: `0.5`, `[1, 2]`, `{x: 1, y: 2}`. A text is written as it is, and in quotes where
+/// it is inside something else.
 std::string to_text(const Type& type, const void* value);
 
-/// Reads what `to_text` writes; strict: rejects trailing text, out-of-range and unknown fields, and
-/// leaves `value` as it was on error.
+/// Reads what `to_text` writes. A struct needs each of its fields once, in any order. An error
+/// names the path of the part at fault and leaves `value` as it was.
 base::Result<void> from_text(const Type& type, std::string_view text, void* value);
 
-/// Appends the binary form: little-endian, a u32 count before vector elements and text bytes, no
-/// padding.
+/// Appends the binary form: little-endian, without padding; a u32 count goes before the elements of
+/// a vector and the bytes of a text, of which there are fewer than 2^32.
 void encode(const Type& type, const void* value, std::vector<std::byte>& to);
 
 /// Size of the binary form in bytes.
@@ -105,8 +106,8 @@ std::size_t encoded_size(const Type& type, const void* value);
 /// @rt nonblocking, no allocation
 std::size_t encode_to(const Type& type, const void* value, std::byte* to);
 
-/// Reads the binary form; returns the bytes used. Checks every count against the bytes that remain,
-/// `bool` for 0 or 1; leaves `value` as it was on error.
+/// Reads the binary form and returns the bytes used; what follows is the caller's. An error says at
+/// which byte and leaves `value` as it was: too few bytes, a count beyond them, a bool above 1.
 base::Result<std::size_t> decode(const Type& type, const std::byte* from, std::size_t size,
                                  void* value);
 

@@ -82,30 +82,30 @@ using VisitLeaf = void (*)(const std::string& path, const Type&, const void* val
 void visit_leaves(const Type&, const void* value, std::string& path, VisitLeaf, void* visitor);
 
 template <typename T>
-constexpr Footprint kFootprint{sizeof(T), alignof(T)};
+inline constexpr Footprint kFootprint{sizeof(T), alignof(T)};
 
 template <typename T>
-constexpr Lifetime kLifetime{
+inline constexpr Lifetime kLifetime{
     [](void* at) { ::new (at) T(); },
     [](void* at) { static_cast<T*>(at)->~T(); },
     [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); },
 };
 
 template <typename T>
-constexpr TextAccess kTextAccess{
+inline constexpr TextAccess kTextAccess{
     [](const void* text) { return std::string_view(*static_cast<const T*>(text)); },
     [](void* text, std::string_view content) { static_cast<T*>(text)->assign(content); },
 };
 
 template <typename T>
-constexpr VectorAccess kVectorAccess{
+inline constexpr VectorAccess kVectorAccess{
     [](const void* vector) { return static_cast<const T*>(vector)->size(); },
     [](void* vector, std::size_t count) { static_cast<T*>(vector)->resize(count); },
     [](void* vector) { return static_cast<void*>(static_cast<T*>(vector)->data()); },
 };
 
 template <typename T>
-constexpr bool kNever = false;
+inline constexpr bool kNever = false;
 
 template <typename T>
 concept CharacterType = std::is_same_v<T, char> || std::is_same_v<T, wchar_t> ||
