@@ -6,15 +6,20 @@
 
 namespace armature::rt {
 
-/// The atomics that the wait-free structures are built from. Every structure takes them as a
-/// parameter, so that the model checker runs the very same code with its own.
+/// The atomics that the wait-free structures are built from, and the plain variables that change
+/// hands between threads. Every structure takes them as a parameter, so that the model checker runs
+/// the very same code with its own.
 struct StdAtomics {
   template <typename T>
   using Atomic = std::atomic<T>;
+  template <typename T>
+  using Plain = T;
 };
 
 /// For a structure that only one thread uses: the same code, without atomic instructions.
 struct PlainAtomics {
+  template <typename T>
+  using Plain = T;
   template <typename T>
   class Atomic {
    public:
