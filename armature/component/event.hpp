@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "armature/component/component.hpp"
+#include "armature/component/port.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
 #include "armature/rt/inbox.hpp"
@@ -78,6 +79,7 @@ class EventHandlerBase : public Requirement {
  public:
   const Signature& signature() const { return signature_; }
   bool runs_in_raisers_thread() const { return in_raisers_thread_; }
+  const LeadsTo& effects() const { return leads_to_; }
   std::size_t queue_capacity() const { return queue_capacity_; }
   EventBase* source() const { return source_; }
   bool bound() const override { return source_ != nullptr; }
@@ -93,6 +95,7 @@ class EventHandlerBase : public Requirement {
 
   using Requirement::apply;
   void apply(InRaisersThread) { in_raisers_thread_ = true; }
+  void apply(const LeadsTo& effects) { leads_to_ = effects; }
   void apply(QueueSize queue) { queue_capacity_ = queue.capacity; }
 
   void count_drop() { dropped_.store(dropped() + 1, std::memory_order_relaxed); }
@@ -102,6 +105,7 @@ class EventHandlerBase : public Requirement {
  private:
   Signature signature_;
   bool in_raisers_thread_ = false;
+  LeadsTo leads_to_;
   std::size_t queue_capacity_ = kDefaultEventQueue;
   std::atomic<std::uint64_t> dropped_{0};
 };

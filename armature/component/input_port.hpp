@@ -40,6 +40,7 @@ struct InputCounters {
 class InputPortBase : public PortBase {
  public:
   bool triggers() const { return triggers_; }
+  const LeadsTo& effects() const { return leads_to_; }
   bool allows_fan_in() const { return fan_in_; }
   bool connected() const { return writers_ > 0; }
   std::size_t writers() const { return writers_; }
@@ -75,6 +76,7 @@ class InputPortBase : public PortBase {
   }
   void apply(OnLost declared) { lost_reaction_ = declared.reaction; }
   void apply(FanIn) { fan_in_ = true; }
+  void apply(const LeadsTo& effects) { leads_to_ = effects; }
 
   virtual void look_for_newer() = 0;
 
@@ -94,6 +96,7 @@ class InputPortBase : public PortBase {
   void react(Reaction reaction, std::string_view what);
 
   bool fan_in_ = false;
+  LeadsTo leads_to_;
   Reaction stale_reaction_ = Reaction::kStop;
   Reaction lost_reaction_ = Reaction::kStop;
   base::Duration max_age_{};

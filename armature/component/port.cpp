@@ -33,6 +33,16 @@ std::string_view name_of(Reaction reaction) {
   return "unknown";
 }
 
+bool LeadsTo::includes(std::string_view name) const {
+  if (!declared) return true;
+  for (const std::string_view each : names) {
+    if (each.empty() || name.substr(0, each.size()) != each) continue;
+    // The rest may only be the number of a port in an array.
+    if (name.find_first_not_of("0123456789", each.size()) == std::string_view::npos) return true;
+  }
+  return false;
+}
+
 InputPortBase::InputPortBase(Component& owner, std::string name, std::string_view doc,
                              std::string_view unit, const types::Type& type)
     : PortBase(owner, std::move(name), doc, unit, type), lost_(*this) {}

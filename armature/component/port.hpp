@@ -3,6 +3,7 @@
 
 // What input and output ports have in common: samples, connections, options.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -96,6 +97,21 @@ inline constexpr MayStayOpen may_stay_open{};
 struct FanIn {};
 /// Several writers may be connected; every value counts, in the order of arrival per writer.
 inline constexpr FanIn fan_in{};
+
+/// Option of an input port or event handler: the outputs, output arrays and events that its handler
+/// may write or raise. Undeclared means all of its component's; the check for endless cycles of
+/// handlers needs to know.
+struct LeadsTo {
+  std::array<std::string_view, 6> names{};
+  bool declared = false;
+
+  bool includes(std::string_view name) const;
+};
+template <typename... Names>
+LeadsTo leads_to(Names... names) {
+  return {{std::string_view(names)...}, true};
+}
+inline LeadsTo leads_to_nothing() { return {{}, true}; }
 
 class PortBase {
  public:

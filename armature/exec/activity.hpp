@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/time.hpp"
+
+namespace armature::exec {
+
+/// What a periodic thread does with cycles whose time has passed.
+enum class Overrun : std::uint8_t {
+  kSkip,     ///< leaves them out, counted
+  kCatchUp,  ///< runs them at once, one after the other
+  kFault,    ///< skips, and faults its components after so many late cycles in a row
+};
+
+/// How a component is executed; the deployment's choice alone.
+struct Activity {
+  enum class Kind : std::uint8_t {
+    kPeriodic,    ///< own thread, runs at fixed times
+    kTriggered,   ///< own thread, runs when something arrives
+    kSequential,  ///< no thread: runs in the thread of whoever triggers it
+  };
+  enum class Scheduler : std::uint8_t { kOther, kRealtime, kDeadline };
+
+  Kind kind = Kind::kSequential;
+  base::Duration period{};
+  Scheduler scheduler = Scheduler::kOther;
+  int priority = 0;  ///< 1..99 for kRealtime, 99 most urgent
+  std::vector<int> cpus;
+  Overrun overrun = Overrun::kSkip;
+  int late_cycles_to_fault = 5;
+  base::Duration budget{};  ///< declared execution time of a cycle; zero: not declared
+  std::string thread;       ///< periodic components that name the same thread share it
+
+  static Activity periodic(base::Duration period, int priority = 0);
+  static Activity triggered(int priority = 0);
+  static Activity sequential() { return {}; }
+
+  bool owns_thread() const { return kind != Kind::kSequential; }
+};
+
+std::string_view name_of(Activity::Kind kind);
+std::string_view name_of(Activity::Scheduler scheduler);
+
+}  // namespace armature::exec

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/exec/blueprint.hpp"
+
+#include <utility>
+
+namespace armature::exec {
+namespace {
+
+std::pair<std::string, std::string> split(std::string_view reference) {
+  const std::size_t dot = reference.rfind('.');
+  if (dot == std::string_view::npos) return {std::string(reference), {}};
+  return {std::string(reference.substr(0, dot)), std::string(reference.substr(dot + 1))};
+}
+
+}  // namespace
+
+Activity Activity::periodic(base::Duration period, int priority) {
+  Activity activity;
+  activity.kind = Kind::kPeriodic;
+  activity.period = period;
+  activity.priority = priority;
+  activity.scheduler = priority > 0 ? Scheduler::kRealtime : Scheduler::kOther;
+  return activity;
+}
+
+Activity Activity::triggered(int priority) {
+  Activity activity;
+  activity.kind = Kind::kTriggered;
+  activity.priority = priority;
+  activity.scheduler = priority > 0 ? Scheduler::kRealtime : Scheduler::kOther;
+  return activity;
+}
+
+std::string_view name_of(Activity::Kind kind) {
+  switch (kind) {
+    case Activity::Kind::kPeriodic:
+      return "periodic";
+    case Activity::Kind::kTriggered:
+      return "triggered";
+    case Activity::Kind::kSequential:
+      return "sequential";
+  }
+  return "unknown";
+}
+
+std::string_view name_of(Activity::Scheduler scheduler) {
+  switch (scheduler) {
+    case Activity::Scheduler::kOther:
+      return "other";
+    case Activity::Scheduler::kRealtime:
+      return "realtime";
+    case Activity::Scheduler::kDeadline:
+      return "deadline";
+  }
+  return "unknown";
+}
+
+void Blueprint::connect(std::string_view from, std::string_view to,
+                        component::ConnectionPolicy policy) {
+  auto [from_component, from_port] = split(from);
+  auto [to_component, to_port] = split(to);
+  connections.push_back({std::move(from_component),
+                         std::move(from_port),
+                         std::move(to_component),
+                         std::move(to_port),
+                         policy,
+                         {},
+                         {},
+                         {}});
+}
+
+void Blueprint::add_peer(std::string_view user, std::string_view used) {
+  for (ComponentEntry& entry : components) {
+    if (entry.component->name() == user) entry.peers.push_back({std::string(used), {}});
+  }
+}
+
+}  // namespace armature::exec

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/component/component.hpp"
+#include "armature/component/port.hpp"
+#include "armature/exec/activity.hpp"
+
+namespace armature::exec {
+
+struct PeerEntry {
+  std::string name;
+  base::Location where;
+};
+
+/// Says which peer serves a requirement where several could: `sensorRead: aic1.sensorRead`.
+struct BindingEntry {
+  std::string requirement;
+  std::string peer;
+  std::string member;  ///< empty: the same name
+  base::Location where;
+};
+
+struct ComponentEntry {
+  std::unique_ptr<component::Component> component;
+  std::string model;
+  Activity activity;
+  std::vector<PeerEntry> peers;
+  std::vector<BindingEntry> bindings;
+  base::Location where;
+};
+
+struct ConnectionEntry {
+  std::string from_component;
+  std::string from_port;
+  std::string to_component;
+  std::string to_port;
+  component::ConnectionPolicy policy;
+  std::optional<component::MaxAge> max_age;
+  std::optional<component::OnLost> on_lost;
+  base::Location where;
+};
+
+/// What an application consists of, before anything is checked: components with their activities
+/// and peers, and the connections between their ports. Locations lead diagnostics to the user's
+/// file.
+struct Blueprint {
+  std::string name = "application";
+  std::vector<ComponentEntry> components;
+  std::vector<ConnectionEntry> connections;
+
+  /// For applications that are written in C++.
+  template <typename ComponentClass>
+  ComponentClass& add(std::string component_name, Activity activity = Activity::sequential()) {
+    auto made = std::make_unique<ComponentClass>(std::move(component_name));
+    ComponentClass& component = *made;
+    components.push_back({std::move(made), {}, std::move(activity), {}, {}, {}});
+    return component;
+  }
+  /// `from` and `to` are written `Component.Port`.
+  void connect(std::string_view from, std::string_view to, component::ConnectionPolicy policy = {});
+  /// `user` may use the operations, events and properties of `used`, not the other way round.
+  void add_peer(std::string_view user, std::string_view used);
+};
+
+}  // namespace armature::exec

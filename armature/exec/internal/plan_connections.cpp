@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <unordered_map>
+
+#include "armature/base/near_name.hpp"
+#include "armature/base/unit.hpp"
+#include "armature/exec/internal/wiring.hpp"
+
+namespace armature::exec::internal {
+namespace {
+
+using component::InputPortBase;
+using component::OutputPortBase;
+
+std::string path(const component::PortBase& port) {
+  return port.owner().name() + "." + port.name();
+}
+
+class ConnectionPlanner {
+ public:
+  ConnectionPlanner(const Blueprint& blueprint, const Directory& directory, Plan& plan,
+                    base::Diagnostics& diagnostics)
+      : blueprint_(blueprint), directory_(directory), plan_(plan), diagnostics_(diagnostics) {}
+
+  void run() {
+    plan_.connections.reserve(blueprint_.connections.size());
+    for (const ConnectionEntry& entry : blueprint_.connections) plan_one(entry);
+    for (const ComponentEntry& entry : blueprint_.components) check_open_inputs(entry);
+  }
+
+ private:
+  void plan_one(const ConnectionEntry& entry) {
+    const Index from = find_component(entry.from_component, entry);
+    const Index to = find_component(entry.to_component, entry);
+    OutputPortBase* output = from == kNone ? nullptr : find_output(from, entry);
+    InputPortBase* input = to == kNone ? nullptr : find_input(to, entry);
+    if (output == nullptr || input == nullptr) return;
+    check_policy(entry);
+    const bool fits = check_types(*output, *input, entry) && check_units(*output, *input, entry) &&
+                      check_sizes(*output, *input, entry);
+    if (check_writers(*output, *input, entry) && fits) {
+      plan_.connections.push_back({from, to, output, input, &entry});
+    }
+  }
+
+  Index find_component(const std::string& name, const ConnectionEntry& entry) {
+    const Index found = directory_.component(name);
+    if (found == kNone) {
+      diagnostics_.error(entry.where, "there is no component " + quoted(name),
+                         base::suggestion(name, directory_.component_names()));
+    }
+    return found;
+  }
+
+  OutputPortBase* find_output(Index component, const ConnectionEntry& entry) {
+    OutputPortBase* port = directory_.output(component, entry.from_port);
+    if (port != nullptr) return port;
+    const bool is_input = directory_.input(component, entry.from_port) != nullptr;
+    diagnostics_.error(
+        entry.where,
+        is_input ? quoted(entry.from_component + "." + entry.from_port) +
+                       " is an input port, and a connection starts at an output port"
+                 : quoted(entry.from_component) + " has no output port " + quoted(entry.from_port),
+        is_input ? "write the output port first: Output -> Input"
+                 : base::suggestion(entry.from_port, directory_.output_names(component)));
+    return nullptr;
+  }
+
+  InputPortBase* find_input(Index component, const ConnectionEntry& entry) {
+    InputPortBase* port = directory_.input(component, entry.to_port);
+    if (port != nullptr) return port;
+    const bool is_output = directory_.output(component, entry.to_port) != nullptr;
+    diagnostics_.error(
+        entry.where,
+        is_output ? quoted(entry.to_component + "." + entry.to_port) +
+                        " is an output port, and a connection ends at an input port"
+                  : quoted(entry.to_component) + " has no input port " + quoted(entry.to_port),
+        is_output ? "write the output port first: Output -> Input"
+                  : base::suggestion(entry.to_port, directory_.input_names(component)));
+    return nullptr;
+  }
+
+  void check_policy(const ConnectionEntry& entry) {
+    const bool fifo = entry.policy.kind == component::ConnectionPolicy::Kind::kFifo;
+    if (fifo && entry.policy.capacity == 0) {
+      diagnostics_.error(entry.where, "a FIFO of size 0 could never take a value",
+                         "give it a size of at least 1");
+    }
+    if (fifo && entry.policy.one_cycle_delay) {
+      diagnostics_.error(entry.where, "a connection is either a FIFO or delayed by one cycle",
+                         "use the policy latest with the delay");
+    }
+    if (entry.max_age && entry.max_age->age <= base::Duration::zero()) {
+      diagnostics_.error(entry.where, "the maximum age of a connection must be above 0");
+    }
+  }
+
+  bool check_types(const OutputPortBase& output, const InputPortBase& input,
+                   const ConnectionEntry& entry) {
+    if (types::same_type(output.type(), input.type())) return true;
+    diagnostics_.error(entry.where, quoted(path(output)) + " writes " + output.type().name +
+                                        ", but " + quoted(path(input)) + " reads " +
+                                        input.type().name);
+    return false;
+  }
+
+  bool check_units(const OutputPortBase& output, const InputPortBase& input,
+                   const ConnectionEntry& entry) {
+    if (output.unit() == input.unit()) return true;
+    const auto from = base::parse_unit(output.unit());
+    const auto to = base::parse_unit(input.unit());
+    const bool same = from && to && from.value().same_kind(to.value()) &&
+                      from.value().factor == to.value().factor;
+    if (same) return true;
+    diagnostics_.error(entry.where, quoted(path(output)) + " is in " + unit_text(output.unit()) +
+                                        ", but " + quoted(path(input)) + " expects " +
+                                        unit_text(input.unit()));
+    return false;
+  }
+
+  static std::string unit_text(std::string_view unit) {
+    return unit.empty() ? "plain numbers" : quoted(unit);
+  }
+
+  bool check_sizes(const OutputPortBase& output, const InputPortBase& input,
+                   const ConnectionEntry& entry) {
+    const component::PortSize& writes = output.declared_size();
+    const component::PortSize& reads = input.declared_size();
+    const bool known = writes.declared() && reads.declared();
+    if (!known || writes.value() == reads.value()) return true;
+    diagnostics_.error(entry.where, quoted(path(output)) + " has " +
+                                        std::to_string(writes.value()) + " elements, but " +
+                                        quoted(path(input)) + " expects " +
+                                        std::to_string(reads.value()));
+    return false;
+  }
+
+  bool check_writers(const OutputPortBase& output, const InputPortBase& input,
+                     const ConnectionEntry& entry) {
+    std::vector<const OutputPortBase*>& writers = writers_[&input];
+    for (const OutputPortBase* writer : writers) {
+      if (writer != &output) continue;
+      diagnostics_.error(
+          entry.where,
+          quoted(path(output)) + " is connected to " + quoted(path(input)) + " already",
+          "remove one of the two connections");
+      return false;
+    }
+    writers.push_back(&output);
+    if (writers.size() == 1 || input.allows_fan_in()) return true;
+    diagnostics_.error(entry.where,
+                       quoted(path(input)) + " has two writers: " + quoted(path(*writers.front())) +
+                           " and " + quoted(path(output)),
+                       "an input takes several writers only if its component declares fan_in");
+    return false;
+  }
+
+  void check_open_inputs(const ComponentEntry& entry) {
+    for (const InputPortBase* input : entry.component->interface().inputs) {
+      if (input->stays_open() || writers_.count(input) > 0 || attempted(*input)) continue;
+      diagnostics_.error(entry.where, "nobody writes the input " + quoted(path(*input)),
+                         "connect it");
+    }
+  }
+
+  /// A connection to it exists but is wrong, which was reported.
+  bool attempted(const InputPortBase& input) {
+    if (attempted_.empty()) {
+      for (const ConnectionEntry& entry : blueprint_.connections) {
+        attempted_.emplace(entry.to_component + "." + entry.to_port, true);
+      }
+    }
+    return attempted_.count(path(input)) > 0;
+  }
+
+  const Blueprint& blueprint_;
+  const Directory& directory_;
+  Plan& plan_;
+  base::Diagnostics& diagnostics_;
+  std::unordered_map<const InputPortBase*, std::vector<const OutputPortBase*>> writers_;
+  std::unordered_map<std::string, bool> attempted_;
+};
+
+}  // namespace
+
+void plan_connections(const Blueprint& blueprint, const Directory& directory, Plan& plan,
+                      base::Diagnostics& diagnostics) {
+  ConnectionPlanner(blueprint, directory, plan, diagnostics).run();
+}
+
+}  // namespace armature::exec::internal

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <vector>
+
+#include "armature/base/near_name.hpp"
+#include "armature/component/requirement.hpp"
+#include "armature/exec/internal/wiring.hpp"
+
+namespace armature::exec::internal {
+namespace {
+
+using component::Requirement;
+
+/// One of a peer's operations or events, whichever is asked for.
+template <typename Member>
+struct Candidate {
+  Index peer = kNone;
+  Member* member = nullptr;
+};
+
+class RequirementPlanner {
+ public:
+  RequirementPlanner(const Blueprint& blueprint, const Directory& directory, Plan& plan,
+                     base::Diagnostics& diagnostics)
+      : blueprint_(blueprint), directory_(directory), plan_(plan), diagnostics_(diagnostics) {}
+
+  void run() {
+    for (Index i = 0; i < blueprint_.components.size(); ++i) {
+      const ComponentEntry& entry = blueprint_.components[i];
+      find_peers(entry);
+      check_bindings(entry);
+      for (auto* caller : entry.component->interface().callers) plan_call(i, entry, *caller);
+      for (auto* handler : entry.component->interface().handlers) {
+        plan_subscription(i, entry, *handler);
+      }
+    }
+  }
+
+ private:
+  void find_peers(const ComponentEntry& entry) {
+    peers_.clear();
+    for (const PeerEntry& peer : entry.peers) {
+      const Index found = directory_.component(peer.name);
+      if (found == kNone) {
+        diagnostics_.error(peer.where,
+                           quoted(entry.component->name()) + " has the peer " + quoted(peer.name) +
+                               ", but there is no such component",
+                           base::suggestion(peer.name, directory_.component_names()));
+      } else {
+        peers_.push_back(found);
+      }
+    }
+  }
+
+  void check_bindings(const ComponentEntry& entry) {
+    std::vector<std::string> required;
+    for (auto* caller : entry.component->interface().callers) required.emplace_back(caller->name());
+    for (auto* handler : entry.component->interface().handlers) {
+      required.emplace_back(handler->name());
+    }
+    for (const BindingEntry& binding : entry.bindings) {
+      bool known = false;
+      for (const std::string& name : required) known = known || name == binding.requirement;
+      if (known) continue;
+      diagnostics_.error(binding.where,
+                         quoted(entry.component->name()) + " requires no operation or event " +
+                             quoted(binding.requirement),
+                         base::suggestion(binding.requirement, required));
+    }
+  }
+
+  void plan_call(Index user, const ComponentEntry& entry, component::OperationCallerBase& caller) {
+    if (!caller.wanted()) return;
+    const auto [peer, operation] = find<component::OperationBase>(
+        entry, caller, [](const component::Interface& i) -> const auto& { return i.operations; },
+        "operation");
+    if (operation == nullptr) return;
+    if (!operation->signature().same_as(caller.signature()) ||
+        operation->is_command() != caller.needs_command()) {
+      diagnostics_.error(
+          place(entry, caller),
+          user_of(entry, caller) + " calls " + caller.signature().text() +
+              kind_text(caller.needs_command()) + ", but " +
+              quoted(operation->owner().name() + "." + std::string(operation->name())) + " is " +
+              operation->signature().text() + kind_text(operation->is_command()));
+      return;
+    }
+    plan_.calls.push_back({user, peer, &caller, operation});
+  }
+
+  void plan_subscription(Index user, const ComponentEntry& entry,
+                         component::EventHandlerBase& handler) {
+    if (!handler.wanted()) return;
+    const auto [peer, event] = find<component::EventBase>(
+        entry, handler, [](const component::Interface& i) -> const auto& { return i.events; },
+        "event");
+    if (event == nullptr) return;
+    if (!event->signature().same_as(handler.signature())) {
+      diagnostics_.error(place(entry, handler),
+                         user_of(entry, handler) + " takes " + handler.signature().text() +
+                             ", but the event " +
+                             quoted(event->owner().name() + "." + std::string(event->name())) +
+                             " is " + event->signature().text());
+      return;
+    }
+    plan_.subscriptions.push_back({peer, user, event, &handler});
+  }
+
+  /// The peer's member that serves `requirement`: the bound one, or the only one of that name.
+  template <typename Member, typename Members>
+  Candidate<Member> find(const ComponentEntry& entry, const Requirement& requirement,
+                         const Members& members, const std::string& kind) {
+    if (const BindingEntry* binding = binding_of(entry, requirement)) {
+      return find_bound<Member>(entry, *binding, members, kind);
+    }
+    const std::string wanted_peer = requirement.peer_name();
+    if (!wanted_peer.empty() && !is_peer(entry, requirement, wanted_peer)) return {};
+    std::vector<Candidate<Member>> found;
+    for (const Index peer : peers_) {
+      const component::Component& component = *blueprint_.components[peer].component;
+      if (!wanted_peer.empty() && component.name() != wanted_peer) continue;
+      for (Member* member : members(component.interface())) {
+        if (member->name() == requirement.name()) found.push_back({peer, member});
+      }
+    }
+    if (found.size() == 1) return found.front();
+    if (found.empty() && !requirement.is_optional()) report_missing(entry, requirement, kind);
+    if (found.size() > 1) report_ambiguous(entry, requirement, kind, found);
+    return {};
+  }
+
+  template <typename Member, typename Members>
+  Candidate<Member> find_bound(const ComponentEntry& entry, const BindingEntry& binding,
+                               const Members& members, const std::string& kind) {
+    const Index peer = directory_.component(binding.peer);
+    bool declared = false;
+    for (const Index each : peers_) declared = declared || each == peer;
+    if (peer == kNone || !declared) {
+      diagnostics_.error(
+          binding.where,
+          quoted(binding.peer) + " is not a peer of " + quoted(entry.component->name()),
+          "add it to the peers of " + quoted(entry.component->name()));
+      return {};
+    }
+    const std::string& name = binding.member.empty() ? binding.requirement : binding.member;
+    std::vector<std::string> names;
+    for (Member* member : members(blueprint_.components[peer].component->interface())) {
+      if (member->name() == name) return {peer, member};
+      names.emplace_back(member->name());
+    }
+    diagnostics_.error(binding.where, quoted(binding.peer) + " has no " + kind + " " + quoted(name),
+                       base::suggestion(name, names));
+    return {};
+  }
+
+  const BindingEntry* binding_of(const ComponentEntry& entry, const Requirement& requirement) {
+    for (const BindingEntry& binding : entry.bindings) {
+      if (binding.requirement == requirement.name()) return &binding;
+    }
+    return nullptr;
+  }
+
+  bool is_peer(const ComponentEntry& entry, const Requirement& requirement,
+               const std::string& name) {
+    for (const Index peer : peers_) {
+      if (blueprint_.components[peer].component->name() == name) return true;
+    }
+    diagnostics_.error(entry.where,
+                       user_of(entry, requirement) + " wants the peer " + quoted(name) +
+                           ", which is not among its peers",
+                       "add it: peers: [" + name + "]");
+    return false;
+  }
+
+  void report_missing(const ComponentEntry& entry, const Requirement& requirement,
+                      const std::string& kind) {
+    std::vector<std::string> who_has_it;
+    for (const ComponentEntry& other : blueprint_.components) {
+      const component::Interface& interface = other.component->interface();
+      for (const auto* operation : interface.operations) {
+        if (operation->name() == requirement.name()) who_has_it.push_back(other.component->name());
+      }
+      for (const auto* event : interface.events) {
+        if (event->name() == requirement.name()) who_has_it.push_back(other.component->name());
+      }
+      if (!who_has_it.empty()) break;
+    }
+    diagnostics_.error(entry.where, user_of(entry, requirement) + ": no peer has this " + kind,
+                       who_has_it.empty()
+                           ? "no component has one"
+                           : "add a peer that has it, for example " + quoted(who_has_it.front()));
+  }
+
+  template <typename Member>
+  void report_ambiguous(const ComponentEntry& entry, const Requirement& requirement,
+                        const std::string& kind, const std::vector<Candidate<Member>>& found) {
+    const auto name = [&](const Candidate<Member>& candidate) {
+      return blueprint_.components[candidate.peer].component->name();
+    };
+    diagnostics_.error(
+        entry.where,
+        user_of(entry, requirement) + ": several peers have this " + kind + ": " +
+            quoted(name(found[0])) + ", " + quoted(name(found[1])),
+        "say which: bind: {" + std::string(requirement.name()) + ": " + name(found[0]) + "}");
+  }
+
+  base::Location place(const ComponentEntry& entry, const Requirement& requirement) {
+    const BindingEntry* binding = binding_of(entry, requirement);
+    return binding != nullptr ? binding->where : entry.where;
+  }
+
+  static std::string user_of(const ComponentEntry& entry, const Requirement& requirement) {
+    return quoted(entry.component->name()) + " uses " + quoted(requirement.name());
+  }
+  static std::string kind_text(bool command) { return command ? " (a command)" : ""; }
+
+  const Blueprint& blueprint_;
+  const Directory& directory_;
+  Plan& plan_;
+  base::Diagnostics& diagnostics_;
+  std::vector<Index> peers_;
+};
+
+}  // namespace
+
+void plan_requirements(const Blueprint& blueprint, const Directory& directory, Plan& plan,
+                       base::Diagnostics& diagnostics) {
+  RequirementPlanner(blueprint, directory, plan, diagnostics).run();
+}
+
+}  // namespace armature::exec::internal

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "armature/exec/internal/wiring.hpp"
+
+namespace armature::exec::internal {
+namespace {
+
+/// Higher is more urgent; threads without real-time scheduling come last.
+int urgency(const Activity& activity) {
+  switch (activity.scheduler) {
+    case Activity::Scheduler::kDeadline:
+      return 100;
+    case Activity::Scheduler::kRealtime:
+      return activity.priority;
+    case Activity::Scheduler::kOther:
+      return 0;
+  }
+  return 0;
+}
+
+class ThreadPlanner {
+ public:
+  ThreadPlanner(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics)
+      : blueprint_(blueprint), plan_(plan), diagnostics_(diagnostics) {}
+
+  void run() {
+    plan_.thread_of.assign(blueprint_.components.size(), kNone);
+    for (Index i = 0; i < blueprint_.components.size(); ++i) {
+      const ComponentEntry& entry = blueprint_.components[i];
+      check_activity(entry);
+      if (entry.activity.owns_thread()) plan_.thread_of[i] = own_thread(i, entry);
+    }
+    ThreadPlan service;
+    service.name = "service";
+    service.activity.kind = Activity::Kind::kTriggered;
+    plan_.threads.push_back(service);
+    find_edges();
+    // A sequential component runs in the most urgent thread that triggers it; one that nobody
+    // triggers runs in the most urgent thread that calls it.
+    spread(triggered_by_);
+    spread(called_or_triggered_by_);
+    for (Index& thread : plan_.thread_of) {
+      if (thread == kNone) thread = plan_.service_thread();
+    }
+    find_trigger_periods();
+  }
+
+ private:
+  using Edges = std::vector<std::vector<Index>>;
+
+  void check_activity(const ComponentEntry& entry) {
+    const Activity& activity = entry.activity;
+    const std::string who = "the activity of " + quoted(entry.component->name());
+    if (activity.kind == Activity::Kind::kPeriodic && activity.period <= base::Duration::zero()) {
+      diagnostics_.error(entry.where, who + " needs a period above 0");
+    }
+    const bool realtime = activity.scheduler == Activity::Scheduler::kRealtime;
+    if (realtime && (activity.priority < 1 || activity.priority > 99)) {
+      diagnostics_.error(entry.where, who + " has the priority " +
+                                          std::to_string(activity.priority) +
+                                          "; real-time priorities are 1 .. 99, 99 most urgent");
+    }
+    const bool deadline = activity.scheduler == Activity::Scheduler::kDeadline;
+    if (deadline && activity.kind != Activity::Kind::kPeriodic) {
+      diagnostics_.error(entry.where, who + " is scheduled by deadline but not periodic",
+                         "give it a period, or the scheduler realtime with a priority");
+    }
+    if (deadline && activity.budget <= base::Duration::zero()) {
+      diagnostics_.error(entry.where, who + " is scheduled by deadline and needs a budget",
+                         "declare the execution time of a cycle: budget: 200 us");
+    }
+    if (activity.budget > activity.period && activity.period > base::Duration::zero()) {
+      diagnostics_.error(entry.where, who + " has a budget above its period");
+    }
+  }
+
+  Index own_thread(Index component, const ComponentEntry& entry) {
+    const std::string& shared = entry.activity.thread;
+    if (!shared.empty()) {
+      const auto known = shared_threads_.find(shared);
+      if (known != shared_threads_.end()) return join(known->second, component, entry);
+      shared_threads_.emplace(shared, plan_.threads.size());
+    }
+    ThreadPlan thread;
+    thread.name = shared.empty() ? entry.component->name() : shared;
+    thread.activity = entry.activity;
+    thread.updating.push_back(component);
+    plan_.threads.push_back(std::move(thread));
+    return plan_.threads.size() - 1;
+  }
+
+  Index join(Index thread, Index component, const ComponentEntry& entry) {
+    ThreadPlan& shared = plan_.threads[thread];
+    const Activity& first = shared.activity;
+    const Activity& mine = entry.activity;
+    const bool same = first.kind == mine.kind && first.period == mine.period &&
+                      first.priority == mine.priority && first.scheduler == mine.scheduler;
+    if (!same) {
+      const component::Component& other = *blueprint_.components[shared.updating[0]].component;
+      diagnostics_.error(entry.where,
+                         quoted(entry.component->name()) + " and " + quoted(other.name()) +
+                             " share the thread " + quoted(shared.name) +
+                             ", but not kind, period, scheduler and priority",
+                         "give both the same, or each its own thread");
+    }
+    shared.activity.budget += mine.budget;
+    shared.updating.push_back(component);
+    return thread;
+  }
+
+  void find_edges() {
+    triggered_by_.resize(blueprint_.components.size());
+    called_or_triggered_by_.resize(blueprint_.components.size());
+    for (const ConnectionPlan& connection : plan_.connections) {
+      if (connection.input->triggers()) add(triggered_by_, connection.from, connection.to);
+      if (connection.input->triggers()) {
+        add(called_or_triggered_by_, connection.from, connection.to);
+      }
+    }
+    for (const SubscriptionPlan& subscription : plan_.subscriptions) {
+      add(triggered_by_, subscription.from, subscription.to);
+      add(called_or_triggered_by_, subscription.from, subscription.to);
+    }
+    for (const CallPlan& call : plan_.calls) {
+      add(called_or_triggered_by_, call.caller, call.callee);
+    }
+  }
+
+  static void add(Edges& edges, Index from, Index to) { edges[from].push_back(to); }
+
+  /// Gives every unassigned component the most urgent thread that reaches it.
+  void spread(const Edges& edges) {
+    std::vector<Index> by_urgency;
+    for (Index i = 0; i + 1 < plan_.threads.size(); ++i) by_urgency.push_back(i);
+    std::stable_sort(by_urgency.begin(), by_urgency.end(), [this](Index a, Index b) {
+      return urgency(plan_.threads[a].activity) > urgency(plan_.threads[b].activity);
+    });
+    std::vector<std::vector<Index>> already(plan_.threads.size());
+    for (Index i = 0; i < plan_.thread_of.size(); ++i) {
+      if (plan_.thread_of[i] != kNone) already[plan_.thread_of[i]].push_back(i);
+    }
+    for (const Index thread : by_urgency) {
+      std::deque<Index> open(already[thread].begin(), already[thread].end());
+      while (!open.empty()) {
+        const Index from = open.front();
+        open.pop_front();
+        for (const Index to : edges[from]) {
+          if (plan_.thread_of[to] != kNone) continue;
+          plan_.thread_of[to] = thread;
+          open.push_back(to);
+        }
+      }
+    }
+  }
+
+  /// A triggered thread runs as often as the fastest periodic thread whose triggers reach it.
+  void find_trigger_periods() {
+    std::vector<Index> periodic;
+    for (Index i = 0; i < plan_.threads.size(); ++i) {
+      if (plan_.threads[i].activity.kind == Activity::Kind::kPeriodic) periodic.push_back(i);
+    }
+    std::stable_sort(periodic.begin(), periodic.end(), [this](Index a, Index b) {
+      return plan_.threads[a].activity.period < plan_.threads[b].activity.period;
+    });
+    std::vector<bool> reached(blueprint_.components.size(), false);
+    for (const Index thread : periodic) {
+      std::deque<Index> open(plan_.threads[thread].updating.begin(),
+                             plan_.threads[thread].updating.end());
+      while (!open.empty()) {
+        const Index from = open.front();
+        open.pop_front();
+        for (const Index to : triggered_by_[from]) {
+          if (reached[to]) continue;
+          reached[to] = true;
+          ThreadPlan& other = plan_.threads[plan_.thread_of[to]];
+          const bool unknown = other.trigger_period == base::Duration::zero();
+          if (other.activity.kind == Activity::Kind::kTriggered && unknown) {
+            other.trigger_period = plan_.threads[thread].activity.period;
+          }
+          open.push_back(to);
+        }
+      }
+    }
+  }
+
+  const Blueprint& blueprint_;
+  Plan& plan_;
+  base::Diagnostics& diagnostics_;
+  std::unordered_map<std::string, Index> shared_threads_;
+  Edges triggered_by_;            ///< from component: whom it triggers
+  Edges called_or_triggered_by_;  ///< from component: whom it triggers or calls
+};
+
+}  // namespace
+
+void plan_threads(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
+  ThreadPlanner(blueprint, plan, diagnostics).run();
+}
+
+void check_priorities(const Blueprint& blueprint, const Plan& plan,
+                      base::Diagnostics& diagnostics) {
+  for (const ConnectionPlan& connection : plan.connections) {
+    if (!connection.input->triggers()) continue;
+    const Activity& reader = blueprint.components[connection.to].activity;
+    const Activity& writer = plan.threads[plan.thread_of[connection.from]].activity;
+    const bool both_realtime = reader.scheduler == Activity::Scheduler::kRealtime &&
+                               writer.scheduler == Activity::Scheduler::kRealtime;
+    const bool own_thread = reader.kind == Activity::Kind::kTriggered;
+    if (!both_realtime || !own_thread || reader.priority <= writer.priority) continue;
+    diagnostics.error(connection.entry->where,
+                      quoted(connection.entry->to_component) + " (priority " +
+                          std::to_string(reader.priority) + ") is triggered by " +
+                          quoted(connection.entry->from_component) + " (priority " +
+                          std::to_string(writer.priority) +
+                          ") but is more urgent: it would interrupt its producer",
+                      "give the consumer at most the producer's priority");
+  }
+}
+
+}  // namespace armature::exec::internal

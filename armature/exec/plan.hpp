@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/component/event.hpp"
+#include "armature/component/input_port.hpp"
+#include "armature/component/operation.hpp"
+#include "armature/component/output_port.hpp"
+#include "armature/exec/blueprint.hpp"
+
+namespace armature::exec {
+
+/// Components are referred to by their index in the blueprint.
+using Index = std::size_t;
+inline constexpr Index kNone = static_cast<Index>(-1);
+
+struct ConnectionPlan {
+  Index from;
+  Index to;
+  component::OutputPortBase* output;
+  component::InputPortBase* input;
+  const ConnectionEntry* entry;
+};
+
+struct SubscriptionPlan {
+  Index from;
+  Index to;
+  component::EventBase* event;
+  component::EventHandlerBase* handler;
+};
+
+struct CallPlan {
+  Index caller;
+  Index callee;
+  component::OperationCallerBase* requirement;
+  component::OperationBase* operation;
+};
+
+/// One thread: its activity, and the components that run in it.
+struct ThreadPlan {
+  std::string name;
+  Activity activity;
+  std::vector<Index> updating;  ///< whose update the thread runs in a cycle, in this order
+  std::vector<Index> members;   ///< all that run in it, guests included, in the order of the flow
+  base::Duration trigger_period{};  ///< of a triggered thread: how often it is triggered, if known
+};
+
+/// Everything that starting an application needs to know; made by `make_plan`, without effect on
+/// the components.
+struct Plan {
+  std::vector<ConnectionPlan> connections;
+  std::vector<SubscriptionPlan> subscriptions;  ///< in the order of notification
+  std::vector<CallPlan> calls;
+  std::vector<ThreadPlan> threads;
+  std::vector<Index> thread_of;    ///< for each component
+  std::vector<Index> start_order;  ///< writers before readers
+
+  std::size_t service_thread() const { return threads.size() - 1; }
+};
+
+/// Resolves every name, checks everything that can be known before start, assigns threads and
+/// orders. Finds all mistakes in one run; the plan is to be used only if there is no error.
+Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics);
+
+/// For people: each thread with its components in order of execution, and how they are reached.
+std::string describe_order(const Blueprint& blueprint, const Plan& plan);
+
+}  // namespace armature::exec
