@@ -3,8 +3,8 @@
 
 # armature_component_library(NAME motion SOURCES pid.cpp axes_generator.cpp LINK ...)
 #
-# A library of components that the deployment loads: lib/armature/lib<NAME>.so. It exports its one
-# extern "C" function and nothing else, and shares the runtime with the program that loads it.
+# A library of components that the deployment loads: lib/armature/lib<NAME>.so. It exports
+# nothing of its own but its one extern "C" function, and shares the runtime with its host.
 function(armature_component_library)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;LINK")
   if(NOT arg_NAME OR NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)

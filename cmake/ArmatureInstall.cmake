@@ -14,7 +14,8 @@ install(TARGETS armature_all EXPORT armature)
 install(EXPORT armature NAMESPACE armature:: FILE armatureTargets.cmake DESTINATION ${package_dir})
 install(DIRECTORY armature DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING
         PATTERN "*.hpp"
-        PATTERN testing EXCLUDE)
+        PATTERN testing EXCLUDE
+        PATTERN "test_*" EXCLUDE)
 
 write_basic_package_version_file(armatureConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/armatureConfig.cmake cmake/ArmatureComponentLibrary.cmake

@@ -1,6 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/base/near_name.hpp"
+#include "armature/component/author.hpp"
 
-extern "C" __attribute__((visibility("default"))) int greeter() {
-  return static_cast<int>(armature::base::near_name("Joimt", {"Joint"}).size());
+namespace {
+
+using armature::component::Component;
+
+/// Says how often it was updated.
+class Greeter final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  void on_update() override { greetings_.write(++count_); }
+
+  double count_ = 0.0;
+  armature::component::OutputPort<double> greetings_{this, "Greetings", "updates until now"};
+};
+
+}  // namespace
+
+ARMATURE_COMPONENT_LIBRARY(greeter, registry) {
+  registry.add<Greeter>("Greeter", "counts its updates");
 }
