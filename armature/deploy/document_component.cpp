@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "armature/deploy/internal/document_reader.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+
+namespace armature::deploy::internal {
+namespace {
+
+constexpr int kLowestPriority = 1;
+constexpr int kHighestPriority = 99;
+constexpr int kHighestCpu = 1023;
+constexpr int kMostCyclesLate = 1'000'000;
+
+void read_overrun(const Value& value, const ValueReader& reader, Activity& activity) {
+  const Choices<Overrun> choices = {
+      {"skip", Overrun::kSkip}, {"catch_up", Overrun::kCatchUp}, {"fault", Overrun::kFault}};
+  if (value.kind != Value::Kind::kMap) {
+    assign(reader.choice(value, "overrun", choices), activity.overrun);
+    return;
+  }
+  Fields fields(value, reader);
+  if (const Value* limit = fields.take("fault")) {
+    activity.overrun = Overrun::kFault;
+    assign(reader.whole_number(*limit, "overrun fault", 1, kMostCyclesLate),
+           activity.overrun_limit);
+  } else {
+    reader.error(value.where, "overrun has no policy", "write skip, catch_up or {fault: 5}");
+  }
+  fields.refuse_others();
+}
+
+/// The kind of activity that the keys name; at most one of them may.
+void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Activity& activity) {
+  const Value* periodic = fields.take("periodic");
+  const Value* triggered = fields.take("triggered");
+  const Value* sequential = fields.take("sequential");
+  const int given = (periodic != nullptr) + (triggered != nullptr) + (sequential != nullptr);
+  if (given > 1) {
+    reader.error(value.where, "an activity is either periodic, triggered or sequential");
+    return;
+  }
+  if (periodic != nullptr) {
+    activity.kind = ActivityKind::kPeriodic;
+    assign(reader.duration(*periodic, "periodic"), activity.period);
+  }
+  const auto choose = [&](const Value* flag, ActivityKind kind) {
+    if (flag == nullptr) return;
+    activity.kind = kind;
+    activity.period = {};
+    if (reader.flag(*flag, to_text(kind)) == false) {
+      reader.error(flag->where, std::string(to_text(kind)) + " can only be true");
+    }
+  };
+  choose(triggered, ActivityKind::kTriggered);
+  choose(sequential, ActivityKind::kSequential);
+}
+
+void read_activity_name(const Value& value, const ValueReader& reader, Activity& activity) {
+  const Choices<ActivityKind> choices = {{"sequential", ActivityKind::kSequential},
+                                         {"triggered", ActivityKind::kTriggered}};
+  if (value.text == to_text(ActivityKind::kPeriodic)) {
+    reader.error(value.where, "a periodic activity needs its period",
+                 "for example {periodic: 10 ms}");
+    return;
+  }
+  assign(reader.choice(value, "activity", choices), activity.kind);
+}
+
+/// Refuses settings that this kind of activity cannot have.
+void check_activity(const Value& value, const ValueReader& reader, const Activity& activity) {
+  const auto given = [&](std::string_view key) { return find(value.entries, key) != nullptr; };
+  const auto refuse = [&](std::string_view key, const char* reason) {
+    if (given(key)) {
+      reader.error(find(value.entries, key)->where, std::string(key) + " is not for a " +
+                                                        std::string(to_text(activity.kind)) +
+                                                        " activity, " + reason);
+    }
+  };
+  if (activity.kind == ActivityKind::kSequential) {
+    for (const char* key : {"priority", "scheduler", "cpus"}) {
+      refuse(key, "which runs in the thread of whoever triggers it");
+    }
+  }
+  if (activity.kind != ActivityKind::kPeriodic) {
+    for (const char* key : {"overrun", "thread"}) refuse(key, "which has no period");
+  }
+}
+
+void read_peer(const Value& value, const ValueReader& reader, std::vector<Peer>& peers) {
+  if (value.kind != Value::Kind::kMap) {
+    if (auto name = reader.dotted_name(value, "peer")) peers.push_back({*name, *name, value.where});
+    return;
+  }
+  for (const Property& entry : value.entries) {
+    const auto component = reader.dotted_name(entry.value, "peer");
+    if (component) peers.push_back({entry.name, *component, entry.value.where});
+  }
+}
+
+void read_bindings(const Value& value, const ValueReader& reader, Component& component) {
+  Fields fields(value, reader);
+  for (const Property& entry : value.entries) {
+    const auto target = reader.dotted_name(entry.value, "bind " + entry.name);
+    if (!target) continue;
+    auto [peer, member] = split_last_dot(*target);
+    if (peer.empty()) {
+      reader.error(entry.value.where, "bind " + entry.name + " needs a peer and what it offers",
+                   "for example " + entry.name + ": " + *target + "." + entry.name);
+      continue;
+    }
+    component.bindings.push_back(
+        {entry.name, std::move(peer), std::move(member), entry.value.where});
+  }
+}
+
+void read_property_file(const Value& value, const ValueReader& reader, Component& component) {
+  PropertyFile file{{}, false, value.where};
+  if (value.kind == Value::Kind::kMap) {
+    Fields fields(value, reader);
+    const Value* path = fields.take("file");
+    if (path != nullptr) assign(reader.text(*path, "file"), file.path);
+    if (const Value* complete = fields.take("complete")) {
+      assign(reader.flag(*complete, "complete"), file.complete);
+    }
+    fields.refuse_others();
+    if (path == nullptr) reader.error(value.where, "property_file has no 'file'");
+  } else {
+    assign(reader.text(value, "property_file"), file.path);
+  }
+  if (!file.path.empty()) component.property_files.push_back(std::move(file));
+}
+
+void read_properties(const Value& value, const ValueReader& reader, Component& component) {
+  if (value.kind != Value::Kind::kMap) {
+    reader.error(value.where,
+                 "properties must be a map, found " + std::string(name_of(value.kind)));
+    return;
+  }
+  for (const Property& property : value.entries) {
+    if (!is_dotted_name(property.name)) {
+      reader.error(property.where, "property " + in_quotes(property.name) + " is not a name");
+    }
+    check_values_given("property " + in_quotes(property.name), property.value, reader);
+  }
+  component.properties = value.entries;
+}
+
+void read_flags(Fields& fields, const ValueReader& reader, Component& component) {
+  const std::pair<const char*, bool*> flags[] = {{"autoconf", &component.autoconf},
+                                                 {"autostart", &component.autostart},
+                                                 {"autosave", &component.autosave}};
+  for (const auto& [key, flag] : flags) {
+    if (const Value* value = fields.take(key)) assign(reader.flag(*value, key), *flag);
+  }
+}
+
+void check_component(const ValueReader& reader, const Component& component) {
+  if (component.model.empty()) {
+    reader.error(component.where, "it has no model", "write model: and a component model's name");
+  }
+  if (component.autostart && !component.autoconf) {
+    reader.error(component.where, "autostart needs autoconf");
+  }
+  if (component.autosave && component.property_files.empty()) {
+    reader.error(component.where, "autosave needs a property_file");
+  }
+}
+
+}  // namespace
+
+void check_values_given(const std::string& name, const Value& value, const ValueReader& reader) {
+  if (value.kind == Value::Kind::kNone) {
+    reader.error(value.where, name + " has no value",
+                 "braces of {i} and ${name} need quotes; an empty text is \"\"");
+  }
+  for (const Value& item : value.items) check_values_given(name, item, reader);
+  for (const Property& entry : value.entries) check_values_given(name, entry.value, reader);
+}
+
+void read_activity(const Value& value, const ValueReader& reader, Activity& activity) {
+  activity.where = value.where;
+  if (value.kind == Value::Kind::kText) {
+    read_activity_name(value, reader, activity);
+    return;
+  }
+  Fields fields(value, reader);
+  read_kind(fields, value, reader, activity);
+  if (const Value* priority = fields.take("priority")) {
+    assign(reader.whole_number(*priority, "priority", kLowestPriority, kHighestPriority),
+           activity.priority);
+  }
+  if (const Value* scheduler = fields.take("scheduler")) {
+    const Choices<Scheduler> choices = {{"realtime", Scheduler::kRealtime},
+                                        {"deadline", Scheduler::kDeadline},
+                                        {"other", Scheduler::kOther}};
+    assign(reader.choice(*scheduler, "scheduler", choices), activity.scheduler);
+  }
+  if (const Value* cpus = fields.take("cpus")) {
+    activity.cpus.clear();
+    for (const Value* cpu : items_of(cpus)) {
+      if (const auto number = reader.whole_number(*cpu, "cpus", 0, kHighestCpu)) {
+        activity.cpus.push_back(*number);
+      }
+    }
+  }
+  if (const Value* overrun = fields.take("overrun")) read_overrun(*overrun, reader, activity);
+  if (const Value* thread = fields.take("thread")) {
+    assign(reader.name(*thread, "thread"), activity.thread);
+  }
+  if (const Value* budget = fields.take("budget")) {
+    if (const auto time = reader.duration(*budget, "budget")) activity.budget = time;
+  }
+  fields.refuse_others();
+  check_activity(value, reader, activity);
+}
+
+Component read_component(const std::string& name, const base::Location& where, const Value& body,
+                         base::Diagnostics& diagnostics) {
+  Component component;
+  component.name = name;
+  component.where = where;
+  component.model_where = where;
+  component.activity.where = where;
+  const ValueReader reader("component '" + name + "'", diagnostics);
+  Fields fields(body, reader);
+  if (const Value* model = fields.take("model")) {
+    assign(reader.text(*model, "model"), component.model);
+    component.model_where = model->where;
+  }
+  if (const Value* activity = fields.take("activity")) {
+    read_activity(*activity, reader, component.activity);
+  }
+  if (const Value* properties = fields.take("properties")) {
+    read_properties(*properties, reader, component);
+  }
+  for (const Value* peer : items_of(fields.take("peers"))) {
+    read_peer(*peer, reader, component.peers);
+  }
+  if (const Value* bind = fields.take("bind")) read_bindings(*bind, reader, component);
+  for (const Value* delay : items_of(fields.take("delays"))) {
+    if (auto other = reader.dotted_name(*delay, "delays")) {
+      component.delays.push_back({*other, delay->where});
+    }
+  }
+  for (const Value* file : items_of(fields.take("property_file"))) {
+    read_property_file(*file, reader, component);
+  }
+  read_flags(fields, reader, component);
+  fields.refuse_others();
+  check_component(reader, component);
+  return component;
+}
+
+}  // namespace armature::deploy::internal

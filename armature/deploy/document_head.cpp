@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/deploy/internal/document_head.hpp"
+
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "armature/deploy/internal/document_reader.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+
+namespace armature::deploy {
+
+std::string path_from(const Document& document, std::string_view path) {
+  const std::filesystem::path folder = std::filesystem::path(document.file).parent_path();
+  return (folder / std::filesystem::path(path)).string();
+}
+
+namespace internal {
+namespace {
+
+constexpr std::array<std::string_view, 6> kHeadKeys = {"application", "on_fault", "libraries",
+                                                       "scripts",     "recorder", "composed"};
+
+std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
+  Script script{{}, {}, value.where};
+  if (value.kind != Value::Kind::kMap) {
+    assign(reader.text(value, "script"), script.path);
+    return script;
+  }
+  Fields fields(value, reader);
+  const Value* file = fields.take("file");
+  const Value* component = fields.take("component");
+  fields.refuse_others();
+  if (component != nullptr) {
+    assign(reader.dotted_name(*component, "component"), script.component);
+  }
+  if (file == nullptr) {
+    reader.error(value.where, "script has no 'file'");
+    return std::nullopt;
+  }
+  assign(reader.text(*file, "file"), script.path);
+  return script;
+}
+
+void read_composed(const Value& value, Document& document, base::Diagnostics& diagnostics) {
+  for (const Property& entry : value.entries) {
+    const ValueReader reader("composed '" + entry.name + "'", diagnostics);
+    Composite composite{entry.name, {}, {}, {}, entry.where};
+    Fields fields(entry.value, reader);
+    if (const Value* model = fields.take("model")) {
+      assign(reader.text(*model, "model"), composite.model);
+    }
+    const Value* parameters = fields.take("parameters");
+    if (parameters != nullptr &&
+        require_kind(parameters, Value::Kind::kMap, "parameters", reader)) {
+      composite.parameters = parameters->entries;
+    }
+    if (const Value* exports = fields.take("exports")) {
+      composite.exports = read_exports(*exports, reader);
+    }
+    fields.refuse_others();
+    document.composites.push_back(std::move(composite));
+  }
+}
+
+std::string rebased(const std::string& path, const std::string& from, const std::string& to) {
+  namespace fs = std::filesystem;
+  const fs::path source = fs::path(from).parent_path();
+  const fs::path target = fs::path(to).parent_path();
+  if (from.empty() || source == target || fs::path(path).is_absolute()) return path;
+  const fs::path whole = (source / path).lexically_normal();
+  const fs::path relative =
+      whole.lexically_relative(target.empty() ? fs::path(".") : target.lexically_normal());
+  return relative.empty() ? whole.string() : relative.string();
+}
+
+}  // namespace
+
+bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
+                  const ValueReader& reader) {
+  if (value == nullptr || value->kind == kind) return true;
+  reader.error(value->where, std::string(key) + " must be " + std::string(name_of(kind)) +
+                                 ", found " + std::string(name_of(value->kind)));
+  return false;
+}
+
+void check_document_keys(const Value& tree, base::Diagnostics& diagnostics) {
+  const ValueReader reader("document", diagnostics);
+  Fields fields(tree, reader);
+  for (const char* key : {"application", "on_fault", "include", "libraries"}) fields.take(key);
+  for (const char* key : {"parameters", "components", "composites"}) {
+    require_kind(fields.take(key), Value::Kind::kMap, key, reader);
+  }
+  require_kind(fields.take("connections"), Value::Kind::kList, "connections", reader);
+  fields.take("scripts");
+  require_kind(fields.take("recorder"), Value::Kind::kMap, "recorder", reader);
+  require_kind(fields.take("composed"), Value::Kind::kMap, "composed", reader);
+  fields.refuse_others();
+}
+
+Value head_of(const Value& tree) {
+  Value head = make_map(tree.where);
+  for (const std::string_view key : kHeadKeys) {
+    if (const Property* entry = find(tree.entries, key)) head.entries.push_back(*entry);
+  }
+  return head;
+}
+
+std::vector<Export> read_exports(const Value& value, const ValueReader& reader) {
+  constexpr std::array<std::pair<const char*, ExportKind>, 4> kKinds = {
+      {{"ports", ExportKind::kPort},
+       {"operations", ExportKind::kOperation},
+       {"events", ExportKind::kEvent},
+       {"properties", ExportKind::kProperty}}};
+  std::vector<Export> exports;
+  Fields fields(value, reader);
+  for (const auto& [key, kind] : kKinds) {
+    const Value* names = fields.take(key);
+    if (names == nullptr || !require_kind(names, Value::Kind::kMap, key, reader)) continue;
+    for (const Property& entry : names->entries) {
+      const auto target = reader.dotted_name(entry.value, "export " + in_quotes(entry.name));
+      if (!target) continue;
+      auto [part, member] = split_last_dot(*target);
+      if (part.empty()) {
+        reader.error(entry.value.where, "export " + in_quotes(entry.name) + " must be part." +
+                                            member + ", found " + in_quotes(*target));
+        continue;
+      }
+      exports.push_back({kind, entry.name, std::move(part), std::move(member), entry.value.where});
+    }
+  }
+  fields.refuse_others();
+  return exports;
+}
+
+void read_head(const Value& head, Document& document, base::Diagnostics& diagnostics) {
+  const ValueReader reader("document", diagnostics);
+  Fields fields(head, reader);
+  if (const Value* name = fields.take("application")) {
+    assign(reader.text(*name, "application"), document.application);
+  }
+  if (const Value* on_fault = fields.take("on_fault")) {
+    const Choices<OnFault> choices = {{"stop_dependents", OnFault::kStopDependents},
+                                      {"stop_all", OnFault::kStopAll},
+                                      {"keep_running", OnFault::kKeepRunning}};
+    assign(reader.choice(*on_fault, "on_fault", choices), document.on_fault);
+  }
+  for (const Value* library : items_of(fields.take("libraries"))) {
+    if (auto name = reader.text(*library, "library")) {
+      document.libraries.push_back({std::move(*name), library->where});
+    }
+  }
+  for (const Value* script : items_of(fields.take("scripts"))) {
+    if (auto one = read_script(*script, reader)) document.scripts.push_back(std::move(*one));
+  }
+  if (const Value* recorder = fields.take("recorder")) document.recorder = *recorder;
+  if (const Value* composed = fields.take("composed")) {
+    read_composed(*composed, document, diagnostics);
+  }
+}
+
+void rebase_paths(Document& document) {
+  for (Reference& library : document.libraries) {
+    if (library.name.find('/') == std::string::npos) continue;  // found by name
+    library.name = rebased(library.name, library.where.file, document.file);
+  }
+  for (Script& script : document.scripts) {
+    script.path = rebased(script.path, script.where.file, document.file);
+  }
+  for (Component& component : document.components) {
+    for (PropertyFile& file : component.property_files) {
+      file.path = rebased(file.path, file.where.file, document.file);
+    }
+  }
+}
+
+}  // namespace internal
+}  // namespace armature::deploy

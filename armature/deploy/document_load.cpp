@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "armature/deploy/document_files.hpp"
+#include "armature/deploy/internal/document_head.hpp"
+#include "armature/deploy/internal/expand_document.hpp"
+#include "armature/deploy/internal/fields.hpp"
+#include "armature/deploy/internal/overrides.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/internal/yaml_tree.hpp"
+#include "armature/platform/file.hpp"
+
+namespace armature::deploy {
+namespace {
+
+using internal::in_quotes;
+using internal::place_text;
+
+/// The tree of a file and of all that it includes.
+class Sources {
+ public:
+  Sources(const LoadOptions& options, base::Diagnostics& diagnostics)
+      : options_(options), diagnostics_(diagnostics) {}
+
+  Value load(const std::string& path, const base::Location& from) {
+    const base::Result<std::string> text = read(path);
+    if (text.ok()) return parse(text.value(), path);
+    diagnostics_.error(from, text.error());
+    return internal::make_map({path, 0, 0});
+  }
+
+  Value parse(std::string_view text, const std::string& path) {
+    seen_.push_back(path);
+    open_.push_back(path);
+    Value own = parse_file(text, path);
+    Value all = internal::make_map(own.where);
+    if (const Property* include = find(own.entries, "include")) {
+      for (const Value* one : internal::items_of(&include->value)) add_included(*one, path, all);
+    }
+    std::erase_if(own.entries, [](const Property& entry) { return entry.name == "include"; });
+    for (Property& section : own.entries) merge_section(all, std::move(section), true);
+    open_.pop_back();
+    return all;
+  }
+
+ private:
+  base::Result<std::string> read(const std::string& path) const {
+    if (options_.read) return options_.read(path);
+    return platform::read_file(path, options_.limits.file_bytes);
+  }
+
+  Value parse_file(std::string_view text, const std::string& path) {
+    Value tree = internal::parse_yaml(text, path, options_.limits, diagnostics_);
+    if (tree.kind == Value::Kind::kNone) tree = internal::make_map({path, 0, 0});
+    internal::check_document_keys(tree, diagnostics_);
+    return tree;
+  }
+
+  void add_included(const Value& name, const std::string& includer, Value& all) {
+    if (name.kind != Value::Kind::kText || name.text.empty()) {
+      diagnostics_.error(name.where, "include takes the path of a file or a list of them");
+      return;
+    }
+    const std::filesystem::path folder = std::filesystem::path(includer).parent_path();
+    const std::string path = (folder / name.text).lexically_normal().string();
+    if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+      diagnostics_.error(name.where, in_quotes(path) + " includes itself");
+      return;
+    }
+    if (std::find(seen_.begin(), seen_.end(), path) != seen_.end()) return;
+    if (seen_.size() >= static_cast<std::size_t>(options_.limits.includes)) {
+      diagnostics_.error(name.where, "more than " + std::to_string(options_.limits.includes) +
+                                         " files are included");
+      return;
+    }
+    Value included = load(path, name.where);
+    for (Property& section : included.entries) merge_section(all, std::move(section), false);
+  }
+
+  /// `own` sections replace what was included; two included files must not contradict each other.
+  void merge_section(Value& all, Property section, bool own) {
+    Property* before = find(all.entries, section.name);
+    if (before == nullptr) {
+      all.entries.push_back(std::move(section));
+    } else if (section.name == "parameters") {
+      for (Property& one : section.value.entries) {
+        replace(before->value.entries, std::move(one), own);
+      }
+    } else if (section.name == "composites") {
+      for (Property& one : section.value.entries) {
+        replace(before->value.entries, std::move(one), false);
+      }
+    } else if (section.name == "libraries") {
+      add_libraries(before->value, section.value);
+    } else if (before->value.kind == Value::Kind::kMap && section.name != "recorder") {
+      for (Property& one : section.value.entries) before->value.entries.push_back(std::move(one));
+    } else if (section.name == "connections" || section.name == "scripts") {
+      append(before->value, section.value);
+    } else {
+      replace(all.entries, std::move(section), own);
+    }
+  }
+
+  void replace(std::vector<Property>& entries, Property by, bool allowed) {
+    Property* before = find(entries, by.name);
+    if (before == nullptr) {
+      entries.push_back(std::move(by));
+      return;
+    }
+    const bool same = internal::flow_text(before->value) == internal::flow_text(by.value);
+    if (!allowed && !same) {
+      diagnostics_.error(by.where, in_quotes(by.name) + " is given twice",
+                         "first at " + place_text(before->where));
+    }
+    *before = std::move(by);
+  }
+
+  static void append(Value& list, const Value& more) {
+    Value all = internal::make_list(list.where);
+    for (const Value* item : internal::items_of(&list)) all.items.push_back(*item);
+    for (const Value* item : internal::items_of(&more)) all.items.push_back(*item);
+    list = std::move(all);
+  }
+
+  static void add_libraries(Value& list, const Value& more) {
+    append(list, more);
+    std::vector<Value> once;
+    for (Value& item : list.items) {
+      const bool known = std::any_of(once.begin(), once.end(), [&](const Value& earlier) {
+        return earlier.text == item.text && item.kind == Value::Kind::kText;
+      });
+      if (!known) once.push_back(std::move(item));
+    }
+    list.items = std::move(once);
+  }
+
+  const LoadOptions& options_;
+  base::Diagnostics& diagnostics_;
+  std::vector<std::string> seen_;
+  std::vector<std::string> open_;
+};
+
+Document build(const Value& tree, const std::string& path, const LoadOptions& options,
+               base::Diagnostics& diagnostics) {
+  return internal::build_document(tree, path,
+                                  internal::parse_overrides(options.overrides, diagnostics),
+                                  options.limits, diagnostics);
+}
+
+}  // namespace
+
+Document load_document(const std::string& path, const LoadOptions& options,
+                       base::Diagnostics& diagnostics) {
+  Sources sources(options, diagnostics);
+  const Value tree = sources.load(std::filesystem::path(path).lexically_normal().string(), {});
+  return build(tree, path, options, diagnostics);
+}
+
+Document parse_document(std::string_view text, const std::string& name, const LoadOptions& options,
+                        base::Diagnostics& diagnostics) {
+  Sources sources(options, diagnostics);
+  const Value tree = sources.parse(text, name);
+  return build(tree, name, options, diagnostics);
+}
+
+}  // namespace armature::deploy

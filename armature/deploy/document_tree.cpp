@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/deploy/internal/document_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "armature/deploy/internal/value_tree.hpp"
+
+namespace armature::deploy {
+
+std::string_view to_text(ActivityKind kind) {
+  constexpr std::array<std::string_view, 3> kTexts = {"sequential", "periodic", "triggered"};
+  return kTexts[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_text(Scheduler scheduler) {
+  constexpr std::array<std::string_view, 3> kTexts = {"realtime", "deadline", "other"};
+  return kTexts[static_cast<std::size_t>(scheduler)];
+}
+
+std::string_view to_text(Overrun overrun) {
+  constexpr std::array<std::string_view, 3> kTexts = {"skip", "catch_up", "fault"};
+  return kTexts[static_cast<std::size_t>(overrun)];
+}
+
+std::string_view to_text(Reaction reaction) {
+  constexpr std::array<std::string_view, 5> kTexts = {"default", "hold", "zero", "stop", "fault"};
+  return kTexts[static_cast<std::size_t>(reaction)];
+}
+
+std::string_view to_text(Overflow overflow) {
+  constexpr std::array<std::string_view, 2> kTexts = {"drop_newest", "drop_oldest"};
+  return kTexts[static_cast<std::size_t>(overflow)];
+}
+
+std::string_view to_text(OnFault on_fault) {
+  constexpr std::array<std::string_view, 3> kTexts = {"stop_dependents", "stop_all",
+                                                      "keep_running"};
+  return kTexts[static_cast<std::size_t>(on_fault)];
+}
+
+std::string_view to_text(ExportKind kind) {
+  constexpr std::array<std::string_view, 4> kTexts = {"port", "operation", "event", "property"};
+  return kTexts[static_cast<std::size_t>(kind)];
+}
+
+std::string to_text(base::Duration duration) {
+  constexpr std::array<std::pair<std::int64_t, const char*>, 4> kUnits = {
+      {{1'000'000'000, " s"}, {1'000'000, " ms"}, {1'000, " us"}, {1, " ns"}}};
+  const std::int64_t ns = duration.count();
+  const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
+                                 [&](const auto& one) { return ns % one.first == 0; });
+  return std::to_string(ns / unit->first) + unit->second;
+}
+
+namespace internal {
+namespace {
+
+void add(Value& map, std::string key, Value value) {
+  map.entries.push_back({std::move(key), std::move(value), {}, {}});
+}
+void add(Value& map, std::string key, std::string_view text) {
+  add(map, std::move(key), make_text(std::string(text)));
+}
+
+/// One item alone, several as a list; nothing for none.
+void add_items(Value& map, std::string key, std::vector<Value> items) {
+  if (items.empty()) return;
+  Value list = make_list();
+  list.items = std::move(items);
+  add(map, std::move(key), std::move(list));
+}
+
+Value map_of(std::vector<Property> entries) {
+  Value map = make_map();
+  map.entries = std::move(entries);
+  return map;
+}
+
+Value overrun_tree(const Activity& activity) {
+  if (activity.overrun != Overrun::kFault) return make_text(std::string(to_text(activity.overrun)));
+  Value map = make_map();
+  add(map, "fault", std::to_string(activity.overrun_limit));
+  return map;
+}
+
+Value activity_tree(const Activity& activity) {
+  const Activity plain;
+  Value map = make_map();
+  if (activity.kind == ActivityKind::kPeriodic) {
+    add(map, "periodic", to_text(activity.period));
+  } else {
+    add(map, std::string(to_text(activity.kind)), "true");
+  }
+  if (activity.priority != 0) add(map, "priority", std::to_string(activity.priority));
+  if (activity.scheduler != plain.scheduler) add(map, "scheduler", to_text(activity.scheduler));
+  std::vector<Value> cpus;
+  for (const int cpu : activity.cpus) cpus.push_back(make_text(std::to_string(cpu)));
+  add_items(map, "cpus", std::move(cpus));
+  const bool default_overrun =
+      activity.overrun == plain.overrun && activity.overrun_limit == plain.overrun_limit;
+  if (!default_overrun && activity.kind == ActivityKind::kPeriodic) {
+    add(map, "overrun", overrun_tree(activity));
+  }
+  if (!activity.thread.empty()) add(map, "thread", activity.thread);
+  if (activity.budget) add(map, "budget", to_text(*activity.budget));
+  if (map.entries.size() == 1 && activity.kind != ActivityKind::kPeriodic) {
+    return make_text(std::string(to_text(activity.kind)));
+  }
+  return map;
+}
+
+Value peer_tree(const Peer& peer) {
+  if (peer.name == peer.component) return make_text(peer.component);
+  Value map = make_map();
+  add(map, peer.name, peer.component);
+  return map;
+}
+
+Value property_file_tree(const PropertyFile& file) {
+  if (!file.complete) return make_text(file.path);
+  Value map = make_map();
+  add(map, "file", file.path);
+  add(map, "complete", "true");
+  return map;
+}
+
+template <typename List, typename Convert>
+std::vector<Value> converted(const List& list, Convert convert) {
+  std::vector<Value> values;
+  for (const auto& one : list) values.push_back(convert(one));
+  return values;
+}
+
+Value reference_tree(const Reference& reference) { return make_text(reference.name); }
+
+Value component_tree(const Component& component) {
+  Value map = make_map();
+  add(map, "model", component.model);
+  add(map, "activity", activity_tree(component.activity));
+  add_items(map, "peers", converted(component.peers, peer_tree));
+  if (!component.bindings.empty()) {
+    Value bind = make_map();
+    for (const Binding& one : component.bindings)
+      add(bind, one.name, one.component + "." + one.member);
+    add(map, "bind", std::move(bind));
+  }
+  add_items(map, "delays", converted(component.delays, reference_tree));
+  add_items(map, "property_file", converted(component.property_files, property_file_tree));
+  if (!component.properties.empty()) add(map, "properties", map_of(component.properties));
+  if (!component.autoconf) add(map, "autoconf", "false");
+  if (!component.autostart) add(map, "autostart", "false");
+  if (component.autosave) add(map, "autosave", "true");
+  return map;
+}
+
+std::string text_of(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
+
+Value to_tree(const NamedConnection& connection) {
+  Value map = make_map();
+  add(map, "name", connection.name);
+  add_items(map, "ports", converted(connection.ports, [](const Endpoint& port) {
+              return make_text(text_of(port));
+            }));
+  add_policy(connection.policy, map);
+  return map;
+}
+
+Value composite_tree(const Composite& composite) {
+  constexpr std::array<std::pair<const char*, ExportKind>, 4> kKinds = {
+      {{"ports", ExportKind::kPort},
+       {"operations", ExportKind::kOperation},
+       {"events", ExportKind::kEvent},
+       {"properties", ExportKind::kProperty}}};
+  Value map = make_map();
+  add(map, "model", composite.model);
+  if (!composite.parameters.empty()) add(map, "parameters", map_of(composite.parameters));
+  Value exports = make_map();
+  for (const auto& [key, kind] : kKinds) {
+    Value names = make_map();
+    for (const Export& one : composite.exports) {
+      if (one.kind == kind) add(names, one.name, one.component + "." + one.member);
+    }
+    if (!names.entries.empty()) add(exports, key, std::move(names));
+  }
+  if (!exports.entries.empty()) add(map, "exports", std::move(exports));
+  return map;
+}
+
+Value script_tree(const Script& script) {
+  if (script.component.empty()) return make_text(script.path);
+  Value map = make_map();
+  add(map, "file", script.path);
+  add(map, "component", script.component);
+  return map;
+}
+
+template <typename List, typename Convert>
+void add_section(Value& tree, const char* key, const List& list, Convert convert) {
+  if (list.empty()) return;
+  Value map = make_map();
+  for (const auto& one : list) add(map, one.name, convert(one));
+  add(tree, key, std::move(map));
+}
+
+}  // namespace
+
+void add_policy(const ConnectionPolicy& policy, Value& map) {
+  if (policy.fifo_size > 0) {
+    Value fifo = make_map();
+    add(fifo, "fifo", std::to_string(policy.fifo_size));
+    if (policy.overflow != Overflow::kDropNewest) add(fifo, "overflow", to_text(policy.overflow));
+    add(map, "policy", std::move(fifo));
+  }
+  if (policy.max_age) add(map, "max_age", to_text(*policy.max_age));
+  if (policy.on_old != Reaction::kDefault) add(map, "on_old", to_text(policy.on_old));
+  if (policy.on_lost != Reaction::kDefault) add(map, "on_lost", to_text(policy.on_lost));
+  if (policy.one_cycle_delay) add(map, "delay", "one_cycle");
+  if (policy.fan_in) add(map, "fan_in", "true");
+}
+
+Value to_tree(const Connection& connection) {
+  Value map = make_map();
+  add_policy(connection.policy, map);
+  if (map.entries.empty()) {
+    return make_text(text_of(connection.from) + " -> " + text_of(connection.to));
+  }
+  Value whole = make_map();
+  add(whole, "from", text_of(connection.from));
+  add(whole, "to", text_of(connection.to));
+  for (Property& entry : map.entries) whole.entries.push_back(std::move(entry));
+  return whole;
+}
+
+Value to_tree(const Document& document) {
+  Value tree = make_map();
+  if (!document.application.empty()) add(tree, "application", document.application);
+  if (document.on_fault != OnFault::kStopDependents) {
+    add(tree, "on_fault", to_text(document.on_fault));
+  }
+  add_items(tree, "libraries", converted(document.libraries, reference_tree));
+  if (!document.parameters.empty()) add(tree, "parameters", map_of(document.parameters));
+  add_section(tree, "components", document.components, component_tree);
+  std::vector<Value> connections =
+      converted(document.connections, [](const Connection& one) { return to_tree(one); });
+  for (const NamedConnection& one : document.named_connections) connections.push_back(to_tree(one));
+  add_items(tree, "connections", std::move(connections));
+  add_section(tree, "composed", document.composites, composite_tree);
+  add_items(tree, "scripts", converted(document.scripts, script_tree));
+  if (document.recorder.kind != Value::Kind::kNone) add(tree, "recorder", document.recorder);
+  return tree;
+}
+
+}  // namespace internal
+}  // namespace armature::deploy

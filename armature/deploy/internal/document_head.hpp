@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/deploy/internal/fields.hpp"
+
+namespace armature::deploy::internal {
+
+/// Says so if `value` is there and is not of that kind.
+bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
+                  const ValueReader& reader);
+
+/// The keys that a document may have, each with the right kind of value; errors for all others.
+void check_document_keys(const Value& tree, base::Diagnostics& diagnostics);
+
+/// The part of the tree that concerns the application as a whole.
+Value head_of(const Value& tree);
+
+/// Name, fault policy, libraries, scripts, recorder and the record of composites.
+void read_head(const Value& head, Document& document, base::Diagnostics& diagnostics);
+
+/// Paths as seen from the document's folder, whichever file they were written in.
+void rebase_paths(Document& document);
+
+}  // namespace armature::deploy::internal

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/deploy/internal/fields.hpp"
+
+/// From the tree of a file to the structs of a Document, once ranges and parameters are expanded.
+/// Everything that could be read is returned; names of other components are taken as written.
+namespace armature::deploy::internal {
+
+/// A component from what follows its name.
+Component read_component(const std::string& name, const base::Location& where, const Value& body,
+                         base::Diagnostics& diagnostics);
+
+/// Changes `activity` by the keys that `value` has, then checks the whole.
+void read_activity(const Value& value, const ValueReader& reader, Activity& activity);
+
+/// A connection's map; of `A.Out -> B.In` a map with `from` and `to`.
+std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagnostics);
+
+/// A map with `from` and `to`, or one with `name` and `ports`.
+std::optional<std::variant<Connection, NamedConnection>> read_connection(
+    const Value& map, base::Diagnostics& diagnostics);
+
+std::vector<Export> read_exports(const Value& value, const ValueReader& reader);
+
+/// Adds the missing-value errors of a property and of what is in it.
+void check_values_given(const std::string& name, const Value& value, const ValueReader& reader);
+
+}  // namespace armature::deploy::internal

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/deploy/document_files.hpp"
+
+/// Ranges `{1..3}`, their number `{i}`, `{i+1}`, `{i-1}`, and parameters `${name}`, in texts and
+/// trees. Anything else in braces is ordinary text.
+namespace armature::deploy::internal {
+
+/// Numbers of a range; never empty.
+struct Range {
+  int first = 0;
+  int last = 0;
+
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// `{1..3}` in a text, from `begin` to `end`.
+struct RangeInText {
+  Range range;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The first range in `text`. An impossible one is an error, a text without one is not.
+std::optional<RangeInText> find_range(std::string_view text, const base::Location& where,
+                                      base::Diagnostics& diagnostics);
+
+/// True if there is a `{...}` with two dots in it: a range, possible or not.
+bool has_range(std::string_view text);
+
+/// The offsets k of each `{i+k}` in `text`.
+std::vector<int> number_offsets(std::string_view text);
+
+/// `{i}` and its kin replaced by the number; one below zero is an error.
+std::string replace_number(std::string_view text, int number, const base::Location& where,
+                           base::Diagnostics& diagnostics);
+
+std::string to_text(const Range& range);
+
+/// What names in braces stand for.
+struct Scope {
+  std::vector<Property> parameters;  ///< their final values
+  std::string owner;                 ///< whose parameters: `the document`, `composite 'Chassis'`
+  std::optional<int> number;         ///< `{i}`, inside a range
+};
+
+/// Makes expanded copies of trees, as many as the limits allow.
+class Expander {
+ public:
+  explicit Expander(const Limits& limits) : nodes_left_(limits.expanded_nodes) {}
+
+  /// A copy of `value`: list items and keys with a range are repeated, all else is replaced.
+  Value expand(const Value& value, const Scope& scope, base::Diagnostics& diagnostics);
+
+  std::string expand_text(const Value& text, const Scope& scope, base::Diagnostics& diagnostics);
+
+  /// `${name}` replaced in a text.
+  std::string replace_parameters(std::string_view text, const Scope& scope,
+                                 const base::Location& where, base::Diagnostics& diagnostics);
+
+  /// Final values of parameters that may use one another: `declared` with those of `given` instead.
+  std::vector<Property> resolve_parameters(const std::vector<Property>& declared,
+                                           const std::vector<Property>& given,
+                                           const std::string& owner,
+                                           base::Diagnostics& diagnostics);
+
+  /// True once the limit is passed; it has been reported then, and copies are empty.
+  bool exhausted() const { return exhausted_; }
+
+ private:
+  bool spend(std::size_t nodes, const base::Location& where, base::Diagnostics& diagnostics);
+  Value expand_whole_text(const Value& value, const Scope& scope, base::Diagnostics& diagnostics);
+  void expand_item(const Value& item, const Scope& scope, Value& list,
+                   base::Diagnostics& diagnostics);
+  void expand_entry(const Property& entry, const Scope& scope, Value& map,
+                    base::Diagnostics& diagnostics);
+
+  std::size_t nodes_left_;
+  bool exhausted_ = false;
+};
+
+}  // namespace armature::deploy::internal

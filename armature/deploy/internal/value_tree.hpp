@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/deploy/document.hpp"
+
+namespace armature::deploy::internal {
+
+/// `file:line:column`, as far as known.
+std::string place_text(const base::Location& where);
+
+/// Levels of the tree; 1 for a text.
+std::size_t depth_of(const Value& value);
+
+/// Texts, lists and maps in the tree.
+std::size_t count_nodes(const Value& value);
+
+/// True for the types that OROCOS property files know.
+bool is_orocos_type(std::string_view name);
+
+Value make_text(std::string text, base::Location where = {});
+Value make_list(base::Location where = {});
+Value make_map(base::Location where = {});
+
+/// `text`, a list or a map, for messages: "found a list".
+std::string_view name_of(Value::Kind kind);
+
+/// `'Joint1'`, or a shortened form of a long text.
+std::string in_quotes(std::string_view text);
+
+}  // namespace armature::deploy::internal

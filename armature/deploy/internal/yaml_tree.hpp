@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/deploy/document_files.hpp"
+
+namespace armature::deploy::internal {
+
+/// YAML text as a tree with the place of each node; kNone if it is empty or, with errors, not YAML.
+/// Aliases are copied and count as often as they are used.
+Value parse_yaml(std::string_view text, const std::string& file, const Limits& limits,
+                 base::Diagnostics& diagnostics);
+
+/// Likewise for a value given on the command line or in an attribute: every node is at `where`.
+Value parse_yaml_value(std::string_view text, const base::Location& where, const Limits& limits,
+                       base::Diagnostics& diagnostics);
+
+/// The value as YAML on one line.
+std::string flow_text(const Value& value);
+
+/// A map as a YAML file.
+std::string block_text(const Value& map);
+
+}  // namespace armature::deploy::internal
