@@ -44,16 +44,17 @@ enum class ActivityKind { kSequential, kPeriodic, kTriggered };
 enum class Scheduler { kRealtime, kDeadline, kOther };
 enum class Overrun { kSkip, kCatchUp, kFault };
 
-/// How a component runs. A component without an activity is sequential.
+/// How a component runs. A component without an activity is sequential; what is not given has the
+/// default of the execution library.
 struct Activity {
   ActivityKind kind = ActivityKind::kSequential;
   base::Duration period{};  ///< > 0 if periodic, else 0
   int priority = 0;         ///< 1..99, 99 most urgent; 0 if not given
-  Scheduler scheduler = Scheduler::kRealtime;
+  std::optional<Scheduler> scheduler;
   std::vector<int> cpus;                 ///< empty: any
-  Overrun overrun = Overrun::kFault;     ///< what a late cycle leads to; kFault skips until then
-  int overrun_limit = 5;                 ///< kFault: late cycles in a row that fault the component
-  std::string thread;                    ///< periodic activities of the same name share a thread
+  std::optional<Overrun> overrun;        ///< what a late cycle leads to; kFault skips until then
+  int late_cycles_to_fault = 0;          ///< of kFault; 0 if not given
+  std::string thread;                    ///< periodic components that name the same thread share it
   std::optional<base::Duration> budget;  ///< declared execution time of one cycle
   base::Location where;
 };

@@ -16,14 +16,14 @@ void read_overrun(const Value& value, const ValueReader& reader, Activity& activ
   const Choices<Overrun> choices = {
       {"skip", Overrun::kSkip}, {"catch_up", Overrun::kCatchUp}, {"fault", Overrun::kFault}};
   if (value.kind != Value::Kind::kMap) {
-    assign(reader.choice(value, "overrun", choices), activity.overrun);
+    activity.overrun = reader.choice(value, "overrun", choices);
     return;
   }
   Fields fields(value, reader);
   if (const Value* limit = fields.take("fault")) {
     activity.overrun = Overrun::kFault;
     assign(reader.whole_number(*limit, "overrun fault", 1, kMostCyclesLate),
-           activity.overrun_limit);
+           activity.late_cycles_to_fault);
   } else {
     reader.error(value.where, "overrun has no policy", "write skip, catch_up or {fault: 5}");
   }
@@ -194,7 +194,7 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
     const Choices<Scheduler> choices = {{"realtime", Scheduler::kRealtime},
                                         {"deadline", Scheduler::kDeadline},
                                         {"other", Scheduler::kOther}};
-    assign(reader.choice(*scheduler, "scheduler", choices), activity.scheduler);
+    activity.scheduler = reader.choice(*scheduler, "scheduler", choices);
   }
   if (const Value* cpus = fields.take("cpus")) {
     activity.cpus.clear();

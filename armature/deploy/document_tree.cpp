@@ -78,15 +78,16 @@ Value map_of(std::vector<Property> entries) {
   return map;
 }
 
-Value overrun_tree(const Activity& activity) {
-  if (activity.overrun != Overrun::kFault) return make_text(std::string(to_text(activity.overrun)));
+Value overrun_tree(Overrun overrun, int late_cycles) {
+  if (overrun != Overrun::kFault || late_cycles == 0) {
+    return make_text(std::string(to_text(overrun)));
+  }
   Value map = make_map();
-  add(map, "fault", std::to_string(activity.overrun_limit));
+  add(map, "fault", std::to_string(late_cycles));
   return map;
 }
 
 Value activity_tree(const Activity& activity) {
-  const Activity plain;
   Value map = make_map();
   if (activity.kind == ActivityKind::kPeriodic) {
     add(map, "periodic", to_text(activity.period));
@@ -94,14 +95,12 @@ Value activity_tree(const Activity& activity) {
     add(map, std::string(to_text(activity.kind)), "true");
   }
   if (activity.priority != 0) add(map, "priority", std::to_string(activity.priority));
-  if (activity.scheduler != plain.scheduler) add(map, "scheduler", to_text(activity.scheduler));
+  if (activity.scheduler) add(map, "scheduler", to_text(*activity.scheduler));
   std::vector<Value> cpus;
   for (const int cpu : activity.cpus) cpus.push_back(make_text(std::to_string(cpu)));
   add_items(map, "cpus", std::move(cpus));
-  const bool default_overrun =
-      activity.overrun == plain.overrun && activity.overrun_limit == plain.overrun_limit;
-  if (!default_overrun && activity.kind == ActivityKind::kPeriodic) {
-    add(map, "overrun", overrun_tree(activity));
+  if (activity.overrun) {
+    add(map, "overrun", overrun_tree(*activity.overrun, activity.late_cycles_to_fault));
   }
   if (!activity.thread.empty()) add(map, "thread", activity.thread);
   if (activity.budget) add(map, "budget", to_text(*activity.budget));
