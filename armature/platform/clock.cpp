@@ -33,6 +33,12 @@ base::Time monotonic_now() {
   return base::time_from_ns(now.tv_sec * kNsPerSecond + now.tv_nsec);
 }
 
+base::Duration clock_resolution() {
+  timespec step{};
+  clock_getres(CLOCK_MONOTONIC, &step);
+  return base::Duration(step.tv_sec * kNsPerSecond + step.tv_nsec);
+}
+
 void sleep_until(base::Time deadline) {
   const timespec until = to_timespec(deadline);
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {

@@ -11,6 +11,9 @@ namespace armature::platform {
 /// @rt nonblocking, no allocation
 base::Time monotonic_now();
 
+/// The smallest step of the monotonic clock.
+base::Duration clock_resolution();
+
 /// Sleeps until `deadline` on the monotonic clock; a deadline in the past returns at once.
 void sleep_until(base::Time deadline);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/platform/futex.hpp"
 
+#include <cerrno>
+#include <ctime>
+
 #include <linux/futex.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <ctime>
 
 namespace armature::platform {
 
@@ -23,8 +23,8 @@ bool futex_wait_until(std::atomic<std::uint32_t>& word, std::uint32_t expected,
   const std::int64_t ns = base::to_ns(deadline);
   const timespec until{.tv_sec = static_cast<time_t>(ns / kNsPerSecond),
                        .tv_nsec = static_cast<long>(ns % kNsPerSecond)};
-  const long result = syscall(SYS_futex, &word, FUTEX_WAIT_BITSET_PRIVATE, expected, &until, nullptr,
-                              FUTEX_BITSET_MATCH_ANY);
+  const long result = syscall(SYS_futex, &word, FUTEX_WAIT_BITSET_PRIVATE, expected, &until,
+                              nullptr, FUTEX_BITSET_MATCH_ANY);
   return result == 0 || errno != ETIMEDOUT;
 }
 

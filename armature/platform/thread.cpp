@@ -116,7 +116,8 @@ struct Thread::State {
     apply_cpus(request, grant);
     apply_scheduler(request, grant);
     constexpr std::size_t kHeadroom = 64 * 1024;
-    if (request.stack_bytes > 2 * kHeadroom) prefault_stack(request.stack_bytes - kHeadroom);
+    if (request.prefault && request.stack_bytes > 2 * kHeadroom)
+      prefault_stack(request.stack_bytes - kHeadroom);
     {
       const std::lock_guard lock(mutex);
       granted = true;

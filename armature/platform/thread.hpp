@@ -22,6 +22,7 @@ struct ThreadRequest {
   base::Duration runtime{};  ///< kDeadline: budget in each period
   base::Duration period{};   ///< kDeadline
   std::size_t stack_bytes = 512 * 1024;
+  bool prefault = true;  ///< touch the whole stack before the body runs
 };
 
 /// What the thread got of what it asked for.

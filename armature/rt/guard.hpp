@@ -8,10 +8,10 @@ namespace armature::rt {
 struct GuardState {
   int realtime_depth = 0;   ///< > 0: allocation and blocking are violations
   int permitted_depth = 0;  ///< > 0: they are allowed for a moment, for a stated reason
-  /// Where the thread keeps what runs now (a component or nullptr), and how to name that; set once
+  /// The thread's execution context, and how to name the component that runs in it now; set once
   /// for each thread, so that switching components costs the guard nothing.
-  const void* const* running = nullptr;
-  const char* (*name_of)(const void* running) = nullptr;
+  const void* context = nullptr;
+  const char* (*running_component)(const void* context) = nullptr;
 };
 
 /// The state of the calling thread; never allocates.

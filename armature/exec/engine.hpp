@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/base/time.hpp"
+#include "armature/component/component.hpp"
+#include "armature/exec/activity.hpp"
+#include "armature/exec/periodic_schedule.hpp"
+#include "armature/rt/log.hpp"
+#include "armature/rt/statistics.hpp"
+
+namespace armature::exec {
+
+/// Work that another thread hands to an engine: life-cycle changes, questions of tools.
+class Task final : public rt::Message {
+ public:
+  /// Posts `work` to `context` and waits for it, at most `limit`; false if it was not done by then
+  /// (it is still done later, so `work` owns what it needs).
+  static bool run_in(component::ExecutionContext& context, std::function<void()> work,
+                     base::Duration limit);
+
+ private:
+  explicit Task(std::function<void()> work) : rt::Message(&Task::deliver), work_(std::move(work)) {}
+  static void deliver(rt::Message& message);
+
+  std::function<void()> work_;
+  std::atomic<bool> done_{false};
+  rt::Wakeup finished_;
+  std::shared_ptr<Task> self_;
+};
+
+/// Executes the components of one thread: messages from other threads, then the updates.
+class Engine {
+ public:
+  /// @param members   all components of the thread
+  /// @param updating  those whose update is run in each cycle, in this order
+  Engine(std::string name, Activity activity, std::vector<component::Component*> members,
+         std::vector<component::Component*> updating);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  component::ExecutionContext& context() { return context_; }
+  const Activity& activity() const { return activity_; }
+  rt::LogQueue& log() { return log_; }
+
+  /// Execution times of components are taken in every n-th cycle.
+  void measure_every(std::uint64_t cycles) { measure_every_ = cycles; }
+
+  /// From now on the thread's cycles count; the components have been started.
+  void begin(base::Time start);
+
+  /// The thread's loop, until `end`.
+  /// @rt
+  void serve();
+  /// Ends the loop.
+  /// @thread any
+  void end();
+
+  // --- the same in single steps, for simulated time ----------------------------------------------
+  bool has_messages() const { return !context_.inbox.empty(); }
+  /// When the engine has something to do without a message; none for a triggered thread whose
+  /// inputs have no age.
+  std::optional<base::Time> next_due() const;
+  /// Handles the messages, and the cycles that are due at `now`.
+  /// @rt
+  void step(base::Time now);
+
+  /// @thread any
+  std::uint64_t cycles_run() const { return cycles_run_.load(std::memory_order_relaxed); }
+  std::uint64_t cycles_skipped() const { return cycles_skipped_.load(std::memory_order_relaxed); }
+  /// How much later than due each periodic cycle began [ns].
+  const rt::Distribution& latency_ns() const { return latency_ns_; }
+  /// Duration of each cycle [ticks].
+  const rt::Distribution& cycle_ticks() const { return cycle_ticks_; }
+
+ private:
+  base::Time wait();
+  void run_cycle(base::Time now);
+  void wake(base::Time now);
+  void open_cycle(base::Time now);
+  void close_cycle();
+  void deliver_messages();
+  void fault_if_late();
+
+  Activity activity_;
+  component::ExecutionContext context_;
+  rt::LogQueue log_;
+  std::vector<component::Component*> members_;
+  std::vector<component::Component*> updating_;
+  std::vector<component::Component*> aging_;
+  base::Duration age_tick_{};
+  base::Time next_age_check_{};
+  PeriodicSchedule schedule_;
+  std::uint64_t measure_every_ = 16;
+  std::uint64_t opened_ = 0;
+  std::atomic<bool> ending_{false};
+  std::atomic<std::uint64_t> cycles_run_{0};
+  std::atomic<std::uint64_t> cycles_skipped_{0};
+  rt::Distribution latency_ns_;
+  rt::Distribution cycle_ticks_;
+};
+
+}  // namespace armature::exec
