@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structures of armature/rt between real threads, checked against their specifications. No test
+// depends on how fast or in which order the threads run.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "armature/rt/inbox.hpp"
+#include "armature/rt/latest.hpp"
+#include "armature/rt/log.hpp"
+#include "armature/rt/ring.hpp"
+#include "armature/rt/statistics.hpp"
+#include "armature/rt/wakeup.hpp"
+
+namespace armature::rt {
+namespace {
+
+constexpr bool kSanitized = std::string_view(ARMATURE_SANITIZER) != "";
+constexpr std::uint64_t kRounds = kSanitized ? 200'000 : 3'000'000;
+
+/// Larger than a cache line, so that a torn copy shows.
+struct Block {
+  std::array<std::uint64_t, 16> words{};
+
+  explicit Block(std::uint64_t value) { words.fill(value); }
+  std::uint64_t value() const { return words[0]; }
+  bool whole() const {
+    return std::all_of(words.begin(), words.end(), [&](auto word) { return word == words[0]; });
+  }
+};
+
+TEST(LatestStress, ValuesAreWholeAndNeverGoBack) {
+  Latest<Block> latest(Block(0));
+  std::thread writer([&] {
+    for (std::uint64_t value = 1; value <= kRounds; ++value) latest.write(Block(value));
+  });
+  std::uint64_t seen = 0;
+  bool whole = true;
+  bool forward = true;
+  while (seen < kRounds) {
+    const bool moved = latest.fetch();
+    whole = whole && latest.value().whole();
+    forward = forward && (moved ? latest.value().value() > seen : latest.value().value() == seen);
+    seen = latest.value().value();
+    if (!moved) std::this_thread::yield();
+  }
+  writer.join();
+  EXPECT_TRUE(whole);
+  EXPECT_TRUE(forward);
+  EXPECT_FALSE(latest.fetch());
+}
+
+class RingStress : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(RingStress, WhatIsRefusedOrDroppedIsAllThatIsMissing) {
+  for (const WhenFull when_full : {WhenFull::kRefuse, WhenFull::kDropOldest}) {
+    Ring<Block> ring(GetParam(), when_full, Block(0));
+    std::uint64_t lost = 0;
+    std::atomic<bool> finished{false};
+    std::thread writer([&] {
+      for (std::uint64_t value = 1; value <= kRounds; ++value) {
+        if (ring.push(Block(value)) != PushResult::kTaken) ++lost;
+      }
+      finished = true;
+    });
+    std::uint64_t received = 0;
+    std::uint64_t last = 0;
+    bool whole = true;
+    bool in_order = true;
+    for (bool last_look = false; !last_look;) {
+      last_look = finished;
+      while (const Block* block = ring.pop()) {
+        ++received;
+        whole = whole && block->whole();
+        in_order = in_order && block->value() > last;
+        last = block->value();
+      }
+      std::this_thread::yield();
+    }
+    writer.join();
+    EXPECT_TRUE(whole);
+    EXPECT_TRUE(in_order);
+    EXPECT_EQ(received + lost, kRounds);
+    if (when_full == WhenFull::kDropOldest) {
+      EXPECT_EQ(last, kRounds);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Capacities, RingStress, ::testing::Values(1, 2, 3, 64));
+
+struct Letter final : Message {
+  Letter() : BasicMessage(collect) {}
+  static void collect(Message& message) {
+    auto& self = static_cast<Letter&>(message);
+    self.received = self.sent;
+    self.on_its_way.store(false, std::memory_order_release);
+  }
+
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  std::atomic<bool> on_its_way{false};
+};
+
+void deliver_all(Inbox& inbox) {
+  Message* message = inbox.take_all();
+  while (message != nullptr) {
+    Message* const next = Inbox::next(*message);
+    message->deliver();
+    message = next;
+  }
+}
+
+TEST(InboxStress, EverySenderGetsEachMessageThrough) {
+  constexpr std::uint64_t kEach = kRounds / 10;
+  Inbox inbox;
+  std::array<Letter, 3> letters;
+  std::atomic<int> senders{3};
+  std::vector<std::thread> threads;
+  for (Letter& letter : letters) {
+    threads.emplace_back([&] {
+      for (std::uint64_t number = 1; number <= kEach; ++number) {
+        letter.sent = number;
+        letter.on_its_way.store(true, std::memory_order_relaxed);
+        inbox.push(letter);
+        while (letter.on_its_way.load(std::memory_order_acquire)) std::this_thread::yield();
+        EXPECT_EQ(letter.received, number);
+      }
+      --senders;
+    });
+  }
+  while (senders > 0) {
+    deliver_all(inbox);
+    std::this_thread::yield();
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(inbox.empty());
+}
+
+struct Bell final : Signal {
+  Bell() : BasicSignal(look) {}
+  static void look(Message& message) {
+    auto& self = static_cast<Bell&>(message);
+    self.lower();
+    self.seen = self.value.load(std::memory_order_relaxed);
+  }
+
+  std::atomic<std::uint64_t> value{0};
+  std::uint64_t seen = 0;
+};
+
+TEST(SignalStress, TheLastValueOfEverySenderIsSeenAndNothingIsLeft) {
+  Inbox inbox;
+  std::array<Bell, 2> bells;
+  std::vector<std::thread> threads;
+  for (Bell& bell : bells) {
+    threads.emplace_back([&] {
+      for (std::uint64_t value = 1; value <= kRounds; ++value) {
+        bell.value.store(value, std::memory_order_relaxed);
+        bell.raise(inbox);
+      }
+    });
+  }
+  while (bells[0].seen < kRounds || bells[1].seen < kRounds) deliver_all(inbox);
+  for (std::thread& thread : threads) thread.join();
+  deliver_all(inbox);
+  EXPECT_TRUE(inbox.empty());
+}
+
+TEST(WakeupStress, TwoThreadsWakeEachOther) {
+  constexpr std::uint64_t kTurns = kRounds / 50;
+  Wakeup ping, pong;
+  std::uint64_t turns = 0;  // belongs to whoever was woken last
+  std::thread other([&] {
+    for (std::uint64_t i = 0; i < kTurns; ++i) {
+      ping.wait();
+      ++turns;
+      pong.notify();
+    }
+  });
+  for (std::uint64_t i = 0; i < kTurns; ++i) {
+    ++turns;
+    ping.notify();
+    pong.wait();
+  }
+  other.join();
+  EXPECT_EQ(turns, 2 * kTurns);
+}
+
+TEST(LogQueueStress, EveryRecordIsPrintedOrCountedAsDropped) {
+  LogQueue queue(8);
+  std::atomic<bool> finished{false};
+  std::thread thread([&] {
+    LogRecord record;
+    for (std::uint64_t i = 0; i < kRounds / 10; ++i) {
+      record.arguments[0] = i;
+      queue.push(record);
+    }
+    finished = true;
+  });
+  std::uint64_t printed = 0;
+  for (bool last_look = false; !last_look;) {
+    last_look = finished;
+    while (queue.pop() != nullptr) ++printed;
+    std::this_thread::yield();
+  }
+  thread.join();
+  EXPECT_EQ(printed + queue.dropped(), kRounds / 10);
+}
+
+TEST(DistributionStress, LookingOnDisturbsNothing) {
+  Distribution distribution;
+  std::atomic<bool> finished{false};
+  std::thread adder([&] {
+    for (std::uint64_t value = 1; value <= kRounds / 10; ++value) distribution.add(value);
+    finished = true;
+  });
+  std::uint64_t last_count = 0;
+  bool forward = true;
+  while (!finished) {
+    const std::uint64_t count = distribution.summary().count;
+    forward = forward && count >= last_count;
+    last_count = count;
+  }
+  adder.join();
+  EXPECT_TRUE(forward);
+  EXPECT_EQ(distribution.summary().count, kRounds / 10);
+  EXPECT_EQ(distribution.summary().most, kRounds / 10);
+}
+
+}  // namespace
+}  // namespace armature::rt
