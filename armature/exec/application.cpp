@@ -71,6 +71,7 @@ base::Diagnostics Application::start() {
   base::Diagnostics diagnostics = check();
   if (!diagnostics.ok()) return diagnostics;
   faults_ = 0;
+  reactions_ = 0;
   make_engines();
   apply_declared_reactions();
   const bool up = configure_all(diagnostics) && connect_all(diagnostics) &&
@@ -234,7 +235,7 @@ RunEnd Application::run_for(base::Duration duration, const platform::StopSignal*
   while (true) {
     drain_logs();
     if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
-    if (fault_ends_run()) return RunEnd::kFaulted;
+    if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
     const base::Time at = now();
     if (at >= end) return RunEnd::kTimeUp;
     const base::Time next = std::min(end, at + kLogPeriod);
@@ -261,7 +262,7 @@ RunEnd Application::simulate_until(base::Time end, const platform::StopSignal* s
     while (Engine* engine = next_engine(simulated_now_)) {
       engine->step(simulated_now_);
       drain_logs();
-      if (fault_ends_run()) return RunEnd::kFaulted;
+      if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
     }
     if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     base::Time next = end;
@@ -350,11 +351,14 @@ void Application::component_faulted(component::Component&) {
 }
 
 void Application::component_stopped_itself(component::Component&) {
-  faults_.fetch_add(1, std::memory_order_relaxed);
+  reactions_.fetch_add(1, std::memory_order_relaxed);
 }
 
-bool Application::fault_ends_run() const {
-  return options_.on_fault == OnFault::kStop && faults() > 0;
+std::optional<RunEnd> Application::end_by_fault() const {
+  if (options_.on_fault != OnFault::kStop) return std::nullopt;
+  if (faults() > 0) return RunEnd::kFaulted;
+  if (reactions() > 0) return RunEnd::kStoppedByReaction;
+  return std::nullopt;
 }
 
 base::Time Application::now() const {

@@ -50,7 +50,7 @@ struct ApplicationOptions {
 };
 
 /// Why a run ended.
-enum class RunEnd : std::uint8_t { kTimeUp, kStopRequested, kFaulted };
+enum class RunEnd : std::uint8_t { kTimeUp, kStopRequested, kFaulted, kStoppedByReaction };
 
 struct ThreadStatistics {
   std::string name;
@@ -90,6 +90,8 @@ class Application final : private component::Supervisor {
   bool hangs() const { return hangs_; }
   /// Components that faulted since the start.
   std::uint64_t faults() const { return faults_.load(std::memory_order_relaxed); }
+  /// Components that a declared reaction stopped: old data, a writer out of service.
+  std::uint64_t reactions() const { return reactions_.load(std::memory_order_relaxed); }
 
   base::Time now() const;
   const Verdict& verdict() const { return verdict_; }
@@ -143,7 +145,7 @@ class Application final : private component::Supervisor {
   Engine* next_engine(base::Time now);
   component::Outcome change(std::string_view name,
                             component::Outcome (*transition)(component::Component&));
-  bool fault_ends_run() const;
+  std::optional<RunEnd> end_by_fault() const;
 
   Blueprint blueprint_;
   ApplicationOptions options_;
@@ -155,6 +157,7 @@ class Application final : private component::Supervisor {
   Verdict verdict_;
   std::unique_ptr<internal::StartGate> gate_;
   std::atomic<std::uint64_t> faults_{0};
+  std::atomic<std::uint64_t> reactions_{0};
   base::Time simulated_now_{};
   bool memory_locked_ = false;
   bool running_ = false;
