@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/component/registry.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/deploy/document_files.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/exec/blueprint.hpp"
+
+namespace armature::deploy {
+
+/// Makes the document's components from the models of `registry`, sets their properties, from
+/// property files first, and writes down activities, peers, bindings and connections. Mistakes are
+/// added to `diagnostics` at their places; what has one is left out, so that the checks of
+/// `exec::make_plan` can go on with the rest.
+/// @param read  reads property files; empty: from disk
+exec::Blueprint build_blueprint(const Document& document, const component::Registry& registry,
+                                const FileReader& read, base::Diagnostics& diagnostics);
+
+/// What the document says about running the application as a whole.
+exec::ApplicationOptions application_options(const Document& document);
+
+/// Writes the persistent properties of each component with `autosave` to its property file. To be
+/// called after the application stopped, or before it started.
+void save_properties(const Document& document, const exec::Blueprint& blueprint,
+                     base::Diagnostics& diagnostics);
+
+}  // namespace armature::deploy

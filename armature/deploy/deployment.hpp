@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/component/registry.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/deploy/document_files.hpp"
+#include "armature/deploy/schedule.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/exec/blueprint.hpp"
+#include "armature/exec/plan.hpp"
+
+namespace armature::deploy {
+
+struct DeploymentOptions {
+  LoadOptions document;                      ///< overrides of the command line, how files are read
+  std::vector<std::string> library_folders;  ///< looked through before all others
+  std::function<void(component::Registry&)> models;  ///< adds models of the program itself
+  std::string times_file;  ///< measured execution times (see schedule.hpp); empty: none
+  int cpus = 0;            ///< of the machine that is to run it; 0: as many as this one has
+};
+
+/// An application as its files describe it, loaded and checked; nothing of it has moved. Run it
+/// with `exec::Application(std::move(d.blueprint), d.options)` if it is ok.
+struct Deployment {
+  Document document;
+  component::Registry models;
+  exec::Blueprint blueprint;
+  exec::ApplicationOptions options;  ///< what the document says; the rest is the caller's
+  exec::Plan plan;                   ///< threads and order of execution, if it is ok
+  Schedule schedule;                 ///< the load, if it is ok
+  base::Diagnostics diagnostics;
+
+  bool ok() const { return diagnostics.ok(); }
+};
+
+/// Reads the deployment and what it includes, loads its libraries, makes its components, and checks
+/// everything that can be known before start. Finds all mistakes in one run.
+Deployment load_deployment(const std::string& path, const DeploymentOptions& options = {});
+
+/// Likewise for text in memory; `name` tells where it is from and chooses the format.
+Deployment parse_deployment(std::string_view text, const std::string& name,
+                            const DeploymentOptions& options = {});
+
+}  // namespace armature::deploy
