@@ -44,50 +44,67 @@ Outcome Component::wrong_state(std::string_view transition) const {
   return refused(why);
 }
 
-Outcome Component::run_hook(Outcome (Component::*hook)()) {
+void Component::assign_context(ExecutionContext& context) {
+  context_ = &context;
+  reported_fault_.lower();
+  for (InputPortBase* input : interface_.inputs) input->forget_messages();
+}
+
+/// Runs a hook that may refuse, and enters `next` if it neither did nor faulted.
+Outcome Component::run_hook(Outcome (Component::*hook)(), State next) {
+  const State before = state();
+  reason_.clear();
   Outcome outcome = accepted();
   const bool completed = run(*context_, [&] { outcome = (this->*hook)(); });
-  if (!completed) return refused(reason());
-  reason_ = outcome.reason();
+  const bool faulted = !completed || state() != before || !reason_.empty();
+  if (faulted) return refused(reason_);
+  if (!outcome) {
+    reason_ = outcome.reason();
+  } else {
+    enter(next);
+  }
   return outcome;
 }
 
 Outcome Component::configure() {
   if (state() != State::kPreOperational) return wrong_state("configure");
-  Outcome outcome = run_hook(&Component::on_configure);
-  if (outcome) enter(State::kStopped);
+  Outcome outcome = run_hook(&Component::on_configure, State::kStopped);
+  configured_ = outcome.ok();
   return outcome;
 }
 
 Outcome Component::activate() {
   if (state() != State::kStopped) return wrong_state("activate");
-  return run_hook(&Component::on_activate);
+  return run_hook(&Component::on_activate, State::kStopped);
 }
 
 Outcome Component::start() {
   if (state() != State::kStopped) return wrong_state("start");
-  Outcome outcome = run_hook(&Component::on_start);
-  if (!outcome) return outcome;
   aging_ = false;
+  checked_at_ = time();
   for (InputPortBase* input : interface_.inputs) {
     input->begin();
     if (input->max_age() > base::Duration::zero()) aging_ = true;
   }
-  enter(State::kRunning);
-  for (Step* step : steps_before_) run(*context_, [&] { step->start(); });
-  return outcome;
+  Outcome outcome = run_hook(&Component::on_start, State::kRunning);
+  if (!outcome) return outcome;
+  for (Step* step : steps_before_) {
+    if (state() == State::kRunning) run(*context_, [&] { step->start(); });
+  }
+  return state() == State::kException ? refused(reason()) : outcome;
 }
 
 void Component::stop() {
   if (state() != State::kRunning && state() != State::kRunTimeError) return;
-  halt_steps("the component was stopped");
   enter(State::kStopped);
+  halt_steps("the component was stopped");
   run(*context_, [this] { on_stop(); });
 }
 
 void Component::cleanup() {
   if (state() != State::kStopped) return;
   enter(State::kPreOperational);
+  configured_ = false;
   run(*context_, [this] { on_cleanup(); });
 }
 
@@ -100,21 +117,18 @@ Outcome Component::recover() {
 
 Outcome Component::reset() {
   if (state() != State::kException) return wrong_state("reset");
-  Outcome outcome = run_hook(&Component::on_reset);
-  if (outcome) enter(State::kStopped);
-  return outcome;
+  return run_hook(&Component::on_reset, configured_ ? State::kStopped : State::kPreOperational);
 }
 
 void Component::update() {
-  const State now = state();
-  if (now == State::kRunTimeError) {
+  if (state() == State::kRunTimeError) {
     run(*context_, [this] { on_error(); });
     return;
   }
   if (!admits()) return;
   run(*context_, [this] {
     for (Step* step : steps_before_) step->step();
-    on_update();
+    if (state() == State::kRunning) on_update();
     for (Step* step : steps_after_) step->step();
   });
 }
@@ -127,40 +141,60 @@ void Component::error(std::string_view reason) {
 }
 
 void Component::fault(std::string_view reason) {
-  if (state() == State::kException) return;
-  reason_ = reason;
-  const bool was_running = state() == State::kRunning || state() == State::kRunTimeError;
-  enter(State::kException);
-  halt_steps(reason);
-  log_error("fault: {}", reason);
-  if (was_running) tell_readers_lost();
-  if (was_running && context_->supervisor != nullptr) {
-    context_->supervisor->component_faulted(*this);
+  const State before = state();
+  if (before == State::kException) {
+    if (reason_.empty()) reason_ = reason;
+    return;
   }
+  reason_ = reason;
+  enter(State::kException);
+  halt_steps(reason_);
+  log_error("fault: {}", reason_.view());
+  if (before == State::kRunning || before == State::kRunTimeError) tell_readers_lost();
+  if (context_->supervisor != nullptr) context_->supervisor->component_faulted(*this);
 }
 
 void Component::stop_because(std::string_view reason) {
   if (state() != State::kRunning && state() != State::kRunTimeError) return;
   const Reason kept(reason);
   stop();
-  reason_ = kept;
+  if (state() != State::kException) reason_ = kept;
   log_warning("stopped: {}", kept.view());
   tell_readers_lost();
   if (context_->supervisor != nullptr) context_->supervisor->component_stopped_itself(*this);
 }
 
-void Component::contain(const std::exception_ptr& exception) noexcept {
+void Component::contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept {
   const rt::PermitScope permit;
   try {
     std::rethrow_exception(exception);
   } catch (const std::exception& known) {
-    fault(Reason("exception: ").append(known.what()).view());
+    fault_from(where, Reason("exception: ").append(known.what()));
   } catch (...) {
-    fault("exception of an unknown type");
+    fault_from(where, "exception of an unknown type");
   }
 }
 
+/// Faults at once in the component's own thread, else by a message to it: its state, its commands
+/// and its log belong to that thread.
+void Component::fault_from(ExecutionContext& where, std::string_view reason) {
+  if (context_->shares_thread_with(where)) {
+    fault(reason);
+  } else if (!reported_fault_.taken.exchange(true, std::memory_order_acquire)) {
+    reported_fault_.reason = reason;
+    context_->raise(reported_fault_);
+  }
+}
+
+void Component::ReportedFault::deliver(rt::Message& message) {
+  auto& report = static_cast<ReportedFault&>(message);
+  report.lower();
+  report.self.fault(report.reason);
+  report.taken.store(false, std::memory_order_release);
+}
+
 void Component::check_ages() {
+  checked_at_ = time();
   for (InputPortBase* input : interface_.inputs) input->check_age();
 }
 
@@ -183,7 +217,9 @@ void Component::add_step(Step& step, bool before_update) {
 
 void Component::take_time(ExecutionContext& where) {
   const std::uint64_t now = rt::ticks();
-  if (Component* const last = where.running; last != nullptr) {
+  // What runs here as a guest keeps its measurements in its own thread.
+  Component* const last = where.running;
+  if (last != nullptr && last->context_ == &where) {
     last->measured_ticks_ += now - where.mark;
     last->measured_ = true;
   }
@@ -204,7 +240,9 @@ void Component::log(rt::LogLevel level, const char* format, const LogArguments& 
   record.component = name_;
   record.format = format;
   record.arguments = arguments;
-  if (context_->log != nullptr) context_->log->push(record);
+  const auto* here = static_cast<const ExecutionContext*>(rt::guard_state().context);
+  rt::LogQueue* const queue = here != nullptr ? here->log : context_->log;
+  if (queue != nullptr) queue->push(record);
 }
 
 }  // namespace armature::component

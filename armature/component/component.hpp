@@ -72,7 +72,7 @@ class Component {
 
   const std::string& name() const { return name_; }
   /// @thread any
-  State state() const { return state_.load(std::memory_order_relaxed); }
+  State state() const { return state_.load(std::memory_order_acquire); }
   /// Serves operations: configured and without an exception.
   bool ready() const { return state() >= State::kStopped; }
   /// Why the component is in its state after a refusal, an error or a fault; empty if all is well.
@@ -81,7 +81,7 @@ class Component {
 
   /// The cycle time of the thread: one value for everything that happens in a cycle.
   /// @rt nonblocking
-  base::Time time() const { return context_->cycle_time; }
+  base::Time time() const { return context_->cycle_time.load(std::memory_order_relaxed); }
 
   /// The transitions of the life cycle; each runs its hook. A refusal leaves the state as it was.
   /// @thread the component's own; before the application runs, the one that builds it
@@ -91,7 +91,7 @@ class Component {
   void stop();
   void cleanup();
   Outcome recover();  ///< from kRunTimeError back to kRunning
-  Outcome reset();    ///< from kException to kStopped
+  Outcome reset();    ///< from kException to kStopped; to kPreOperational if it was not configured
 
   /// One cycle: state machines, the update hook (or the error hook), then commands under way.
   /// @rt as the hooks are
@@ -105,10 +105,11 @@ class Component {
   void stop_because(std::string_view reason);
 
   /// True if a handler may run now: the component runs, and no input's data is so old that the
-  /// declared reaction takes it out of service.
-  /// @rt nonblocking
+  /// declared reaction takes it out of service. Looks at the ages once in each cycle.
+  /// @rt nonblocking, no allocation
+  /// @thread its own
   bool admits() {
-    if (aging_) [[unlikely]]
+    if (aging_ && checked_at_ != time()) [[unlikely]]
       check_ages();
     return state() == State::kRunning;
   }
@@ -120,7 +121,8 @@ class Component {
   void add_step(Step& step, bool before_update);
 
   ExecutionContext& context() const { return *context_; }
-  void assign_context(ExecutionContext& context) { context_ = &context; }
+  /// Gives the component a thread; nothing is on its way in the one before.
+  void assign_context(ExecutionContext& context);
 
   /// Execution time of the component in each measured cycle, in ticks, without what it called.
   const rt::Distribution& execution_ticks() const { return execution_ticks_; }
@@ -142,7 +144,7 @@ class Component {
       code();
     } catch (...) {
       completed = false;
-      contain(std::current_exception());
+      contain(std::current_exception(), where);
     }
     if (where.measuring) [[unlikely]]
       take_time(where);
@@ -186,14 +188,24 @@ class Component {
  private:
   using LogArguments = std::array<rt::LogArgument, 4>;
   void log(rt::LogLevel level, const char* format, const LogArguments& arguments);
+  /// A fault that happened in another thread, on its way to the component's own.
+  struct ReportedFault final : rt::Signal {
+    explicit ReportedFault(Component& component) : rt::Signal(&deliver), self(component) {}
+    static void deliver(rt::Message& message);
+    Component& self;
+    std::atomic<bool> taken{false};
+    Reason reason;
+  };
+
   /// Adds the time since the last mark to what ran until now.
   static void take_time(ExecutionContext& where);
-  void contain(const std::exception_ptr& exception) noexcept;
-  void enter(State state) { state_.store(state, std::memory_order_relaxed); }
+  void contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept;
+  void fault_from(ExecutionContext& where, std::string_view reason);
+  void enter(State state) { state_.store(state, std::memory_order_release); }
   void check_ages();
   void tell_readers_lost();
   void halt_steps(std::string_view why);
-  Outcome run_hook(Outcome (Component::*hook)());
+  Outcome run_hook(Outcome (Component::*hook)(), State next);
   Outcome wrong_state(std::string_view transition) const;
 
   std::string name_;
@@ -203,10 +215,13 @@ class Component {
   std::vector<Step*> steps_before_;
   std::vector<Step*> steps_after_;
   std::uint64_t measured_ticks_ = 0;
+  base::Time checked_at_{};
   bool measured_ = false;
   bool aging_ = false;
+  bool configured_ = false;
   rt::Distribution execution_ticks_;
   Reason reason_;
+  ReportedFault reported_fault_{*this};
 };
 
 }  // namespace armature::component

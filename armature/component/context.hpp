@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "armature/base/time.hpp"
 #include "armature/rt/guard.hpp"
@@ -31,15 +33,17 @@ struct ExecutionContext {
   explicit ExecutionContext(std::string context_name) : name(std::move(context_name)) {}
 
   std::string name;
-  base::Time cycle_time{};       ///< read from the clock once in each cycle
-  std::uint64_t cycle = 0;       ///< counts the cycles
-  Component* running = nullptr;  ///< whose code runs now
-  bool measuring = false;        ///< this cycle's execution times are taken for each component
-  std::uint64_t mark = 0;        ///< tick at which `running` last changed, while measuring
-  bool live = false;       ///< the thread runs cycles: others reach its components by messages
+  std::atomic<base::Time> cycle_time{base::Time{}};  ///< read from the clock once in each cycle
+  std::uint64_t cycle = 0;                           ///< counts the cycles
+  Component* running = nullptr;                      ///< whose code runs now
+  bool measuring = false;  ///< this cycle's execution times are taken for each component
+  std::uint64_t mark = 0;  ///< tick at which `running` last changed, while measuring
+  /// The thread runs cycles: others reach its components by messages.
+  std::atomic<bool> live{false};
   bool simulated = false;  ///< several contexts take turns in one thread
   bool wakes_on_messages = false;
-  rt::Inbox inbox;
+  rt::Inbox inbox;       ///< empty when components of this context are disconnected or destroyed
+  rt::Inbox next_cycle;  ///< to be delivered first in the next cycle
   rt::Wakeup wakeup;
   rt::LogQueue* log = nullptr;
   Supervisor* supervisor = nullptr;
@@ -53,6 +57,11 @@ struct ExecutionContext {
   }
   void raise(rt::Signal& signal) {
     if (signal.raise(inbox) && wakes_on_messages) wakeup.notify();
+  }
+
+  /// True if code that runs in `other` may touch what belongs to this context.
+  bool shares_thread_with(const ExecutionContext& other) const {
+    return &other == this || simulated || !live.load(std::memory_order_acquire);
   }
 };
 

@@ -17,7 +17,8 @@
 
 namespace armature::component {
 
-/// What a read found, and the value; `value` refers into the port until the next read.
+/// What a read found, and the value; `value` refers into the port until the next read, and in a
+/// handler or hook until that ends.
 template <typename T>
 struct Reading {
   ReadStatus status;
@@ -37,13 +38,15 @@ struct InputCounters {
   std::uint64_t lost = 0;    ///< how often a writer faulted
 };
 
+class OutputPortBase;
+
 class InputPortBase : public PortBase {
  public:
   bool triggers() const { return triggers_; }
   const LeadsTo& effects() const { return leads_to_; }
   bool allows_fan_in() const { return fan_in_; }
-  bool connected() const { return writers_ > 0; }
-  std::size_t writers() const { return writers_; }
+  bool connected() const { return !writers_.empty(); }
+  const std::vector<OutputPortBase*>& writers() const { return writers_; }
   base::Duration max_age() const { return max_age_; }
   Reaction stale_reaction() const { return stale_reaction_; }
   Reaction lost_reaction() const { return lost_reaction_; }
@@ -62,8 +65,11 @@ class InputPortBase : public PortBase {
   /// @thread the writer's
   void tell_lost() { owner().context().raise(lost_); }
 
-  /// The component starts: ages count from now.
+  /// The component starts: reactions to ages count from now.
   void begin();
+
+  /// What was on its way to this port from another thread is gone with that thread.
+  void forget_messages() { lost_.lower(); }
 
  protected:
   InputPortBase(Component& owner, std::string name, std::string_view doc, std::string_view unit,
@@ -80,10 +86,16 @@ class InputPortBase : public PortBase {
 
   virtual void look_for_newer() = 0;
 
+  bool is_stale(base::Time written) const {
+    return max_age_ > base::Duration::zero() && owner().time() - written > max_age_;
+  }
+  bool reads_zero(bool stale) const {
+    return zeroed_ || (stale && stale_reaction_ == Reaction::kZero);
+  }
+
   bool triggers_ = false;
-  bool stale_ = false;
-  bool zeroed_ = false;
-  std::size_t writers_ = 0;
+  bool zeroed_ = false;  ///< its writer was lost, and nothing came since
+  std::vector<OutputPortBase*> writers_;
   InputCounters counters_;
 
  private:
@@ -96,6 +108,7 @@ class InputPortBase : public PortBase {
   void react(Reaction reaction, std::string_view what);
 
   bool fan_in_ = false;
+  bool late_ = false;  ///< the reaction to old data happened
   LeadsTo leads_to_;
   Reaction stale_reaction_ = Reaction::kStop;
   Reaction lost_reaction_ = Reaction::kStop;
@@ -105,7 +118,8 @@ class InputPortBase : public PortBase {
 };
 
 /// Option of an input port: a write runs `Handler`, a member function of the component that takes
-/// nothing, the value, or the port's index in its array and the value.
+/// nothing, the value, or the port's index in its array and the value. What arrives while the
+/// component does not run triggers nothing, and can be read later.
 template <auto Handler>
 struct OnData {};
 template <auto Handler>
@@ -116,8 +130,10 @@ struct OnDataUpdate {};
 inline constexpr OnDataUpdate on_data_update{};
 
 /// Reads what is written to it, wait-free, from this thread or another.
-template <PortData T>
+template <typename T>
 class InputPort final : public InputPortBase {
+  static_assert(PortData<T>, ARMATURE_INTERNAL_PORT_DATA_TEXT);
+
  public:
   /// Name, documentation and unit are literals. Options: on_data<&X::f>, on_data_update, max_age,
   /// on_lost, may_stay_open, fan_in, size_of(property, factor).
@@ -128,15 +144,20 @@ class InputPort final : public InputPortBase {
     (apply(options), ...);
     owner->declare().inputs.push_back(this);
   }
+  ~InputPort() override {
+    for (OutputPortBase* writer : writers_) internal::forget_reader(*writer, *this);
+  }
 
   /// The newest value (of a FIFO: the next), and whether it is new, was read before, was never
   /// written, or can never come because nothing is connected.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
   Reading<T> read() {
-    if (!channels_.empty() && !dispatching_) pull();
+    if (!channels_.empty() && !triggers_ && !std::exchange(looked_ahead_, false)) pull();
     const Sample<T>& sample = *source_;
-    return {status_of(sample), stale_, zeroed_ ? empty_.value : sample.value, sample.time};
+    const ReadStatus status = status_of(sample);
+    const bool stale = is_stale(sample.time);
+    return {status, stale, reads_zero(stale) ? empty_.value : sample.value, sample.time};
   }
 
   /// The port's place in its array, from 0.
@@ -148,38 +169,42 @@ class InputPort final : public InputPortBase {
   std::uint64_t current_sequence() const override { return source_->sequence; }
 
   // --- for the output port that is connected ---------------------------------------------------
-  void connect_source(const Sample<T>& source) {
+  void connect_source(OutputPortBase& writer, const Sample<T>& source) {
     source_ = &source;
-    seen_ = source.sequence;
-    ++writers_;
+    seen_ = source.sequence == 0 ? 0 : source.sequence - 1;
+    writers_.push_back(&writer);
   }
-  internal::Channel<T>& connect_channel(std::unique_ptr<internal::Channel<T>> channel) {
+  internal::Channel<T>& connect_channel(OutputPortBase& writer,
+                                        std::unique_ptr<internal::Channel<T>> channel) {
+    channel->writer = &writer;
+    writers_.push_back(&writer);
     channels_.push_back(std::move(channel));
-    ++writers_;
     return *channels_.back();
   }
-  void disconnect() {
-    channels_.clear();
+  void disconnect(OutputPortBase& writer) {
+    std::erase(writers_, &writer);
+    std::erase_if(channels_, [&writer](const auto& each) { return each->writer == &writer; });
+    next_channel_ = 0;
     source_ = &empty_;
-    writers_ = 0;
+    seen_ = 0;
+    looked_ahead_ = false;
   }
+  /// Zeros in the shape of `shape`: what is read before the first write.
   void set_shape(const T& shape) {
-    empty_.value = shape;
-    if constexpr (!std::is_trivially_copyable_v<T>) empty_.value = T(shape);
+    empty_.value = T(shape);
+    internal::set_to_zero(type(), &empty_.value);
   }
 
   /// A sample was written in this thread to the place that this port reads.
   void arrived() {
-    fresh_data();
+    zeroed_ = false;
     dispatch();
   }
   /// Takes what `channel` holds, one handler call for each sample.
   void drain(internal::Channel<T>& channel) {
     while (const Sample<T>* sample = channel.pop()) {
       take(channel, *sample);
-      dispatching_ = true;
       dispatch();
-      dispatching_ = false;
     }
   }
 
@@ -202,24 +227,28 @@ class InputPort final : public InputPortBase {
     if constexpr (std::is_invocable_v<decltype(Handler), Owner&>) {
       (owner.*Handler)();
     } else if constexpr (std::is_invocable_v<decltype(Handler), Owner&, const T&>) {
-      port.seen_ = port.source_->sequence;
-      (owner.*Handler)(port.source_->value);
+      (owner.*Handler)(port.take_value());
     } else {
       static_assert(std::is_invocable_v<decltype(Handler), Owner&, std::size_t, const T&>,
-                    "a handler takes (), (value) or (index, value)");
-      port.seen_ = port.source_->sequence;
-      (owner.*Handler)(port.index_, port.source_->value);
+                    "a handler of an input port takes (), (value) or (index, value)");
+      (owner.*Handler)(port.index_, port.take_value());
     }
+  }
+
+  const T& take_value() {
+    seen_ = source_->sequence;
+    return reads_zero(is_stale(source_->time)) ? empty_.value : source_->value;
   }
 
   void dispatch() {
     Component& component = owner();
-    if (!triggers_ || !component.admits()) return;
     if (dispatch_ == nullptr) {
       component.update();
-    } else {
-      component.run(component.context(), [&] { dispatch_(component, *this); });
+      return;
     }
+    if (max_age() > base::Duration::zero()) check_age();
+    if (!component.admits()) return;
+    component.run(component.context(), [&] { dispatch_(component, *this); });
   }
 
   ReadStatus status_of(const Sample<T>& sample) {
@@ -229,35 +258,37 @@ class InputPort final : public InputPortBase {
     if (sample.sequence == seen_) return ReadStatus::kOld;
     counters_.missed += sample.sequence - seen_ - 1;
     seen_ = sample.sequence;
+    zeroed_ = false;
     return ReadStatus::kNew;
   }
 
-  void pull() {
+  /// Takes the next sample of the channels, in turn; the channel it came from, or nullptr.
+  internal::Channel<T>* pull() {
     for (std::size_t tried = 0; tried < channels_.size(); ++tried) {
       internal::Channel<T>& channel = *channels_[next_channel_];
       if (++next_channel_ == channels_.size()) next_channel_ = 0;
       if (const Sample<T>* sample = channel.pop()) {
         take(channel, *sample);
-        return;
+        return &channel;
       }
     }
+    return nullptr;
   }
 
   void take(internal::Channel<T>& channel, const Sample<T>& sample) {
-    counters_.missed += sample.sequence - channel.last_sequence - 1;
+    const bool unread = !triggers_ && source_ != &empty_ && seen_ != source_->sequence;
+    counters_.missed += sample.sequence - channel.last_sequence - (unread ? 0 : 1);
     channel.last_sequence = sample.sequence;
     source_ = &sample;
     seen_ = sample.sequence - 1;
-    fresh_data();
-  }
-
-  void fresh_data() {
-    stale_ = false;
     zeroed_ = false;
   }
 
+  /// A FIFO's next sample is not passed over: it is the one to be read next.
   void look_for_newer() override {
-    if (!triggers_ && !channels_.empty() && seen_ == source_->sequence) pull();
+    if (triggers_ || channels_.empty() || looked_ahead_) return;
+    const internal::Channel<T>* const channel = pull();
+    looked_ahead_ = channel != nullptr && channel->keeps_all();
   }
 
   Dispatch dispatch_ = nullptr;
@@ -267,7 +298,7 @@ class InputPort final : public InputPortBase {
   std::vector<std::unique_ptr<internal::Channel<T>>> channels_;
   std::size_t next_channel_ = 0;
   std::size_t index_ = 0;
-  bool dispatching_ = false;
+  bool looked_ahead_ = false;  ///< the sample in `source_` is still to be read
 };
 
 }  // namespace armature::component

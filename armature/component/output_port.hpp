@@ -33,6 +33,8 @@ class OutputPortBase : public PortBase {
   /// @thread configuration only
   virtual void connect(InputPortBase& input, const ConnectionPolicy& policy) = 0;
   virtual void disconnect_all() = 0;
+  /// `input` is no reader any more.
+  virtual void forget(InputPortBase& input) = 0;
 
   /// Gives vectors their declared size; the number of elements of the current value otherwise.
   virtual void prepare() = 0;
@@ -50,8 +52,10 @@ class OutputPortBase : public PortBase {
 /// The written value lives in the port itself. A reader in the same thread reads it there: writing
 /// costs one copy whatever the number of readers. Readers in other threads, FIFOs and delayed
 /// readers each have a channel.
-template <PortData T>
+template <typename T>
 class OutputPort final : public OutputPortBase {
+  static_assert(PortData<T>, ARMATURE_INTERNAL_PORT_DATA_TEXT);
+
  public:
   /// Name, documentation and unit are literals. Options: size_of(property, factor).
   template <typename... Options>
@@ -61,6 +65,7 @@ class OutputPort final : public OutputPortBase {
     (apply(options), ...);
     owner->declare().outputs.push_back(this);
   }
+  ~OutputPort() override { OutputPort::disconnect_all(); }
 
   /// Writes `value` and runs the handlers that are to run on it in this thread.
   /// @rt nonblocking, no allocation
@@ -111,21 +116,34 @@ class OutputPort final : public OutputPortBase {
     const bool same_thread = &owner().context() == &base.owner().context();
     const bool latest = policy.kind == ConnectionPolicy::Kind::kLatest;
     if (same_thread && latest && !policy.one_cycle_delay && !base.allows_fan_in()) {
-      input.connect_source(sample_);
+      input.connect_source(*this, sample_);
       if (base.triggers()) triggered_.push_back(&input);
       return;
     }
-    auto& channel = input.connect_channel(make_channel(input, policy, same_thread));
+    auto& channel = input.connect_channel(*this, make_channel(input, policy, same_thread));
     channel.last_sequence = sample_.sequence;
-    (base.triggers() ? telling_ : channels_).push_back(&channel);
+    if (base.triggers()) {
+      telling_.push_back(&channel);
+    } else {
+      channels_.push_back(&channel);
+      hand_over_last(channel);
+    }
   }
 
   void disconnect_all() override {
-    for (InputPortBase* reader : readers_) static_cast<InputPort<T>*>(reader)->disconnect();
+    for (InputPortBase* reader : readers_) static_cast<InputPort<T>*>(reader)->disconnect(*this);
     readers_.clear();
     triggered_.clear();
     channels_.clear();
     telling_.clear();
+  }
+
+  void forget(InputPortBase& input) override {
+    const auto leads_there = [&input](const Channel* each) { return &each->reader() == &input; };
+    std::erase(readers_, &input);
+    std::erase(triggered_, &input);
+    std::erase_if(channels_, leads_there);
+    std::erase_if(telling_, leads_there);
   }
 
  private:
@@ -145,6 +163,13 @@ class OutputPort final : public OutputPortBase {
     }
     return std::make_unique<internal::FifoChannel<T, rt::StdAtomics>>(input, false, policy,
                                                                       sample_);
+  }
+
+  /// A value from before the connection was made is read as new, whatever the kind of connection.
+  void hand_over_last(Channel& channel) {
+    if (sample_.sequence == 0) return;
+    --channel.last_sequence;
+    channel.push(sample_);
   }
 
   WriteStatus deliver() {

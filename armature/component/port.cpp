@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/port.hpp"
 
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
 #include "armature/component/input_port.hpp"
+#include "armature/component/output_port.hpp"
 
 namespace armature::component {
 
@@ -49,22 +54,19 @@ InputPortBase::InputPortBase(Component& owner, std::string name, std::string_vie
 
 void InputPortBase::begin() {
   started_ = owner().time();
-  stale_ = false;
+  late_ = false;
   zeroed_ = false;
 }
 
 void InputPortBase::check_age() {
-  if (max_age_ <= base::Duration::zero() || owner().state() != State::kRunning) return;
+  const bool ages = max_age_ > base::Duration::zero() && connected();
+  if (!ages || owner().state() != State::kRunning) return;
   look_for_newer();
   const base::Time written = current_sequence() == 0 ? started_ : current_time();
-  if (owner().time() - std::max(written, started_) <= max_age_) {
-    stale_ = false;
-    return;
-  }
-  if (stale_) return;
-  stale_ = true;
+  const bool was_late = std::exchange(late_, is_stale(std::max(written, started_)));
+  if (!late_ || was_late) return;
   ++counters_.stale;
-  react(stale_reaction_, "its data is older than declared");
+  if (stale_reaction_ != Reaction::kZero) react(stale_reaction_, "its data is older than declared");
 }
 
 void InputPortBase::Lost::deliver(rt::Message& message) {
@@ -93,4 +95,28 @@ void InputPortBase::react(Reaction reaction, std::string_view what) {
   }
 }
 
+namespace internal {
+
+void set_to_zero(const types::Type& type, void* value) {
+  if (type.set_text != nullptr) {
+    type.set_text(value, {});
+  } else if (type.element != nullptr) {
+    const bool vector = type.kind == types::Kind::kVector;
+    const std::size_t count = vector ? type.vector_size(value) : type.count;
+    auto* element = static_cast<std::byte*>(vector ? type.vector_data(value) : value);
+    for (std::size_t i = 0; i < count; ++i, element += type.element->size) {
+      set_to_zero(*type.element, element);
+    }
+  } else if (type.kind == types::Kind::kStruct) {
+    for (const types::Field& field : type.fields) {
+      set_to_zero(*field.type, static_cast<std::byte*>(value) + field.offset);
+    }
+  } else {
+    std::memset(value, 0, type.size);
+  }
+}
+
+void forget_reader(OutputPortBase& writer, InputPortBase& reader) { writer.forget(reader); }
+
+}  // namespace internal
 }  // namespace armature::component

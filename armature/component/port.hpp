@@ -155,7 +155,17 @@ class PortBase {
 template <typename T>
 concept PortData = !std::is_same_v<T, std::string> && std::is_default_constructible_v<T>;
 
+#define ARMATURE_INTERNAL_PORT_DATA_TEXT                                                         \
+  "data on ports never grows: use numbers, base::FixedText, arrays, structs, or vectors, which " \
+  "keep the size they were configured with"
+
 namespace internal {
+
+/// Every number 0, every text empty, sizes as they are.
+void set_to_zero(const types::Type& type, void* value);
+
+void forget_reader(OutputPortBase& writer, InputPortBase& reader);
+
 template <typename T>
 inline constexpr bool is_vector = false;
 template <typename E>

@@ -80,9 +80,9 @@ class PortArray final : public PortArrayBase {
   std::vector<std::unique_ptr<Port>> ports_;
 };
 
-template <PortData T>
+template <typename T>
 using InputPorts = PortArray<InputPort<T>>;
-template <PortData T>
+template <typename T>
 using OutputPorts = PortArray<OutputPort<T>>;
 
 }  // namespace armature::component

@@ -122,7 +122,7 @@ void Engine::step(base::Time now) {
 
 void Engine::run_cycle(base::Time now) {
   open_cycle(now);
-  ++context_.cycle;
+  begin_next_cycle();
   deliver_messages();
   for (component::Component* component : updating_) component->update();
   deliver_messages();
@@ -134,10 +134,17 @@ void Engine::run_cycle(base::Time now) {
 void Engine::wake(base::Time now) {
   open_cycle(now);
   const bool triggered = activity_.kind == Activity::Kind::kTriggered;
-  if (triggered) ++context_.cycle;
+  if (triggered) begin_next_cycle();
   deliver_messages();
   close_cycle();
-  if (triggered) cycles_run_.store(context_.cycle, std::memory_order_relaxed);
+  if (!triggered) return;
+  cycles_run_.store(context_.cycle, std::memory_order_relaxed);
+  if (!context_.next_cycle.empty()) context_.wakeup.notify();
+}
+
+void Engine::begin_next_cycle() {
+  ++context_.cycle;
+  deliver(context_.next_cycle.take_all());
 }
 
 void Engine::open_cycle(base::Time now) {
@@ -150,7 +157,7 @@ void Engine::open_cycle(base::Time now) {
 void Engine::close_cycle() {
   for (component::Component* component : aging_) component->admits();
   if (!aging_.empty()) {
-    next_age_check_ = context_.cycle_time + age_tick_;
+    next_age_check_ = context_.cycle_time.load() + age_tick_;
     deliver_messages();
   }
   cycle_ticks_.add(rt::ticks() - opened_);
@@ -163,13 +170,22 @@ void Engine::deliver_messages() {
   for (int round = 0; round < kMessageRounds; ++round) {
     rt::Message* message = context_.inbox.empty() ? nullptr : context_.inbox.take_all();
     if (message == nullptr) return;
-    while (message != nullptr) {
-      rt::Message* const next = rt::Inbox::next(*message);
-      message->deliver();
-      message = next;
-    }
+    deliver(message);
   }
   context_.wakeup.notify();
+}
+
+void Engine::deliver(rt::Message* message) {
+  while (message != nullptr) {
+    rt::Message* const next = rt::Inbox::next(*message);
+    message->deliver();
+    message = next;
+  }
+}
+
+bool Engine::has_messages() const {
+  const bool triggered = activity_.kind == Activity::Kind::kTriggered;
+  return !context_.inbox.empty() || (triggered && !context_.next_cycle.empty());
 }
 
 void Engine::fault_if_late() {

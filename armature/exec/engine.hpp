@@ -64,7 +64,7 @@ class Engine {
   void end();
 
   // --- the same in single steps, for simulated time ----------------------------------------------
-  bool has_messages() const { return !context_.inbox.empty(); }
+  bool has_messages() const;
   /// When the engine has something to do without a message; none for a triggered thread whose
   /// inputs have no age.
   std::optional<base::Time> next_due() const;
@@ -86,7 +86,9 @@ class Engine {
   void wake(base::Time now);
   void open_cycle(base::Time now);
   void close_cycle();
+  void begin_next_cycle();
   void deliver_messages();
+  static void deliver(rt::Message* oldest);
   void fault_if_late();
 
   Activity activity_;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "armature/component/port.hpp"
 #include "armature/rt/inbox.hpp"
@@ -13,25 +14,34 @@
 
 namespace armature::component {
 
-template <PortData T>
+template <typename T>
 class InputPort;
 
 namespace internal {
 
 /// One connection from a writer to a reader. As a signal it tells the reader's thread that there is
 /// something to read.
-template <PortData T>
+template <typename T>
 class Channel : public rt::Signal {
  public:
-  Channel(InputPort<T>& reader, bool directly)
-      : rt::Signal(&Channel::deliver), reader_(reader), directly_(directly) {}
+  Channel(InputPort<T>& reader, bool directly, bool keeps_all)
+      : rt::Signal(&Channel::deliver),
+        reader_(reader),
+        directly_(directly),
+        keeps_all_(keeps_all) {}
   virtual ~Channel() = default;
+
+  InputPort<T>& reader() const { return reader_; }
+  /// A FIFO: each value counts, not only the newest.
+  bool keeps_all() const { return keeps_all_; }
 
   /// @thread the writer's
   virtual rt::PushResult push(const Sample<T>& sample) = 0;
   /// The next sample to read, nullptr if there is none.
   /// @thread the reader's
   virtual const Sample<T>* pop() = 0;
+  /// There will be a sample to read in the next cycle.
+  virtual bool ripens() const { return false; }
 
   /// Has the reader's handler run: at once if the writer is in the same thread.
   void tell_reader() {
@@ -42,6 +52,7 @@ class Channel : public rt::Signal {
     }
   }
 
+  const void* writer = nullptr;     ///< the port that owns the other end
   std::uint64_t last_sequence = 0;  ///< that the reader took
 
  private:
@@ -49,17 +60,20 @@ class Channel : public rt::Signal {
     auto& self = static_cast<Channel&>(message);
     self.lower();
     self.reader_.drain(self);
+    if (self.ripens())
+      static_cast<rt::Signal&>(self).raise(self.reader_.owner().context().next_cycle);
   }
 
   InputPort<T>& reader_;
   bool directly_;
+  bool keeps_all_;
 };
 
-template <PortData T>
+template <typename T>
 class LatestChannel final : public Channel<T> {
  public:
   LatestChannel(InputPort<T>& reader, bool directly, const Sample<T>& shape)
-      : Channel<T>(reader, directly), latest_(shape) {}
+      : Channel<T>(reader, directly, false), latest_(shape) {}
 
   rt::PushResult push(const Sample<T>& sample) override {
     latest_.write(sample);
@@ -71,12 +85,12 @@ class LatestChannel final : public Channel<T> {
   rt::Latest<Sample<T>> latest_;
 };
 
-template <PortData T, typename Atomics>
+template <typename T, typename Atomics>
 class FifoChannel final : public Channel<T> {
  public:
   FifoChannel(InputPort<T>& reader, bool directly, const ConnectionPolicy& policy,
               const Sample<T>& shape)
-      : Channel<T>(reader, directly), ring_(policy.capacity, policy.when_full, shape) {}
+      : Channel<T>(reader, directly, true), ring_(policy.capacity, policy.when_full, shape) {}
 
   rt::PushResult push(const Sample<T>& sample) override { return ring_.push(sample); }
   const Sample<T>* pop() override { return ring_.pop(); }
@@ -85,32 +99,44 @@ class FifoChannel final : public Channel<T> {
   rt::Ring<Sample<T>, Atomics> ring_;
 };
 
-/// Within one thread: a sample is read in the cycle after the one in which it was written.
-template <PortData T>
+/// Within one thread: a sample is read in the cycle after the one in which it was written, whether
+/// the reader's turn comes before the writer's or after it.
+template <typename T>
 class DelayChannel final : public Channel<T> {
  public:
   DelayChannel(InputPort<T>& reader, const Sample<T>& shape)
-      : Channel<T>(reader, false), reader_(reader), written_(shape), readable_(shape) {}
+      : Channel<T>(reader, false, false), written_(shape), ripe_(shape), read_(shape) {}
 
   rt::PushResult push(const Sample<T>& sample) override {
+    if (fresh_ && written_in_ != cycle()) ripen();
     written_ = sample;
-    written_in_ = reader_.owner().context().cycle;
-    pending_ = true;
+    written_in_ = cycle();
+    fresh_ = true;
     return rt::PushResult::kTaken;
   }
   const Sample<T>* pop() override {
-    if (!pending_ || written_in_ == reader_.owner().context().cycle) return nullptr;
-    pending_ = false;
-    readable_ = written_;
-    return &readable_;
+    if (fresh_ && written_in_ != cycle()) ripen();
+    if (!is_ripe_) return nullptr;
+    is_ripe_ = false;
+    std::swap(read_, ripe_);
+    return &read_;
   }
+  bool ripens() const override { return fresh_; }
 
  private:
-  InputPort<T>& reader_;
+  std::uint64_t cycle() const { return this->reader().owner().context().cycle; }
+  void ripen() {
+    std::swap(ripe_, written_);
+    is_ripe_ = true;
+    fresh_ = false;
+  }
+
   Sample<T> written_;
-  Sample<T> readable_;
+  Sample<T> ripe_;
+  Sample<T> read_;
   std::uint64_t written_in_ = 0;
-  bool pending_ = false;
+  bool fresh_ = false;    ///< `written_` was written in the present cycle or the last one
+  bool is_ripe_ = false;  ///< `ripe_` was not read yet
 };
 
 }  // namespace internal
