@@ -3,6 +3,8 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <memory>
 #include <system_error>
 
 #include <fcntl.h>
@@ -40,6 +42,31 @@ bool write_all(int fd, std::string_view content) {
   return true;
 }
 
+constexpr mode_t kPermissions = 07777;
+constexpr mode_t kNewFile = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
+
+/// Leaves the reason in errno.
+bool write_draft(const std::string& draft, mode_t mode, std::string_view content) {
+  const Descriptor file(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
+  return file.get() >= 0 && (mode == kNewFile || ::fchmod(file.get(), mode) == 0) &&
+         write_all(file.get(), content) && ::fsync(file.get()) == 0;
+}
+
+/// For devices, pipes and sockets, which must not be replaced by a file.
+base::Result<void> write_in_place(const std::string& path, std::string_view content) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+  if (file.get() < 0 || !write_all(file.get(), content)) {
+    return failure("cannot write", path, errno);
+  }
+  return {};
+}
+
+std::string without_links(const std::string& path) {
+  const std::unique_ptr<char, decltype(&std::free)> target(::realpath(path.c_str(), nullptr),
+                                                           &std::free);
+  return target != nullptr ? target.get() : path;
+}
+
 }  // namespace
 
 base::Result<std::string> read_file(const std::string& path, std::size_t limit_bytes) {
@@ -57,23 +84,23 @@ base::Result<std::string> read_file(const std::string& path, std::size_t limit_b
     if (got < 0) return failure("cannot read", path, errno);
     if (got == 0) return content;
     content.append(block, static_cast<std::size_t>(got));
-    if (content.size() > limit_bytes) return failure("cannot read", path, EFBIG);
+    if (content.size() > limit_bytes) {
+      return base::Error{"cannot read '" + path + "': it is larger than " +
+                         std::to_string(limit_bytes) + " bytes"};
+    }
   }
 }
 
 base::Result<void> write_file(const std::string& path, std::string_view content) {
-  const std::string draft = path + ".new";
-  {
-    const Descriptor file(::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC,
-                                 S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH));
-    if (file.get() < 0) return failure("cannot write", path, errno);
-    if (!write_all(file.get(), content) || ::fsync(file.get()) != 0) {
-      const int error = errno;
-      ::unlink(draft.c_str());
-      return failure("cannot write", path, error);
-    }
+  struct stat present {};
+  const bool exists = ::stat(path.c_str(), &present) == 0;
+  if (exists && !S_ISREG(present.st_mode)) return write_in_place(path, content);
+  const std::string target = exists ? without_links(path) : path;
+  const std::string draft = target + ".new";
+  const mode_t mode = exists ? present.st_mode & kPermissions : kNewFile;
+  if (write_draft(draft, mode, content) && std::rename(draft.c_str(), target.c_str()) == 0) {
+    return {};
   }
-  if (std::rename(draft.c_str(), path.c_str()) == 0) return {};
   const int error = errno;
   ::unlink(draft.c_str());
   return failure("cannot write", path, error);

@@ -14,7 +14,7 @@ namespace armature::platform {
 base::Result<std::string> read_file(const std::string& path, std::size_t limit_bytes = 64u << 20);
 
 /// Replaces a file as a whole: after a failure or a crash it holds either the old or the new
-/// content.
+/// content. Follows links, keeps the permissions; a device or a pipe is written to, not replaced.
 base::Result<void> write_file(const std::string& path, std::string_view content);
 
 }  // namespace armature::platform

@@ -34,20 +34,27 @@ struct DeadlineAttributes {
 
 std::string why(int error) { return std::generic_category().message(error); }
 
+/// The system ignores CPUs that the machine does not have, so look at what came of it.
 void apply_cpus(const ThreadRequest& request, ThreadGrant& grant) {
   if (request.cpus.empty()) return;
+  const auto bit = [](int cpu) { return static_cast<std::size_t>(cpu); };
   cpu_set_t set;
   CPU_ZERO(&set);
   for (const int cpu : request.cpus) {
-    if (cpu >= 0 && cpu < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(cpu), &set);
+    if (cpu >= 0 && cpu < CPU_SETSIZE) CPU_SET(bit(cpu), &set);
   }
   const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
-  if (error == 0) {
-    grant.cpus = request.cpus;
-    return;
+  CPU_ZERO(&set);
+  if (error == 0) pthread_getaffinity_np(pthread_self(), sizeof set, &set);
+  for (const int cpu : request.cpus) {
+    if (cpu >= 0 && cpu < CPU_SETSIZE && CPU_ISSET(bit(cpu), &set)) {
+      grant.cpus.push_back(cpu);
+    } else {
+      grant.refusals.push_back("CPU " + std::to_string(cpu) + ": " +
+                               why(error != 0 ? error : EINVAL) + "; this machine has CPUs 0.." +
+                               std::to_string(sysconf(_SC_NPROCESSORS_ONLN) - 1));
+    }
   }
-  grant.refusals.push_back("CPU affinity: " + why(error) + "; this machine has CPUs 0.." +
-                           std::to_string(sysconf(_SC_NPROCESSORS_ONLN) - 1));
 }
 
 void apply_fifo(const ThreadRequest& request, ThreadGrant& grant) {
@@ -59,10 +66,12 @@ void apply_fifo(const ThreadRequest& request, ThreadGrant& grant) {
     grant.priority = request.priority;
     return;
   }
+  const char* const hint = error == EINVAL
+                               ? "; priorities are 1..99"
+                               : "; run as root, or allow rtprio in /etc/security/limits.conf, or "
+                                 "give the program CAP_SYS_NICE";
   grant.refusals.push_back("SCHED_FIFO priority " + std::to_string(request.priority) + ": " +
-                           why(error) +
-                           "; run as root, or allow rtprio in /etc/security/limits.conf, or "
-                           "give the program CAP_SYS_NICE");
+                           why(error) + hint);
 }
 
 void apply_deadline(const ThreadRequest& request, ThreadGrant& grant) {

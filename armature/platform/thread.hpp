@@ -18,7 +18,7 @@ struct ThreadRequest {
   std::string name;  ///< the system shows its first 15 letters
   Scheduler scheduler = Scheduler::kOther;
   int priority = 0;          ///< 1..99 for kFifo, 99 most urgent
-  std::vector<int> cpus;     ///< allowed CPUs; empty: all
+  std::vector<int> cpus{};   ///< allowed CPUs; empty: all
   base::Duration runtime{};  ///< kDeadline: budget in each period
   base::Duration period{};   ///< kDeadline
   std::size_t stack_bytes = 512 * 1024;

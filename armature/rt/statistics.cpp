@@ -19,7 +19,7 @@ std::uint64_t DistributionSummary::percentile(double share) const {
 DistributionSummary Distribution::summary() const {
   DistributionSummary result;
   for (std::size_t i = 0; i < buckets_.size(); ++i) {
-    result.buckets[i] = buckets_[i].load(std::memory_order_relaxed);
+    result.buckets[i] = buckets_[i].load(std::memory_order_acquire);
     result.count += result.buckets[i];
   }
   result.total = total_.load(std::memory_order_relaxed);

@@ -31,14 +31,15 @@ class Distribution {
   /// @rt nonblocking, no allocation, a few nanoseconds
   /// @thread one only
   void add(std::uint64_t value) {
-    bump(buckets_[bucket_of(value)], 1);
-    bump(count_, 1);
-    bump(total_, value);
-    if (value > most_.load(std::memory_order_relaxed))
+    bump(total_, value, std::memory_order_relaxed);
+    if (value > most_.load(std::memory_order_relaxed)) {
       most_.store(value, std::memory_order_relaxed);
+    }
     if (value < least_.load(std::memory_order_relaxed)) {
       least_.store(value, std::memory_order_relaxed);
     }
+    // Last, so that whoever counts the value finds it between `least` and `most`.
+    bump(buckets_[bucket_of(value)], 1, std::memory_order_release);
   }
 
   DistributionSummary summary() const;
@@ -59,13 +60,12 @@ class Distribution {
 
  private:
   using Counter = std::atomic<std::uint64_t>;
-  static void bump(Counter& counter, std::uint64_t by) {
+  static void bump(Counter& counter, std::uint64_t by, std::memory_order order) {
     // One writer: a plain addition, visible to readers, without a locked instruction.
-    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+    counter.store(counter.load(std::memory_order_relaxed) + by, order);
   }
 
   std::array<Counter, 256> buckets_{};
-  Counter count_{0};
   Counter total_{0};
   Counter most_{0};
   Counter least_{~std::uint64_t{0}};

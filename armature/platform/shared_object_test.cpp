@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/platform/shared_object.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace armature::platform {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(SharedObject, FindsItsFunctionsAndNoOthers) {
+  const base::Result<SharedObject> library = SharedObject::load("libm.so.6");
+  ASSERT_TRUE(library.ok()) << library.error();
+  EXPECT_NE(library.value().symbol("cos"), nullptr);
+  EXPECT_EQ(library.value().symbol("armature_component_library"), nullptr);
+}
+
+TEST(SharedObject, AMissingFileIsNamed) {
+  EXPECT_THAT(SharedObject::load("/nowhere/libarm.so").error(),
+              AllOf(HasSubstr("/nowhere/libarm.so"), HasSubstr("No such file or directory")));
+}
+
+TEST(SharedObject, AFileThatIsNoLibraryIsNamed) {
+  EXPECT_THAT(SharedObject::load(__FILE__).error(),
+              AllOf(HasSubstr(__FILE__), HasSubstr("invalid ELF header")));
+}
+
+TEST(SharedObject, ALibraryWithAnUnresolvedFunctionIsRefusedAtOnce) {
+  EXPECT_THAT(SharedObject::load(UNRESOLVED_LIBRARY).error(),
+              AllOf(HasSubstr(UNRESOLVED_LIBRARY), HasSubstr("undefined symbol"),
+                    HasSubstr("function_that_nobody_has")));
+}
+
+}  // namespace
+}  // namespace armature::platform

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/platform/stop_signal.hpp"
+
+#include <csignal>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "armature/platform/clock.hpp"
+
+namespace armature::platform {
+namespace {
+
+base::Time in_an_hour() { return monotonic_now() + std::chrono::hours(1); }
+
+TEST(StopSignal, WaitsUntilTheDeadlineIfNothingComes) {
+  const StopSignal stop;
+  const base::Time deadline = monotonic_now() + std::chrono::milliseconds(2);
+  EXPECT_FALSE(stop.wait_until(deadline));
+  EXPECT_GE(monotonic_now(), deadline);
+  EXPECT_FALSE(stop.wait_until(base::Time{}));
+  EXPECT_FALSE(stop.received());
+}
+
+TEST(StopSignal, TheFirstSignalSetsTheFlagAndEndsTheWait) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const StopSignal stop;
+    EXPECT_FALSE(stop.received());
+    std::raise(signal);
+    EXPECT_TRUE(stop.received());
+    EXPECT_TRUE(stop.wait_until(in_an_hour()));
+  }
+}
+
+TEST(StopSignal, ASignalWhileWaitingEndsTheWait) {
+  const StopSignal stop;
+  std::thread sender([] { ::kill(::getpid(), SIGTERM); });
+  EXPECT_TRUE(stop.wait_until(in_an_hour()));
+  sender.join();
+}
+
+TEST(StopSignalDeathTest, TheSecondSignalEndsTheProcess) {
+  EXPECT_EXIT(
+      {
+        const StopSignal stop;
+        std::raise(SIGTERM);
+        std::raise(SIGINT);
+      },
+      ::testing::ExitedWithCode(130), "");
+}
+
+volatile std::sig_atomic_t handled_by_the_program = 0;
+
+TEST(StopSignal, GivesTheSignalsBackInTheEnd) {
+  const auto before = std::signal(SIGINT, [](int) { handled_by_the_program = 1; });
+  { const StopSignal stop; }
+  std::raise(SIGINT);
+  EXPECT_EQ(handled_by_the_program, 1);
+  std::signal(SIGINT, before);
+}
+
+}  // namespace
+}  // namespace armature::platform
