@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include "armature/deploy/internal/document_reader.hpp"
@@ -94,7 +95,11 @@ void read_peer(const Value& value, const ValueReader& reader, std::vector<Peer>&
   }
   for (const Property& entry : value.entries) {
     const auto component = reader.dotted_name(entry.value, "peer");
-    if (component) peers.push_back({entry.name, *component, entry.value.where});
+    if (!is_dotted_name(entry.name)) {
+      reader.error(entry.where, "peer " + in_quotes(entry.name) + " is not a name");
+    } else if (component) {
+      peers.push_back({entry.name, *component, entry.value.where});
+    }
   }
 }
 
@@ -102,13 +107,12 @@ void read_bindings(const Value& value, const ValueReader& reader, Component& com
   Fields fields(value, reader);
   for (const Property& entry : value.entries) {
     const auto target = reader.dotted_name(entry.value, "bind " + entry.name);
+    if (!is_dotted_name(entry.name)) {
+      reader.error(entry.where, "bind " + in_quotes(entry.name) + " is not a name");
+    }
     if (!target) continue;
     auto [peer, member] = split_last_dot(*target);
-    if (peer.empty()) {
-      reader.error(entry.value.where, "bind " + entry.name + " needs a peer and what it offers",
-                   "for example " + entry.name + ": " + *target + "." + entry.name);
-      continue;
-    }
+    if (peer.empty()) peer = std::exchange(member, entry.name);
     component.bindings.push_back(
         {entry.name, std::move(peer), std::move(member), entry.value.where});
   }
@@ -175,7 +179,10 @@ void check_values_given(const std::string& name, const Value& value, const Value
                  "braces of {i} and ${name} need quotes; an empty text is \"\"");
   }
   for (const Value& item : value.items) check_values_given(name, item, reader);
-  for (const Property& entry : value.entries) check_values_given(name, entry.value, reader);
+  for (const Property& entry : value.entries) {
+    if (entry.name.empty()) reader.error(entry.where, name + " has a key without a name");
+    check_values_given(name, entry.value, reader);
+  }
 }
 
 void read_activity(const Value& value, const ValueReader& reader, Activity& activity) {
@@ -203,6 +210,9 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
         activity.cpus.push_back(*number);
       }
     }
+    std::sort(activity.cpus.begin(), activity.cpus.end());
+    const auto end = std::unique(activity.cpus.begin(), activity.cpus.end());
+    activity.cpus.erase(end, activity.cpus.end());
   }
   if (const Value* overrun = fields.take("overrun")) read_overrun(*overrun, reader, activity);
   if (const Value* thread = fields.take("thread")) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "armature/deploy/internal/document_reader.hpp"
@@ -122,7 +123,47 @@ std::optional<NamedConnection> read_named(const Value* name, const Value& ports,
   return connection;
 }
 
+std::string text_of(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
+
+void check_named(NamedConnection& connection,
+                 const std::unordered_map<std::string, std::size_t>& order,
+                 base::Diagnostics& diagnostics) {
+  const ValueReader reader("connection " + in_quotes(connection.name), diagnostics);
+  if (connection.ports.size() < 2) {
+    reader.error(connection.where, "only one port has this name; nothing is connected");
+  }
+  const auto place = [&](const Endpoint& port) {
+    const auto found = order.find(port.component);
+    return found == order.end() ? order.size() : found->second;
+  };
+  std::stable_sort(connection.ports.begin(), connection.ports.end(),
+                   [&](const Endpoint& a, const Endpoint& b) { return place(a) < place(b); });
+  std::unordered_map<std::string, const Endpoint*> first;
+  for (const Endpoint& port : connection.ports) {
+    const auto [earlier, is_new] = first.emplace(text_of(port), &port);
+    if (is_new) continue;
+    reader.error(port.where, "port " + in_quotes(text_of(port)) + " is given twice",
+                 "first at " + place_text(earlier->second->where));
+  }
+}
+
 }  // namespace
+
+void check_connections(Document& document, base::Diagnostics& diagnostics) {
+  std::unordered_map<std::string, const Connection*> first;
+  for (const Connection& one : document.connections) {
+    const std::string text = text_of(one.from) + " -> " + text_of(one.to);
+    const auto [earlier, is_new] = first.emplace(text, &one);
+    if (is_new) continue;
+    diagnostics.error(one.where, "connection " + in_quotes(text) + " is given twice",
+                      "first at " + place_text(earlier->second->where));
+  }
+  std::unordered_map<std::string, std::size_t> order;
+  for (const Component& component : document.components) {
+    order.emplace(component.name, order.size());
+  }
+  for (NamedConnection& one : document.named_connections) check_named(one, order, diagnostics);
+}
 
 std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagnostics) {
   const ValueReader reader("connection", diagnostics);

@@ -9,6 +9,7 @@
 #include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/overrides.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/internal/xml_document.hpp"
 #include "armature/deploy/internal/yaml_tree.hpp"
 #include "armature/platform/file.hpp"
 
@@ -52,7 +53,9 @@ class Sources {
   }
 
   Value parse_file(std::string_view text, const std::string& path) {
-    Value tree = internal::parse_yaml(text, path, options_.limits, diagnostics_);
+    const bool xml = std::filesystem::path(path).extension() == ".xml";
+    Value tree = xml ? internal::parse_xml(text, path, options_.limits, diagnostics_)
+                     : internal::parse_yaml(text, path, options_.limits, diagnostics_);
     if (tree.kind == Value::Kind::kNone) tree = internal::make_map({path, 0, 0});
     internal::check_document_keys(tree, diagnostics_);
     return tree;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "armature/deploy/internal/value_tree.hpp"
@@ -40,14 +39,6 @@ std::size_t count_nodes(const Value& value) {
   for (const Value& item : value.items) nodes += count_nodes(item);
   for (const Property& entry : value.entries) nodes += count_nodes(entry.value);
   return nodes;
-}
-
-bool is_orocos_type(std::string_view name) {
-  constexpr std::array<std::string_view, 18> kTypes = {
-      "boolean", "char",  "uchar", "octet",   "short",    "ushort",
-      "long",    "ulong", "llong", "ullong",  "double",   "string",
-      "float",   "array", "ints",  "strings", "longlong", "ulonglong"};
-  return std::find(kTypes.begin(), kTypes.end(), name) != kTypes.end();
 }
 
 Value make_text(std::string text, base::Location where) {

@@ -6,6 +6,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/internal/xml_types.hpp"
 
 namespace armature::deploy::internal {
 namespace {
@@ -179,6 +180,7 @@ Value Expander::expand_whole_text(const Value& value, const Scope& scope,
   }
   Value copy = value;
   copy.text = expand_text(value, scope, diagnostics);
+  normalise_type(copy);
   return copy;
 }
 
@@ -243,6 +245,7 @@ Value Expander::expand(const Value& value, const Scope& scope, base::Diagnostics
   copy.where = value.where;
   for (const Value& item : value.items) expand_item(item, scope, copy, diagnostics);
   for (const Property& entry : value.entries) expand_entry(entry, scope, copy, diagnostics);
+  normalise_type(copy);
   return copy;
 }
 

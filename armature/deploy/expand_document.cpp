@@ -81,6 +81,7 @@ class DocumentBuilder {
     read_head(expander_.expand(head_of(tree_), level.scope, diagnostics_), document_, diagnostics_);
     add_level(level);
     resolve_names(document_, scopes_, names_, diagnostics_);
+    check_connections(document_, diagnostics_);
     rebase_paths(document_);
     for (const Override& setting : overrides_) {
       if (!setting.used) internal::apply_override(document_, setting, diagnostics_);

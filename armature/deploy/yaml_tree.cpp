@@ -16,11 +16,19 @@
 #include <yaml-cpp/parser.h>
 
 #include "armature/base/near_name.hpp"
+#include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/source_text.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/internal/xml_types.hpp"
 
 namespace armature::deploy::internal {
 namespace {
+
+bool may_have_type(Value::Kind kind, std::string_view type) {
+  if (kind == Value::Kind::kText) return is_simple_type(type);
+  if (kind == Value::Kind::kList) return is_list_type(type);
+  return is_dotted_name(type) && !is_simple_type(type) && !is_list_type(type);
+}
 
 /// Ends the parse from inside yaml-cpp once the reason has been reported.
 struct Abandoned {};
@@ -119,7 +127,7 @@ class TreeBuilder final : public YAML::EventHandler {
     const std::string name = tag.substr(tag[0] == '!' ? 1 : 0);
     if (name == "literal") {
       value.literal = true;
-    } else if (is_orocos_type(name)) {
+    } else if (may_have_type(value.kind, name)) {
       value.type = name;
     } else {
       diagnostics_.error(value.where, "unknown tag '" + tag + "'",

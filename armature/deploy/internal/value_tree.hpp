@@ -21,9 +21,6 @@ std::size_t depth_of(const Value& value);
 /// Texts, lists and maps in the tree.
 std::size_t count_nodes(const Value& value);
 
-/// True for the types that OROCOS property files know.
-bool is_orocos_type(std::string_view name);
-
 Value make_text(std::string text, base::Location where = {});
 Value make_list(base::Location where = {});
 Value make_map(base::Location where = {});
