@@ -24,17 +24,6 @@ function(armature_check_uses library)
   endforeach()
 endfunction()
 
-# TEMPORARY: files that are listed but not written yet do not stop the others.
-function(armature_skip_missing list)
-  foreach(file IN LISTS ${list})
-    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-      message(WARNING "${CMAKE_CURRENT_SOURCE_DIR}/${file} does not exist yet")
-      list(REMOVE_ITEM ${list} ${file})
-    endif()
-  endforeach()
-  set(${list} "${${list}}" PARENT_SCOPE)
-endfunction()
-
 # armature_library(NAME rt USES platform LINK fmt::fmt SOURCES log.cpp TESTS log_test.cpp ...)
 #
 # The library of one folder: libarmature_rt.so, target armature::rt; header-only without SOURCES.
@@ -51,8 +40,6 @@ function(armature_library)
     message(FATAL_ERROR "armature_library(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
   armature_check_uses(${arg_NAME} ${arg_USES})
-  armature_skip_missing(arg_SOURCES)  # TEMPORARY while the tree grows
-  armature_skip_missing(arg_TESTS)
   set(target armature_${arg_NAME})
   list(TRANSFORM arg_USES PREPEND armature::)
 
