@@ -137,6 +137,7 @@ bool Application::for_each_watched(const std::vector<Index>& order, std::string_
 
 bool Application::configure_all(base::Diagnostics& diagnostics) {
   const auto configure = [this, &diagnostics](Index index) {
+    if (!blueprint_.components[index].autoconfigure) return true;
     component::Component& component = component_at(index);
     const component::Outcome outcome = component.configure();
     if (outcome) return true;
@@ -207,8 +208,9 @@ bool Application::start_all(base::Diagnostics& diagnostics) {
   for (auto& engine : engines_) engine->context().cycle_time = now();
   const auto start = [this, &diagnostics](Index index) {
     component::Component& component = component_at(index);
-    component::Outcome outcome = component.activate();
-    if (outcome) outcome = component.start();
+    const bool starts = blueprint_.components[index].autostart;
+    component::Outcome outcome = starts ? component.activate() : component::accepted();
+    if (starts && outcome) outcome = component.start();
     if (outcome) {
       started_.push_back(index);
       return true;

@@ -60,7 +60,12 @@ Outcome Application::change(std::string_view name, Outcome (*transition)(Compone
 }
 
 Outcome Application::start_component(std::string_view name) {
-  return change(name, [](Component& component) { return component.start(); });
+  return change(name, [](Component& component) {
+    const bool fresh = component.state() == component::State::kPreOperational;
+    Outcome outcome = fresh ? component.configure() : component::accepted();
+    if (outcome && component.state() == component::State::kStopped) outcome = component.activate();
+    return outcome ? component.start() : outcome;
+  });
 }
 
 Outcome Application::stop_component(std::string_view name) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
@@ -34,6 +35,8 @@ struct ComponentEntry {
   std::vector<PeerEntry> peers;
   std::vector<BindingEntry> bindings;
   base::Location where;
+  bool autostart = true;      ///< false: only `Application::start_component` starts it
+  bool autoconfigure = true;  ///< false: it is configured only then, too
 };
 
 struct ConnectionEntry {
@@ -54,6 +57,8 @@ struct Blueprint {
   std::string name = "application";
   std::vector<ComponentEntry> components;
   std::vector<ConnectionEntry> connections;
+  /// Components that could not be made, which was reported: what refers to them is not checked.
+  std::unordered_set<std::string> absent;
 
   /// For applications that are written in C++.
   template <typename ComponentClass>

@@ -45,7 +45,7 @@ class ConnectionPlanner {
 
   Index find_component(const std::string& name, const ConnectionEntry& entry) {
     const Index found = directory_.component(name);
-    if (found == kNone) {
+    if (found == kNone && blueprint_.absent.count(name) == 0) {
       diagnostics_.error(entry.where, "there is no component " + quoted(name),
                          base::suggestion(name, directory_.component_names()));
     }

@@ -39,9 +39,12 @@ class RequirementPlanner {
  private:
   void find_peers(const ComponentEntry& entry) {
     peers_.clear();
+    peer_absent_ = false;
     for (const PeerEntry& peer : entry.peers) {
       const Index found = directory_.component(peer.name);
-      if (found == kNone) {
+      if (found == kNone && is_absent(peer.name)) {
+        peer_absent_ = true;
+      } else if (found == kNone) {
         diagnostics_.error(peer.where,
                            quoted(entry.component->name()) + " has the peer " + quoted(peer.name) +
                                ", but there is no such component",
@@ -124,7 +127,8 @@ class RequirementPlanner {
       }
     }
     if (found.size() == 1) return found.front();
-    if (found.empty() && !requirement.is_optional()) report_missing(entry, requirement, kind);
+    const bool needed = !requirement.is_optional() && !peer_absent_;
+    if (found.empty() && needed) report_missing(entry, requirement, kind);
     if (found.size() > 1) report_ambiguous(entry, requirement, kind, found);
     return {};
   }
@@ -132,6 +136,7 @@ class RequirementPlanner {
   template <typename Member, typename Members>
   Candidate<Member> find_bound(const ComponentEntry& entry, const BindingEntry& binding,
                                const Members& members, const std::string& kind) {
+    if (is_absent(binding.peer)) return {};
     const Index peer = directory_.component(binding.peer);
     bool declared = false;
     for (const Index each : peers_) declared = declared || each == peer;
@@ -160,11 +165,14 @@ class RequirementPlanner {
     return nullptr;
   }
 
+  bool is_absent(const std::string& name) const { return blueprint_.absent.count(name) > 0; }
+
   bool is_peer(const ComponentEntry& entry, const Requirement& requirement,
                const std::string& name) {
     for (const Index peer : peers_) {
       if (blueprint_.components[peer].component->name() == name) return true;
     }
+    if (is_absent(name)) return true;
     diagnostics_.error(entry.where,
                        user_of(entry, requirement) + " wants the peer " + quoted(name) +
                            ", which is not among its peers",
@@ -219,6 +227,7 @@ class RequirementPlanner {
   Plan& plan_;
   base::Diagnostics& diagnostics_;
   std::vector<Index> peers_;
+  bool peer_absent_ = false;
 };
 
 }  // namespace
