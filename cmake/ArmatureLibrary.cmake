@@ -2,8 +2,9 @@
 # armature_library() for the folders of armature/, armature_test() for everything else.
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
 
-if(BUILD_TESTING)
-  find_package(GTest REQUIRED)
+find_package(GTest REQUIRED)
+if(ARMATURE_FUZZ)
+  add_custom_target(fuzz_targets)
 endif()
 
 # Stops the configuration if `library` declares a use that layers.cmake does not allow.
@@ -107,9 +108,6 @@ endfunction()
 # A GoogleTest executable and the test of that name. A test that would take minutes under a
 # sanitizer gets the label `slow`: set_tests_properties(<name> PROPERTIES LABELS slow).
 function(armature_test)
-  if(NOT BUILD_TESTING OR ARMATURE_FUZZ)
-    return()
-  endif()
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "armature_test(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
@@ -128,9 +126,6 @@ endfunction()
 # test of that name fuzzes for a minute, and keeps what it finds in build/fuzz/fuzz/<NAME>.found;
 # without, it replays the corpus.
 function(armature_fuzz_target)
-  if(NOT BUILD_TESTING)
-    return()
-  endif()
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
   list(TRANSFORM arg_USES PREPEND armature::)
   add_executable(${arg_NAME} ${arg_SOURCES})
@@ -141,6 +136,7 @@ function(armature_fuzz_target)
   set(corpus ${CMAKE_CURRENT_SOURCE_DIR}/corpus/${arg_NAME})
   if(ARMATURE_FUZZ)
     target_link_options(${arg_NAME} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(fuzz_targets ${arg_NAME})
     set(found ${folder}/${arg_NAME}.found)
     file(MAKE_DIRECTORY ${found})
     add_test(NAME ${arg_NAME} COMMAND ${arg_NAME} ${found} ${corpus} -artifact_prefix=${found}/
