@@ -43,17 +43,42 @@ struct CallResult<void> {
   explicit operator bool() const { return status == CallStatus::kDone; }
 };
 
-/// A call on its way. Free -> queued -> running -> finished -> free; a queued one may be cancelled.
-/// It becomes free when both sides are done with it: the thread that delivers it and the handle.
+/// Memory that two threads share: its pool, the thread that delivers it and the handle. The last
+/// one that lets go of it frees it, which is the pool unless its owner was disconnected meanwhile.
+class SharedRecord {
+ public:
+  struct LetGo {
+    void operator()(SharedRecord* record) const { record->release(); }
+  };
+  virtual ~SharedRecord() = default;
+
+  /// For a thread to deliver it and a handle to look at it; false while one of them still does.
+  /// @thread the pool's
+  bool try_share() {
+    if (users_.load(std::memory_order_acquire) != kPool) return false;
+    users_.store(kAll, std::memory_order_relaxed);
+    return true;
+  }
+  void share_once_more() { users_.fetch_add(1, std::memory_order_relaxed); }
+  void release() {
+    if (users_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+  }
+
+ private:
+  static constexpr std::uint32_t kPool = 1;
+  static constexpr std::uint32_t kAll = 3;
+  std::atomic<std::uint32_t> users_{kPool};
+};
+
+/// A call on its way: queued -> running -> finished; a queued one may be cancelled.
 template <typename R>
-class CallRecord : public rt::Message {
+class CallRecord : public rt::Message, public SharedRecord {
  public:
   using rt::Message::Message;
 
   /// @thread the caller's
   bool try_claim() {
-    if (users_.load(std::memory_order_acquire) != 0) return false;
-    users_.store(2, std::memory_order_relaxed);
+    if (!try_share()) return false;
     stage_.store(kQueued, std::memory_order_relaxed);
     return true;
   }
@@ -68,7 +93,6 @@ class CallRecord : public rt::Message {
     while (!finished() && done_.wait_until(deadline)) {
     }
   }
-  void release() { users_.fetch_sub(1, std::memory_order_acq_rel); }
 
   /// @thread the executing one
   bool try_begin() {
@@ -77,8 +101,8 @@ class CallRecord : public rt::Message {
     release();
     return false;
   }
-  void finish(const CallResult<R>& result) {
-    result_ = result;
+  void finish(CallResult<R>&& result) {
+    result_ = std::move(result);
     stage_.store(kFinished, std::memory_order_release);
     done_.notify();
     release();
@@ -90,7 +114,6 @@ class CallRecord : public rt::Message {
   static constexpr std::uint32_t kFinished = 2;
   static constexpr std::uint32_t kCancelled = 3;
 
-  std::atomic<std::uint32_t> users_{0};
   std::atomic<std::uint32_t> stage_{kQueued};
   rt::Wakeup done_;
   CallResult<R> result_{};

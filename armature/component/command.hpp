@@ -30,28 +30,30 @@ enum class CommandStage : std::uint32_t {
 std::string_view name_of(CommandStage stage);
 
 /// How a command fares; written by the component that executes it, read by whoever gave it.
-class CommandTicket : public rt::Message {
+class CommandTicket : public rt::Message, public SharedRecord {
  public:
-  using rt::Message::Message;
+  explicit CommandTicket(Deliver action) : rt::Message(action) {}
 
   CommandStage stage() const { return stage_.load(std::memory_order_acquire); }
   bool ended() const { return stage() >= CommandStage::kRefused; }
   /// 0..1 as the component reports it.
   double progress() const { return progress_.load(std::memory_order_relaxed); }
-  /// Why it was refused, failed or was cancelled; valid once it ended.
-  std::string_view reason() const { return reason_.view(); }
+  /// Why it was refused, failed or was cancelled; empty until it ended.
+  std::string_view reason() const { return ended() ? reason_.view() : std::string_view(); }
   bool cancel_requested() const { return cancel_.load(std::memory_order_acquire); }
-  void request_cancel() { cancel_.store(true, std::memory_order_release); }
+  void request_cancel() {
+    if (cancel_.exchange(true, std::memory_order_acq_rel)) return;
+    share_once_more();
+    executor().post(cancellation_);
+  }
 
   bool try_claim() {
-    if (users_.load(std::memory_order_acquire) != 0) return false;
-    users_.store(2, std::memory_order_relaxed);
+    if (!try_share()) return false;
     progress_.store(0.0, std::memory_order_relaxed);
     cancel_.store(false, std::memory_order_relaxed);
     stage_.store(CommandStage::kQueued, std::memory_order_relaxed);
     return true;
   }
-  void release() { users_.fetch_sub(1, std::memory_order_acq_rel); }
 
   /// @thread the executing one
   void report(double progress) { progress_.store(progress, std::memory_order_relaxed); }
@@ -62,18 +64,36 @@ class CommandTicket : public rt::Message {
     release();
   }
 
+ protected:
+  virtual ExecutionContext& executor() const = 0;
+  /// Ends the command if it is under way for this ticket.
+  virtual void cancel_now() = 0;
+
  private:
-  std::atomic<std::uint32_t> users_{0};
+  /// Its sender wants the command to end, on the way to the executing thread.
+  struct Cancellation final : rt::Message {
+    explicit Cancellation(CommandTicket& command_ticket)
+        : rt::Message(&deliver), ticket(command_ticket) {}
+    static void deliver(rt::Message& message) {
+      CommandTicket& ticket = static_cast<Cancellation&>(message).ticket;
+      ticket.cancel_now();
+      ticket.release();
+    }
+    CommandTicket& ticket;
+  };
+
   std::atomic<CommandStage> stage_{CommandStage::kFree};
   std::atomic<double> progress_{0.0};
   std::atomic<bool> cancel_{false};
   Reason reason_;
+  Cancellation cancellation_{*this};
 };
 
 /// Options of a command.
 template <auto Predicate>
 struct DoneWhen {};
-/// `bool Predicate()`, asked after each update: true completes the command.
+/// `bool Predicate()`, asked after each update: true completes the command. A component that is not
+/// updated calls `complete` instead.
 template <auto Predicate>
 inline constexpr DoneWhen<Predicate> done_when{};
 template <auto Function>
@@ -94,7 +114,9 @@ class Command final : public OperationBase, public Step {
           Options... options)
       : OperationBase(*owner, name, doc, Signature::of<void, Args...>({}), true),
         function_([](Component& component, Args... arguments) -> Outcome {
-          using Owner = typename internal::MemberOf<decltype(Function)>::Owner;
+          using Owner = internal::OwnerOf<Function>;
+          static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
+                        "a command is served by Outcome f(arguments of the command)");
           return (static_cast<Owner&>(component).*Function)(static_cast<Args>(arguments)...);
         }) {
     (apply(options), ...);
@@ -102,7 +124,7 @@ class Command final : public OperationBase, public Step {
   }
 
   bool is_command() const override { return true; }
-  bool active() const { return active_; }
+  bool active() const { return phase_ != Phase::kIdle; }
 
   /// For the component: how far it is (0..1), and its end.
   /// @rt nonblocking, no allocation
@@ -116,27 +138,27 @@ class Command final : public OperationBase, public Step {
   /// Begins the command; `ticket` is told how it fares, if there is one.
   Outcome begin(CommandTicket* ticket, Args... arguments) {
     Outcome outcome = accept_or_refuse(static_cast<Args>(arguments)...);
+    if (ticket == nullptr) return outcome;
     if (!outcome) {
-      if (ticket != nullptr) ticket->end(CommandStage::kRefused, outcome.reason());
-      return outcome;
+      ticket->end(CommandStage::kRefused, outcome.reason());
+    } else if (phase_ == Phase::kUnderWay) {
+      ticket_ = ticket;
+      ticket->accept();
+    } else {
+      ticket->end(ended_early_, early_reason_);
     }
-    active_ = true;
-    ticket_ = ticket;
-    if (ticket != nullptr) ticket->accept();
     return outcome;
   }
 
+  /// Ends the command if it is the one that `ticket` began.
+  void cancel(const CommandTicket& ticket) {
+    if (ticket_ == &ticket) cancel("cancelled by its sender");
+  }
+
   void step() override {
-    if (!active_) return;
-    if (ticket_ != nullptr && ticket_->cancel_requested()) {
-      cancel("cancelled by its sender");
-    } else if (done_ != nullptr && done_(owner())) {
-      complete();
-    }
+    if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(owner())) complete();
   }
-  void halt(std::string_view reason) override {
-    if (active_) cancel(reason);
-  }
+  void halt(std::string_view reason) override { cancel(reason); }
 
   base::Result<std::optional<types::Value>> invoke(
       const std::vector<types::Value>& arguments) override {
@@ -153,24 +175,32 @@ class Command final : public OperationBase, public Step {
   template <auto Predicate>
   void apply(DoneWhen<Predicate>) {
     done_ = [](Component& component) -> bool {
-      using Owner = typename internal::MemberOf<decltype(Predicate)>::Owner;
+      using Owner = internal::OwnerOf<Predicate>;
       return (static_cast<Owner&>(component).*Predicate)();
     };
   }
   template <auto Function>
   void apply(CancelledBy<Function>) {
     cancelled_ = [](Component& component) {
-      using Owner = typename internal::MemberOf<decltype(Function)>::Owner;
+      using Owner = internal::OwnerOf<Function>;
       (static_cast<Owner&>(component).*Function)();
     };
   }
 
+  enum class Phase : std::uint8_t { kIdle, kBeginning, kUnderWay };
+
   Outcome accept_or_refuse(Args... arguments) {
     if (owner().state() != State::kRunning) return refused("the component is not running");
-    if (active_) return refused("the command before is still under way");
+    if (active()) return refused("the command before is still under way");
+    phase_ = Phase::kBeginning;
     Outcome outcome = accepted();
     const bool completed = owner().run(
         owner().context(), [&] { outcome = function_(owner(), static_cast<Args>(arguments)...); });
+    if (completed && outcome.ok()) {
+      if (phase_ == Phase::kBeginning) phase_ = Phase::kUnderWay;
+      return outcome;
+    }
+    phase_ = Phase::kIdle;
     return completed ? outcome : refused(owner().reason());
   }
 
@@ -181,22 +211,32 @@ class Command final : public OperationBase, public Step {
   }
 
   void cancel(std::string_view reason) {
-    active_ = false;  // first: what the component does now may begin the next one
+    if (phase_ != Phase::kUnderWay) {
+      end(CommandStage::kCancelled, reason);
+      return;
+    }
     CommandTicket* const ticket = std::exchange(ticket_, nullptr);
+    phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
     if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(owner()); });
     if (ticket != nullptr) ticket->end(CommandStage::kCancelled, reason);
   }
 
   void end(CommandStage stage, std::string_view reason) {
-    if (!active_) return;
-    active_ = false;
-    if (ticket_ != nullptr) std::exchange(ticket_, nullptr)->end(stage, reason);
+    CommandTicket* const ticket = std::exchange(ticket_, nullptr);
+    if (phase_ == Phase::kBeginning) {
+      ended_early_ = stage;
+      early_reason_ = reason;
+    }
+    phase_ = Phase::kIdle;
+    if (ticket != nullptr) ticket->end(stage, reason);
   }
 
   Outcome (*function_)(Component&, Args...);
   bool (*done_)(Component&) = nullptr;
   void (*cancelled_)(Component&) = nullptr;
-  bool active_ = false;
+  Phase phase_ = Phase::kIdle;
+  CommandStage ended_early_ = CommandStage::kDone;  ///< while it was begun
+  Reason early_reason_;
   CommandTicket* ticket_ = nullptr;
 };
 
@@ -266,9 +306,7 @@ class CommandCaller final : public OperationCallerBase {
     command_ = static_cast<Command<Args...>*>(&base);
     target_ = &base;
     tickets_.clear();
-    for (std::size_t i = 0; i < outstanding_; ++i) {
-      tickets_.push_back(std::make_unique<Ticket>(*command_));
-    }
+    for (std::size_t i = 0; i < outstanding_; ++i) tickets_.emplace_back(new Ticket(*command_));
   }
   void disconnect() override {
     command_ = nullptr;
@@ -291,6 +329,8 @@ class CommandCaller final : public OperationCallerBase {
           },
           ticket.arguments));
     }
+    ExecutionContext& executor() const override { return command.owner().context(); }
+    void cancel_now() override { command.cancel(*this); }
     Command<Args...>& command;
     std::tuple<std::decay_t<Args>...> arguments{};
   };
@@ -300,7 +340,7 @@ class CommandCaller final : public OperationCallerBase {
 
   Command<Args...>* command_ = nullptr;
   std::size_t outstanding_ = kDefaultOutstanding;
-  std::vector<std::unique_ptr<Ticket>> tickets_;
+  std::vector<std::unique_ptr<Ticket, SharedRecord::LetGo>> tickets_;
 };
 
 }  // namespace armature::component

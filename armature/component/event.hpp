@@ -25,6 +25,15 @@ namespace armature::component {
 
 class EventHandlerBase;
 
+/// What a component itself does at once when it raises one of its events.
+class EventListener {
+ public:
+  virtual void event_raised() = 0;
+
+ protected:
+  ~EventListener() = default;
+};
+
 /// Something that happens to a component and that others may react to.
 class EventBase {
  public:
@@ -46,10 +55,17 @@ class EventBase {
   virtual void subscribe(EventHandlerBase& handler) = 0;
   virtual void unsubscribe_all() = 0;
 
+  /// `listener` belongs to the same component and is told before the subscribers.
+  void add_listener(EventListener& listener) { listeners_.push_back(&listener); }
+
  protected:
   EventBase(Component& owner, std::string_view name, std::string_view doc, Signature signature)
       : owner_(owner), name_(name), doc_(doc), signature_(std::move(signature)) {
     owner.declare().events.push_back(this);
+  }
+
+  void tell_listeners() {
+    for (EventListener* listener : listeners_) listener->event_raised();
   }
 
   std::uint64_t raised_ = 0;
@@ -60,6 +76,7 @@ class EventBase {
   std::string_view name_;
   std::string_view doc_;
   Signature signature_;
+  std::vector<EventListener*> listeners_;
 };
 
 /// Option of an event handler: it runs in the thread of whoever raises the event, at once, even if
@@ -135,6 +152,7 @@ class Event final : public EventBase {
     ++raised_;
     RaiseStatus status =
         subscribers_.empty() ? RaiseStatus::kNobodyListens : RaiseStatus::kDelivered;
+    tell_listeners();
     for (EventHandler<Args...>* handler : queued_) {
       if (!handler->enqueue(arguments...)) status = RaiseStatus::kQueueFull;
     }
@@ -174,11 +192,24 @@ class EventHandler final : public EventHandlerBase {
   template <auto Function, typename... Options>
   EventHandler(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
                Options... options)
+      : EventHandler(
+            owner, name,
+            [](void* self, const Args&... arguments) {
+              using Owner = internal::OwnerOf<Function>;
+              static_assert(std::is_invocable_v<decltype(Function), Owner&, const Args&...>,
+                            "the member function does not take the arguments of the event");
+              (static_cast<Owner&>(*static_cast<Component*>(self)).*Function)(arguments...);
+            },
+            owner, doc, options...) {}
+
+  /// For handlers that are not a member function: `function` is given `self`.
+  template <typename... Options>
+  EventHandler(Component* owner, std::string_view name,
+               void (*function)(void* self, const Args&...), void* self, std::string_view doc,
+               Options... options)
       : EventHandlerBase(*owner, name, doc, Signature::of<void, Args...>({})),
-        call_([](Component& component, const Args&... arguments) {
-          using Owner = typename internal::MemberOf<decltype(Function)>::Owner;
-          (static_cast<Owner&>(component).*Function)(arguments...);
-        }) {
+        function_(function),
+        self_(self) {
     (apply(options), ...);
   }
 
@@ -195,7 +226,7 @@ class EventHandler final : public EventHandlerBase {
     Component& component = owner();
     const bool own_thread = &where == &component.context();
     if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
-    component.run(where, [&] { call_(component, arguments...); });
+    component.run(where, [&] { function_(self_, arguments...); });
   }
   bool enqueue(const Args&... arguments) {
     if (queue_->events.push(std::tuple<Args...>(arguments...)) == rt::PushResult::kRefused) {
@@ -227,7 +258,8 @@ class EventHandler final : public EventHandlerBase {
     rt::Ring<std::tuple<Args...>> events;
   };
 
-  void (*call_)(Component&, const Args&...);
+  void (*function_)(void* self, const Args&...);
+  void* self_;
   std::unique_ptr<Queue> queue_;
 };
 

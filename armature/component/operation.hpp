@@ -51,7 +51,7 @@ class OperationBase {
   virtual bool is_command() const { return false; }
 
   /// Calls it with values of the argument types, for tools; the result if it has one.
-  /// @thread the component's own for own-thread operations, else any
+  /// @thread the component's own
   virtual base::Result<std::optional<types::Value>> invoke(
       const std::vector<types::Value>& arguments) = 0;
 
@@ -94,11 +94,24 @@ class Operation<R(Args...)> final : public OperationBase {
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
             Options... options)
+      : Operation(
+            owner, name,
+            [](void* self, Args... arguments) -> R {
+              using Owner = internal::OwnerOf<Function>;
+              static_assert(std::is_invocable_r_v<R, decltype(Function), Owner&, Args...>,
+                            "the member function does not fit the signature of the operation");
+              auto& component = static_cast<Owner&>(*static_cast<Component*>(self));
+              return (component.*Function)(static_cast<Args>(arguments)...);
+            },
+            owner, doc, options...) {}
+
+  /// For operations that are not a member function's: `function` is given `self`.
+  template <typename... Options>
+  Operation(Component* owner, std::string_view name, R (*function)(void* self, Args...), void* self,
+            std::string_view doc, Options... options)
       : OperationBase(*owner, name, doc, Signature::of<R, Args...>({}), false),
-        function_([](Component& component, Args... arguments) -> R {
-          using Owner = typename internal::MemberOf<decltype(Function)>::Owner;
-          return (static_cast<Owner&>(component).*Function)(static_cast<Args>(arguments)...);
-        }) {
+        function_(function),
+        self_(self) {
     (apply(options), ...);
   }
 
@@ -110,9 +123,9 @@ class Operation<R(Args...)> final : public OperationBase {
     CallResult<R> result{CallStatus::kFailed};
     component.run(where, [&] {
       if constexpr (std::is_void_v<R>) {
-        function_(component, static_cast<Args>(arguments)...);
+        function_(self_, static_cast<Args>(arguments)...);
       } else {
-        result.value = function_(component, static_cast<Args>(arguments)...);
+        result.value = function_(self_, static_cast<Args>(arguments)...);
       }
       result.status = CallStatus::kDone;
     });
@@ -144,7 +157,8 @@ class Operation<R(Args...)> final : public OperationBase {
     }
   }
 
-  R (*function_)(Component&, Args...);
+  R (*function_)(void* self, Args...);
+  void* self_;
 };
 
 /// A component's declared use of an operation of one of its peers.
@@ -192,14 +206,17 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
     (apply(options), ...);
   }
 
-  /// Calls and waits for the result. An operation of this thread runs at once; one of another
-  /// thread is queued there and waited for, at most `limit`.
+  /// Calls and waits for the result. An operation of this thread runs at once, and so does one of a
+  /// thread that does not run yet or any more; else it is queued there and waited for, at most one
+  /// second. Messages to the caller's own thread wait meanwhile.
   /// @rt nonblocking if the operation runs in the caller's thread, else it waits
   /// @thread the component's own
   CallResult<R> operator()(Args... arguments) {
     if (operation_ == nullptr) [[unlikely]]
       return {CallStatus::kNotConnected};
-    if (direct_) return operation_->execute(owner().context(), static_cast<Args>(arguments)...);
+    if (direct_ || operation_->owner().context().shares_thread_with(owner().context())) {
+      return operation_->execute(owner().context(), static_cast<Args>(arguments)...);
+    }
     return send(static_cast<Args>(arguments)...).wait(kCallLimit);
   }
 
@@ -233,12 +250,10 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   void connect(OperationBase& base) override {
     operation_ = static_cast<Operation<R(Args...)>*>(&base);
     target_ = &base;
-    ExecutionContext& theirs = base.owner().context();
-    direct_ = !base.runs_in_own_thread() || &theirs == &owner().context() || theirs.simulated;
+    direct_ = !base.runs_in_own_thread() || &base.owner().context() == &owner().context();
     records_.clear();
-    for (std::size_t i = 0; i < outstanding_; ++i) {
-      records_.push_back(std::make_unique<Record>(*operation_));
-    }
+    next_ = 0;
+    for (std::size_t i = 0; i < outstanding_; ++i) records_.emplace_back(new Record(*operation_));
   }
   void disconnect() override {
     operation_ = nullptr;
@@ -271,7 +286,7 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   Operation<R(Args...)>* operation_ = nullptr;
   bool direct_ = false;
   std::size_t outstanding_ = kDefaultOutstanding;
-  std::vector<std::unique_ptr<Record>> records_;
+  std::vector<std::unique_ptr<Record, SharedRecord::LetGo>> records_;
   std::size_t next_ = 0;
   std::uint64_t refused_ = 0;
 };

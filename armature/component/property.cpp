@@ -7,9 +7,8 @@
 namespace armature::component {
 namespace {
 
-std::optional<double> as_number(const types::Value& value) {
-  const void* data = value.data();
-  switch (value.type().kind) {
+std::optional<double> as_number(const types::Type& type, const void* data) {
+  switch (type.kind) {
     case types::Kind::kInt8:
       return *static_cast<const std::int8_t*>(data);
     case types::Kind::kUint8:
@@ -55,21 +54,37 @@ std::string PropertyBase::check(const types::Value& value) const {
   if (!types::same_type(value.type(), type_)) {
     return subject + " is a " + type_.name + ", not a " + value.type().name;
   }
-  const std::optional<double> number = limits_ ? as_number(value) : std::nullopt;
-  const bool inside = !number || (*number >= limits_->low && *number <= limits_->high);
+  if (!limits_) return {};
+  bool inside = true;
+  types::visit_leaves(type_, value.data(),
+                      [&](const std::string&, const types::Type& type, const void* data) {
+                        const std::optional<double> number = as_number(type, data);
+                        if (number && !(*number >= limits_->low && *number <= limits_->high)) {
+                          inside = false;
+                        }
+                      });
   if (inside) return {};
   return subject + " is " + value.text() + ", outside " + number_text(limits_->low) + " .. " +
          number_text(limits_->high) + (unit_.empty() ? "" : " " + std::string(unit_));
+}
+
+std::string PropertyBase::objection(const types::Value& value) const {
+  const bool running = owner_.state() == State::kRunning || owner_.state() == State::kRunTimeError;
+  if (running && !changeable_) return "cannot change while the component runs; stop it first";
+  for (const PropertyFollower* follower : followers_) {
+    std::string objection = follower->objection();
+    const bool changes = value.text() != types::to_text(type_, data());
+    if (!objection.empty() && changes) return "cannot change: " + objection;
+  }
+  return {};
 }
 
 base::Result<void> PropertyBase::set(const types::Value& value) {
   if (std::string problem = check(value); !problem.empty()) {
     return base::Error{std::move(problem)};
   }
-  const bool running = owner_.state() == State::kRunning || owner_.state() == State::kRunTimeError;
-  if (running && !changeable_) {
-    return base::Error{"property " + quoted(name_) + " of " + quoted(owner_.name()) +
-                       " cannot change while the component runs; stop it first"};
+  if (const std::string reason = objection(value); !reason.empty()) {
+    return base::Error{"property " + quoted(name_) + " of " + quoted(owner_.name()) + " " + reason};
   }
   types::Value copy = value;
   swap(copy);
@@ -79,7 +94,7 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
 }
 
 void PropertyBase::tell_followers() {
-  for (const auto& resized : followers_) resized();
+  for (PropertyFollower* follower : followers_) follower->follow();
 }
 
 }  // namespace armature::component

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +28,18 @@ struct Mandatory {};
 /// The property has no useful default: a deployment must give it.
 inline constexpr Mandatory mandatory{};
 
+/// Something whose form follows from a property: ports whose number is the property's value.
+class PropertyFollower {
+ public:
+  /// The property has a new value.
+  virtual void follow() = 0;
+  /// Why the property cannot change now, empty if it can.
+  virtual std::string objection() const = 0;
+
+ protected:
+  ~PropertyFollower() = default;
+};
+
 /// A named value of a component: what tools, files and the deployment know of it.
 class PropertyBase {
  public:
@@ -53,7 +64,8 @@ class PropertyBase {
   /// What is wrong with `value` (of this property's type), empty if nothing.
   std::string check(const types::Value& value) const;
 
-  /// Sets the value; refused outside the range, and while the component runs unless changeable.
+  /// Sets the value; refused outside the range, while the component runs unless changeable, and
+  /// while ports that follow from it are connected.
   /// @thread the component's own; before the application runs, the one that builds it
   base::Result<void> set(const types::Value& value);
 
@@ -61,8 +73,8 @@ class PropertyBase {
   /// @rt nonblocking, no allocation
   virtual void swap(types::Value& value) = 0;
 
-  /// `resized` is called whenever the value was set: ports whose number or size follows from it.
-  void on_set(std::function<void()> resized) { followers_.push_back(std::move(resized)); }
+  /// `follower` lives as long as the component.
+  void add_follower(PropertyFollower& follower) { followers_.push_back(&follower); }
 
  protected:
   PropertyBase(Component& owner, std::string_view name, std::string_view doc, std::string_view unit,
@@ -74,6 +86,8 @@ class PropertyBase {
   void tell_followers();
 
  private:
+  std::string objection(const types::Value& value) const;
+
   Component& owner_;
   std::string_view name_;
   std::string_view doc_;
@@ -84,7 +98,7 @@ class PropertyBase {
   bool mandatory_ = false;
   bool set_ = false;
   std::optional<Range> limits_;
-  std::vector<std::function<void()>> followers_;
+  std::vector<PropertyFollower*> followers_;
 };
 
 /// A configuration value that persists to files.

@@ -48,7 +48,9 @@ inline constexpr Serve<Function> serve{};
 namespace internal {
 
 template <typename Member>
-struct MemberOf;
+struct MemberOf {
+  static_assert(!sizeof(Member), "name a member function of the component, as in &Pid::step");
+};
 template <typename Class, typename R, typename... Args>
 struct MemberOf<R (Class::*)(Args...)> {
   using Owner = Class;
@@ -61,6 +63,12 @@ template <typename Class, typename R, typename... Args>
 struct MemberOf<R (Class::*)(Args...) noexcept> {
   using Owner = Class;
 };
+template <typename Class, typename R, typename... Args>
+struct MemberOf<R (Class::*)(Args...) const noexcept> {
+  using Owner = Class;
+};
+template <auto Function>
+using OwnerOf = typename MemberOf<decltype(Function)>::Owner;
 
 }  // namespace internal
 }  // namespace armature::component
