@@ -2,6 +2,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "armature/base/result.hpp"
 
 namespace armature::platform {
 
@@ -11,5 +15,9 @@ std::string kernel_version();
 /// Ends the process at once: nothing is flushed, no destructor runs. For the way out when a thread
 /// hangs.
 [[noreturn]] void exit_now(int status);
+
+/// Starts this program anew, in this process and with the same arguments, with `variables` (name,
+/// value) added to its environment. Returns only if that fails.
+base::Error restart_with(const std::vector<std::pair<std::string, std::string>>& variables);
 
 }  // namespace armature::platform

@@ -14,4 +14,10 @@ base::Result<SharedObject> SharedObject::load(const std::string& path) {
 
 void* SharedObject::symbol(const char* name) const { return dlsym(handle_, name); }
 
+std::string file_of(const void* address) {
+  Dl_info found{};
+  if (dladdr(address, &found) == 0 || found.dli_fname == nullptr) return {};
+  return found.dli_fname;
+}
+
 }  // namespace armature::platform

@@ -22,4 +22,7 @@ class SharedObject {
   void* handle_;
 };
 
+/// The file that the code at `address` was loaded from, empty if it is nobody's.
+std::string file_of(const void* address);
+
 }  // namespace armature::platform

@@ -98,6 +98,28 @@ void apply_scheduler(const ThreadRequest& request, ThreadGrant& grant) {
 
 }  // namespace
 
+namespace {
+
+/// Less than what was asked for: thread-local variables lie on the stack too.
+std::size_t bytes_left_on_stack() {
+  pthread_attr_t attributes;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) return 0;
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  pthread_attr_getstack(&attributes, &lowest, &size);
+  pthread_attr_destroy(&attributes);
+  const char here = 0;
+  return static_cast<std::size_t>(&here - static_cast<const char*>(lowest));
+}
+
+void prefault_rest_of_stack() {
+  constexpr std::size_t kHeadroom = 64 * 1024;
+  const std::size_t left = bytes_left_on_stack();
+  if (left > 2 * kHeadroom) prefault_stack(left - kHeadroom);
+}
+
+}  // namespace
+
 void prefault_stack(std::size_t bytes) {
   auto* stack = static_cast<volatile char*>(alloca(bytes));
   constexpr std::size_t kPage = 4096;
@@ -127,9 +149,7 @@ struct Thread::State {
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
     apply_cpus(request, grant);
     apply_scheduler(request, grant);
-    constexpr std::size_t kHeadroom = 64 * 1024;
-    if (request.prefault && request.stack_bytes > 2 * kHeadroom)
-      prefault_stack(request.stack_bytes - kHeadroom);
+    if (request.prefault) prefault_rest_of_stack();
     {
       const std::lock_guard lock(mutex);
       granted = true;

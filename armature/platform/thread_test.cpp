@@ -160,6 +160,18 @@ TEST(Thread, AnAbandonedThreadKeepsWhatItCaptured) {
   EXPECT_EQ(ended.get_future().get(), 42);
 }
 
+TEST(Thread, LargeThreadLocalVariablesLeaveRoomForTheRestOfTheStack) {
+  // They lie on the thread's stack; touching all that was asked for would go beyond its end.
+  thread_local char large[256 * 1024];
+  char* in_thread = nullptr;
+  Thread thread({.name = "laden"}, [&] {
+    large[0] = 1;
+    in_thread = large;
+  });
+  thread.join();
+  EXPECT_NE(in_thread, large);
+}
+
 TEST(Thread, AStackOfTheRequestedSizeCanBeUsed) {
   bool touched = false;
   Thread thread({.name = "deep", .stack_bytes = 4u << 20}, [&] {
