@@ -7,7 +7,8 @@ usage: check_layers.py SOURCE_DIR
 - a library includes only libraries that layers.cmake allows, its tests also testing;
 - internal/ headers are included only by their own library;
 - public headers include the standard library, Eigen and Armature, nothing else;
-- headers of the operating system are included only by platform/.
+- headers of the operating system are included only by platform/, and by guard/, which stands in
+  front of the C library.
 """
 import re
 import sys
@@ -19,7 +20,7 @@ OPERATING_SYSTEM = re.compile(
     r"(aio|cpuid|dirent|dlfcn|errno|execinfo|fcntl|fnmatch|glob|grp|ifaddrs|link|malloc|mqueue|"
     r"netdb|poll|pthread|pwd|sched|semaphore|signal|spawn|strings|syslog|termios|ucontext|unistd|"
     r"wait|x86intrin|immintrin)\.h")
-EVERYONE = "base"
+NEXT_TO_THE_SYSTEM = ("platform", "guard")
 TEST_ONLY = "testing"
 
 
@@ -93,8 +94,8 @@ class Tree:
         return None
 
     def check_foreign(self, path, bracket, name):
-        if library_of(path) != "platform" and OPERATING_SYSTEM.fullmatch(name):
-            return "only armature/platform includes headers of the operating system"
+        if library_of(path) not in NEXT_TO_THE_SYSTEM and OPERATING_SYSTEM.fullmatch(name):
+            return "only armature/platform and guard include headers of the operating system"
         if path not in self.public or OPERATING_SYSTEM.fullmatch(name):
             return None
         if bracket == '"':

@@ -81,7 +81,7 @@ class CheckLayers(unittest.TestCase):
 
     def test_only_platform_includes_headers_of_the_operating_system(self):
         self.assert_accepted("armature/platform/thread.hpp", "<pthread.h>")
-        self.assert_refused("armature/rt/loop.cpp", "<sys/mman.h>", "only armature/platform")
+        self.assert_refused("armature/rt/loop.cpp", "<sys/mman.h>", "only armature/platform and guard")
 
     def test_includes_are_whole_paths(self):
         self.assert_refused("armature/rt/ring.hpp", '"latest.hpp"', "whole path")

@@ -8,6 +8,7 @@ set(ARMATURE_LAYERS
     "types: base"
     "rt: base platform"
     "control: base"
+    "guard: base rt"
     "component: base rt types"
     "can: base platform rt"
     "ride: base platform rt types"
@@ -21,4 +22,4 @@ set(ARMATURE_LAYERS
     "robots: base library component can control sim"
     "studio: base remote record"
     "cli: base platform types rt control component can ride exec record deploy script remote library sim studio"
-    "testing: base platform types rt control component can ride exec record deploy script remote library sim studio")
+    "testing: base platform types rt guard control component can ride exec record deploy script remote library sim studio")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "armature/base/realtime.hpp"
+
 namespace armature::rt {
 
 /// What the real-time guard needs to know of the current thread. The framework keeps it true; a
@@ -8,8 +10,9 @@ namespace armature::rt {
 struct GuardState {
   int realtime_depth = 0;   ///< > 0: allocation and blocking are violations
   int permitted_depth = 0;  ///< > 0: they are allowed for a moment, for a stated reason
-  /// The thread's execution context, and how to name the component that runs in it now; set once
-  /// for each thread, so that switching components costs the guard nothing.
+  /// The thread's name and execution context, and how to name the component that runs in it now;
+  /// set once for each thread, so that switching components costs the guard nothing.
+  const char* thread = nullptr;
   const void* context = nullptr;
   const char* (*running_component)(const void* context) = nullptr;
 };
@@ -17,23 +20,33 @@ struct GuardState {
 /// The state of the calling thread; never allocates.
 GuardState& guard_state() noexcept;
 
-/// Marks the code in its scope as real-time.
+/// Marks the code in its scope as real-time, for the guard and for RealtimeSanitizer.
 class RealtimeScope {
  public:
-  RealtimeScope() noexcept { ++guard_state().realtime_depth; }
+  RealtimeScope() noexcept {
+    ++guard_state().realtime_depth;
+    base::internal::enter_realtime();
+  }
   RealtimeScope(const RealtimeScope&) = delete;
   RealtimeScope& operator=(const RealtimeScope&) = delete;
-  ~RealtimeScope() { --guard_state().realtime_depth; }
+  ~RealtimeScope() {
+    base::internal::leave_realtime();
+    --guard_state().realtime_depth;
+  }
 };
 
 /// Lets the code in its scope allocate and block although the thread is real-time: the framework's
-/// own sleeping, and the way out after an exception.
+/// own sleeping, and the way out after an exception. A driver whose calls to its hardware never
+/// wait says so with it.
 class PermitScope {
  public:
   PermitScope() noexcept { ++guard_state().permitted_depth; }
   PermitScope(const PermitScope&) = delete;
   PermitScope& operator=(const PermitScope&) = delete;
   ~PermitScope() { --guard_state().permitted_depth; }
+
+ private:
+  base::SanitizerPermit sanitizer_;
 };
 
 }  // namespace armature::rt
