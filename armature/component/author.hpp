@@ -12,4 +12,5 @@
 #include "armature/component/port_array.hpp"
 #include "armature/component/property.hpp"
 #include "armature/component/registry.hpp"
+#include "armature/component/state_machine.hpp"
 #include "armature/types/struct.hpp"

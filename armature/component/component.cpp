@@ -5,6 +5,7 @@
 
 #include "armature/component/input_port.hpp"
 #include "armature/component/output_port.hpp"
+#include "armature/component/state_machine.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::component {
@@ -68,6 +69,11 @@ Outcome Component::run_hook(Outcome (Component::*hook)(), State next) {
 
 Outcome Component::configure() {
   if (state() != State::kPreOperational) return wrong_state("configure");
+  for (const StateMachine* machine : interface_.machines) {
+    if (machine->problems().empty()) continue;
+    reason_ = Reason("state machine '").append(machine->name()).append("': ");
+    return refused(reason_.append(machine->problems().front()));
+  }
   Outcome outcome = run_hook(&Component::on_configure, State::kStopped);
   configured_ = outcome.ok();
   return outcome;
@@ -213,6 +219,11 @@ void Component::halt_steps(std::string_view why) {
 
 void Component::add_step(Step& step, bool before_update) {
   (before_update ? steps_before_ : steps_after_).push_back(&step);
+}
+
+void Component::remove_step(Step& step) {
+  std::erase(steps_before_, &step);
+  std::erase(steps_after_, &step);
 }
 
 void Component::take_time(ExecutionContext& where) {

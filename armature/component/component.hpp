@@ -26,6 +26,7 @@ class OperationBase;
 class OperationCallerBase;
 class EventBase;
 class EventHandlerBase;
+class StateMachine;
 
 /// Where a component is in its life (component-model: life cycle). Ordered so that everything from
 /// kStopped on serves operations.
@@ -55,6 +56,7 @@ struct Interface {
   std::vector<OperationCallerBase*> callers;
   std::vector<EventBase*> events;
   std::vector<EventHandlerBase*> handlers;
+  std::vector<StateMachine*> machines;
 };
 
 /// The base of every component. Its interface consists of members (Property, InputPort, OutputPort,
@@ -119,6 +121,7 @@ class Component {
   /// The declaration lists, for the members that enter themselves.
   Interface& declare() { return interface_; }
   void add_step(Step& step, bool before_update);
+  void remove_step(Step& step);
 
   ExecutionContext& context() const { return *context_; }
   /// Gives the component a thread; nothing is on its way in the one before.
