@@ -299,6 +299,7 @@ class CommandCaller final : public OperationCallerBase {
       command_->owner().context().post(*ticket);
       return CommandHandle(*ticket);
     }
+    ++refused_;
     return CommandHandle(CallStatus::kQueueFull);
   }
 

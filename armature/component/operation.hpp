@@ -168,6 +168,9 @@ class OperationCallerBase : public Requirement {
   OperationBase* target() const { return target_; }
   bool bound() const override { return target_ != nullptr; }
 
+  /// Calls that were not taken because too many were under way.
+  std::uint64_t refused() const { return refused_; }
+
   /// True if it uses a command with completion, false if a plain operation.
   virtual bool needs_command() const { return false; }
 
@@ -184,6 +187,7 @@ class OperationCallerBase : public Requirement {
     owner.declare().callers.push_back(this);
   }
   OperationBase* target_ = nullptr;
+  std::uint64_t refused_ = 0;
 
  private:
   Signature signature_;
@@ -244,9 +248,6 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
     }
   }
 
-  /// Calls that were not taken because too many were under way.
-  std::uint64_t refused() const { return refused_; }
-
   void connect(OperationBase& base) override {
     operation_ = static_cast<Operation<R(Args...)>*>(&base);
     target_ = &base;
@@ -288,7 +289,6 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   std::size_t outstanding_ = kDefaultOutstanding;
   std::vector<std::unique_ptr<Record, SharedRecord::LetGo>> records_;
   std::size_t next_ = 0;
-  std::uint64_t refused_ = 0;
 };
 
 }  // namespace armature::component
