@@ -10,19 +10,23 @@
 
 namespace armature::deploy {
 
+struct BuildOptions {
+  FileReader read;              ///< of property files; empty: from disk
+  bool models_missing = false;  ///< a library could not be loaded, so unknown models may be its own
+};
+
 /// Makes the document's components from the models of `registry`, sets their properties, from
 /// property files first, and writes down activities, peers, bindings and connections. Mistakes are
-/// added to `diagnostics` at their places; what has one is left out, so that the checks of
-/// `exec::make_plan` can go on with the rest.
-/// @param read  reads property files; empty: from disk
+/// added to `diagnostics` at their places; what has one is left out in a way that lets the checks
+/// of `exec::make_plan` go on with the rest.
 exec::Blueprint build_blueprint(const Document& document, const component::Registry& registry,
-                                const FileReader& read, base::Diagnostics& diagnostics);
+                                const BuildOptions& options, base::Diagnostics& diagnostics);
 
 /// What the document says about running the application as a whole.
 exec::ApplicationOptions application_options(const Document& document);
 
-/// Writes the persistent properties of each component with `autosave` to its property file. To be
-/// called after the application stopped, or before it started.
+/// Writes the persistent properties of each component with `autosave` to its last property file.
+/// To be called after the application stopped, or before it started.
 void save_properties(const Document& document, const exec::Blueprint& blueprint,
                      base::Diagnostics& diagnostics);
 

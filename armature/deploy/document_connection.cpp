@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -132,12 +132,14 @@ void check_named(NamedConnection& connection,
   if (connection.ports.size() < 2) {
     reader.error(connection.where, "only one port has this name; nothing is connected");
   }
-  const auto place = [&](const Endpoint& port) {
+  std::multimap<std::size_t, Endpoint> by_component;  // keeps the order within a component
+  for (Endpoint& port : connection.ports) {
     const auto found = order.find(port.component);
-    return found == order.end() ? order.size() : found->second;
-  };
-  std::stable_sort(connection.ports.begin(), connection.ports.end(),
-                   [&](const Endpoint& a, const Endpoint& b) { return place(a) < place(b); });
+    const std::size_t place = found == order.end() ? order.size() : found->second;
+    by_component.emplace(place, std::move(port));
+  }
+  connection.ports.clear();
+  for (auto& [place, port] : by_component) connection.ports.push_back(std::move(port));
   std::unordered_map<std::string, const Endpoint*> first;
   for (const Endpoint& port : connection.ports) {
     const auto [earlier, is_new] = first.emplace(text_of(port), &port);

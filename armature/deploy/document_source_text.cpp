@@ -27,8 +27,6 @@ std::size_t sequence_length(std::string_view text) {
   return code < kSmallest[length] || code > 0x10ffff || surrogate ? 0 : length;
 }
 
-bool is_allowed_control(char c) { return c == '\t' || c == '\n' || c == '\r'; }
-
 std::string hexadecimal(unsigned char byte) {
   std::array<char, 8> text{};
   std::snprintf(text.data(), text.size(), "0x%02X", static_cast<unsigned>(byte));
@@ -60,6 +58,10 @@ std::string_view line_of(std::string_view text, int line) {
   return text.substr(0, text.find('\n'));
 }
 
+bool is_forbidden_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
+}
+
 bool check_source_text(std::string_view text, const std::string& file, std::size_t limit_bytes,
                        base::Diagnostics& diagnostics) {
   if (text.size() > limit_bytes) {
@@ -77,7 +79,7 @@ bool check_source_text(std::string_view text, const std::string& file, std::size
                         "save the file as UTF-8");
       return false;
     }
-    if (byte < 0x20 && !is_allowed_control(text[at])) {
+    if (is_forbidden_control(text[at])) {
       diagnostics.error(LineIndex(text, file).at(at),
                         "control character " + hexadecimal(byte) + " in a text file");
       return false;

@@ -79,8 +79,11 @@ std::string_view name_of(Value::Kind kind) {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
-  if (text.size() <= kLongest) return "'" + std::string(text) + "'";
-  return "'" + std::string(text.substr(0, kLongest - 3)) + "...'";
+  const bool shortened = text.size() > kLongest;
+  std::string one_line(shortened ? text.substr(0, kLongest - 3) : text);
+  std::replace_if(
+      one_line.begin(), one_line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return "'" + one_line + (shortened ? "...'" : "'");
 }
 
 }  // namespace armature::deploy::internal

@@ -142,8 +142,9 @@ std::string Expander::replace_parameters(std::string_view text, const Scope& sco
     result += text.substr(copied, use->begin - copied);
     copied = use->end;
     const Value* value = find_parameter(use->name, scope, where, diagnostics);
-    if (value == nullptr) continue;
-    if (value->kind == Value::Kind::kText) {
+    if (value == nullptr) {
+      result += text.substr(use->begin, use->end - use->begin);
+    } else if (value->kind == Value::Kind::kText) {
       result += value->text;
     } else {
       diagnostics.error(where, "parameter " + in_quotes(use->name) + " is " +

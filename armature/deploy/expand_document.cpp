@@ -10,6 +10,7 @@
 #include "armature/deploy/internal/document_reader.hpp"
 #include "armature/deploy/internal/expand_names.hpp"
 #include "armature/deploy/internal/fields.hpp"
+#include "armature/deploy/internal/once_per_place.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 
 namespace armature::deploy::internal {
@@ -64,7 +65,8 @@ class DocumentBuilder {
         overrides_(std::move(overrides)),
         expander_(limits),
         depth_limit_(limits.depth),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        reports_(diagnostics) {}
 
   Document build(const std::string& file) {
     document_.file = file;
@@ -109,16 +111,6 @@ class DocumentBuilder {
     return take_overrides(overrides_, "", known);
   }
 
-  /// Adds what one entry found, once for each place: a range or a composite that is used many times
-  /// meets the same mistake each time.
-  void report(const base::Diagnostics& found) {
-    ++pass_;
-    for (const base::Diagnostic& one : found.all()) {
-      const auto [place, is_new] = reported_.emplace(place_text(one.where), pass_);
-      if (is_new || place->second == pass_) diagnostics_.add(one);
-    }
-  }
-
   void check_composites(const Value& composites) {
     for (const Property& composite : composites.entries) {
       const ValueReader reader("composite '" + composite.name + "'", diagnostics_);
@@ -159,7 +151,7 @@ class DocumentBuilder {
       name = expander_.replace_parameters(name, level.scope, entry.where, found);
       if (found.ok()) range = find_range(name, entry.where, found);
     }
-    report(found);
+    reports_.add(found);
     if (!found.ok()) return;
     if (!range) {
       add_instance(name, entry, level, level.scope, overrides);
@@ -182,6 +174,7 @@ class DocumentBuilder {
                     const Scope& scope, bool overrides) {
     base::Diagnostics found;
     Value body = expander_.expand(entry.value, scope, found);
+    const std::size_t causes = found.all().size();
     const std::string full = level.instance.empty() ? name : level.instance + "." + name;
     if (overrides) {
       level.changes[name].push_back({std::move(body), entry.where, false});
@@ -196,7 +189,7 @@ class DocumentBuilder {
       apply_changes(level, name, body);
       add_named(full, entry.where, body, level, found);
     }
-    report(found);
+    reports_.add(found, causes);
   }
 
   static void apply_changes(Level& level, const std::string& name, Value& body) {
@@ -213,7 +206,7 @@ class DocumentBuilder {
       found.error(changes.front().where,
                   "component " + in_quotes(name) + " is to be overridden but is not there");
     }
-    report(found);
+    reports_.add(found);
   }
 
   void add_named(const std::string& full, const base::Location& where, const Value& body,
@@ -324,7 +317,7 @@ class DocumentBuilder {
     }
     std::optional<Repetition> repetition;
     if (connection && found.ok()) repetition = find_repetition(*connection, ranges, found);
-    report(found);
+    reports_.add(found);
     if (!repetition) return;
     const Value pattern = without_range(*connection);
     Scope scope = level.scope;
@@ -332,8 +325,10 @@ class DocumentBuilder {
       if (expander_.exhausted()) return;
       if (repetition->repeated) scope.number = i;
       base::Diagnostics of_this;
-      add_connection(expander_.expand(pattern, scope, of_this), level, of_this);
-      report(of_this);
+      const Value expanded = expander_.expand(pattern, scope, of_this);
+      const std::size_t causes = of_this.all().size();
+      add_connection(expanded, level, of_this);
+      reports_.add(of_this, causes);
     }
   }
 
@@ -354,13 +349,12 @@ class DocumentBuilder {
   Expander expander_;
   int depth_limit_;
   base::Diagnostics& diagnostics_;
+  OncePerPlace reports_;
   Document document_;
   NameTable names_;
   Scopes scopes_;
   std::unordered_map<std::string, const Property*> composites_;
   std::vector<std::string> entered_;
-  std::unordered_map<std::string, int> reported_;
-  int pass_ = 0;
 };
 
 }  // namespace

@@ -54,25 +54,23 @@ std::optional<int> parse_offset(std::string_view content) {
 
 bool is_range(std::string_view content) { return content.find("..") != std::string_view::npos; }
 
-std::optional<Range> parse_range(std::string_view content, const base::Location& where,
-                                 base::Diagnostics& diagnostics) {
-  const std::string shown = "range {" + std::string(content) + "}";
+/// The range in `content`; `text` is what it stands in, for messages.
+std::optional<Range> parse_range(std::string_view content, std::string_view text,
+                                 const base::Location& where, base::Diagnostics& diagnostics) {
+  const auto refuse = [&](const std::string& reason, std::string hint = {}) {
+    diagnostics.error(where, in_quotes(text) + ": " + reason, std::move(hint));
+    return std::nullopt;
+  };
   const std::size_t dots = content.find("..");
   const std::optional<int> first = parse_number(content.substr(0, dots));
   const std::optional<int> last = parse_number(content.substr(dots + 2));
   if (!first || !last) {
-    diagnostics.error(where, shown + " must have the form {first..last}",
-                      "bounds are whole numbers or parameters: {1..${joints}}");
-    return std::nullopt;
+    return refuse("a range has the form {first..last}",
+                  "bounds are whole numbers or parameters: {1..${joints}}");
   }
-  if (*last < *first) {
-    diagnostics.error(where, shown + " is empty: its last number is below its first");
-    return std::nullopt;
-  }
+  if (*last < *first) return refuse("the range is empty, its last number is below its first");
   if (*last - *first >= kMostRepetitions) {
-    diagnostics.error(where,
-                      shown + " has more than " + std::to_string(kMostRepetitions) + " numbers");
-    return std::nullopt;
+    return refuse("the range has more than " + std::to_string(kMostRepetitions) + " numbers");
   }
   return Range{*first, *last};
 }
@@ -84,7 +82,7 @@ std::optional<RangeInText> find_range(std::string_view text, const base::Locatio
   std::optional<Braces> braces = next_braces(text, 0);
   while (braces && !is_range(braces->content)) braces = next_braces(text, braces->end);
   if (!braces) return std::nullopt;
-  const std::optional<Range> range = parse_range(braces->content, where, diagnostics);
+  const std::optional<Range> range = parse_range(braces->content, text, where, diagnostics);
   if (!range) return std::nullopt;
   return RangeInText{*range, braces->begin, braces->end};
 }

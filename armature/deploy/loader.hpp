@@ -18,8 +18,12 @@ namespace armature::deploy {
 std::vector<std::string> library_folders(const std::vector<std::string>& first,
                                          const std::string& document_file);
 
+/// The names of all component libraries in `folders`, sorted.
+std::vector<std::string> available_libraries(const std::vector<std::string>& folders);
+
 /// The file of the library `motion`: libmotion.so in the first of `folders` that has it. A name
-/// with a slash is the file itself. The error lists where it was looked for, and the nearest name.
+/// with a slash is the file itself, relative to the last folder. The error lists where it was
+/// looked for, and the nearest name.
 base::Result<std::string> find_library(std::string_view name,
                                        const std::vector<std::string>& folders);
 
@@ -30,7 +34,8 @@ base::Result<void> load_library(const std::string& file, component::Registry& re
 
 /// Finds and loads libraries; each that fails is reported at its place. One that is named twice is
 /// loaded once.
-void load_libraries(const std::vector<Reference>& libraries,
+/// @return false if any failed
+bool load_libraries(const std::vector<Reference>& libraries,
                     const std::vector<std::string>& folders, component::Registry& registry,
                     base::Diagnostics& diagnostics);
 

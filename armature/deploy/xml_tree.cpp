@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/deploy/internal/xml_tree.hpp"
 
+#include <algorithm>
+
 #include <pugixml.hpp>
 
 #include "armature/base/near_name.hpp"
@@ -84,6 +86,7 @@ class XmlReader {
   void read_attributes(const pugi::xml_node& node, XmlElement& element) {
     for (const pugi::xml_attribute attribute : node.attributes()) {
       const std::string_view name = attribute.name();
+      check_characters(attribute.value(), element.where);
       if (name == "name") {
         element.name = attribute.value();
       } else if (name == "type") {
@@ -100,8 +103,11 @@ class XmlReader {
   void read_child(const pugi::xml_node& child, int depth, XmlElement& element, bool& has_value) {
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
       const std::string_view text = child.value();
-      if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return;
-      diagnostics_.error(place(child), "text " + in_quotes(text) + " outside <value>");
+      const std::size_t first = text.find_first_not_of(" \t\r\n");
+      if (first == std::string_view::npos) return;
+      const std::size_t size = text.find_last_not_of(" \t\r\n") - first + 1;
+      diagnostics_.error(place(child),
+                         "text " + in_quotes(text.substr(first, size)) + " outside <value>");
       return;
     }
     if (child.type() != pugi::node_element) return;
@@ -129,7 +135,13 @@ class XmlReader {
         diagnostics_.error(place(child), "unexpected element " + in_quotes(child.name()));
       }
     }
+    check_characters(text, place(node));
     return text;
+  }
+
+  void check_characters(std::string_view text, const base::Location& where) {
+    if (std::none_of(text.begin(), text.end(), is_forbidden_control)) return;
+    diagnostics_.error(where, "control characters are not possible in XML");
   }
 
   LineIndex lines_;

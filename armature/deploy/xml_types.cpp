@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -46,6 +47,14 @@ bool is_simple_type(std::string_view type) {
 }
 
 bool is_list_type(std::string_view type) { return !element_type_of(type).empty(); }
+
+bool is_struct_type(std::string_view type) {
+  const bool other_use = is_simple_type(type) || is_list_type(type) || type == "literal";
+  return !type.empty() && !other_use && std::all_of(type.begin(), type.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("_-./:").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
 
 std::string_view element_type_of(std::string_view list_type) {
   if (list_type == "array") return "double";

@@ -92,7 +92,14 @@ Value value_of(const XmlElement& element, base::Diagnostics& diagnostics) {
   map.entries = properties_of(element, diagnostics);
   const bool plain =
       element.type.empty() || element.type == "PropertyBag" || element.type == "type_less";
-  if (!plain) map.type = element.type;
+  if (plain) return map;
+  map.type = element.type;
+  if (!is_struct_type(element.type)) {
+    diagnostics.error(
+        element.where,
+        "struct " + in_quotes(element.name) + ": unknown type " + in_quotes(element.type),
+        "for example PropertyBag or array");
+  }
   return map;
 }
 

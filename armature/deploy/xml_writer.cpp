@@ -7,6 +7,7 @@
 
 #include "armature/deploy/document_files.hpp"
 #include "armature/deploy/internal/document_tree.hpp"
+#include "armature/deploy/internal/source_text.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/internal/xml_tree.hpp"
 #include "armature/deploy/internal/yaml_tree.hpp"
@@ -44,6 +45,7 @@ class DeployerWriter {
       : document_(document), diagnostics_(diagnostics), tree_(to_tree(document)) {}
 
   std::string write() {
+    check_endpoints();
     group_connections();
     writer_.open("properties", root_attributes());
     for (const Reference& library : document_.libraries) {
@@ -59,7 +61,13 @@ class DeployerWriter {
     }
     writer_.close();
     report_extensions();
-    return writer_.take();
+    std::string text = writer_.take();
+    const bool possible = std::none_of(text.begin(), text.end(), is_forbidden_control);
+    if (!possible) {
+      diagnostics_.error({document_.file, 0, 0},
+                         "a text has control characters, which XML cannot say");
+    }
+    return text;
   }
 
  private:
@@ -87,6 +95,25 @@ class DeployerWriter {
       diagnostics_.note({document_.file, 0, 0}, "OROCOS ignores armature:" + key + " (" +
                                                     std::to_string(count) +
                                                     (count == 1 ? " place)" : " places)"));
+    }
+  }
+
+  /// A connection stands where its components are; without them it has no place.
+  void check_endpoints() {
+    std::set<std::string> known;
+    for (const Component& component : document_.components) known.insert(component.name);
+    const auto check = [&](const Endpoint& endpoint) {
+      if (known.count(endpoint.component) > 0) return;
+      diagnostics_.error(endpoint.where, "port " + in_quotes(text_of(endpoint)) +
+                                             " cannot be written: there is no component " +
+                                             in_quotes(endpoint.component));
+    };
+    for (const Connection& one : document_.connections) {
+      check(one.from);
+      check(one.to);
+    }
+    for (const NamedConnection& one : document_.named_connections) {
+      for (const Endpoint& port : one.ports) check(port);
     }
   }
 

@@ -124,12 +124,26 @@ void append_after(const std::string& beginning, const Value& value, int indent, 
   append_block(value, indent + kIndentation, std::max(levels - 1, 0), text);
 }
 
+/// A map that does not fit on the line of its dash begins there.
+void append_item(const std::string& margin, const Value& item, int indent, int levels,
+                 std::string& text) {
+  std::string line = margin + "- ";
+  const bool fits = levels == 0 && append_flow(item, kLineWidth, line);
+  if (fits || item.kind != Value::Kind::kMap || !item.type.empty() || item.entries.empty()) {
+    append_after(margin + "-", item, indent, levels, text);
+    return;
+  }
+  const std::size_t begin = text.size();
+  append_block(item, indent + kIndentation, std::max(levels - 1, 0), text);
+  text[begin + margin.size()] = '-';
+}
+
 void append_block(const Value& value, int indent, int levels, std::string& text) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
   for (const Property& entry : value.entries) {
     append_after(margin + scalar_text(entry.name) + ":", entry.value, indent, levels, text);
   }
-  for (const Value& item : value.items) append_after(margin + "-", item, indent, levels, text);
+  for (const Value& item : value.items) append_item(margin, item, indent, levels, text);
 }
 
 }  // namespace

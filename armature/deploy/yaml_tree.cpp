@@ -16,7 +16,6 @@
 #include <yaml-cpp/parser.h>
 
 #include "armature/base/near_name.hpp"
-#include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/source_text.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/internal/xml_types.hpp"
@@ -27,7 +26,7 @@ namespace {
 bool may_have_type(Value::Kind kind, std::string_view type) {
   if (kind == Value::Kind::kText) return is_simple_type(type);
   if (kind == Value::Kind::kList) return is_list_type(type);
-  return is_dotted_name(type) && !is_simple_type(type) && !is_list_type(type);
+  return is_struct_type(type);
 }
 
 /// Ends the parse from inside yaml-cpp once the reason has been reported.
@@ -231,7 +230,8 @@ class TreeBuilder final : public YAML::EventHandler {
 std::string hint_for(std::string_view line) {
   const std::string_view indentation = line.substr(0, line.find_first_not_of(" \t"));
   if (indentation.find('\t') != std::string_view::npos) return "indent with spaces, not with tabs";
-  if (line.find("{i") != std::string_view::npos || line.find("..") != std::string_view::npos) {
+  const auto has = [&](std::string_view part) { return line.find(part) != std::string_view::npos; };
+  if (has("{i") || has("..") || has("${")) {
     return "inside [ ] and { }, put text that contains braces in quotes";
   }
   return {};

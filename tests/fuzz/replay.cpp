@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for libFuzzer where there is none: runs a fuzz target once with each file of its corpus.
+// Stands in for libFuzzer where there is none: runs a fuzz target once with each file of its
+// corpus.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -15,6 +15,10 @@ bool is_simple_type(std::string_view type);
 /// True for the lists `array`, `ints` and `strings`.
 bool is_list_type(std::string_view type);
 
+/// True for names that a struct's type may have: those of OROCOS type kits, `KDL.Frame` or
+/// `/geometry_msgs/Pose`, but none of the types above.
+bool is_struct_type(std::string_view type);
+
 /// The type of the elements of such a list; empty for other types.
 std::string_view element_type_of(std::string_view list_type);
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/deploy/builder.hpp"
+
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "armature/component/property.hpp"
+#include "armature/deploy/internal/component_builder.hpp"
+#include "armature/deploy/internal/connection_builder.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/property_value.hpp"
+#include "armature/platform/file.hpp"
+
+namespace armature::deploy {
+namespace {
+
+using internal::in_quotes;
+
+/// Two components that save to one file would overwrite each other's values.
+void check_saved_files(const Document& document, base::Diagnostics& diagnostics) {
+  std::map<std::string, const Component*> owners;
+  for (const Component& component : document.components) {
+    if (!component.autosave || component.property_files.empty()) continue;
+    const PropertyFile& file = component.property_files.back();
+    const auto [owner, first] = owners.emplace(path_from(document, file.path), &component);
+    if (first) continue;
+    diagnostics.error(file.where,
+                      in_quotes(component.name) + " and " + in_quotes(owner->second->name) +
+                          " both save their properties to " + in_quotes(file.path),
+                      "give each its own file");
+  }
+}
+
+/// What this version reads but cannot do: better refused than left out silently.
+void check_supported(const Document& document, base::Diagnostics& diagnostics) {
+  for (const Script& script : document.scripts) {
+    diagnostics.error(script.where, "scripts are not supported by this version",
+                      "remove " + in_quotes(script.path));
+  }
+  if (document.recorder.kind != Value::Kind::kNone) {
+    diagnostics.error(document.recorder.where, "a recorder is not supported by this version",
+                      "remove the section");
+  }
+}
+
+std::vector<Property> persistent_properties(const component::Component& component) {
+  std::vector<Property> properties;
+  for (const component::PropertyBase* property : component.interface().properties) {
+    if (!property->persistent()) continue;
+    properties.push_back({std::string(property->name()),
+                          write_value(property->type(), property->data()),
+                          std::string(property->doc()),
+                          {}});
+  }
+  return properties;
+}
+
+}  // namespace
+
+exec::Blueprint build_blueprint(const Document& document, const component::Registry& registry,
+                                const BuildOptions& options, base::Diagnostics& diagnostics) {
+  exec::Blueprint blueprint;
+  if (!document.application.empty()) blueprint.name = document.application;
+  check_supported(document, diagnostics);
+  check_saved_files(document, diagnostics);
+  // A name that still stands for a composite could not be resolved, which was reported.
+  for (const Composite& composite : document.composites) blueprint.absent.insert(composite.name);
+  blueprint.components.reserve(document.components.size());
+  internal::ComponentBuilder components(document, registry, options, diagnostics);
+  for (const Component& component : document.components) components.build(component, blueprint);
+  internal::ConnectionBuilder(document, blueprint, diagnostics).build();
+  return blueprint;
+}
+
+exec::ApplicationOptions application_options(const Document& document) {
+  exec::ApplicationOptions options;
+  const bool stop = document.on_fault == OnFault::kStopAll;
+  options.on_fault = stop ? exec::OnFault::kStop : exec::OnFault::kContinue;
+  return options;
+}
+
+void save_properties(const Document& document, const exec::Blueprint& blueprint,
+                     base::Diagnostics& diagnostics) {
+  std::unordered_map<std::string_view, const component::Component*> made;
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    made.emplace(entry.component->name(), entry.component.get());
+  }
+  for (const Component& component : document.components) {
+    const auto found = made.find(component.name);
+    const bool saves = component.autosave && !component.property_files.empty();
+    if (!saves || found == made.end()) continue;
+    const PropertyFile& file = component.property_files.back();
+    const base::Result<void> written = platform::write_file(
+        path_from(document, file.path), write_cpf(persistent_properties(*found->second)));
+    if (written) continue;
+    diagnostics.error(file.where, "the properties of " + in_quotes(component.name) +
+                                      " were not saved: " + written.error());
+  }
+}
+
+}  // namespace armature::deploy

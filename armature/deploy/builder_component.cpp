@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "armature/base/near_name.hpp"
+#include "armature/component/author.hpp"
+#include "armature/deploy/internal/component_builder.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/property_value.hpp"
+#include "armature/platform/file.hpp"
+
+namespace armature::deploy::internal {
+namespace {
+
+exec::Activity::Kind kind_of(ActivityKind kind) {
+  switch (kind) {
+    case ActivityKind::kPeriodic:
+      return exec::Activity::Kind::kPeriodic;
+    case ActivityKind::kTriggered:
+      return exec::Activity::Kind::kTriggered;
+    case ActivityKind::kSequential:
+      break;
+  }
+  return exec::Activity::Kind::kSequential;
+}
+
+exec::Activity::Scheduler scheduler_of(const Activity& activity) {
+  const Scheduler by_default = activity.priority > 0 ? Scheduler::kRealtime : Scheduler::kOther;
+  switch (activity.scheduler.value_or(by_default)) {
+    case Scheduler::kRealtime:
+      return exec::Activity::Scheduler::kRealtime;
+    case Scheduler::kDeadline:
+      return exec::Activity::Scheduler::kDeadline;
+    case Scheduler::kOther:
+      break;
+  }
+  return exec::Activity::Scheduler::kOther;
+}
+
+exec::Overrun overrun_of(Overrun overrun) {
+  switch (overrun) {
+    case Overrun::kCatchUp:
+      return exec::Overrun::kCatchUp;
+    case Overrun::kFault:
+      return exec::Overrun::kFault;
+    case Overrun::kSkip:
+      break;
+  }
+  return exec::Overrun::kSkip;
+}
+
+exec::Activity activity_of(const Activity& written) {
+  exec::Activity activity;
+  activity.kind = kind_of(written.kind);
+  activity.period = written.period;
+  activity.scheduler = scheduler_of(written);
+  activity.priority = written.priority;
+  activity.cpus = written.cpus;
+  if (written.overrun) activity.overrun = overrun_of(*written.overrun);
+  if (written.late_cycles_to_fault > 0)
+    activity.late_cycles_to_fault = written.late_cycles_to_fault;
+  if (written.budget) activity.budget = *written.budget;
+  activity.thread = written.thread;
+  return activity;
+}
+
+component::PropertyBase* find_property(const component::Component& component,
+                                       std::string_view name) {
+  for (component::PropertyBase* property : component.interface().properties) {
+    if (property->name() == name) return property;
+  }
+  return nullptr;
+}
+
+/// True if the number or size of ports follows from a property: while its value is unknown, nothing
+/// can be said about the component's connections.
+bool shapes_ports(const component::PropertyBase& property) {
+  const component::Interface& interface = property.owner().interface();
+  const auto counts = [&](const auto* array) { return &array->count() == &property; };
+  const auto sizes = [&](const auto* port) { return port->declared_size().property == &property; };
+  return std::any_of(interface.port_arrays.begin(), interface.port_arrays.end(), counts) ||
+         std::any_of(interface.inputs.begin(), interface.inputs.end(), sizes) ||
+         std::any_of(interface.outputs.begin(), interface.outputs.end(), sizes);
+}
+
+/// A mandatory property that was given, though wrongly, is not also reported as missing.
+void count_as_given(component::PropertyBase& property) {
+  const types::Value present(property.type(), property.data());
+  if (property.check(present).empty()) static_cast<void>(property.set(present));
+}
+
+/// A requirement may name its peer as the component knows it; the runtime knows full names only.
+template <typename Requirements>
+void bind_by_alias(const Requirements& requirements, const Peer& peer,
+                   std::vector<exec::BindingEntry>& bindings) {
+  for (const auto* requirement : requirements) {
+    if (requirement->peer_name() != peer.name) continue;
+    const bool bound = std::any_of(bindings.begin(), bindings.end(), [&](const auto& binding) {
+      return binding.requirement == requirement->name();
+    });
+    if (bound) continue;
+    bindings.push_back({std::string(requirement->name()), peer.component, {}, peer.where});
+  }
+}
+
+void add_peers(const Component& written, exec::ComponentEntry& entry) {
+  for (const Binding& binding : written.bindings) {
+    entry.bindings.push_back({binding.name, binding.component, binding.member, binding.where});
+  }
+  const component::Interface& interface = entry.component->interface();
+  for (const Peer& peer : written.peers) {
+    entry.peers.push_back({peer.component, peer.where});
+    if (peer.name == peer.component) continue;
+    bind_by_alias(interface.callers, peer, entry.bindings);
+    bind_by_alias(interface.handlers, peer, entry.bindings);
+  }
+}
+
+}  // namespace
+
+void ComponentBuilder::build(const Component& written, exec::Blueprint& blueprint) {
+  std::unique_ptr<component::Component> component = make(written);
+  const bool whole = component != nullptr && set_properties(written, *component);
+  if (!whole) {
+    blueprint.absent.insert(written.name);
+    return;
+  }
+  exec::ComponentEntry entry{
+      std::move(component), written.model, activity_of(written.activity), {}, {}, written.where};
+  entry.autoconfigure = written.autoconf;
+  entry.autostart = written.autostart;
+  add_peers(written, entry);
+  blueprint.components.push_back(std::move(entry));
+}
+
+std::unique_ptr<component::Component> ComponentBuilder::make(const Component& written) {
+  if (written.model.empty()) return nullptr;  // reported by whoever read the document
+  const component::Registry::Model* model = registry_.find(written.model);
+  if (model == nullptr) {
+    report_unknown_model(written);
+    return nullptr;
+  }
+  std::string problem = "returns no component";
+  try {
+    if (auto component = model->make(written.name)) return component;
+  } catch (const std::exception& exception) {
+    problem = std::string("throws: ") + exception.what();
+  } catch (...) {
+    problem = "throws something that is no std::exception";
+  }
+  diagnostics_.error(written.where, in_quotes(written.name) +
+                                        " cannot be made: the constructor of model " +
+                                        in_quotes(written.model) + " " + problem);
+  return nullptr;
+}
+
+void ComponentBuilder::report_unknown_model(const Component& written) {
+  if (model_names_.empty()) model_names_ = registry_.names();
+  const bool may_be_missing =
+      options_.models_missing && base::near_name(written.model, model_names_).empty();
+  if (may_be_missing) return;
+  std::string hint = base::suggestion(written.model, model_names_);
+  if (hint.empty()) hint = "is its library among the libraries?";
+  diagnostics_.error(
+      written.model_where,
+      "component " + in_quotes(written.name) + ": there is no model " + in_quotes(written.model),
+      std::move(hint));
+}
+
+/// False if a mistake leaves the component's ports unknown.
+bool ComponentBuilder::set_properties(const Component& written, component::Component& component) {
+  bool ports_known = true;
+  for (const PropertyFile& file : written.property_files) {
+    ports_known &= apply_property_file(written, file, component);
+  }
+  return apply(written, written.properties, component) && ports_known;
+}
+
+bool ComponentBuilder::apply_property_file(const Component& written, const PropertyFile& file,
+                                           component::Component& component) {
+  const bool own = written.autosave && &file == &written.property_files.back();
+  const std::vector<Property>* properties = read(file, own);
+  if (properties == nullptr) return true;
+  std::string missing;
+  for (const component::PropertyBase* property : component.interface().properties) {
+    const bool wanted = file.complete && property->persistent();
+    if (!wanted || find(*properties, property->name()) != nullptr) continue;
+    missing += (missing.empty() ? "" : ", ") + std::string(property->name());
+  }
+  if (!missing.empty()) {
+    diagnostics_.error(file.where, "property file " + in_quotes(file.path) + " of " +
+                                       in_quotes(written.name) + " must be complete, but lacks " +
+                                       missing);
+  }
+  return apply(written, *properties, component);
+}
+
+bool ComponentBuilder::apply(const Component& written, const std::vector<Property>& properties,
+                             component::Component& component) {
+  bool ports_known = true;
+  for (const Property& given : properties) {
+    component::PropertyBase* const property = find_property(component, given.name);
+    if (property == nullptr) {
+      std::vector<std::string> names;
+      for (const auto* known : component.interface().properties) names.emplace_back(known->name());
+      diagnostics_.error(given.where,
+                         in_quotes(written.name) + " (" + written.model + ") has no property " +
+                             in_quotes(given.name),
+                         base::suggestion(given.name, names));
+      continue;
+    }
+    const bool reported = given.value.kind == Value::Kind::kNone;
+    if (!reported && set_property(*property, given.value, diagnostics_)) continue;
+    count_as_given(*property);
+    ports_known &= !shapes_ports(*property);
+  }
+  return ports_known;
+}
+
+const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bool may_be_missing) {
+  const std::string path = path_from(document_, file.path);
+  if (const auto known = files_.find(path); known != files_.end()) return known->second.get();
+  auto& content = files_[path];
+  std::error_code ignored;
+  const bool from_disk = options_.read == nullptr;
+  if (from_disk && may_be_missing && !std::filesystem::exists(path, ignored)) {
+    diagnostics_.note(file.where, "there is no " + in_quotes(path) + " yet; it is written at stop");
+    return nullptr;
+  }
+  const base::Result<std::string> text =
+      from_disk ? platform::read_file(path) : options_.read(path);
+  if (!text) {
+    diagnostics_.error(file.where, text.error());
+    return nullptr;
+  }
+  content = std::make_unique<std::vector<Property>>(parse_cpf(text.value(), path, diagnostics_));
+  return content.get();
+}
+
+}  // namespace armature::deploy::internal

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "armature/base/near_name.hpp"
+#include "armature/component/author.hpp"
+#include "armature/deploy/internal/connection_builder.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+
+namespace armature::deploy::internal {
+namespace {
+
+std::string path(const Endpoint& end) { return in_quotes(end.component + "." + end.port); }
+
+component::Reaction reaction_of(Reaction written, component::Reaction by_default) {
+  switch (written) {
+    case Reaction::kHold:
+      return component::Reaction::kHold;
+    case Reaction::kZero:
+      return component::Reaction::kZero;
+    case Reaction::kStop:
+      return component::Reaction::kStop;
+    case Reaction::kFault:
+      return component::Reaction::kFault;
+    case Reaction::kDefault:
+      break;
+  }
+  return by_default;
+}
+
+component::ConnectionPolicy policy_of(const ConnectionPolicy& written) {
+  component::ConnectionPolicy policy;
+  policy.one_cycle_delay = written.one_cycle_delay;
+  if (written.fifo_size == 0) return policy;
+  policy.kind = component::ConnectionPolicy::Kind::kFifo;
+  policy.capacity = static_cast<std::size_t>(written.fifo_size);
+  const bool newest = written.overflow == Overflow::kDropNewest;
+  policy.when_full = newest ? rt::WhenFull::kRefuse : rt::WhenFull::kDropOldest;
+  return policy;
+}
+
+}  // namespace
+
+ConnectionBuilder::ConnectionBuilder(const Document& document, exec::Blueprint& blueprint,
+                                     base::Diagnostics& diagnostics)
+    : document_(document), blueprint_(blueprint), diagnostics_(diagnostics) {
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    components_.emplace(entry.component->name(), entry.component.get());
+  }
+}
+
+void ConnectionBuilder::build() {
+  blueprint_.connections.reserve(document_.connections.size());
+  for (const Connection& connection : document_.connections) {
+    add(connection.from, connection.to, connection.policy, connection.where);
+  }
+  for (const NamedConnection& named : document_.named_connections) add_named(named);
+  apply_delays();
+}
+
+void ConnectionBuilder::add(const Endpoint& from, const Endpoint& to,
+                            const ConnectionPolicy& policy, const base::Location& where) {
+  exec::ConnectionEntry entry{from.component,    from.port, to.component, to.port,
+                              policy_of(policy), {},        {},           where};
+  if (policy.max_age) entry.max_age = max_age_of(to, policy);
+  const bool keep_running = document_.on_fault == OnFault::kKeepRunning;
+  if (policy.on_lost != Reaction::kDefault || keep_running) {
+    entry.on_lost = component::on_lost(reaction_of(policy.on_lost, component::Reaction::kHold));
+  }
+  if (policy.fan_in) check_fan_in(to, where);
+  blueprint_.connections.push_back(std::move(entry));
+}
+
+void ConnectionBuilder::add_named(const NamedConnection& named) {
+  const Ends ends = ends_of(named);
+  for (const Endpoint* output : ends.outputs) {
+    for (const Endpoint* input : ends.inputs) add(*output, *input, named.policy, named.where);
+  }
+  const bool useless = ends.outputs.empty() || ends.inputs.empty();
+  if (!useless || !ends.complete) return;
+  diagnostics_.error(named.where,
+                     "connection " + in_quotes(named.name) + " has no " +
+                         (ends.outputs.empty() ? "output" : "input") +
+                         " port, so nothing flows along it",
+                     "name the same connection for a port of the other direction");
+}
+
+ConnectionBuilder::Ends ConnectionBuilder::ends_of(const NamedConnection& named) {
+  Ends ends;
+  for (const Endpoint& end : named.ports) {
+    const Ports* ports = ports_of(end.component);
+    if (ports != nullptr && ports->outputs.count(end.port) > 0) {
+      ends.outputs.push_back(&end);
+    } else if (ports != nullptr && ports->inputs.count(end.port) > 0) {
+      ends.inputs.push_back(&end);
+    } else {
+      report_end(named, end, ports);
+      ends.complete = false;
+    }
+  }
+  return ends;
+}
+
+void ConnectionBuilder::report_end(const NamedConnection& named, const Endpoint& end,
+                                   const Ports* ports) {
+  if (blueprint_.absent.count(end.component) > 0) return;
+  std::vector<std::string> names;
+  if (ports == nullptr) {
+    for (const exec::ComponentEntry& entry : blueprint_.components) {
+      names.push_back(entry.component->name());
+    }
+    diagnostics_.error(end.where,
+                       "connection " + in_quotes(named.name) + ": there is no component " +
+                           in_quotes(end.component),
+                       base::suggestion(end.component, names));
+    return;
+  }
+  const component::Interface& interface = components_.at(end.component)->interface();
+  for (const auto* port : interface.outputs) names.push_back(port->name());
+  for (const auto* port : interface.inputs) names.push_back(port->name());
+  diagnostics_.error(end.where,
+                     "connection " + in_quotes(named.name) + ": " + in_quotes(end.component) +
+                         " has no port " + in_quotes(end.port),
+                     base::suggestion(end.port, names));
+}
+
+void ConnectionBuilder::apply_delays() {
+  std::unordered_map<std::string, std::unordered_map<std::string, bool>> delays;
+  for (const Component& component : document_.components) {
+    for (const Reference& delay : component.delays) delays[component.name][delay.name] = false;
+  }
+  if (delays.empty()) return;
+  for (exec::ConnectionEntry& entry : blueprint_.connections) {
+    const auto reader = delays.find(entry.to_component);
+    if (reader == delays.end()) continue;
+    const auto writer = reader->second.find(entry.from_component);
+    if (writer == reader->second.end()) continue;
+    entry.policy.one_cycle_delay = true;
+    writer->second = true;
+  }
+  for (const Component& component : document_.components) {
+    for (const Reference& delay : component.delays) {
+      const bool used = delays[component.name][delay.name];
+      if (used || blueprint_.absent.count(delay.name) > 0) continue;
+      diagnostics_.error(delay.where,
+                         in_quotes(component.name) + " is to use the previous cycle's data of " +
+                             in_quotes(delay.name) + ", but nothing connects them",
+                         "connect an output of " + in_quotes(delay.name) + " or remove the delay");
+    }
+  }
+}
+
+void ConnectionBuilder::check_fan_in(const Endpoint& to, const base::Location& where) {
+  const component::InputPortBase* const port = input(to);
+  if (port == nullptr || port->allows_fan_in()) return;
+  diagnostics_.error(where, path(to) + " takes one writer: its component does not declare fan_in",
+                     "remove fan_in, or connect the writers to inputs of their own");
+}
+
+/// What happens with old data is the port's affair unless the document says it.
+component::MaxAge ConnectionBuilder::max_age_of(const Endpoint& to,
+                                                const ConnectionPolicy& policy) {
+  const component::InputPortBase* const port = input(to);
+  const component::Reaction own =
+      port != nullptr ? port->stale_reaction() : component::Reaction::kStop;
+  return component::max_age(*policy.max_age, reaction_of(policy.on_old, own));
+}
+
+component::InputPortBase* ConnectionBuilder::input(const Endpoint& end) {
+  const Ports* ports = ports_of(end.component);
+  if (ports == nullptr) return nullptr;
+  const auto found = ports->inputs.find(end.port);
+  return found == ports->inputs.end() ? nullptr : found->second;
+}
+
+const ConnectionBuilder::Ports* ConnectionBuilder::ports_of(const std::string& component) {
+  const auto found = components_.find(component);
+  if (found == components_.end()) return nullptr;
+  const auto [ports, fresh] = ports_.try_emplace(found->second);
+  if (fresh) {
+    const component::Interface& interface = found->second->interface();
+    for (auto* port : interface.inputs) ports->second.inputs.emplace(port->name(), port);
+    for (auto* port : interface.outputs) ports->second.outputs.emplace(port->name(), port);
+  }
+  return &ports->second;
+}
+
+}  // namespace armature::deploy::internal

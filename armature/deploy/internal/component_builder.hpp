@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/component/registry.hpp"
+#include "armature/deploy/builder.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/exec/blueprint.hpp"
+
+namespace armature::deploy::internal {
+
+/// Makes components with their properties, activities, peers and bindings.
+class ComponentBuilder {
+ public:
+  ComponentBuilder(const Document& document, const component::Registry& registry,
+                   const BuildOptions& options, base::Diagnostics& diagnostics)
+      : document_(document), registry_(registry), options_(options), diagnostics_(diagnostics) {}
+
+  /// Adds the component to the blueprint, or its name to those that are absent.
+  void build(const Component& written, exec::Blueprint& blueprint);
+
+ private:
+  std::unique_ptr<component::Component> make(const Component& written);
+  void report_unknown_model(const Component& written);
+  bool set_properties(const Component& written, component::Component& component);
+  bool apply_property_file(const Component& written, const PropertyFile& file,
+                           component::Component& component);
+  bool apply(const Component& written, const std::vector<Property>& properties,
+             component::Component& component);
+  /// The content of a property file, read once; nullptr if it cannot be read.
+  const std::vector<Property>* read(const PropertyFile& file, bool may_be_missing);
+
+  const Document& document_;
+  const component::Registry& registry_;
+  const BuildOptions& options_;
+  base::Diagnostics& diagnostics_;
+  std::vector<std::string> model_names_;
+  std::map<std::string, std::unique_ptr<std::vector<Property>>> files_;
+};
+
+}  // namespace armature::deploy::internal

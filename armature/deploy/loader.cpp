@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/deploy/loader.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "armature/base/near_name.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/platform/shared_object.hpp"
+
+namespace armature::deploy {
+namespace {
+
+using internal::in_quotes;
+namespace fs = std::filesystem;
+
+constexpr const char* kPathVariable = "ARMATURE_LIBRARY_PATH";
+constexpr std::string_view kPrefix = "lib";
+constexpr std::string_view kSuffix = ".so";
+
+void add_variable(std::vector<std::string>& folders) {
+  const char* variable = std::getenv(kPathVariable);
+  std::string_view rest = variable != nullptr ? variable : "";
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    if (colon != 0) folders.emplace_back(rest.substr(0, colon));
+    rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
+  }
+}
+
+/// The same in a build tree and in an installation: bin/armature and lib/armature/libmotion.so.
+void add_beside_program(std::vector<std::string>& folders) {
+  std::error_code failure;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failure);
+  if (failure) return;
+  folders.push_back((program.parent_path().parent_path() / "lib" / "armature").string());
+}
+
+std::string file_name(std::string_view library) {
+  return std::string(kPrefix) + std::string(library) + std::string(kSuffix);
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string result;
+  for (const std::string& text : texts) result += (result.empty() ? "" : ", ") + text;
+  return result;
+}
+
+bool is_there(const std::string& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+/// The description that a library exports, if it is one and of our ABI.
+base::Result<const component::LibraryDescription*> describe(const std::string& file) {
+  const base::Result<platform::SharedObject> loaded = platform::SharedObject::load(file);
+  if (!loaded) return base::Error{"cannot load the library: " + loaded.error()};
+  using Entry = const component::LibraryDescription* (*)();
+  const auto entry = reinterpret_cast<Entry>(loaded.value().symbol(component::kLibraryEntry));
+  if (entry == nullptr) {
+    return base::Error{in_quotes(file) + " is no component library: it does not export " +
+                       component::kLibraryEntry +
+                       "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
+  }
+  const component::LibraryDescription* const description = entry();
+  const bool complete = description != nullptr && description->abi != nullptr &&
+                        description->name != nullptr && description->fill != nullptr;
+  if (!complete) return base::Error{in_quotes(file) + " does not describe itself"};
+  const std::string_view theirs = description->abi;
+  const std::string_view ours = component::abi_tag();
+  if (theirs != ours) {
+    return base::Error{in_quotes(file) + " was built for " + std::string(theirs) +
+                       ", but this program is " + std::string(ours) +
+                       ": rebuild the library with this program's headers and compiler"};
+  }
+  return description;
+}
+
+}  // namespace
+
+std::vector<std::string> available_libraries(const std::vector<std::string>& folders) {
+  std::set<std::string> names;
+  for (const std::string& folder : folders) {
+    std::error_code failure;
+    for (fs::directory_iterator each(folder, failure), end; !failure && each != end;
+         each.increment(failure)) {
+      const std::string name = each->path().filename().string();
+      const bool fits = name.size() > kPrefix.size() + kSuffix.size() &&
+                        name.starts_with(kPrefix) && name.ends_with(kSuffix);
+      if (!fits) continue;
+      names.insert(name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size()));
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> library_folders(const std::vector<std::string>& first,
+                                         const std::string& document_file) {
+  std::vector<std::string> folders = first;
+  add_variable(folders);
+  add_beside_program(folders);
+  const std::string folder = fs::path(document_file).parent_path().string();
+  folders.push_back(folder.empty() ? "." : folder);
+  return folders;
+}
+
+base::Result<std::string> find_library(std::string_view name,
+                                       const std::vector<std::string>& folders) {
+  const std::string what = "component library " + in_quotes(name);
+  if (name.find('/') != std::string_view::npos) {
+    const std::string file = (fs::path(folders.empty() ? "." : folders.back()) / name).string();
+    if (is_there(file)) return file;
+    return base::Error{what + " was not found: there is no " + in_quotes(file)};
+  }
+  for (const std::string& folder : folders) {
+    const std::string file = (fs::path(folder) / file_name(name)).string();
+    if (is_there(file)) return file;
+  }
+  std::string text =
+      what + " was not found: there is no " + file_name(name) + " in " + joined(folders);
+  const std::string near = base::near_name(name, available_libraries(folders));
+  if (!near.empty()) text += "; did you mean " + in_quotes(near) + "?";
+  return base::Error{text};
+}
+
+base::Result<void> load_library(const std::string& file, component::Registry& registry) {
+  const base::Result<const component::LibraryDescription*> description = describe(file);
+  if (!description) return base::Error{description.error()};
+  registry.begin_library(description.value()->name);
+  std::string thrown;
+  try {
+    description.value()->fill(registry);
+  } catch (const std::exception& exception) {
+    thrown = exception.what();
+  } catch (...) {
+    thrown = "something that is no std::exception";
+  }
+  const std::string problems = registry.end_library();
+  if (!thrown.empty())
+    return base::Error{in_quotes(file) + " threw while it was loaded: " + thrown};
+  if (!problems.empty()) return base::Error{in_quotes(file) + ": " + problems};
+  return {};
+}
+
+bool load_libraries(const std::vector<Reference>& libraries,
+                    const std::vector<std::string>& folders, component::Registry& registry,
+                    base::Diagnostics& diagnostics) {
+  std::set<std::string> loaded;
+  bool all = true;
+  for (const Reference& library : libraries) {
+    const base::Result<std::string> file = find_library(library.name, folders);
+    if (!file) {
+      diagnostics.error(library.where, file.error());
+      all = false;
+      continue;
+    }
+    std::error_code ignored;
+    const std::string same = fs::weakly_canonical(file.value(), ignored).string();
+    if (!loaded.insert(same).second) continue;
+    const base::Result<void> result = load_library(file.value(), registry);
+    if (!result) diagnostics.error(library.where, result.error());
+    all &= result.ok();
+  }
+  return all;
+}
+
+}  // namespace armature::deploy
