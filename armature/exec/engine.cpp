@@ -22,6 +22,29 @@ const char* running_component(const void* context) {
   return running == nullptr ? nullptr : running->name().c_str();
 }
 
+/// What happens in this scope is the work of `context`: real-time, and reported under its name.
+class AtWork {
+ public:
+  explicit AtWork(const component::ExecutionContext& context) : before_(rt::guard_state()) {
+    rt::GuardState& state = rt::guard_state();
+    state.thread = context.name.c_str();
+    state.context = &context;
+    state.running_component = &running_component;
+  }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+  ~AtWork() {
+    rt::GuardState& state = rt::guard_state();
+    state.thread = before_.thread;
+    state.context = before_.context;
+    state.running_component = before_.running_component;
+  }
+
+ private:
+  const rt::GuardState before_;
+  const rt::RealtimeScope realtime_;
+};
+
 }  // namespace
 
 bool Task::run_in(component::ExecutionContext& context, std::function<void()> work,
@@ -78,11 +101,8 @@ void Engine::begin(base::Time start) {
 }
 
 void Engine::serve() {
-  rt::GuardState& guard = rt::guard_state();
-  guard.context = &context_;
-  guard.running_component = &running_component;
-  const rt::RealtimeScope realtime;
-  while (!ending_.load(std::memory_order_acquire)) step(wait());
+  const AtWork at_work(context_);
+  while (!ending_.load(std::memory_order_acquire)) do_due(wait());
   deliver_messages();
 }
 
@@ -107,7 +127,12 @@ base::Time Engine::wait() {
   return platform::monotonic_now();
 }
 
-void Engine::step(base::Time now) {
+void Engine::step(base::Time now) ARMATURE_NONBLOCKING {
+  const AtWork at_work(context_);
+  do_due(now);
+}
+
+void Engine::do_due(base::Time now) ARMATURE_NONBLOCKING {
   if (activity_.kind != Activity::Kind::kPeriodic || now < schedule_.next()) {
     wake(now);
     return;
@@ -120,7 +145,7 @@ void Engine::step(base::Time now) {
   cycles_run_.store(schedule_.cycles_run(), std::memory_order_relaxed);
 }
 
-void Engine::run_cycle(base::Time now) {
+void Engine::run_cycle(base::Time now) ARMATURE_NONBLOCKING {
   open_cycle(now);
   begin_next_cycle();
   deliver_messages();
@@ -131,7 +156,7 @@ void Engine::run_cycle(base::Time now) {
 
 /// Handles what has arrived. For a triggered thread this is its cycle; in a periodic one it happens
 /// between two cycles.
-void Engine::wake(base::Time now) {
+void Engine::wake(base::Time now) ARMATURE_NONBLOCKING {
   open_cycle(now);
   const bool triggered = activity_.kind == Activity::Kind::kTriggered;
   if (triggered) begin_next_cycle();

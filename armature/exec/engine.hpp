@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/base/realtime.hpp"
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
 #include "armature/exec/activity.hpp"
@@ -70,7 +71,7 @@ class Engine {
   std::optional<base::Time> next_due() const;
   /// Handles the messages, and the cycles that are due at `now`.
   /// @rt
-  void step(base::Time now);
+  void step(base::Time now) ARMATURE_NONBLOCKING;
 
   /// @thread any
   std::uint64_t cycles_run() const { return cycles_run_.load(std::memory_order_relaxed); }
@@ -82,8 +83,9 @@ class Engine {
 
  private:
   base::Time wait();
-  void run_cycle(base::Time now);
-  void wake(base::Time now);
+  void do_due(base::Time now) ARMATURE_NONBLOCKING;
+  void run_cycle(base::Time now) ARMATURE_NONBLOCKING;
+  void wake(base::Time now) ARMATURE_NONBLOCKING;
   void open_cycle(base::Time now);
   void close_cycle();
   void begin_next_cycle();
