@@ -175,7 +175,7 @@ TEST(Thread, LargeThreadLocalVariablesLeaveRoomForTheRestOfTheStack) {
 TEST(Thread, AStackOfTheRequestedSizeCanBeUsed) {
   bool touched = false;
   Thread thread({.name = "deep", .stack_bytes = 4u << 20}, [&] {
-    prefault_stack(3u << 20);
+    prefault_stack(2u << 20);
     touched = true;
   });
   thread.join();

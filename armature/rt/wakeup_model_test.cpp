@@ -171,7 +171,7 @@ model::Result check_engine(int inputs, int writes) {
       const auto complete = [&](const auto& input) { return input->seen == writes; };
       while (!std::all_of(all.begin(), all.end(), complete)) {
         wakeup.wait();
-        auto* message = inbox.take_all();
+        auto* message = inbox.empty() ? nullptr : inbox.take_all();
         while (message != nullptr) {
           auto* const next = inbox.next(*message);
           message->deliver();
