@@ -157,7 +157,9 @@ class InputPort final : public InputPortBase {
     const Sample<T>& sample = *source_;
     const ReadStatus status = status_of(sample);
     const bool stale = is_stale(sample.time);
-    return {status, stale, reads_zero(stale) ? empty_.value : sample.value, sample.time};
+    const bool empty = status < ReadStatus::kOld || reads_zero(stale);
+    unread_ = false;
+    return {status, stale, empty ? empty_.value : sample.value, sample.time};
   }
 
   /// The port's place in its array, from 0.
@@ -187,6 +189,7 @@ class InputPort final : public InputPortBase {
     next_channel_ = 0;
     source_ = &empty_;
     seen_ = 0;
+    unread_ = false;
     looked_ahead_ = false;
   }
   /// Zeros in the shape of `shape`: what is read before the first write.
@@ -276,8 +279,8 @@ class InputPort final : public InputPortBase {
   }
 
   void take(internal::Channel<T>& channel, const Sample<T>& sample) {
-    const bool unread = !triggers_ && source_ != &empty_ && seen_ != source_->sequence;
-    counters_.missed += sample.sequence - channel.last_sequence - (unread ? 0 : 1);
+    counters_.missed += sample.sequence - channel.last_sequence - (unread_ ? 0 : 1);
+    unread_ = !triggers_;
     channel.last_sequence = sample.sequence;
     source_ = &sample;
     seen_ = sample.sequence - 1;
@@ -298,7 +301,8 @@ class InputPort final : public InputPortBase {
   std::vector<std::unique_ptr<internal::Channel<T>>> channels_;
   std::size_t next_channel_ = 0;
   std::size_t index_ = 0;
-  bool looked_ahead_ = false;  ///< the sample in `source_` is still to be read
+  bool unread_ = false;        ///< what was taken from a channel last was not read
+  bool looked_ahead_ = false;  ///< and is to be read before the next is taken
 };
 
 }  // namespace armature::component

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// For tests: a thread whose cycles the test itself runs, and a component that does as it is told.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "armature/component/component.hpp"
+
+namespace armature::component {
+
+/// Stands for a thread: components are added to it, and it does something only when the test says.
+class TestThread {
+ public:
+  explicit TestThread(std::string name = "thread") : context(std::move(name)) {}
+
+  template <typename... Components>
+  explicit TestThread(Component& first, Components&... others) : TestThread() {
+    add(first, others...);
+  }
+  template <typename... Components>
+  void add(Components&... components) {
+    (components.assign_context(context), ...);
+  }
+
+  /// Handles all messages, also those that their handling causes.
+  void deliver() {
+    while (rt::Message* message = context.inbox.take_all()) deliver(message);
+  }
+  /// Begins the next cycle, `duration` later.
+  void cycle(base::Duration duration = std::chrono::milliseconds(1)) {
+    context.cycle_time = context.cycle_time.load() + duration;
+    ++context.cycle;
+    deliver(context.next_cycle.take_all());
+    deliver();
+  }
+
+  ExecutionContext context;
+
+ private:
+  static void deliver(rt::Message* message) {
+    while (message != nullptr) {
+      rt::Message* const next = rt::Inbox::next(*message);
+      message->deliver();
+      message = next;
+    }
+  }
+};
+
+/// Brings components to Running.
+template <typename... Components>
+void start(Components&... components) {
+  const auto start_one = [](Component& component) {
+    if (component.state() == State::kPreOperational) {
+      const Outcome configured = component.configure();
+      EXPECT_TRUE(configured) << component.name() << ": " << configured.reason();
+    }
+    const Outcome activated = component.activate();
+    EXPECT_TRUE(activated) << component.name() << ": " << activated.reason();
+    const Outcome started = component.start();
+    EXPECT_TRUE(started) << component.name() << ": " << started.reason();
+  };
+  (start_one(components), ...);
+}
+
+/// Notes which hooks ran, and does in each what the test put there.
+class ProbeComponent : public Component {
+ public:
+  using Component::Component;
+  using Component::error;
+
+  std::vector<std::string> calls;
+  std::map<std::string, std::string> refusals;
+  std::map<std::string, std::function<void()>> actions;
+
+ private:
+  Outcome on_configure() override { return answer("configure"); }
+  Outcome on_activate() override { return answer("activate"); }
+  Outcome on_start() override { return answer("start"); }
+  void on_update() override { note("update"); }
+  void on_stop() override { note("stop"); }
+  void on_cleanup() override { note("cleanup"); }
+  void on_error() override { note("error"); }
+  Outcome on_reset() override { return answer("reset"); }
+
+  void note(const std::string& hook) {
+    calls.push_back(hook);
+    if (const auto action = actions.find(hook); action != actions.end()) action->second();
+  }
+  Outcome answer(const std::string& hook) {
+    note(hook);
+    const auto refusal = refusals.find(hook);
+    return refusal == refusals.end() ? accepted() : refused(refusal->second);
+  }
+};
+
+/// Remembers what it was told.
+class TestSupervisor final : public Supervisor {
+ public:
+  void component_faulted(Component& component) override { faulted.push_back(component.name()); }
+  void component_stopped_itself(Component& component) override {
+    stopped.push_back(component.name());
+  }
+  std::vector<std::string> faulted;
+  std::vector<std::string> stopped;
+};
+
+}  // namespace armature::component
