@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/testing/harness.hpp"
+
+#include <stdexcept>
+
+#include "armature/base/near_name.hpp"
+
+namespace armature::testing {
+namespace {
+
+std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+
+template <typename Items>
+auto& find_in(const Items& items, const component::Component& component, const char* kind,
+              std::string_view name) {
+  std::vector<std::string> names;
+  for (auto* item : items) {
+    if (item->name() == name) return *item;
+    names.emplace_back(item->name());
+  }
+  const std::string hint = base::suggestion(name, names);
+  throw std::invalid_argument(quoted(component.name()) + " has no " + kind + " " + quoted(name) +
+                              (hint.empty() ? "" : "; " + hint));
+}
+
+}  // namespace
+
+Harness::Harness(std::unique_ptr<component::Component> component, base::Duration period)
+    : component_(std::move(component)),
+      engine_("test", exec::Activity::triggered(), {component_.get()}, {}),
+      period_(period) {
+  engine_.context().simulated = true;
+  engine_.begin(now_);
+}
+
+Harness::~Harness() {
+  component_->stop();
+  component_->cleanup();
+  for (auto* event : component_->interface().events) event->unsubscribe_all();
+  for (auto* caller : component_->interface().callers) caller->disconnect();
+}
+
+component::Outcome Harness::start() {
+  using component::State;
+  if (state() == State::kPreOperational) {
+    if (component::Outcome configured = component_->configure(); !configured) return configured;
+  }
+  if (component::Outcome activated = component_->activate(); !activated) return activated;
+  component::Outcome started = component_->start();
+  engine_.begin(now_);
+  return started;
+}
+
+void Harness::run_cycles(int count) {
+  for (int i = 0; i < count; ++i) {
+    now_ += period_;
+    in_thread([this] { component_->update(); });
+  }
+}
+
+void Harness::advance(base::Duration time) {
+  now_ += time;
+  engine_.step(now_);
+}
+
+void Harness::set(std::string_view name, std::string_view text) {
+  component::PropertyBase& property = find_property(name);
+  types::Value value(property.type());
+  base::Result<void> result = types::from_text(property.type(), text, value.data());
+  if (result) result = property.set(value);
+  if (!result) {
+    throw std::invalid_argument(quoted(component_->name()) + ": property " + quoted(name) + ": " +
+                                result.error());
+  }
+}
+
+const std::vector<std::string>& Harness::log() {
+  while (const rt::LogRecord* record = engine_.log().pop()) {
+    log_.push_back(std::string(rt::name_of(record->level)) + ": " + record->message());
+  }
+  return log_;
+}
+
+component::PropertyBase& Harness::find_property(std::string_view name) const {
+  return find_in(component_->interface().properties, *component_, "property", name);
+}
+
+component::InputPortBase& Harness::find_input(std::string_view name) const {
+  return find_in(component_->interface().inputs, *component_, "input", name);
+}
+
+component::OutputPortBase& Harness::find_output(std::string_view name) const {
+  return find_in(component_->interface().outputs, *component_, "output", name);
+}
+
+component::OperationBase& Harness::find_operation(std::string_view name) const {
+  return find_in(component_->interface().operations, *component_, "operation", name);
+}
+
+component::OperationCallerBase& Harness::find_caller(std::string_view name) const {
+  return find_in(component_->interface().callers, *component_, "use of an operation", name);
+}
+
+component::EventBase& Harness::find_event(std::string_view name) const {
+  return find_in(component_->interface().events, *component_, "event", name);
+}
+
+component::EventHandlerBase& Harness::find_handler(std::string_view name) const {
+  return find_in(component_->interface().handlers, *component_, "handler of an event", name);
+}
+
+void Harness::check_type(std::string_view item, const types::Type& is,
+                         const types::Type& given) const {
+  if (types::same_type(is, given)) return;
+  throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(item) + " is of type " +
+                              is.name + ", not " + given.name);
+}
+
+void Harness::check_result(std::string_view operation, const types::Type* is,
+                           const types::Type& wanted) const {
+  if (is != nullptr && types::same_type(*is, wanted)) return;
+  throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(operation) + " returns " +
+                              (is == nullptr ? std::string("nothing") : is->name) + ", not " +
+                              wanted.name);
+}
+
+void Harness::check_size(std::string_view input, bool fits) const {
+  if (fits) return;
+  throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(input) +
+                              " was configured for vectors of another size");
+}
+
+void Harness::check_signature(std::string_view item, const component::Signature& is,
+                              const component::Signature& given) const {
+  if (is.same_as(given)) return;
+  throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(item) + " is " +
+                              is.text() + ", not " + given.text());
+}
+
+}  // namespace armature::testing
