@@ -2,8 +2,9 @@
 #include "armature/cli/console.hpp"
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "armature/platform/clock.hpp"
 

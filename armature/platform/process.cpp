@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -31,6 +32,18 @@ base::Error restart_with(const std::vector<std::pair<std::string, std::string>>&
   arguments.push_back(nullptr);
   ::execv("/proc/self/exe", arguments.data());
   return {std::string("cannot start this program anew: ") + std::strerror(errno)};
+}
+
+base::Error start_again(const std::vector<std::string>& arguments,
+                        const std::vector<std::pair<std::string, std::string>>& environment) {
+  for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+  std::vector<char*> pointers;
+  for (const std::string& argument : arguments) {
+    pointers.push_back(const_cast<char*>(argument.c_str()));  // execv does not write to them
+  }
+  pointers.push_back(nullptr);
+  ::execv("/proc/self/exe", pointers.data());
+  return {"cannot start the program again: " + std::generic_category().message(errno)};
 }
 
 }  // namespace armature::platform

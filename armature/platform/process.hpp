@@ -20,4 +20,10 @@ std::string kernel_version();
 /// value) added to its environment. Returns only if that fails.
 base::Error restart_with(const std::vector<std::pair<std::string, std::string>>& variables);
 
+/// Starts this program again, in this process, with variables added to its environment; returns
+/// only if that failed. Threads and memory of now are gone.
+/// @param arguments  as `main` got them
+base::Error start_again(const std::vector<std::string>& arguments,
+                        const std::vector<std::pair<std::string, std::string>>& environment);
+
 }  // namespace armature::platform

@@ -43,8 +43,8 @@ class LowPass final : public Component {
     filtered_.write(state_);
   }
 
-  Property<double> weight_{this, "Weight", 0.1, "of a new sample", "", range(0.0, 1.0),
-                           changeable_while_running};
+  Property<double> weight_{
+      this, "Weight", 0.1, "of a new sample", "", range(0.0, 1.0), changeable_while_running};
   InputPort<double> raw_{this, "Raw", "what is filtered", "rad", on_data<&LowPass::step>};
   OutputPort<double> filtered_{this, "Filtered", "the smooth part", "rad"};
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/time.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/rt/loaded_guard.hpp"
+
+namespace armature::cli {
+
+/// What a command ends with; the same for all of them.
+enum ExitCode {
+  kDone = 0,
+  kFailed = 1,            ///< the application or its check failed
+  kWrongUse = 2,          ///< of the command line
+  kNoRealtime = 3,        ///< real time was required and is not to be had
+  kStoppedByReaction = 4  ///< a declared safety reaction ended the run
+};
+
+/// Options of every command that loads a deployment.
+struct LoadArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  std::vector<std::string> library_folders;
+  std::string times_file;
+};
+
+struct RunArguments {
+  LoadArguments load;
+  bool simulated = false;
+  std::optional<base::Duration> duration;
+  exec::RealtimeMode realtime = exec::RealtimeMode::kPrefer;
+  std::optional<rt::GuardMode> guard;
+  std::vector<std::string> command_line;  ///< to start again behind the guard
+  std::string write_times;
+  bool statistics = false;
+};
+
+struct CheckArguments {
+  LoadArguments load;
+  bool order = false;
+  bool load_table = false;
+};
+
+struct GraphArguments {
+  LoadArguments load;
+  std::string format = "svg";
+  std::string output;
+};
+
+struct ModelsArguments {
+  std::vector<std::string> libraries;
+  std::vector<std::string> library_folders;
+  std::string name;
+  bool json = false;
+};
+
+/// `10s`, `250 ms`: a time above 0, or nothing.
+std::optional<base::Duration> parse_duration(std::string_view text);
+
+}  // namespace armature::cli

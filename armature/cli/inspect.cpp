@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands that look at deployments and models without running anything.
+#include <cstdio>
+#include <string>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/cli/commands.hpp"
+#include "armature/cli/load.hpp"
+#include "armature/deploy/deployment.hpp"
+#include "armature/deploy/loader.hpp"
+#include "armature/deploy/model_catalogue.hpp"
+#include "armature/deploy/new_component.hpp"
+#include "armature/deploy/wiring_graph.hpp"
+#include "armature/exec/plan.hpp"
+#include "armature/platform/file.hpp"
+
+namespace armature::cli {
+namespace {
+
+using rt::LogLevel;
+
+int print(const base::Result<std::string>& text, const Console& console) {
+  if (!text) {
+    console.say(LogLevel::kError, text.error());
+    return kFailed;
+  }
+  std::fputs(text.value().c_str(), stdout);
+  return kDone;
+}
+
+int write(const std::string& path, const std::string& content, const Console& console) {
+  if (const auto written = platform::write_file(path, content); !written) {
+    console.say(LogLevel::kError, written.error());
+    return kFailed;
+  }
+  console.say(LogLevel::kInfo, "wrote " + path);
+  return kDone;
+}
+
+bool ends_in(const std::string& path, const std::string& ending) {
+  return path.size() >= ending.size() &&
+         path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments, const Console& console) {
+  const deploy::Deployment deployment = load(arguments.load);
+  console.show(deployment.diagnostics);
+  if (!deployment.ok()) {
+    console.say(LogLevel::kError, arguments.load.file + ": " +
+                                      std::to_string(deployment.diagnostics.error_count()) +
+                                      " errors");
+    return kFailed;
+  }
+  if (arguments.order) {
+    std::fputs(exec::describe_order(deployment.blueprint, deployment.plan).c_str(), stdout);
+  }
+  if (arguments.load_table) std::fputs(deployment.schedule.to_text().c_str(), stdout);
+  console.say(LogLevel::kInfo,
+              arguments.load.file + ": " + std::to_string(deployment.blueprint.components.size()) +
+                  " components, " + std::to_string(deployment.plan.connections.size()) +
+                  " connections, no errors");
+  return kDone;
+}
+
+int graph(const GraphArguments& arguments, const Console& console) {
+  const deploy::Deployment deployment = load(arguments.load);
+  console.show(deployment.diagnostics);
+  if (!deployment.ok()) return kFailed;
+  std::string picture;
+  if (arguments.format == "dot") {
+    picture = deploy::graph_as_dot(deployment.blueprint, deployment.plan);
+  } else if (arguments.format == "mermaid") {
+    picture = deploy::graph_as_mermaid(deployment.blueprint, deployment.plan);
+  } else {
+    picture = deploy::graph_as_svg(deployment.blueprint, deployment.plan);
+  }
+  if (!arguments.output.empty()) return write(arguments.output, picture, console);
+  return print(picture, console);
+}
+
+int models(const ModelsArguments& arguments, const Console& console) {
+  component::Registry registry;
+  base::Diagnostics diagnostics;
+  const std::vector<std::string> folders = deploy::library_folders(arguments.library_folders, "./");
+  std::vector<std::string> names = arguments.libraries;
+  if (names.empty()) names = deploy::available_libraries(folders);
+  std::vector<deploy::Reference> libraries;
+  for (const std::string& name : names) libraries.push_back({name, {}});
+  deploy::load_libraries(libraries, folders, registry, diagnostics);
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  if (arguments.json) {
+    std::vector<std::string> wanted;
+    if (!arguments.name.empty()) wanted.push_back(arguments.name);
+    return print(deploy::models_as_json(registry, wanted), console);
+  }
+  if (arguments.name.empty()) return print(deploy::list_models(registry), console);
+  return print(deploy::describe_model(registry, arguments.name), console);
+}
+
+int convert(const std::string& from, const std::string& to, const Console& console) {
+  base::Diagnostics diagnostics;
+  const deploy::Document document = deploy::load_document(from, {}, diagnostics);
+  std::string text;
+  if (diagnostics.ok()) {
+    text = ends_in(to, ".xml") ? deploy::write_xml(document, diagnostics)
+                               : deploy::write_yaml(document);
+  }
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  return write(to, text, console);
+}
+
+int new_component(const std::string& name, const Console& console) {
+  const auto made = deploy::make_component_library(name, ".");
+  if (!made) {
+    console.say(LogLevel::kError, made.error());
+    return kFailed;
+  }
+  for (const std::string& file : made.value().files) {
+    std::printf("%s/%s\n", made.value().folder.c_str(), file.c_str());
+  }
+  console.say(LogLevel::kInfo, "made " + made.value().folder + "; its README.md says how to build");
+  return kDone;
+}
+
+}  // namespace armature::cli

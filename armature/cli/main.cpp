@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <functional>
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "armature/base/unit.hpp"
+#include "armature/cli/commands.hpp"
+
+namespace armature::cli {
+
+std::optional<base::Duration> parse_duration(std::string_view text) {
+  const auto quantity = base::parse_quantity(text);
+  if (!quantity) return std::nullopt;
+  const std::string unit = quantity.value().unit.empty() ? "s" : quantity.value().unit;
+  const auto ns = base::convert(quantity.value().value, unit, "ns");
+  constexpr double kLongest = 9.0e18;
+  if (!ns || !(ns.value() >= 1.0 && ns.value() < kLongest)) return std::nullopt;
+  return base::Duration(static_cast<std::int64_t>(ns.value()));
+}
+
+namespace {
+
+/// Builds the command line; `chosen` becomes the command to execute.
+class CommandLine {
+ public:
+  explicit CommandLine(Console& console) : console_(console) {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", "armature " ARMATURE_VERSION);
+    app_.add_flag_callback(
+        "--log-json", [this] { console_.use_json(); }, "messages as one JSON object a line");
+    app_.fallthrough();
+    add_run();
+    add_check();
+    add_graph();
+    add_models();
+    add_convert();
+    add_new();
+  }
+
+  int execute(int argc, char** argv) {
+    run_.command_line.assign(argv, argv + argc);
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      const bool asked_for_help = error.get_exit_code() == 0;
+      app_.exit(error);
+      return asked_for_help ? kDone : kWrongUse;
+    }
+    return chosen_();
+  }
+
+ private:
+  void add_load_options(CLI::App& command, LoadArguments& load) {
+    command.add_option("file", load.file, "the deployment, YAML or OROCOS XML")->required();
+    command
+        .add_option("--set", load.overrides,
+                    "changes a parameter or property: Joint1.GearRatio=0.02")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    add_folders(command, load.library_folders);
+    command.add_option("--times", load.times_file, "measured execution times, for the load");
+  }
+
+  void add_folders(CLI::App& command, std::vector<std::string>& folders) {
+    command.add_option("-L,--library-path", folders, "where component libraries are looked for")
+        ->type_name("FOLDER")
+        ->allow_extra_args(false);
+  }
+
+  void add_run() {
+    CLI::App* command = app_.add_subcommand("run", "runs a deployment until stopped (Ctrl-C)");
+    add_load_options(*command, run_.load);
+    command->add_flag("--sim", run_.simulated, "in simulated time, as fast as possible");
+    command
+        ->add_option_function<std::string>(
+            "--for",
+            [this](const std::string& text) {
+              run_.duration = parse_duration(text);
+              if (!run_.duration) {
+                throw CLI::ValidationError("--for", "'" + text + "' is no time above 0, like 10s");
+              }
+            },
+            "how long, for example 10s or 500ms")
+        ->type_name("TIME");
+    static const std::map<std::string, exec::RealtimeMode> kModes{
+        {"off", exec::RealtimeMode::kOff},
+        {"prefer", exec::RealtimeMode::kPrefer},
+        {"require", exec::RealtimeMode::kRequire}};
+    command->add_option("--realtime", run_.realtime, "off, prefer (default) or require")
+        ->transform(CLI::CheckedTransformer(kModes).description(""))
+        ->type_name("MODE");
+    command
+        ->add_flag("--guard{report}", guard_,
+                   "watches real-time threads for allocation, locks and I/O; --guard=abort ends at "
+                   "the first")
+        ->check(CLI::IsMember({"report", "abort"}).description(""));
+    command->add_option("--write-times", run_.write_times, "writes measured execution times");
+    command->add_flag("--statistics", run_.statistics, "prints cycles and latencies at the end");
+    command->callback([this] {
+      if (guard_ == "report") run_.guard = rt::GuardMode::kReport;
+      if (guard_ == "abort") run_.guard = rt::GuardMode::kAbort;
+      chosen_ = [this] { return run(run_, console_); };
+    });
+  }
+
+  void add_check() {
+    CLI::App* command = app_.add_subcommand("check", "finds every mistake without running");
+    add_load_options(*command, check_.load);
+    command->add_flag("--order", check_.order, "prints which thread runs what, in which order");
+    command->add_flag("--load", check_.load_table, "prints the load of each thread");
+    command->callback([this] { chosen_ = [this] { return check(check_, console_); }; });
+  }
+
+  void add_graph() {
+    CLI::App* command = app_.add_subcommand("graph", "draws the wiring");
+    add_load_options(*command, graph_.load);
+    command->add_option("--format", graph_.format, "svg (default), dot or mermaid")
+        ->check(CLI::IsMember({"svg", "dot", "mermaid"}).description(""));
+    command->add_option("-o,--output", graph_.output, "file to write; standard output otherwise");
+    command->callback([this] { chosen_ = [this] { return graph(graph_, console_); }; });
+  }
+
+  void add_models() {
+    CLI::App* command = app_.add_subcommand("models", "lists component models, or describes one");
+    command->add_option("name", models_.name, "the model to describe");
+    command->add_option("-l,--library", models_.libraries, "component library to look into")
+        ->allow_extra_args(false);
+    add_folders(*command, models_.library_folders);
+    command->add_flag("--json", models_.json, "for machines");
+    command->callback([this] { chosen_ = [this] { return models(models_, console_); }; });
+  }
+
+  void add_convert() {
+    CLI::App* command = app_.add_subcommand("convert", "rewrites YAML as OROCOS XML and back");
+    command->add_option("from", from_, "the deployment to read")->required();
+    command->add_option("to", to_, "the file to write; .xml is OROCOS XML")->required();
+    command->callback([this] { chosen_ = [this] { return convert(from_, to_, console_); }; });
+  }
+
+  void add_new() {
+    CLI::App* command = app_.add_subcommand("new", "makes something to start from");
+    command->require_subcommand(1);
+    CLI::App* made = command->add_subcommand("component", "a component library that builds");
+    made->add_option("name", name_, "of the component, like GripperDriver")->required();
+    made->callback([this] { chosen_ = [this] { return new_component(name_, console_); }; });
+  }
+
+  CLI::App app_{"Armature: component-based real-time control of robots", "armature"};
+  Console& console_;
+  RunArguments run_;
+  CheckArguments check_;
+  GraphArguments graph_;
+  ModelsArguments models_;
+  std::string guard_;
+  std::string from_;
+  std::string to_;
+  std::string name_;
+  std::function<int()> chosen_;
+};
+
+}  // namespace
+}  // namespace armature::cli
+
+int main(int argc, char** argv) {
+  armature::cli::Console console;
+  return armature::cli::CommandLine(console).execute(argc, argv);
+}

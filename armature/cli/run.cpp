@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/load.hpp"
+#include "armature/deploy/builder.hpp"
+#include "armature/deploy/deployment.hpp"
+#include "armature/deploy/schedule.hpp"
+#include "armature/platform/clock.hpp"
+#include "armature/platform/file.hpp"
+#include "armature/platform/process.hpp"
+#include "armature/platform/stop_signal.hpp"
+
+namespace armature::cli {
+namespace {
+
+using rt::LogLevel;
+
+/// Long enough to be "until stopped", short enough to be added to any time.
+constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
+
+void tell_verdict(const exec::Application& application, const Console& console) {
+  for (const exec::Verdict::Line& line : application.verdict().lines) {
+    const bool granted = line.refusals.empty();
+    console.say(granted ? LogLevel::kInfo : LogLevel::kWarning,
+                line.subject + ": asked for " + line.requested + ", got " + line.granted);
+    for (const std::string& refusal : line.refusals) {
+      console.say(LogLevel::kWarning, "  refused: " + refusal);
+    }
+  }
+}
+
+std::string microseconds(double ns) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f us", ns / 1000.0);
+  return text;
+}
+
+void tell_statistics(const exec::Application& application, bool all, const Console& console) {
+  const double tick_ns = platform::tick_period_ns();
+  for (const exec::ThreadStatistics& thread : application.thread_statistics()) {
+    if (thread.cycles_run == 0) continue;
+    const bool lossy = thread.cycles_skipped > 0 || thread.log_lines_dropped > 0;
+    if (!all && !lossy) continue;
+    std::string text = "thread " + thread.name + ": " + std::to_string(thread.cycles_run) +
+                       " cycles run, " + std::to_string(thread.cycles_skipped) + " skipped";
+    const auto in_ns = [&](std::uint64_t ticks) { return static_cast<double>(ticks) * tick_ns; };
+    text += "; a cycle took " + microseconds(in_ns(thread.cycle_ticks.percentile(0.5))) +
+            " (median), " + microseconds(in_ns(thread.cycle_ticks.most)) + " at most";
+    if (thread.latency_ns.count > 0) {
+      text += "; woke " + microseconds(static_cast<double>(thread.latency_ns.percentile(0.5))) +
+              " late (median), " + microseconds(static_cast<double>(thread.latency_ns.most)) +
+              " at most";
+    }
+    if (thread.log_lines_dropped > 0) {
+      text += "; " + std::to_string(thread.log_lines_dropped) + " log lines dropped";
+    }
+    console.say(lossy ? LogLevel::kWarning : LogLevel::kInfo, text);
+  }
+}
+
+/// Names every component that did not get to the end in good order.
+void tell_casualties(const exec::Application& application, const Console& console) {
+  for (const exec::ComponentEntry& entry : application.blueprint().components) {
+    const component::Component& component = *entry.component;
+    if (component.reason().empty()) continue;
+    console.say(LogLevel::kWarning, component.name() + " (" +
+                                        std::string(component::name_of(component.state())) +
+                                        "): " + std::string(component.reason()));
+  }
+}
+
+bool write_times_file(const std::string& path, const exec::Application& application,
+                      const Console& console) {
+  const auto written =
+      platform::write_file(path, deploy::write_times(deploy::measured_times(application)));
+  if (!written) console.say(LogLevel::kError, written.error());
+  return written.ok();
+}
+
+/// Makes sure that the guard stands in front of the C library, which it can only from the start of
+/// a program.
+bool stand_behind_guard(const RunArguments& arguments, const Console& console) {
+  if (!arguments.guard || rt::loaded_guard() != nullptr) return true;
+  const base::Error failure =
+      platform::start_again(arguments.command_line, rt::guard_environment(*arguments.guard));
+  console.say(LogLevel::kError, failure.message);
+  return false;
+}
+
+/// True if nothing was seen on a real-time thread that does not belong there.
+bool passed_guard(const RunArguments& arguments, const Console& console) {
+  if (!arguments.guard) return true;
+  const std::uint64_t violations = rt::loaded_guard()->violations();
+  console.say(violations == 0 ? LogLevel::kInfo : LogLevel::kError,
+              "the real-time guard saw " + std::to_string(violations) + " violations");
+  return violations == 0;
+}
+
+int exit_code(exec::RunEnd end, const exec::Application& application) {
+  if (end == exec::RunEnd::kFaulted || application.faults() > 0) return kFailed;
+  const bool by_reaction = end == exec::RunEnd::kStoppedByReaction || application.reactions() > 0;
+  return by_reaction ? kStoppedByReaction : kDone;
+}
+
+int start(exec::Application& application, const RunArguments& arguments, const Console& console) {
+  const base::Diagnostics diagnostics = application.start();
+  tell_verdict(application, console);
+  console.show(diagnostics);
+  if (diagnostics.ok()) return kDone;
+  const bool refused = arguments.realtime == exec::RealtimeMode::kRequire && !arguments.simulated &&
+                       !application.verdict().complete();
+  return refused ? kNoRealtime : kFailed;
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments, Console& console) {
+  if (!stand_behind_guard(arguments, console)) return kFailed;
+  deploy::Deployment deployment = load(arguments.load);
+  console.show(deployment.diagnostics);
+  if (!deployment.ok()) return kFailed;
+
+  exec::ApplicationOptions options = std::move(deployment.options);
+  options.simulated = arguments.simulated;
+  options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
+  options.log = [&console](const rt::LogRecord& record) { console.log(record); };
+  if (!arguments.simulated) console.set_begin(platform::monotonic_now());
+
+  const platform::StopSignal stop;
+  exec::Application application(std::move(deployment.blueprint), std::move(options));
+  if (const int failed = start(application, arguments, console); failed != kDone) {
+    if (application.hangs()) platform::exit_now(failed);
+    return failed;
+  }
+  const exec::RunEnd end = application.run_for(arguments.duration.value_or(kUntilStopped), &stop);
+  tell_casualties(application, console);
+  base::Diagnostics ended = application.stop();
+  deploy::save_properties(deployment.document, application.blueprint(), ended);
+  console.show(ended);
+  tell_statistics(application, arguments.statistics, console);
+  int code = exit_code(end, application);
+  if (!ended.ok() || !passed_guard(arguments, console)) code = kFailed;
+  if (!arguments.write_times.empty() &&
+      !write_times_file(arguments.write_times, application, console)) {
+    code = kFailed;
+  }
+  // A thread that hangs still uses everything: leave without taking it down.
+  if (application.hangs()) platform::exit_now(code);
+  return code;
+}
+
+}  // namespace armature::cli
