@@ -8,6 +8,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/property_value.hpp"
@@ -146,7 +147,10 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
   }
   std::string problem = "returns no component";
   try {
-    if (auto component = model->make(written.name)) return component;
+    if (auto component = model->make(written.name)) {
+      report_machines(written, *component);
+      return component;
+    }
   } catch (const std::exception& exception) {
     problem = std::string("throws: ") + exception.what();
   } catch (...) {
@@ -156,6 +160,17 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
                                         " cannot be made: the constructor of model " +
                                         in_quotes(written.model) + " " + problem);
   return nullptr;
+}
+
+/// Mistakes in how the author listed states and transitions.
+void ComponentBuilder::report_machines(const Component& written,
+                                       const component::Component& component) {
+  for (const component::StateMachine* machine : component.interface().machines) {
+    for (const std::string& problem : machine->problems()) {
+      diagnostics_.error(written.where, in_quotes(written.name) + ", state machine " +
+                                            in_quotes(machine->name()) + ": " + problem);
+    }
+  }
 }
 
 void ComponentBuilder::report_unknown_model(const Component& written) {

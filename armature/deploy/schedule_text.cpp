@@ -2,19 +2,19 @@
 // The load as a table for people.
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdio>
 #include <vector>
 
 #include "armature/deploy/internal/load_text.hpp"
+#include "armature/deploy/internal/text_table.hpp"
 #include "armature/deploy/schedule.hpp"
 
 namespace armature::deploy {
 namespace {
 
 using internal::percent_text;
+using internal::Row;
 using internal::short_text;
-using Row = std::vector<std::string>;
 
 constexpr const char* kUnknown = "?";
 
@@ -53,22 +53,6 @@ Row row_of(const ThreadLoad& load) {
           cost_text(load),
           load.known() ? percent_text(load.utilisation()) : kUnknown,
           answers ? short_text(load.response) : kUnknown};
-}
-
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      text += row[i];
-      if (i + 1 < row.size()) text.append(widths[i] - row[i].size() + 2, ' ');
-    }
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace
@@ -111,8 +95,8 @@ std::string Schedule::to_text() const {
   std::vector<Row> rows = {
       {"thread", "activity", "scheduler", "CPUs", "period", "time", "load", "answers within"}};
   for (const ThreadLoad& load : threads) rows.push_back(row_of(load));
-  return aligned(rows) + "load: " + internal::percent_text(utilisation()) + " of one CPU, of " +
-         std::to_string(cpus) + "\n";
+  return internal::table_text(rows) + "load: " + internal::percent_text(utilisation()) +
+         " of one CPU, of " + std::to_string(cpus) + "\n";
 }
 
 }  // namespace armature::deploy

@@ -26,6 +26,7 @@ class ComponentBuilder {
 
  private:
   std::unique_ptr<component::Component> make(const Component& written);
+  void report_machines(const Component& written, const component::Component& component);
   void report_unknown_model(const Component& written);
   bool set_properties(const Component& written, component::Component& component);
   bool apply_property_file(const Component& written, const PropertyFile& file,
