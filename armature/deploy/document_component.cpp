@@ -4,6 +4,7 @@
 
 #include "armature/deploy/internal/document_reader.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/deploy/internal/xml_types.hpp"
 
 namespace armature::deploy::internal {
 namespace {
@@ -145,7 +146,7 @@ void read_properties(const Value& value, const ValueReader& reader, Component& c
     if (!is_dotted_name(property.name)) {
       reader.error(property.where, "property " + in_quotes(property.name) + " is not a name");
     }
-    check_values_given("property " + in_quotes(property.name), property.value, reader);
+    check_values("property " + in_quotes(property.name), property.value, reader);
   }
   component.properties = value.entries;
 }
@@ -173,15 +174,18 @@ void check_component(const ValueReader& reader, const Component& component) {
 
 }  // namespace
 
-void check_values_given(const std::string& name, const Value& value, const ValueReader& reader) {
+void check_values(const std::string& name, const Value& value, const ValueReader& reader) {
   if (value.kind == Value::Kind::kNone) {
     reader.error(value.where, name + " has no value",
                  "braces of {i} and ${name} need quotes; an empty text is \"\"");
   }
-  for (const Value& item : value.items) check_values_given(name, item, reader);
+  if (const std::string wrong = wrong_with(value); !wrong.empty()) {
+    reader.error(value.where, name + " of type " + value.type + " " + wrong);
+  }
+  for (const Value& item : value.items) check_values(name, item, reader);
   for (const Property& entry : value.entries) {
     if (entry.name.empty()) reader.error(entry.where, name + " has a key without a name");
-    check_values_given(name, entry.value, reader);
+    check_values(name, entry.value, reader);
   }
 }
 

@@ -12,12 +12,6 @@ namespace {
 constexpr int kLargestFifo = 1'000'000;
 constexpr const char* kArrowHint = "for example Joint1.Position -> Sensor.Position1";
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 /// The trimmed part of a text, at its own column.
 Value part_of(const Value& value, std::size_t begin, std::size_t end) {
   const std::string_view part = std::string_view(value.text).substr(begin, end - begin);

@@ -90,6 +90,7 @@ class ParameterResolver {
       diagnostics_.error(property.where, "parameter " + in_quotes(property.name) +
                                              (circular ? " needs its own value"
                                                        : " needs too long a chain of others"));
+      scope_.parameters.push_back({property.name, make_text(""), {}, property.where});
       return;
     }
     states_[index] = State::kBusy;

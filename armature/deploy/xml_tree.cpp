@@ -102,12 +102,9 @@ class XmlReader {
 
   void read_child(const pugi::xml_node& child, int depth, XmlElement& element, bool& has_value) {
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-      const std::string_view text = child.value();
-      const std::size_t first = text.find_first_not_of(" \t\r\n");
-      if (first == std::string_view::npos) return;
-      const std::size_t size = text.find_last_not_of(" \t\r\n") - first + 1;
-      diagnostics_.error(place(child),
-                         "text " + in_quotes(text.substr(first, size)) + " outside <value>");
+      if (const std::string_view text = trimmed(child.value()); !text.empty()) {
+        diagnostics_.error(place(child), "text " + in_quotes(text) + " outside <value>");
+      }
       return;
     }
     if (child.type() != pugi::node_element) return;

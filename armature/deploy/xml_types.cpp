@@ -10,6 +10,8 @@
 #include <optional>
 #include <system_error>
 
+#include "armature/deploy/internal/value_tree.hpp"
+
 namespace armature::deploy::internal {
 namespace {
 
@@ -29,12 +31,6 @@ bool is_whole(std::string_view text) {
 bool all_texts(const Value& list) {
   return std::all_of(list.items.begin(), list.items.end(),
                      [](const Value& item) { return item.kind == Value::Kind::kText; });
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
 }  // namespace
@@ -96,13 +92,25 @@ std::string wrong_with(std::string_view text, std::string_view type) {
   return is_whole(text) ? "" : "must be a whole number";
 }
 
+std::string wrong_with(const Value& value) {
+  if (value.type.empty()) return {};
+  const bool text = value.kind == Value::Kind::kText;
+  const std::string_view expected =
+      text ? std::string_view(value.type) : element_type_of(value.type);
+  for (const Value& one : text ? std::vector<Value>{value} : value.items) {
+    const std::string wrong = wrong_with(one.text, expected);
+    if (!wrong.empty()) return wrong + ", found " + in_quotes(one.text);
+  }
+  return {};
+}
+
 void normalise_type(Value& value) {
   if (value.kind == Value::Kind::kList) {
     if (!all_texts(value) || value.type == shown_list_type(value)) value.type.clear();
     return;
   }
   if (value.kind != Value::Kind::kText || value.type.empty()) return;
-  if (!is_text_type(value.type)) value.text = trimmed(value.text);
+  if (!is_text_type(value.type)) value.text = std::string(trimmed(value.text));
   if (value.type == "boolean" && value.text == "0") value.text = "false";
   if (value.type == "boolean" && value.text == "1") value.text = "true";
   if (value.type == "double" && is_whole(value.text)) value.text += ".0";

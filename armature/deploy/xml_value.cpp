@@ -19,9 +19,10 @@ Value simple_value(const XmlElement& element, base::Diagnostics& diagnostics) {
   }
   value.type = type;
   normalise_type(value);
-  if (const std::string wrong = wrong_with(value.text, type); !wrong.empty()) {
-    diagnostics.error(element.where, "simple " + in_quotes(element.name) + " of type " + type +
-                                         " " + wrong + ", found " + in_quotes(value.text));
+  if (const std::string wrong = wrong_with(value); !wrong.empty()) {
+    diagnostics.error(element.where,
+                      "simple " + in_quotes(element.name) + " of type " + type + " " + wrong);
+    value.type.clear();
   }
   return value;
 }
@@ -29,11 +30,15 @@ Value simple_value(const XmlElement& element, base::Diagnostics& diagnostics) {
 /// An element of `array`, `ints` or `strings` is of the list's element type without saying so.
 Value element_value(const XmlElement& element, std::string_view expected,
                     base::Diagnostics& diagnostics) {
-  Value value = value_of(element, diagnostics);
-  if (!element.is_simple() || element.type != expected) return value;
-  const bool spelled_out = expected == "double" && value.text != element.text;
-  if (spelled_out && value.text.substr(0, value.text.size() - 2) == element.text) {
-    value.text = element.text;
+  if (!element.is_simple()) {
+    diagnostics.error(element.where, "a list of this type has only simple elements",
+                      "use <sequence> for others");
+  }
+  const bool text = is_text_type(expected);
+  Value value = make_text(text ? element.text : std::string(trimmed(element.text)), element.where);
+  value.type = expected;
+  if (const std::string wrong = wrong_with(value); !wrong.empty()) {
+    diagnostics.error(element.where, "an element of the list " + wrong);
   }
   value.type.clear();
   return value;
@@ -44,9 +49,11 @@ Value list_value(const XmlElement& element, base::Diagnostics& diagnostics) {
   const std::string_view expected = element_type_of(element.type);
   for (const XmlElement& child : element.children) {
     if (child.is_simple() && child.name == "Size") continue;
-    list.items.push_back(element_value(child, expected, diagnostics));
+    list.items.push_back(expected.empty() ? value_of(child, diagnostics)
+                                          : element_value(child, expected, diagnostics));
   }
   if (!expected.empty()) list.type = element.type;
+  if (!wrong_with(list).empty()) list.type.clear();  // reported for the element
   normalise_type(list);
   return list;
 }

@@ -204,14 +204,17 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
+  /// Keeps the first of entries with the same key.
   void refuse_twins(Value& map) {
-    std::unordered_map<std::string_view, const base::Location*> first;
-    for (const Property& entry : map.entries) {
-      const auto [found, is_new] = first.emplace(entry.name, &entry.where);
-      if (is_new) continue;
-      diagnostics_.error(entry.where, "'" + entry.name + "' is given twice",
-                         "first at " + place_text(*found->second));
-    }
+    std::unordered_map<std::string, base::Location> first;
+    std::erase_if(map.entries, [&](const Property& entry) {
+      const auto [found, is_new] = first.emplace(entry.name, entry.where);
+      if (!is_new) {
+        diagnostics_.error(entry.where, "'" + entry.name + "' is given twice",
+                           "first at " + place_text(found->second));
+      }
+      return !is_new;
+    });
   }
 
   const std::string& file_;

@@ -33,7 +33,7 @@ void check_connections(Document& document, base::Diagnostics& diagnostics);
 
 std::vector<Export> read_exports(const Value& value, const ValueReader& reader);
 
-/// Adds the missing-value errors of a property and of what is in it.
-void check_values_given(const std::string& name, const Value& value, const ValueReader& reader);
+/// Refuses missing values in a property and texts that are not of the OROCOS type they name.
+void check_values(const std::string& name, const Value& value, const ValueReader& reader);
 
 }  // namespace armature::deploy::internal

@@ -28,6 +28,9 @@ Value make_map(base::Location where = {});
 /// `text`, a list or a map, for messages: "found a list".
 std::string_view name_of(Value::Kind kind);
 
+/// Without blanks and line ends around it.
+std::string_view trimmed(std::string_view text);
+
 /// `'Joint1'`, or a shortened form of a long text.
 std::string in_quotes(std::string_view text);
 

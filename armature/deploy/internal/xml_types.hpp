@@ -34,6 +34,9 @@ std::string_view shown_list_type(const Value& list);
 /// What is wrong with the text of a simple element of that type; empty if nothing is.
 std::string wrong_with(std::string_view text, std::string_view type);
 
+/// What is wrong with a text or a list of the type it names: `must be a whole number, found 'x'`.
+std::string wrong_with(const Value& value);
+
 /// Leaves out a type that the value shows by itself, and lets a whole number of type double show
 /// it.
 void normalise_type(Value& value);

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small files that would cost much memory, time or stack are refused.
+#include <gtest/gtest.h>
+
+#include "armature/deploy/internal/document_in_memory.hpp"
+
+namespace armature::deploy {
+namespace {
+
+std::string messages(const std::string& text, const Limits& limits, const char* name = "a.yaml") {
+  base::Diagnostics diagnostics;
+  LoadOptions options;
+  options.limits = limits;
+  parse_document(text, name, options, diagnostics);
+  return diagnostics.to_text();
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
+
+/// Ten lists of ten aliases each: 10^10 values.
+std::string alias_bomb() {
+  std::string text = "l0: &l0 [x]\n";
+  for (int i = 1; i <= 10; ++i) {
+    const std::string before = "*l" + std::to_string(i - 1);
+    text += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " [" + before;
+    text += repeated(", " + before, 9) + "]\n";
+  }
+  return text;
+}
+
+TEST(Limits, FileSizeIsLimited) {
+  Limits limits;
+  limits.file_bytes = 10;
+  EXPECT_EQ(messages("application: long\n", limits),
+            "a.yaml: error: the file has 18 bytes; at most 10 are read\n");
+  EXPECT_EQ(messages("<properties/>  ", limits, "a.xml"),
+            "a.xml: error: the file has 15 bytes; at most 10 are read\n");
+}
+
+TEST(Limits, AliasBombIsRefused) {
+  Limits limits;
+  limits.nodes = 100'000;
+  EXPECT_EQ(messages(alias_bomb(), limits),
+            "a.yaml:5:5: error: the document has more than 100000 values\n");
+}
+
+TEST(Limits, ParameterBombIsRefused) {
+  std::string text = "parameters:\n  p0: xxxxxxxxxx\n";
+  for (int i = 1; i <= 30; ++i) {
+    const std::string before = "${p" + std::to_string(i - 1) + "}";
+    text += "  p" + std::to_string(i) + ": " + before + before + "\n";
+  }
+  EXPECT_EQ(messages(text, {}),
+            "a.yaml:19:8: error: the text becomes longer than a million characters\n");
+}
+
+TEST(Limits, NestedRangesAreRefused) {
+  Limits limits;
+  limits.expanded_nodes = 100'000;
+  EXPECT_EQ(messages("components:\n"
+                     "  A{1..1000}: {model: M, peers: [\"B{1..1000}\"]}\n",
+                     limits),
+            "a.yaml:2:34: error: ranges, parameters and composites expand to more values than "
+            "possible (check the bounds of ranges)\n");
+}
+
+TEST(Limits, CompositesInCompositesAreRefused) {
+  std::string text = "components: {a: {model: C20}}\ncomposites:\n  C0: {}\n";
+  for (int i = 1; i <= 20; ++i) {
+    const std::string before = "{model: C" + std::to_string(i - 1) + "}";
+    text += "  C" + std::to_string(i) + ": {components: {\"p{1..9}\": " + before + "}}\n";
+  }
+  Limits limits;
+  limits.expanded_nodes = 100'000;
+  const std::string found = messages(text, limits);
+  EXPECT_NE(found.find("expand to more values than possible"), std::string::npos) << found;
+}
+
+TEST(Limits, DepthOfYamlIsLimited) {
+  EXPECT_EQ(messages("a: " + repeated("[", 70) + repeated("]", 70), {}),
+            "a.yaml:1:67: error: lists and maps are nested more than 64 deep\n");
+  EXPECT_NE(messages(repeated("[", 100'000), {}), "");
+  EXPECT_NE(messages(repeated("{a: ", 100'000), {}), "");
+  EXPECT_NE(messages(repeated("- ", 100'000), {}), "");
+}
+
+TEST(Limits, DepthThroughAliasesIsLimited) {
+  std::string text = "l0: &l0 [x]\n";
+  for (int i = 1; i <= 100; ++i) {
+    text += "l" + std::to_string(i) + ": &l" + std::to_string(i);
+    text += " [*l" + std::to_string(i - 1) + "]\n";
+  }
+  EXPECT_EQ(messages(text, {}),
+            "a.yaml:63:12: error: lists and maps are nested more than 64 deep\n");
+}
+
+TEST(Limits, DepthOfXmlIsLimited) {
+  const std::string text = "<properties>" + repeated("<struct name=\"a\" type=\"M\">", 100'000);
+  EXPECT_EQ(messages(text + repeated("</struct>", 100'000) + "</properties>", {}, "a.xml"),
+            "a.xml:1:1651: error: elements are nested more than 64 deep\n");
+}
+
+TEST(Limits, NumberOfXmlElementsIsLimited) {
+  Limits limits;
+  limits.nodes = 100;
+  const std::string import = "<simple name=\"Import\" type=\"string\"><value>x</value></simple>";
+  EXPECT_EQ(messages("<properties>" + repeated(import, 200) + "</properties>", limits, "a.xml"),
+            "a.xml:1:6052: error: the file has more than 100 elements\n");
+}
+
+TEST(Limits, EntityBombIsRefused) {
+  EXPECT_EQ(messages("<!DOCTYPE properties [<!ENTITY a \"xxxxxxxxxx\"><!ENTITY b \"&a;&a;\">]>\n"
+                     "<properties armature:application=\"&b;\"/>\n",
+                     {}, "a.xml"),
+            "a.xml:1:11: error: declarations in the document type are not read (write only "
+            "<!DOCTYPE properties SYSTEM \"cpf.dtd\">)\n");
+}
+
+TEST(Limits, NumberOfIncludedFilesIsLimited) {
+  Limits limits;
+  limits.includes = 3;
+  LoadOptions options;
+  options.limits = limits;
+  options.read = [](const std::string& path) -> base::Result<std::string> {
+    return "include: " + path + "x\n";
+  };
+  base::Diagnostics diagnostics;
+  load_document("a", options, diagnostics);
+  EXPECT_EQ(diagnostics.to_text(), "axx:1:10: error: more than 3 files are included\n");
+}
+
+TEST(Limits, LongChainsOfParametersAreRefused) {
+  std::string text = "parameters:\n  p0: x\n";
+  for (int i = 1; i <= 200; ++i) {
+    text.insert(text.find("  p"),
+                "  p" + std::to_string(i) + ": ${p" + std::to_string(i - 1) + "}\n");
+  }
+  const std::string found = messages(text, {});
+  EXPECT_NE(found.find("needs too long a chain of others"), std::string::npos) << found;
+}
+
+TEST(Limits, TenThousandComponentsAreFarWithinThem) {
+  base::Diagnostics diagnostics;
+  const Document document = parse_document(
+      "components:\n"
+      "  J{1..10000}: {model: M, peers: [\"a{i}\"], properties: {a: 1, b: 2, c: \"{i}\"}}\n"
+      "connections:\n  - J{i}.Out -> J{i+1}.In\n",
+      "a.yaml", {}, diagnostics);
+  EXPECT_EQ(diagnostics.to_text(), "");
+  EXPECT_EQ(document.components.size(), 10'000u);
+  EXPECT_EQ(document.connections.size(), 9'999u);
+}
+
+}  // namespace
+}  // namespace armature::deploy
