@@ -215,6 +215,31 @@ TEST(LogQueueStress, EveryRecordIsPrintedOrCountedAsDropped) {
   EXPECT_EQ(printed + queue.dropped(), kRounds / 10);
 }
 
+TEST(DistributionStress, WhoeverSeesTheFirstValueSeesTheExtremesToo) {
+  constexpr std::size_t kDistributions = kSanitized ? 200 : 1500;
+  constexpr std::uint64_t kValue = std::uint64_t{1} << 63;  // counted in the bucket looked at last
+  std::vector<Distribution> distributions(kDistributions);
+  std::atomic<std::size_t> looked_at{0};
+  std::thread adder([&] {
+    for (std::size_t i = 0; i < kDistributions; ++i) {
+      while (looked_at <= i) std::this_thread::yield();
+      distributions[i].add(kValue);
+    }
+  });
+  bool right = true;
+  for (const Distribution& distribution : distributions) {
+    ++looked_at;
+    DistributionSummary summary;
+    for (int looks = 1; summary.count == 0; ++looks) {
+      summary = distribution.summary();
+      if (looks % 2048 == 0) std::this_thread::yield();
+    }
+    right = right && summary.least == kValue && summary.most == kValue;
+  }
+  adder.join();
+  EXPECT_TRUE(right);
+}
+
 TEST(DistributionStress, LookingOnDisturbsNothing) {
   Distribution distribution;
   std::atomic<bool> finished{false};
