@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -84,6 +85,12 @@ bool write_times_file(const std::string& path, const exec::Application& applicat
 /// a program.
 bool stand_behind_guard(const RunArguments& arguments, const Console& console) {
   if (!arguments.guard || rt::loaded_guard() != nullptr) return true;
+  if (std::getenv("ARMATURE_GUARD") != nullptr) {
+    console.say(LogLevel::kError,
+                "the guard was asked for but is not there: libarmature_guard.so must lie beside the "
+                "other libraries of armature");
+    return false;
+  }
   const base::Error failure =
       platform::start_again(arguments.command_line, rt::guard_environment(*arguments.guard));
   console.say(LogLevel::kError, failure.message);
