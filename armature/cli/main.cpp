@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "armature/base/near_name.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/cli/commands.hpp"
 
@@ -41,6 +42,10 @@ class CommandLine {
 
   int execute(int argc, char** argv) {
     run_.command_line.assign(argv, argv + argc);
+    if (const std::string unknown = unknown_command(); !unknown.empty()) {
+      console_.say(rt::LogLevel::kError, unknown);
+      return kWrongUse;
+    }
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -52,6 +57,19 @@ class CommandLine {
   }
 
  private:
+  /// CLI11 would only say that a command is missing.
+  std::string unknown_command() const {
+    for (std::size_t i = 1; i < run_.command_line.size(); ++i) {
+      const std::string& word = run_.command_line[i];
+      if (word.starts_with('-')) continue;
+      std::vector<std::string> names;
+      for (const CLI::App* command : app_.get_subcommands({})) names.push_back(command->get_name());
+      if (std::find(names.begin(), names.end(), word) != names.end()) return {};
+      return "there is no command '" + word + "' (" + base::suggestion(word, names) + ")";
+    }
+    return {};
+  }
+
   void add_load_options(CLI::App& command, LoadArguments& load) {
     command.add_option("file", load.file, "the deployment, YAML or OROCOS XML")->required();
     command
