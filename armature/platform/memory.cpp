@@ -2,28 +2,86 @@
 #include "armature/platform/memory.hpp"
 
 #include <cerrno>
+#include <cinttypes>
+#include <cstdint>
+#include <cstdio>
 #include <fstream>
+#include <string>
 #include <system_error>
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 namespace armature::platform {
+namespace {
 
-base::Result<void> lock_memory() {
-#ifdef MCL_ONFAULT
-  // Stacks and heaps are touched before start; locking on fault spares the pages nobody uses.
-  const int flags = MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT;
-#else
-  const int flags = MCL_CURRENT | MCL_FUTURE;
-#endif
-  if (mlockall(flags) == 0) return {};
-  return base::Error{"memory cannot be locked: " + std::generic_category().message(errno) +
-                     "; run as root, or raise memlock in /etc/security/limits.conf, or give the "
-                     "program CAP_IPC_LOCK"};
+/// A line of /proc/self/maps.
+struct Mapping {
+  std::uintptr_t begin = 0;
+  std::uintptr_t end = 0;
+  char access[5] = "";
+
+  bool allows(char what, int place) const { return access[place] == what; }
+  std::size_t size() const { return end - begin; }
+  /// Of a stack; the unused part of a heap looks alike but for its size.
+  bool is_guard() const {
+    constexpr std::size_t kLargest = 64 * 1024;
+    return !allows('r', 0) && !allows('w', 1) && !allows('x', 2) && size() <= kLargest;
+  }
+};
+
+Mapping mapping_of(const std::string& line) {
+  Mapping mapping;
+  std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR " %4s", &mapping.begin, &mapping.end,
+              mapping.access);
+  return mapping;
 }
 
-void unlock_memory() { munlockall(); }
+void populate(const Mapping& mapping) {
+  constexpr std::size_t kLargest = 256u << 20;
+  const bool data = mapping.allows('w', 1) && mapping.allows('p', 3);
+  const bool code = mapping.allows('x', 2);
+  if ((!data && !code) || mapping.size() > kLargest) return;
+  // Fails on kernels before 5.14; then pages come when they are first used, as without this.
+  madvise(reinterpret_cast<void*>(mapping.begin), mapping.size(),  // NOLINT
+          data ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
+}
+
+}  // namespace
+
+base::Result<void> lock_memory() {
+  // On fault: not the parts of stacks and libraries that nobody uses.
+  if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
+    return base::Error{"memory cannot be locked: " + std::generic_category().message(errno) +
+                       "; run as root, or raise memlock in /etc/security/limits.conf, or give the "
+                       "program CAP_IPC_LOCK"};
+  }
+  mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_MMAP_MAX, 0);
+  return {};
+}
+
+void unlock_memory() {
+  constexpr int kTrimThreshold = 128 * 1024;  // glibc's defaults
+  constexpr int kMmapMax = 65536;
+  mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
+  mallopt(M_MMAP_MAX, kMmapMax);
+  munlockall();
+}
+
+void populate_memory() {
+  std::ifstream maps("/proc/self/maps");
+  std::string line;
+  bool above_guard = false;
+  while (std::getline(maps, line)) {
+    const Mapping mapping = mapping_of(line);
+    const bool main_stack = line.find("[stack]") != std::string::npos;
+    // Every stack but the first thread's lies directly above a guard page.
+    if (!main_stack && !above_guard) populate(mapping);
+    above_guard = mapping.is_guard();
+  }
+}
 
 std::size_t resident_bytes() {
   std::ifstream statm("/proc/self/statm");

@@ -7,10 +7,16 @@
 
 namespace armature::platform {
 
-/// Locks all present and future memory of the process, so that no page fault delays a real-time
-/// thread; the error says how to get the permission.
+/// Keeps all memory of the process, present and future, in place once it was touched, so that no
+/// page fault delays a real-time thread again; freed memory is kept too, since giving it back to
+/// the system interrupts all threads. The error says how to get the permission.
 base::Result<void> lock_memory();
 void unlock_memory();
+
+/// Touches the memory that the process has code and data in, so that it is there when a real-time
+/// thread needs it: a buffer that was reserved and never written, a function never called. Leaves
+/// out what none of them uses: the stacks of all threads, and mappings above 256 MB.
+void populate_memory();
 
 /// Bytes of physical memory that the process occupies now.
 std::size_t resident_bytes();
