@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/component.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "armature/component/input_port.hpp"
@@ -108,10 +109,13 @@ void Component::stop() {
 }
 
 void Component::cleanup() {
-  if (state() != State::kStopped) return;
+  if (state() == State::kStopped) retire();
+}
+
+void Component::retire() {
+  if (state() != State::kStopped && state() != State::kException) return;
   enter(State::kPreOperational);
-  configured_ = false;
-  run(*context_, [this] { on_cleanup(); });
+  if (std::exchange(configured_, false)) run(*context_, [this] { on_cleanup(); });
 }
 
 Outcome Component::recover() {
@@ -181,6 +185,11 @@ void Component::contain(const std::exception_ptr& exception, ExecutionContext& w
   }
 }
 
+void Component::refuse_depth(ExecutionContext& where) noexcept {
+  Reason why("handlers and operations nest too deeply in thread '");
+  fault_from(where, why.append(where.name).append("': do they call each other without end?"));
+}
+
 /// Faults at once in the component's own thread, else by a message to it: its state, its commands
 /// and its log belong to that thread.
 void Component::fault_from(ExecutionContext& where, std::string_view reason) {
@@ -202,6 +211,15 @@ void Component::ReportedFault::deliver(rt::Message& message) {
 void Component::check_ages() {
   checked_at_ = time();
   for (InputPortBase* input : interface_.inputs) input->check_age();
+}
+
+base::Time Component::next_expiry() const {
+  base::Time earliest = base::Time::max();
+  if (!aging_ || state() != State::kRunning) return earliest;
+  for (const InputPortBase* input : interface_.inputs) {
+    earliest = std::min(earliest, input->expiry());
+  }
+  return earliest;
 }
 
 void Component::tell_readers_lost() {
@@ -229,19 +247,22 @@ void Component::remove_step(Step& step) {
 void Component::take_time(ExecutionContext& where) {
   const std::uint64_t now = rt::ticks();
   // What runs here as a guest keeps its measurements in its own thread.
-  Component* const last = where.running;
+  Component* const last = where.running.load(std::memory_order_relaxed);
   if (last != nullptr && last->context_ == &where) {
     last->measured_ticks_ += now - where.mark;
-    last->measured_ = true;
+    if (!std::exchange(last->measured_, true)) {
+      last->next_measured_ = std::exchange(where.measured, last);
+    }
   }
   where.mark = now;
 }
 
-void Component::close_measurement() {
-  if (!measured_) return;
-  execution_ticks_.add(measured_ticks_);
-  measured_ticks_ = 0;
-  measured_ = false;
+void Component::close_measurements(ExecutionContext& where) {
+  for (Component* each = std::exchange(where.measured, nullptr); each != nullptr;
+       each = std::exchange(each->next_measured_, nullptr)) {
+    each->execution_ticks_.add(std::exchange(each->measured_ticks_, 0));
+    each->measured_ = false;
+  }
 }
 
 void Component::log(rt::LogLevel level, const char* format, const LogArguments& arguments) {

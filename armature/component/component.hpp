@@ -93,6 +93,7 @@ class Component {
   void stop();
   void cleanup();
   Outcome recover();  ///< from kRunTimeError back to kRunning
+  void retire();      ///< at the application's end: cleans up also after a fault
   Outcome reset();    ///< from kException to kStopped; to kPreOperational if it was not configured
 
   /// One cycle: state machines, the update hook (or the error hook), then commands under way.
@@ -116,6 +117,11 @@ class Component {
     return state() == State::kRunning;
   }
   bool has_aging_inputs() const { return aging_; }
+  /// When the reaction to old data of an input is due if nothing new comes; the end of time if none
+  /// is.
+  /// @rt nonblocking, no allocation, O(inputs)
+  /// @thread its own
+  base::Time next_expiry() const;
 
   const Interface& interface() const { return interface_; }
   /// The declaration lists, for the members that enter themselves.
@@ -129,8 +135,10 @@ class Component {
 
   /// Execution time of the component in each measured cycle, in ticks, without what it called.
   const rt::Distribution& execution_ticks() const { return execution_ticks_; }
-  /// Adds up a measured cycle; the engine calls it once at the end of each.
-  void close_measurement();
+  /// Adds up a measured cycle of all that ran in it.
+  /// @rt nonblocking, no allocation, O(components that ran)
+  /// @thread the context's
+  static void close_measurements(ExecutionContext& where);
 
   /// Runs `code` as this component's: what escapes from it faults this component and goes no
   /// further, and its time is this component's.
@@ -138,10 +146,15 @@ class Component {
   /// @rt as the code is; itself a few nanoseconds
   template <typename Code>
   bool run(ExecutionContext& where, Code&& code) noexcept {
-    Component* const outer = where.running;
+    if (where.depth == where.depth_limit) [[unlikely]] {
+      refuse_depth(where);
+      return false;
+    }
+    Component* const outer = where.running.load(std::memory_order_relaxed);
     if (where.measuring) [[unlikely]]
       take_time(where);
-    where.running = this;
+    where.running.store(this, std::memory_order_relaxed);
+    ++where.depth;
     bool completed = true;
     try {
       code();
@@ -151,7 +164,8 @@ class Component {
     }
     if (where.measuring) [[unlikely]]
       take_time(where);
-    where.running = outer;
+    --where.depth;
+    where.running.store(outer, std::memory_order_relaxed);
     return completed;
   }
 
@@ -189,6 +203,7 @@ class Component {
   }
 
  private:
+  friend class Entrance;
   using LogArguments = std::array<rt::LogArgument, 4>;
   void log(rt::LogLevel level, const char* format, const LogArguments& arguments);
   /// A fault that happened in another thread, on its way to the component's own.
@@ -203,6 +218,7 @@ class Component {
   /// Adds the time since the last mark to what ran until now.
   static void take_time(ExecutionContext& where);
   void contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept;
+  void refuse_depth(ExecutionContext& where) noexcept;
   void fault_from(ExecutionContext& where, std::string_view reason);
   void enter(State state) { state_.store(state, std::memory_order_release); }
   void check_ages();
@@ -219,6 +235,7 @@ class Component {
   std::vector<Step*> steps_after_;
   std::uint64_t measured_ticks_ = 0;
   base::Time checked_at_{};
+  Component* next_measured_ = nullptr;
   bool measured_ = false;
   bool aging_ = false;
   bool configured_ = false;

@@ -15,6 +15,7 @@
 namespace armature::component {
 
 class Component;
+class Entrance;
 
 /// Told by components of what the application must react to.
 /// @rt both functions are called on real-time threads
@@ -27,6 +28,9 @@ class Supervisor {
   ~Supervisor() = default;
 };
 
+/// So deep handlers and operations may always nest in one thread.
+inline constexpr int kLeastDepthLimit = 64;
+
 /// The thread that runs a component, as far as the component needs to know it. The execution engine
 /// owns it; all components that share a thread share its context.
 struct ExecutionContext {
@@ -35,9 +39,13 @@ struct ExecutionContext {
   std::string name;
   std::atomic<base::Time> cycle_time{base::Time{}};  ///< read from the clock once in each cycle
   std::uint64_t cycle = 0;                           ///< counts the cycles
-  Component* running = nullptr;                      ///< whose code runs now
-  bool measuring = false;  ///< this cycle's execution times are taken for each component
-  std::uint64_t mark = 0;  ///< tick at which `running` last changed, while measuring
+  std::atomic<Component*> running{nullptr};          ///< whose code runs now
+  int depth = 0;                        ///< how many components' code is entered and not left
+  int depth_limit = kLeastDepthLimit;   ///< what the stack has room for
+  const Entrance* innermost = nullptr;  ///< the handler entered last
+  bool measuring = false;         ///< this cycle's execution times are taken for each component
+  std::uint64_t mark = 0;         ///< tick at which `running` last changed, while measuring
+  Component* measured = nullptr;  ///< the first of those that ran while measuring
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};
   bool simulated = false;  ///< several contexts take turns in one thread

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "armature/component/component.hpp"
+#include "armature/component/entrance.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
@@ -106,7 +107,7 @@ class EventHandlerBase : public Requirement {
  protected:
   EventHandlerBase(Component& owner, std::string_view name, std::string_view doc,
                    Signature signature)
-      : Requirement(owner, name, doc), signature_(std::move(signature)) {
+      : Requirement(owner, name, doc), entrance_(owner, name), signature_(std::move(signature)) {
     owner.declare().handlers.push_back(this);
   }
 
@@ -117,6 +118,7 @@ class EventHandlerBase : public Requirement {
 
   void count_drop() { dropped_.store(dropped() + 1, std::memory_order_relaxed); }
 
+  Entrance entrance_;
   EventBase* source_ = nullptr;
 
  private:
@@ -226,7 +228,7 @@ class EventHandler final : public EventHandlerBase {
     Component& component = owner();
     const bool own_thread = &where == &component.context();
     if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
-    component.run(where, [&] { function_(self_, arguments...); });
+    entrance_.pass(where, [&] { component.run(where, [&] { function_(self_, arguments...); }); });
   }
   bool enqueue(const Args&... arguments) {
     if (queue_->events.push(std::tuple<Args...>(arguments...)) == rt::PushResult::kRefused) {

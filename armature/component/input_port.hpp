@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/component/entrance.hpp"
 #include "armature/component/internal/channel.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/signature.hpp"
@@ -61,6 +62,11 @@ class InputPortBase : public PortBase {
   /// @thread the component's own
   void check_age();
 
+  /// When its data will be too old if nothing new comes; the end of time if it has no age, or is
+  /// too old already. Its component runs.
+  /// @thread the component's own
+  base::Time expiry() const;
+
   /// A writer faulted: the reader's thread reacts as declared.
   /// @thread the writer's
   void tell_lost() { owner().context().raise(lost_); }
@@ -93,6 +99,7 @@ class InputPortBase : public PortBase {
     return zeroed_ || (stale && stale_reaction_ == Reaction::kZero);
   }
 
+  Entrance entrance_;  ///< into the handler
   bool triggers_ = false;
   bool zeroed_ = false;  ///< its writer was lost, and nothing came since
   std::vector<OutputPortBase*> writers_;
@@ -106,6 +113,8 @@ class InputPortBase : public PortBase {
   };
 
   void react(Reaction reaction, std::string_view what);
+  /// When the present data was written; waiting for the first counts from the start.
+  base::Time written() const;
 
   bool fan_in_ = false;
   bool late_ = false;  ///< the reaction to old data happened
@@ -245,13 +254,14 @@ class InputPort final : public InputPortBase {
 
   void dispatch() {
     Component& component = owner();
+    ExecutionContext& context = component.context();
     if (dispatch_ == nullptr) {
-      component.update();
+      entrance_.pass(context, [&] { component.update(); });
       return;
     }
     if (max_age() > base::Duration::zero()) check_age();
     if (!component.admits()) return;
-    component.run(component.context(), [&] { dispatch_(component, *this); });
+    entrance_.pass(context, [&] { component.run(context, [&] { dispatch_(component, *this); }); });
   }
 
   ReadStatus status_of(const Sample<T>& sample) {

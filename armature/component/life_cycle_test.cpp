@@ -169,6 +169,23 @@ TEST_F(LifeCycle, StopsFromRunTimeError) {
   EXPECT_THAT(component_.calls, ElementsAre("stop"));
 }
 
+TEST_F(LifeCycle, AtTheApplicationsEndAFaultedComponentIsCleanedUpToo) {
+  bring_to(State::kRunning);
+  component_.fault("for the test");
+  component_.retire();
+  EXPECT_EQ(component_.state(), State::kPreOperational);
+  EXPECT_EQ(component_.reason(), "for the test") << "for whoever asks afterwards";
+  EXPECT_THAT(component_.calls, ElementsAre("cleanup"));
+}
+
+TEST_F(LifeCycle, AtTheApplicationsEndWhatWasNeverConfiguredIsNotCleanedUp) {
+  component_.actions["configure"] = [] { throw std::runtime_error("no card"); };
+  EXPECT_FALSE(component_.configure());
+  component_.retire();
+  EXPECT_EQ(component_.state(), State::kPreOperational);
+  EXPECT_THAT(component_.calls, ElementsAre("configure"));
+}
+
 TEST_F(LifeCycle, AFaultIsLeftOnlyByResetAndThenStopped) {
   bring_to(State::kRunning);
   component_.fault("motor does not turn");

@@ -60,8 +60,7 @@ class Measurement : public testing::Test {
   }
   void end_cycle() {
     thread_.context.measuring = false;
-    first_.close_measurement();
-    second_.close_measurement();
+    Component::close_measurements(thread_.context);
   }
   Worker first_{"first"};
   Worker second_{"second"};
@@ -125,8 +124,7 @@ TEST_F(Measurement, AGuestFromAnotherThreadIsNotMeasuredThere) {
   other.context.measuring = true;
   other.context.mark = rt::ticks();
   caller.update();
-  caller.close_measurement();
-  first_.close_measurement();
+  Component::close_measurements(other.context);
   EXPECT_EQ(caller.execution_ticks().summary().count, 1u);
   EXPECT_EQ(first_.execution_ticks().summary().count, 0u);
 }

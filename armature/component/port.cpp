@@ -50,7 +50,9 @@ bool LeadsTo::includes(std::string_view name) const {
 
 InputPortBase::InputPortBase(Component& owner, std::string name, std::string_view doc,
                              std::string_view unit, const types::Type& type)
-    : PortBase(owner, std::move(name), doc, unit, type), lost_(*this) {}
+    : PortBase(owner, std::move(name), doc, unit, type),
+      entrance_(owner, this->name()),
+      lost_(*this) {}
 
 void InputPortBase::begin() {
   started_ = owner().time();
@@ -62,11 +64,19 @@ void InputPortBase::check_age() {
   const bool ages = max_age_ > base::Duration::zero() && connected();
   if (!ages || owner().state() != State::kRunning) return;
   look_for_newer();
-  const base::Time written = current_sequence() == 0 ? started_ : current_time();
-  const bool was_late = std::exchange(late_, is_stale(std::max(written, started_)));
+  const bool was_late = std::exchange(late_, is_stale(written()));
   if (!late_ || was_late) return;
   ++counters_.stale;
   if (stale_reaction_ != Reaction::kZero) react(stale_reaction_, "its data is older than declared");
+}
+
+base::Time InputPortBase::written() const {
+  return current_sequence() == 0 ? started_ : std::max(current_time(), started_);
+}
+
+base::Time InputPortBase::expiry() const {
+  const bool ages = max_age_ > base::Duration::zero() && connected() && !late_;
+  return ages ? written() + max_age_ + base::Duration(1) : base::Time::max();
 }
 
 void InputPortBase::Lost::deliver(rt::Message& message) {

@@ -43,6 +43,9 @@ struct Activity {
   bool owns_thread() const { return kind != Kind::kSequential; }
 };
 
+/// Higher is more urgent: deadline threads, then real-time priorities, then all others.
+int urgency(const Activity& activity);
+
 std::string_view name_of(Activity::Kind kind);
 std::string_view name_of(Activity::Scheduler scheduler);
 

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/engine.hpp"
+#include "armature/exec/internal/hook_series.hpp"
+#include "armature/exec/internal/incidents.hpp"
+#include "armature/exec/internal/log_pump.hpp"
 #include "armature/exec/plan.hpp"
 #include "armature/exec/verdict.hpp"
+#include "armature/platform/idle_states.hpp"
 #include "armature/platform/thread.hpp"
 
 namespace armature::platform {
@@ -25,8 +30,9 @@ class StopSignal;
 namespace armature::exec {
 
 namespace internal {
+class Simulation;
 class StartGate;
-}
+}  // namespace internal
 
 enum class RealtimeMode : std::uint8_t {
   kOff,      ///< asks for nothing
@@ -45,8 +51,8 @@ struct ApplicationOptions {
   OnFault on_fault = OnFault::kContinue;
   base::Duration hook_limit = std::chrono::seconds(10);  ///< a hook that takes longer hangs
   base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
-  std::uint64_t measure_every = 16;  ///< execution times are taken in every n-th cycle
-  std::function<void(const rt::LogRecord&)> log;
+  std::uint64_t measure_every = 16;               ///< execution times are taken in every n-th cycle
+  std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
 };
 
 /// Why a run ended.
@@ -61,11 +67,18 @@ struct ThreadStatistics {
   rt::DistributionSummary cycle_ticks;  ///< multiply with platform::tick_period_ns()
 };
 
+/// A component that did not get to the end in good order.
+struct Casualty {
+  std::string component;
+  component::State state;  ///< when the application was stopped
+  std::string reason;
+};
+
 /// Runs a blueprint: checks it, starts it as a whole or not at all, and stops it in order on every
 /// way out, its destructor included.
 ///
 /// All functions are for one controlling thread, which is no real-time thread.
-class Application final : private component::Supervisor {
+class Application final {
  public:
   explicit Application(Blueprint blueprint, ApplicationOptions options = {});
   Application(const Application&) = delete;
@@ -86,12 +99,15 @@ class Application final : private component::Supervisor {
   base::Diagnostics stop();
 
   bool running() const { return running_; }
-  /// A thread did not end: the process should, by platform::exit_now.
+  /// A hook did not return: the process should end by platform::exit_now. This application cannot
+  /// be started again.
   bool hangs() const { return hangs_; }
   /// Components that faulted since the start.
-  std::uint64_t faults() const { return faults_.load(std::memory_order_relaxed); }
+  std::uint64_t faults() const { return incidents_->faults(); }
   /// Components that a declared reaction stopped: old data, a writer out of service.
-  std::uint64_t reactions() const { return reactions_.load(std::memory_order_relaxed); }
+  std::uint64_t reactions() const { return incidents_->reactions(); }
+  /// Who had faulted, was in an error or had been stopped by a reaction when it was last stopped.
+  const std::vector<Casualty>& casualties() const { return casualties_; }
 
   base::Time now() const;
   const Verdict& verdict() const { return verdict_; }
@@ -99,8 +115,7 @@ class Application final : private component::Supervisor {
   const Plan& plan() const { return plan_; }
   component::Component* find(std::string_view name) const;
 
-  // --- while it runs: each is executed by the component's own thread
-  // ------------------------------
+  // --- while it runs: each is executed by the component's own thread -----------------------------
   component::Outcome start_component(std::string_view name);
   component::Outcome stop_component(std::string_view name);
   component::Outcome recover_component(std::string_view name);
@@ -112,9 +127,9 @@ class Application final : private component::Supervisor {
   base::Result<std::optional<types::Value>> call(std::string_view component,
                                                  std::string_view operation,
                                                  std::vector<types::Value> arguments);
-  /// Runs `work` in the thread of `component`, or here if that thread does not run; false if it was
-  /// not done within the hook limit.
-  bool run_in_thread_of(const component::Component& component, std::function<void()> work);
+  /// Runs `work`, as code of `component`, in its thread, or here if that thread does not run; false
+  /// if it was not done within the hook limit.
+  bool run_in_thread_of(component::Component& component, std::function<void()> work);
 
   std::vector<ThreadStatistics> thread_statistics() const;
 
@@ -122,44 +137,77 @@ class Application final : private component::Supervisor {
   void drain_logs();
 
  private:
-  void component_faulted(component::Component& component) override;
-  void component_stopped_itself(component::Component& component) override;
+  /// One step of the life cycle for all components.
+  struct Stage {
+    internal::HookSeries::Transition transition;
+    const char* hook;
+    const char* verb;
+    bool ends_at_refusal;
+  };
+  struct Worker {
+    Engine* engine;
+    std::unique_ptr<platform::Thread> thread;
+  };
 
-  component::Component& component_at(Index index) const {
-    return *blueprint_.components[index].component;
-  }
   void make_engines();
+  void apply_declared_reactions();
+
+  // application_life_cycle.cpp
   bool configure_all(base::Diagnostics& diagnostics);
   bool connect_all(base::Diagnostics& diagnostics);
-  bool prepare_threads(base::Diagnostics& diagnostics);
   bool start_all(base::Diagnostics& diagnostics);
-  void go_live();
-  void apply_declared_reactions();
-  void stop_started(base::Diagnostics& diagnostics);
-  void end_threads(base::Diagnostics& diagnostics);
+  bool run_stage(const Stage& stage, std::vector<component::Component*> components,
+                 base::Diagnostics& diagnostics);
+  void take_down(base::Diagnostics& diagnostics);
+  void stop_running(base::Diagnostics& diagnostics);
+  void stop_group(const std::vector<component::Component*>& group, base::Diagnostics& diagnostics);
+  void deliver_leftovers();
+  void list_casualties();
   void clean_up(base::Diagnostics& diagnostics);
   void disconnect_all();
-  bool for_each_watched(const std::vector<Index>& order, std::string_view what,
-                        const std::function<bool(Index)>& each, base::Diagnostics& diagnostics);
+  void report_hang(const component::Component& component, const char* hook, base::Duration limit,
+                   base::Diagnostics& diagnostics);
+  void give_up_thread(const component::ExecutionContext& context);
+  /// Something hangs in it or in its thread: nobody else may touch it.
+  bool is_stuck(const component::Component& component) const {
+    return stuck_.count(&component) > 0 || stuck_.count(&component.context()) > 0;
+  }
+  internal::HookPatience patience(base::Duration limit);
+
+  // application_threads.cpp
+  bool prepare_threads(base::Diagnostics& diagnostics);
+  void reserve_system();
+  void start_worker(Index thread);
+  void go_live();
+  void end_threads(base::Diagnostics& diagnostics);
+
   RunEnd simulate_until(base::Time end, const platform::StopSignal* stop);
-  Engine* next_engine(base::Time now);
+  std::string unknown_component(std::string_view name) const;
+  base::Result<types::Value> value_of(component::Component& component, const types::Type& type,
+                                      std::function<const void*()> data);
   component::Outcome change(std::string_view name,
                             component::Outcome (*transition)(component::Component&));
   std::optional<RunEnd> end_by_fault() const;
+  const ComponentEntry& entry_of(const component::Component& component) const {
+    return blueprint_.components[index_of_.at(component.name())];
+  }
 
   Blueprint blueprint_;
+  std::unordered_map<std::string_view, Index> index_of_;  ///< by name
   ApplicationOptions options_;
   Plan plan_;
   std::vector<std::unique_ptr<Engine>> engines_;
-  std::vector<std::unique_ptr<platform::Thread>> threads_;
-  std::vector<Index> engines_by_urgency_;
-  std::vector<Index> started_;
+  std::unique_ptr<internal::Simulation> simulation_;
+  internal::LogPump logs_;
+  std::unique_ptr<internal::Incidents> incidents_;
+  std::vector<Worker> workers_;
+  std::shared_ptr<internal::StartGate> gate_;
   Verdict verdict_;
-  std::unique_ptr<internal::StartGate> gate_;
-  std::atomic<std::uint64_t> faults_{0};
-  std::atomic<std::uint64_t> reactions_{0};
-  base::Time simulated_now_{};
+  std::optional<platform::IdleStateHold> idle_states_;
   bool memory_locked_ = false;
+  std::vector<Casualty> casualties_;
+  std::unordered_set<const void*> stuck_;  ///< components and contexts in which something hangs
+  base::Time simulated_now_{};
   bool running_ = false;
   bool hangs_ = false;
 };

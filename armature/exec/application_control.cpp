@@ -6,14 +6,15 @@
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
 #include "armature/exec/application.hpp"
+#include "armature/exec/internal/directory.hpp"
+#include "armature/exec/task.hpp"
 
 namespace armature::exec {
 namespace {
 
 using component::Component;
 using component::Outcome;
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+using internal::quoted;
 
 template <typename Items>
 auto find_in(const Items& items, std::string_view name) -> typename Items::value_type {
@@ -23,38 +24,63 @@ auto find_in(const Items& items, std::string_view name) -> typename Items::value
   return nullptr;
 }
 
-base::Error unknown(std::string_view name, const char* what) {
-  return base::Error{"there is no " + std::string(what) + " " + quoted(name)};
+std::string with_suggestion(std::string text, std::string_view name,
+                            const std::vector<std::string>& known) {
+  const std::string hint = base::suggestion(name, known);
+  return hint.empty() ? text : std::move(text) + " (" + hint + ")";
 }
 
-base::Error not_answered(const Component& component) {
-  return base::Error{"the thread of " + quoted(component.name()) + " did not answer in time"};
+std::string no_such(const std::string& kind, std::string_view name, const Component& component,
+                    const std::vector<std::string>& known) {
+  return with_suggestion(quoted(component.name()) + " has no " + kind + " " + quoted(name), name,
+                         known);
+}
+
+template <typename Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto* item : items) names.emplace_back(item->name());
+  return names;
+}
+
+std::string not_answered(const Component& component) {
+  return "the thread of " + quoted(component.name()) + " did not answer in time";
 }
 
 }  // namespace
 
 Component* Application::find(std::string_view name) const {
-  for (const ComponentEntry& entry : blueprint_.components) {
-    if (entry.component->name() == name) return entry.component.get();
-  }
-  return nullptr;
+  const auto found = index_of_.find(name);
+  return found == index_of_.end() ? nullptr : blueprint_.components[found->second].component.get();
 }
 
-bool Application::run_in_thread_of(const Component& component, std::function<void()> work) {
+std::string Application::unknown_component(std::string_view name) const {
+  std::vector<std::string> names;
+  for (const ComponentEntry& entry : blueprint_.components) {
+    names.push_back(entry.component->name());
+  }
+  return with_suggestion("there is no component " + quoted(name), name, names);
+}
+
+bool Application::run_in_thread_of(Component& component, std::function<void()> work) {
   component::ExecutionContext& context = component.context();
-  if (context.live) return Task::run_in(context, std::move(work), options_.hook_limit);
+  const auto as_its_own = [&component, &context, work = std::move(work)] {
+    component.run(context, work);
+  };
+  if (context.live) return Task::run_in(context, as_its_own, options_.hook_limit);
+  if (is_stuck(component)) return false;
   context.cycle_time = now();
-  work();
+  as_its_own();
   return true;
 }
 
 Outcome Application::change(std::string_view name, Outcome (*transition)(Component&)) {
   Component* const component = find(name);
-  if (component == nullptr) return component::refused("there is no such component");
+  if (component == nullptr) return component::refused(unknown_component(name));
   const auto outcome = std::make_shared<Outcome>(component::accepted());
   if (!run_in_thread_of(*component,
                         [outcome, component, transition] { *outcome = transition(*component); })) {
-    return component::refused("its thread did not answer in time");
+    return component::refused(not_answered(*component));
   }
   return *outcome;
 }
@@ -86,41 +112,46 @@ Outcome Application::reset_component(std::string_view name) {
 base::Result<void> Application::set_property(std::string_view name, std::string_view property_name,
                                              const types::Value& value) {
   Component* const component = find(name);
-  if (component == nullptr) return unknown(name, "component");
-  component::PropertyBase* const property =
-      find_in(component->interface().properties, property_name);
-  if (property == nullptr) return unknown(property_name, "property");
+  if (component == nullptr) return base::Error{unknown_component(name)};
+  const auto& properties = component->interface().properties;
+  component::PropertyBase* const property = find_in(properties, property_name);
+  if (property == nullptr) {
+    return base::Error{no_such("property", property_name, *component, names_of(properties))};
+  }
   const auto result = std::make_shared<base::Result<void>>();
   if (!run_in_thread_of(*component,
                         [result, property, value] { *result = property->set(value); })) {
-    return not_answered(*component);
+    return base::Error{not_answered(*component)};
   }
   return *result;
 }
 
 base::Result<types::Value> Application::value_of(std::string_view name, std::string_view item) {
   Component* const component = find(name);
-  if (component == nullptr) return unknown(name, "component");
+  if (component == nullptr) return base::Error{unknown_component(name)};
   const component::Interface& interface = component->interface();
-  const types::Type* type = nullptr;
-  std::function<const void*()> data;
   if (auto* property = find_in(interface.properties, item)) {
-    type = &property->type();
-    data = [property] { return property->data(); };
-  } else if (auto* input = find_in(interface.inputs, item)) {
-    type = &input->type();
-    data = [input] { return input->current(); };
-  } else if (auto* output = find_in(interface.outputs, item)) {
-    type = &output->type();
-    data = [output] { return output->current(); };
-  } else {
-    return unknown(item, "property or port");
+    return value_of(*component, property->type(), [property] { return property->data(); });
   }
-  const auto value = std::make_shared<types::Value>(*type);
-  if (!run_in_thread_of(*component,
-                        [value, data] { *value = types::Value(value->type(), data()); })) {
-    return not_answered(*component);
+  const component::PortBase* port = find_in(interface.inputs, item);
+  if (port == nullptr) port = find_in(interface.outputs, item);
+  if (port != nullptr) {
+    return value_of(*component, port->type(), [port] { return port->current(); });
   }
+  std::vector<std::string> names;
+  for (const auto* property : interface.properties) names.emplace_back(property->name());
+  for (const auto* input : interface.inputs) names.push_back(input->name());
+  for (const auto* output : interface.outputs) names.push_back(output->name());
+  return base::Error{no_such("property or port", item, *component, names)};
+}
+
+base::Result<types::Value> Application::value_of(Component& component, const types::Type& type,
+                                                 std::function<const void*()> data) {
+  const auto value = std::make_shared<types::Value>(type);
+  const auto copy = [value, data = std::move(data)] {
+    value->type().assign(value->data(), data());
+  };
+  if (!run_in_thread_of(component, copy)) return base::Error{not_answered(component)};
   return *value;
 }
 
@@ -128,16 +159,18 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view nam
                                                             std::string_view operation_name,
                                                             std::vector<types::Value> arguments) {
   Component* const component = find(name);
-  if (component == nullptr) return unknown(name, "component");
-  component::OperationBase* const operation =
-      find_in(component->interface().operations, operation_name);
-  if (operation == nullptr) return unknown(operation_name, "operation");
+  if (component == nullptr) return base::Error{unknown_component(name)};
+  const auto& operations = component->interface().operations;
+  component::OperationBase* const operation = find_in(operations, operation_name);
+  if (operation == nullptr) {
+    return base::Error{no_such("operation", operation_name, *component, names_of(operations))};
+  }
   using Answer = base::Result<std::optional<types::Value>>;
   const auto answer = std::make_shared<Answer>(std::optional<types::Value>());
   if (!run_in_thread_of(*component, [answer, operation, arguments = std::move(arguments)] {
         *answer = operation->invoke(arguments);
       })) {
-    return not_answered(*component);
+    return base::Error{not_answered(*component)};
   }
   return *answer;
 }

@@ -14,47 +14,6 @@ std::pair<std::string, std::string> split(std::string_view reference) {
 
 }  // namespace
 
-Activity Activity::periodic(base::Duration period, int priority) {
-  Activity activity;
-  activity.kind = Kind::kPeriodic;
-  activity.period = period;
-  activity.priority = priority;
-  activity.scheduler = priority > 0 ? Scheduler::kRealtime : Scheduler::kOther;
-  return activity;
-}
-
-Activity Activity::triggered(int priority) {
-  Activity activity;
-  activity.kind = Kind::kTriggered;
-  activity.priority = priority;
-  activity.scheduler = priority > 0 ? Scheduler::kRealtime : Scheduler::kOther;
-  return activity;
-}
-
-std::string_view name_of(Activity::Kind kind) {
-  switch (kind) {
-    case Activity::Kind::kPeriodic:
-      return "periodic";
-    case Activity::Kind::kTriggered:
-      return "triggered";
-    case Activity::Kind::kSequential:
-      return "sequential";
-  }
-  return "unknown";
-}
-
-std::string_view name_of(Activity::Scheduler scheduler) {
-  switch (scheduler) {
-    case Activity::Scheduler::kOther:
-      return "other";
-    case Activity::Scheduler::kRealtime:
-      return "realtime";
-    case Activity::Scheduler::kDeadline:
-      return "deadline";
-  }
-  return "unknown";
-}
-
 void Blueprint::connect(std::string_view from, std::string_view to,
                         component::ConnectionPolicy policy) {
   auto [from_component, from_port] = split(from);

@@ -7,9 +7,12 @@
 #include "armature/component/input_port.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/rt/guard.hpp"
+#include "armature/rt/ticks.hpp"
 
 namespace armature::exec {
 namespace {
+
+using component::Component;
 
 constexpr std::size_t kLogCapacity = 128;
 
@@ -18,7 +21,9 @@ constexpr std::size_t kLogCapacity = 128;
 constexpr int kMessageRounds = 64;
 
 const char* running_component(const void* context) {
-  const auto* running = static_cast<const component::ExecutionContext*>(context)->running;
+  const Component* const running =
+      static_cast<const component::ExecutionContext*>(context)->running.load(
+          std::memory_order_relaxed);
   return running == nullptr ? nullptr : running->name().c_str();
 }
 
@@ -45,31 +50,17 @@ class AtWork {
   const rt::RealtimeScope realtime_;
 };
 
+bool ages(const Component& component) {
+  const auto& inputs = component.interface().inputs;
+  return std::any_of(inputs.begin(), inputs.end(), [](const component::InputPortBase* input) {
+    return input->max_age() > base::Duration::zero();
+  });
+}
+
 }  // namespace
 
-bool Task::run_in(component::ExecutionContext& context, std::function<void()> work,
-                  base::Duration limit) {
-  const std::shared_ptr<Task> task(new Task(std::move(work)));
-  task->self_ = task;
-  context.post(*task);
-  const base::Time deadline = platform::monotonic_now() + limit;
-  while (!task->done_.load(std::memory_order_acquire)) {
-    if (!task->finished_.wait_until(deadline)) break;
-  }
-  return task->done_.load(std::memory_order_acquire);
-}
-
-void Task::deliver(rt::Message& message) {
-  auto& task = static_cast<Task&>(message);
-  const rt::PermitScope permit;  // asked for by a tool, not part of the control loop
-  const std::shared_ptr<Task> keep = std::move(task.self_);
-  task.work_();
-  task.done_.store(true, std::memory_order_release);
-  task.finished_.notify();
-}
-
-Engine::Engine(std::string name, Activity activity, std::vector<component::Component*> members,
-               std::vector<component::Component*> updating)
+Engine::Engine(std::string name, Activity activity, std::vector<Component*> members,
+               std::vector<Component*> updating)
     : activity_(std::move(activity)),
       context_(std::move(name)),
       log_(kLogCapacity),
@@ -77,25 +68,16 @@ Engine::Engine(std::string name, Activity activity, std::vector<component::Compo
       updating_(std::move(updating)),
       schedule_(activity_.period, activity_.overrun == Overrun::kCatchUp) {
   context_.log = &log_;
-  for (component::Component* member : members_) member->assign_context(context_);
+  for (Component* member : members_) {
+    member->assign_context(context_);
+    if (ages(*member)) aging_.push_back(member);
+  }
 }
 
 void Engine::begin(base::Time start) {
   context_.cycle_time = start;
   schedule_.begin(start);
-  aging_.clear();
-  age_tick_ = base::Duration::max();
-  for (component::Component* member : members_) {
-    if (!member->has_aging_inputs()) continue;
-    aging_.push_back(member);
-    for (const component::InputPortBase* input : member->interface().inputs) {
-      if (input->max_age() > base::Duration::zero()) {
-        age_tick_ = std::min(age_tick_, input->max_age());
-      }
-    }
-  }
   next_age_check_ = start;
-  if (!aging_.empty()) next_age_check_ += age_tick_;
   context_.live = !context_.simulated;
   context_.wakes_on_messages = !context_.simulated;
 }
@@ -104,6 +86,7 @@ void Engine::serve() {
   const AtWork at_work(context_);
   while (!ending_.load(std::memory_order_acquire)) do_due(wait());
   deliver_messages();
+  close_account();
 }
 
 void Engine::end() {
@@ -111,18 +94,29 @@ void Engine::end() {
   context_.wakeup.notify();
 }
 
-std::optional<base::Time> Engine::next_due() const {
-  if (activity_.kind == Activity::Kind::kPeriodic) return schedule_.next();
-  if (!aging_.empty()) return next_age_check_;
-  return std::nullopt;
+bool Engine::deliver_leftovers() {
+  if (context_.inbox.empty() && context_.next_cycle.empty()) return false;
+  deliver(context_.next_cycle.take_all());
+  deliver(context_.inbox.take_all());
+  return true;
+}
+
+bool Engine::has_messages() const {
+  return !context_.inbox.empty() || (!periodic() && !context_.next_cycle.empty());
+}
+
+base::Time Engine::next_due() const {
+  if (periodic()) return schedule_.next();
+  return aging_.empty() ? base::Time::max() : next_age_check_;
 }
 
 base::Time Engine::wait() {
   const rt::PermitScope sleeping;
-  if (const std::optional<base::Time> due = next_due()) {
-    context_.wakeup.wait_until(*due);
-  } else {
+  const base::Time due = next_due();
+  if (due == base::Time::max()) {
     context_.wakeup.wait();
+  } else {
+    context_.wakeup.wait_until(due);
   }
   return platform::monotonic_now();
 }
@@ -133,7 +127,7 @@ void Engine::step(base::Time now) ARMATURE_NONBLOCKING {
 }
 
 void Engine::do_due(base::Time now) ARMATURE_NONBLOCKING {
-  if (activity_.kind != Activity::Kind::kPeriodic || now < schedule_.next()) {
+  if (!periodic() || now < schedule_.next()) {
     wake(now);
     return;
   }
@@ -141,61 +135,72 @@ void Engine::do_due(base::Time now) ARMATURE_NONBLOCKING {
   latency_ns_.add(static_cast<std::uint64_t>(due.lateness.count()));
   cycles_skipped_.store(schedule_.cycles_skipped(), std::memory_order_relaxed);
   fault_if_late();
-  for (std::uint64_t i = 0; i < due.run; ++i) run_cycle(now);
+  for (std::uint64_t left = due.run; left > 0; --left) {
+    // Cycles that are caught up each have their own time: whoever divides by its step may.
+    run_cycle(now - static_cast<std::int64_t>(left - 1) * activity_.period);
+  }
   cycles_run_.store(schedule_.cycles_run(), std::memory_order_relaxed);
 }
 
 void Engine::run_cycle(base::Time now) ARMATURE_NONBLOCKING {
-  open_cycle(now);
-  begin_next_cycle();
+  close_account();
+  open(now);
+  begin_cycle();
   deliver_messages();
-  for (component::Component* component : updating_) component->update();
+  for (Component* component : updating_) component->update();
   deliver_messages();
-  close_cycle();
+  close();
 }
 
 /// Handles what has arrived. For a triggered thread this is its cycle; in a periodic one it happens
 /// between two cycles.
 void Engine::wake(base::Time now) ARMATURE_NONBLOCKING {
-  open_cycle(now);
-  const bool triggered = activity_.kind == Activity::Kind::kTriggered;
-  if (triggered) begin_next_cycle();
+  if (!has_messages() && now < next_due()) return;  // of what woke it, the last time took care
+  open(now);
+  if (!periodic()) begin_cycle();
   deliver_messages();
-  close_cycle();
-  if (!triggered) return;
+  close();
+  if (periodic()) return;
+  close_account();
   cycles_run_.store(context_.cycle, std::memory_order_relaxed);
+  next_age_check_ = base::Time::max();
+  for (const Component* each : aging_) {
+    next_age_check_ = std::min(next_age_check_, each->next_expiry());
+  }
   if (!context_.next_cycle.empty()) context_.wakeup.notify();
 }
 
-void Engine::begin_next_cycle() {
+void Engine::begin_cycle() {
   ++context_.cycle;
+  context_.measuring = context_.cycle % measure_every_ == 0;
+  account_open_ = true;
   deliver(context_.next_cycle.take_all());
 }
 
-void Engine::open_cycle(base::Time now) {
+void Engine::open(base::Time now) {
   context_.cycle_time = now;
   opened_ = rt::ticks();
-  context_.measuring = context_.cycle % measure_every_ == 0;
   context_.mark = opened_;
 }
 
-void Engine::close_cycle() {
-  for (component::Component* component : aging_) component->admits();
-  if (!aging_.empty()) {
-    next_age_check_ = context_.cycle_time.load() + age_tick_;
-    deliver_messages();
-  }
-  cycle_ticks_.add(rt::ticks() - opened_);
-  if (!context_.measuring) return;
+void Engine::close() {
+  for (Component* component : aging_) component->admits();
+  if (!aging_.empty()) deliver_messages();
+  busy_ += rt::ticks() - opened_;
+}
+
+/// The cycle and the messages since are one entry in the statistics.
+void Engine::close_account() {
+  if (!std::exchange(account_open_, false)) return;
+  cycle_ticks_.add(std::exchange(busy_, 0));
   context_.measuring = false;
-  for (component::Component* member : members_) member->close_measurement();
+  Component::close_measurements(context_);
 }
 
 void Engine::deliver_messages() {
   for (int round = 0; round < kMessageRounds; ++round) {
-    rt::Message* message = context_.inbox.empty() ? nullptr : context_.inbox.take_all();
-    if (message == nullptr) return;
-    deliver(message);
+    if (context_.inbox.empty()) return;
+    deliver(context_.inbox.take_all());
   }
   context_.wakeup.notify();
 }
@@ -208,17 +213,18 @@ void Engine::deliver(rt::Message* message) {
   }
 }
 
-bool Engine::has_messages() const {
-  const bool triggered = activity_.kind == Activity::Kind::kTriggered;
-  return !context_.inbox.empty() || (triggered && !context_.next_cycle.empty());
-}
-
 void Engine::fault_if_late() {
   const bool too_late = activity_.overrun == Overrun::kFault &&
                         schedule_.late_in_a_row() >= activity_.late_cycles_to_fault;
   if (!too_late) return;
-  for (component::Component* component : updating_) {
+  for (Component* component : updating_) {
     component->fault("its thread missed too many cycles in a row");
+  }
+}
+
+void Engine::fault_members(std::string_view reason) {
+  for (Component* component : members_) {
+    if (component->state() == component::State::kRunning) component->fault(reason);
   }
 }
 

@@ -3,10 +3,8 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/base/realtime.hpp"
@@ -19,24 +17,6 @@
 
 namespace armature::exec {
 
-/// Work that another thread hands to an engine: life-cycle changes, questions of tools.
-class Task final : public rt::Message {
- public:
-  /// Posts `work` to `context` and waits for it, at most `limit`; false if it was not done by then
-  /// (it is still done later, so `work` owns what it needs).
-  static bool run_in(component::ExecutionContext& context, std::function<void()> work,
-                     base::Duration limit);
-
- private:
-  explicit Task(std::function<void()> work) : rt::Message(&Task::deliver), work_(std::move(work)) {}
-  static void deliver(rt::Message& message);
-
-  std::function<void()> work_;
-  std::atomic<bool> done_{false};
-  rt::Wakeup finished_;
-  std::shared_ptr<Task> self_;
-};
-
 /// Executes the components of one thread: messages from other threads, then the updates.
 class Engine {
  public:
@@ -48,6 +28,7 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 
   component::ExecutionContext& context() { return context_; }
+  const component::ExecutionContext& context() const { return context_; }
   const Activity& activity() const { return activity_; }
   rt::LogQueue& log() { return log_; }
 
@@ -63,22 +44,30 @@ class Engine {
   /// Ends the loop.
   /// @thread any
   void end();
+  /// Handles what arrived after the loop had ended; true if there was anything.
+  /// @thread whoever joined the engine's own
+  bool deliver_leftovers();
 
   // --- the same in single steps, for simulated time ----------------------------------------------
   bool has_messages() const;
-  /// When the engine has something to do without a message; none for a triggered thread whose
-  /// inputs have no age.
-  std::optional<base::Time> next_due() const;
+  /// When the engine has something to do without a message; the end of time for a triggered thread
+  /// whose inputs have no age.
+  base::Time next_due() const;
   /// Handles the messages, and the cycles that are due at `now`.
   /// @rt
   void step(base::Time now) ARMATURE_NONBLOCKING;
+
+  /// Takes its running components out of service.
+  /// @rt nonblocking
+  /// @thread its own
+  void fault_members(std::string_view reason);
 
   /// @thread any
   std::uint64_t cycles_run() const { return cycles_run_.load(std::memory_order_relaxed); }
   std::uint64_t cycles_skipped() const { return cycles_skipped_.load(std::memory_order_relaxed); }
   /// How much later than due each periodic cycle began [ns].
   const rt::Distribution& latency_ns() const { return latency_ns_; }
-  /// Duration of each cycle [ticks].
+  /// Duration of each cycle [ticks]; of a periodic one with the messages up to the next cycle.
   const rt::Distribution& cycle_ticks() const { return cycle_ticks_; }
 
  private:
@@ -86,24 +75,28 @@ class Engine {
   void do_due(base::Time now) ARMATURE_NONBLOCKING;
   void run_cycle(base::Time now) ARMATURE_NONBLOCKING;
   void wake(base::Time now) ARMATURE_NONBLOCKING;
-  void open_cycle(base::Time now);
-  void close_cycle();
-  void begin_next_cycle();
+  void open(base::Time now);
+  void close();
+  void begin_cycle();
+  void close_account();
   void deliver_messages();
   static void deliver(rt::Message* oldest);
   void fault_if_late();
+
+  bool periodic() const { return activity_.kind == Activity::Kind::kPeriodic; }
 
   Activity activity_;
   component::ExecutionContext context_;
   rt::LogQueue log_;
   std::vector<component::Component*> members_;
   std::vector<component::Component*> updating_;
-  std::vector<component::Component*> aging_;
-  base::Duration age_tick_{};
-  base::Time next_age_check_{};
+  std::vector<component::Component*> aging_;  ///< whose inputs have declared ages
+  base::Time next_age_check_ = base::Time::max();
   PeriodicSchedule schedule_;
   std::uint64_t measure_every_ = 16;
-  std::uint64_t opened_ = 0;
+  std::uint64_t opened_ = 0;  ///< tick
+  std::uint64_t busy_ = 0;    ///< ticks of the cycle whose account is open
+  bool account_open_ = false;
   std::atomic<bool> ending_{false};
   std::atomic<std::uint64_t> cycles_run_{0};
   std::atomic<std::uint64_t> cycles_skipped_{0};

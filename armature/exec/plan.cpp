@@ -42,7 +42,7 @@ Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   internal::plan_requirements(blueprint, directory, plan, diagnostics);
   internal::plan_threads(blueprint, plan, diagnostics);
   internal::plan_order(blueprint, plan, diagnostics);
-  internal::check_trigger_cycles(blueprint, plan, diagnostics);
+  internal::plan_triggers(blueprint, plan, diagnostics);
   internal::check_priorities(blueprint, plan, diagnostics);
   return plan;
 }

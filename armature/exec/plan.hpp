@@ -47,6 +47,7 @@ struct ThreadPlan {
   std::vector<Index> updating;  ///< whose update the thread runs in a cycle, in this order
   std::vector<Index> members;   ///< all that run in it, guests included, in the order of the flow
   base::Duration trigger_period{};  ///< of a triggered thread: how often it is triggered, if known
+  int depth = 1;  ///< how many handlers may set each other off, one within the other
 };
 
 /// Everything that starting an application needs to know; made by `make_plan`, without effect on

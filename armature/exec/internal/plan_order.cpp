@@ -3,7 +3,6 @@
 #include <functional>
 #include <queue>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -129,109 +128,6 @@ void list_members(Plan& plan) {
   }
 }
 
-/// The handlers of an application and which of them may set off which other in the same thread.
-class TriggerGraph {
- public:
-  TriggerGraph(const Blueprint& blueprint, const Plan& plan) : blueprint_(blueprint), plan_(plan) {
-    for (const ConnectionPlan& connection : plan.connections) {
-      if (connection.input->triggers()) node(connection.input, connection.to, *connection.input);
-    }
-    for (const SubscriptionPlan& subscription : plan.subscriptions) {
-      node(subscription.handler, subscription.to, *subscription.handler);
-    }
-    for (const ConnectionPlan& connection : plan.connections) {
-      const bool now = connection.input->triggers() && !connection.entry->policy.one_cycle_delay;
-      if (now && same_thread(connection.from, connection.to)) {
-        out_of_[connection.from].push_back(
-            {connection.output->name(), index_.at(connection.input), connection.entry->where});
-      }
-    }
-    for (const SubscriptionPlan& subscription : plan.subscriptions) {
-      if (same_thread(subscription.from, subscription.to)) {
-        out_of_[subscription.from].push_back({subscription.event->name(),
-                                              index_.at(subscription.handler),
-                                              blueprint.components[subscription.to].where});
-      }
-    }
-  }
-
-  void report_cycles(base::Diagnostics& diagnostics) {
-    state_.assign(nodes_.size(), State::kUnseen);
-    for (std::size_t start = 0; start < nodes_.size(); ++start) {
-      if (state_[start] == State::kUnseen) search(start, diagnostics);
-    }
-  }
-
- private:
-  enum class State { kUnseen, kOpen, kDone };
-  struct Node {
-    Index component;
-    std::string path;
-    const component::LeadsTo* effects;
-  };
-  struct Way {
-    std::string_view through;  ///< output port or event
-    std::size_t to;
-    base::Location where;
-  };
-  struct Visit {
-    std::size_t node;
-    std::size_t next_way = 0;
-  };
-
-  template <typename Entry>
-  void node(const void* key, Index component, const Entry& entry) {
-    if (!index_.emplace(key, nodes_.size()).second) return;
-    nodes_.push_back(
-        {component,
-         blueprint_.components[component].component->name() + "." + std::string(entry.name()),
-         &entry.effects()});
-  }
-
-  bool same_thread(Index a, Index b) const { return plan_.thread_of[a] == plan_.thread_of[b]; }
-
-  void search(std::size_t start, base::Diagnostics& diagnostics) {
-    std::vector<Visit> path{{start}};
-    state_[start] = State::kOpen;
-    while (!path.empty()) {
-      Visit& visit = path.back();
-      const Node& here = nodes_[visit.node];
-      const std::vector<Way>& ways = out_of_[here.component];
-      if (visit.next_way == ways.size()) {
-        state_[visit.node] = State::kDone;
-        path.pop_back();
-        continue;
-      }
-      const Way& way = ways[visit.next_way++];
-      if (!here.effects->includes(way.through)) continue;
-      if (state_[way.to] == State::kOpen) report(path, way, diagnostics);
-      if (state_[way.to] != State::kUnseen) continue;
-      state_[way.to] = State::kOpen;
-      path.push_back({way.to});
-    }
-  }
-
-  void report(const std::vector<Visit>& path, const Way& back, base::Diagnostics& diagnostics) {
-    std::string text;
-    bool inside = false;
-    for (const Visit& visit : path) {
-      inside = inside || visit.node == back.to;
-      if (inside) text += nodes_[visit.node].path + " -> ";
-    }
-    diagnostics.error(back.where,
-                      "handlers may set each other off without end: " + text + nodes_[back.to].path,
-                      "declare delay: one_cycle on one of these connections, or leads_to(...) on "
-                      "a port whose handler does not write all outputs of its component");
-  }
-
-  const Blueprint& blueprint_;
-  const Plan& plan_;
-  std::vector<Node> nodes_;
-  std::unordered_map<const void*, std::size_t> index_;
-  std::unordered_map<Index, std::vector<Way>> out_of_;
-  std::vector<State> state_;
-};
-
 }  // namespace
 
 void plan_order(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
@@ -239,11 +135,6 @@ void plan_order(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagn
   order_subscriptions(blueprint, plan);
   order_updates(blueprint, plan, diagnostics);
   list_members(plan);
-}
-
-void check_trigger_cycles(const Blueprint& blueprint, const Plan& plan,
-                          base::Diagnostics& diagnostics) {
-  TriggerGraph(blueprint, plan).report_cycles(diagnostics);
 }
 
 }  // namespace armature::exec::internal

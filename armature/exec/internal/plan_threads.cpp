@@ -10,19 +10,6 @@
 namespace armature::exec::internal {
 namespace {
 
-/// Higher is more urgent; threads without real-time scheduling come last.
-int urgency(const Activity& activity) {
-  switch (activity.scheduler) {
-    case Activity::Scheduler::kDeadline:
-      return 100;
-    case Activity::Scheduler::kRealtime:
-      return activity.priority;
-    case Activity::Scheduler::kOther:
-      return 0;
-  }
-  return 0;
-}
-
 class ThreadPlanner {
  public:
   ThreadPlanner(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics)

@@ -20,9 +20,9 @@ void plan_threads(const Blueprint& blueprint, Plan& plan, base::Diagnostics& dia
 /// Orders start, updates and notifications by the flow of data.
 void plan_order(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
 
-/// Refuses cycles of handlers that would call each other without end in one thread.
-void check_trigger_cycles(const Blueprint& blueprint, const Plan& plan,
-                          base::Diagnostics& diagnostics);
+/// Refuses handlers that would set each other off without end in one thread; finds how deep the
+/// others nest.
+void plan_triggers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
 
 /// Refuses a triggered consumer that is more urgent than its producer.
 void check_priorities(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);

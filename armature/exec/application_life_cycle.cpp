@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// How an application's components come up, as a whole or not at all, and go down in order.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "armature/component/author.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/exec/internal/directory.hpp"
+
+namespace armature::exec {
+namespace {
+
+using component::Component;
+using component::Outcome;
+using component::State;
+using internal::quoted;
+
+bool is_running(const Component& component) {
+  return component.state() == State::kRunning || component.state() == State::kRunTimeError;
+}
+
+Outcome stop_one(Component& component) {
+  component.stop();
+  return component::accepted();
+}
+
+Outcome clean_up_one(Component& component) {
+  component.retire();
+  return component.state() == State::kException ? component::refused(component.reason())
+                                                : component::accepted();
+}
+
+std::string milliseconds(base::Duration duration) {
+  return std::to_string(duration.count() / 1'000'000) + " ms";
+}
+
+}  // namespace
+
+internal::HookPatience Application::patience(base::Duration limit) {
+  return {limit, [this] { drain_logs(); }};
+}
+
+bool Application::configure_all(base::Diagnostics& diagnostics) {
+  std::vector<Component*> components;
+  for (const Index index : plan_.start_order) {
+    const ComponentEntry& entry = blueprint_.components[index];
+    if (entry.autoconfigure) components.push_back(entry.component.get());
+  }
+  const Stage configure{[](Component& component) { return component.configure(); }, "on_configure",
+                        "configure", false};
+  return run_stage(configure, std::move(components), diagnostics);
+}
+
+bool Application::connect_all(base::Diagnostics& diagnostics) {
+  for (const ComponentEntry& entry : blueprint_.components) {
+    for (auto* output : entry.component->interface().outputs) output->prepare();
+  }
+  for (const ConnectionPlan& connection : plan_.connections) {
+    const ConnectionEntry& entry = *connection.entry;
+    if (connection.output->fits(*connection.input)) {
+      connection.output->connect(*connection.input, entry.policy);
+      continue;
+    }
+    diagnostics.error(entry.where, quoted(entry.from_component + "." + entry.from_port) +
+                                       " was configured with another number of elements than " +
+                                       quoted(entry.to_component + "." + entry.to_port) +
+                                       " expects");
+  }
+  for (const SubscriptionPlan& subscription : plan_.subscriptions) {
+    subscription.event->subscribe(*subscription.handler);
+  }
+  for (const CallPlan& call : plan_.calls) call.requirement->connect(*call.operation);
+  return diagnostics.ok();
+}
+
+bool Application::start_all(base::Diagnostics& diagnostics) {
+  for (auto& engine : engines_) engine->context().cycle_time = now();
+  std::vector<Component*> components;
+  for (const Index index : plan_.start_order) {
+    const ComponentEntry& entry = blueprint_.components[index];
+    if (entry.autostart) components.push_back(entry.component.get());
+  }
+  // Whoever starts may call the others: so first all begin to serve.
+  const Stage activate{[](Component& component) { return component.activate(); }, "on_activate",
+                       "start", true};
+  const Stage start{[](Component& component) { return component.start(); }, "on_start", "start",
+                    true};
+  if (!run_stage(activate, components, diagnostics)) return false;
+  if (!run_stage(start, components, diagnostics)) return false;
+  for (const Component* component : components) {
+    if (component->state() != State::kException) continue;
+    diagnostics.error(entry_of(*component).where,
+                      quoted(component->name()) +
+                          " faulted while others started: " + std::string(component->reason()));
+  }
+  return diagnostics.ok();
+}
+
+/// False if a component refuses or hangs, which is reported.
+bool Application::run_stage(const Stage& stage, std::vector<Component*> components,
+                            base::Diagnostics& diagnostics) {
+  const internal::HookReport report =
+      internal::run_hooks({std::move(components), stage.transition, stage.ends_at_refusal},
+                          patience(options_.hook_limit));
+  for (const auto& refusal : report.refusals) {
+    diagnostics.error(
+        entry_of(*refusal.component).where,
+        quoted(refusal.component->name()) + " refuses to " + stage.verb + ": " + refusal.reason);
+  }
+  if (report.hangs) {
+    report_hang(*report.open.front(), stage.hook, options_.hook_limit, diagnostics);
+  }
+  return diagnostics.ok();
+}
+
+void Application::report_hang(const Component& component, const char* hook, base::Duration limit,
+                              base::Diagnostics& diagnostics) {
+  hangs_ = true;
+  stuck_.insert(&component);
+  diagnostics.error(entry_of(component).where, quoted(component.name()) + " hangs: " + hook +
+                                                   " did not return within " + milliseconds(limit) +
+                                                   ", in the thread '" +
+                                                   internal::kLifeCycleThread + "'");
+}
+
+void Application::take_down(base::Diagnostics& diagnostics) {
+  stop_running(diagnostics);
+  end_threads(diagnostics);
+  deliver_leftovers();
+  list_casualties();
+  clean_up(diagnostics);
+  drain_logs();
+  logs_.tell_losses(now());
+}
+
+/// In reverse order of start; neighbours in this order that share a thread are stopped in one go.
+void Application::stop_running(base::Diagnostics& diagnostics) {
+  std::vector<Component*> group;
+  const auto stop_collected = [&] {
+    if (!group.empty()) stop_group(group, diagnostics);
+    group.clear();
+  };
+  for (auto each = plan_.start_order.rbegin(); each != plan_.start_order.rend(); ++each) {
+    Component& component = *blueprint_.components[*each].component;
+    if (!is_running(component)) continue;
+    const bool same_thread = group.empty() || &group.back()->context() == &component.context() ||
+                             !component.context().live;
+    if (!same_thread) stop_collected();
+    group.push_back(&component);
+  }
+  stop_collected();
+}
+
+void Application::stop_group(const std::vector<Component*>& group, base::Diagnostics& diagnostics) {
+  component::ExecutionContext& context = group.front()->context();
+  const internal::HookSeries series{group, stop_one};
+  if (!context.live) {
+    const internal::HookReport report = run_hooks(series, patience(options_.stop_limit));
+    if (!report.hangs) return;
+    report_hang(*report.open.front(), "on_stop", options_.stop_limit, diagnostics);
+    const std::vector<Component*> rest(report.open.begin() + 1, report.open.end());
+    if (!rest.empty()) stop_group(rest, diagnostics);
+    return;
+  }
+  std::vector<Component*> open = group;
+  if (!is_stuck(*group.front())) {
+    open = run_hooks_in(context, series, patience(options_.stop_limit)).open;
+  }
+  if (open.empty()) return;
+  give_up_thread(context);
+  const Component* const where = context.running.load(std::memory_order_relaxed);
+  for (const Component* component : open) {
+    diagnostics.error(entry_of(*component).where,
+                      quoted(component->name()) + " did not stop: its thread " +
+                          quoted(context.name) +
+                          (where == nullptr ? std::string(" does not answer")
+                                            : " hangs in " + quoted(where->name())));
+  }
+}
+
+void Application::give_up_thread(const component::ExecutionContext& context) {
+  hangs_ = true;
+  stuck_.insert(&context);
+}
+
+/// What was sent to a thread that had ended already; nobody runs any more, so that this ends soon.
+void Application::deliver_leftovers() {
+  constexpr int kRounds = 64;
+  bool any = true;
+  for (int round = 0; any && round < kRounds; ++round) {
+    any = false;
+    for (auto& engine : engines_) {
+      if (!engine->context().live && engine->deliver_leftovers()) any = true;
+    }
+  }
+}
+
+void Application::list_casualties() {
+  casualties_.clear();
+  for (const ComponentEntry& entry : blueprint_.components) {
+    const Component& component = *entry.component;
+    if (is_stuck(component)) {
+      casualties_.push_back({component.name(), component.state(), "its thread hangs"});
+    } else if (!component.reason().empty()) {
+      casualties_.push_back({component.name(), component.state(), std::string(component.reason())});
+    }
+  }
+}
+
+void Application::clean_up(base::Diagnostics& diagnostics) {
+  std::vector<Component*> components;
+  for (auto each = plan_.start_order.rbegin(); each != plan_.start_order.rend(); ++each) {
+    Component* const component = blueprint_.components[*each].component.get();
+    if (!is_stuck(*component)) components.push_back(component);
+  }
+  while (!components.empty()) {
+    const internal::HookReport report =
+        run_hooks({components, clean_up_one}, patience(options_.hook_limit));
+    for (const auto& refusal : report.refusals) {
+      diagnostics.error(entry_of(*refusal.component).where,
+                        quoted(refusal.component->name()) +
+                            " faulted while it was cleaned up: " + refusal.reason);
+    }
+    components.clear();
+    if (!report.hangs) break;
+    report_hang(*report.open.front(), "on_cleanup", options_.hook_limit, diagnostics);
+    components.assign(report.open.begin() + 1, report.open.end());
+  }
+  if (!hangs_) disconnect_all();
+}
+
+void Application::disconnect_all() {
+  for (const ComponentEntry& entry : blueprint_.components) {
+    const component::Interface& interface = entry.component->interface();
+    for (auto* output : interface.outputs) output->disconnect_all();
+    for (auto* event : interface.events) event->unsubscribe_all();
+    for (auto* caller : interface.callers) caller->disconnect();
+  }
+}
+
+}  // namespace armature::exec

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/exec/internal/hook_series.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "armature/exec/task.hpp"
+#include "armature/platform/clock.hpp"
+#include "armature/platform/thread.hpp"
+
+namespace armature::exec::internal {
+namespace {
+
+/// A series under way: shared by the thread that runs it and the one that waits, whichever lives
+/// longer.
+class Progress {
+ public:
+  explicit Progress(const HookSeries& series) : series_(series) {}
+
+  void run() {
+    for (component::Component* component : series_.components) {
+      const component::Outcome outcome = series_.transition(*component);
+      if (!go_on_after(*component, outcome)) break;
+    }
+    const std::lock_guard lock(mutex_);
+    finished_ = true;
+    changed_.notify_all();
+  }
+
+  /// False if one of them takes longer than the limit.
+  bool wait(const HookPatience& patience) {
+    const base::Duration look =
+        std::min<base::Duration>(patience.limit, std::chrono::milliseconds(20));
+    std::unique_lock lock(mutex_);
+    std::size_t seen = 0;
+    base::Time deadline = platform::monotonic_now() + patience.limit;
+    while (!changed_.wait_for(lock, look, [this] { return finished_; })) {
+      const base::Time now = platform::monotonic_now();
+      if (std::exchange(seen, done_) != done_) deadline = now + patience.limit;
+      if (now > deadline) return false;
+      if (!patience.meanwhile) continue;
+      lock.unlock();
+      patience.meanwhile();
+      lock.lock();
+    }
+    return true;
+  }
+
+  void leave_alone() {
+    const std::lock_guard lock(mutex_);
+    left_alone_ = true;
+  }
+
+  HookReport report() {
+    const std::lock_guard lock(mutex_);
+    const auto begin = series_.components.begin();
+    return {refusals_,
+            {begin + static_cast<std::ptrdiff_t>(done_), series_.components.end()},
+            !finished_};
+  }
+
+ private:
+  bool go_on_after(component::Component& component, const component::Outcome& outcome) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (!outcome) refusals_.push_back({&component, std::string(outcome.reason())});
+    return !left_alone_ && (outcome.ok() || !series_.ends_at_refusal);
+  }
+
+  const HookSeries series_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t done_ = 0;
+  std::vector<HookReport::Refusal> refusals_;
+  bool finished_ = false;
+  bool left_alone_ = false;
+};
+
+}  // namespace
+
+HookReport run_hooks(const HookSeries& series, const HookPatience& patience) {
+  if (series.components.empty()) return {};
+  const auto progress = std::make_shared<Progress>(series);
+  platform::ThreadRequest request;
+  request.name = kLifeCycleThread;
+  constexpr std::size_t kHookStack = 8u << 20;  // like a main thread's: hooks load files and models
+  request.stack_bytes = kHookStack;
+  request.prefault = false;
+  platform::Thread thread(request, [progress] { progress->run(); });
+  if (progress->wait(patience)) {
+    thread.join();
+  } else {
+    progress->leave_alone();
+    thread.abandon();
+  }
+  return progress->report();
+}
+
+HookReport run_hooks_in(component::ExecutionContext& context, const HookSeries& series,
+                        const HookPatience& patience) {
+  const auto progress = std::make_shared<Progress>(series);
+  Task::post(context, [progress] { progress->run(); });
+  progress->wait(patience);
+  return progress->report();
+}
+
+}  // namespace armature::exec::internal

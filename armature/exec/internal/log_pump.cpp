@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/exec/internal/log_pump.hpp"
+
+#include <utility>
+
+namespace armature::exec::internal {
+
+void LogPump::set_engines(std::vector<Engine*> engines) {
+  sources_.clear();
+  for (Engine* engine : engines) sources_.push_back({engine});
+}
+
+void LogPump::drain() {
+  for (const Source& source : sources_) drain(*source.engine);
+}
+
+void LogPump::drain(Engine& engine) {
+  while (const rt::LogRecord* record = engine.log().pop()) {
+    if (sink_) sink_(*record);
+  }
+}
+
+void LogPump::tell_losses(base::Time now) {
+  for (Source& source : sources_) {
+    const std::uint64_t dropped = source.engine->log().dropped();
+    const std::uint64_t before = std::exchange(source.told_losses, dropped);
+    if (dropped == before || !sink_) continue;
+    rt::LogRecord record;
+    record.level = rt::LogLevel::kWarning;
+    record.time = now;
+    record.component = source.engine->context().name;
+    record.format =
+        "{} log lines of this thread were dropped: it wrote them faster than they can be printed";
+    record.arguments[0] = dropped - before;
+    sink_(record);
+  }
+}
+
+}  // namespace armature::exec::internal

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "armature/base/time.hpp"
+#include "armature/exec/engine.hpp"
+
+namespace armature::exec::internal {
+
+/// Carries log lines from the engines' queues to a sink, which may be empty.
+class LogPump {
+ public:
+  using Sink = std::function<void(const rt::LogRecord&)>;
+
+  explicit LogPump(Sink sink) : sink_(std::move(sink)) {}
+
+  void set_engines(std::vector<Engine*> engines);
+
+  void drain();
+  void drain(Engine& engine);
+  /// One warning for each thread that lost lines since the last time.
+  void tell_losses(base::Time now);
+
+ private:
+  struct Source {
+    Engine* engine;
+    std::uint64_t told_losses = 0;
+  };
+
+  Sink sink_;
+  std::vector<Source> sources_;
+};
+
+}  // namespace armature::exec::internal
