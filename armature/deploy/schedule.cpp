@@ -15,24 +15,12 @@ namespace armature::deploy {
 namespace {
 
 using exec::Index;
+using exec::urgency;
 using internal::in_quotes;
 using internal::percent_text;
 using Cpus = std::set<int>;
 
-constexpr int kDeadlineUrgency = 100;
 constexpr double kDeadlineShare = 0.95;  // the kernel admits no more
-
-int urgency(const exec::Activity& activity) {
-  switch (activity.scheduler) {
-    case exec::Activity::Scheduler::kDeadline:
-      return kDeadlineUrgency;
-    case exec::Activity::Scheduler::kRealtime:
-      return activity.priority;
-    case exec::Activity::Scheduler::kOther:
-      break;
-  }
-  return 0;
-}
 
 /// Finds each thread's execution time and period.
 class LoadFinder {
