@@ -8,6 +8,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "armature/base/realtime.hpp"
+
 namespace armature::platform {
 
 static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t),
@@ -29,6 +31,7 @@ bool futex_wait_until(std::atomic<std::uint32_t>& word, std::uint32_t expected,
 }
 
 void futex_wake_one(std::atomic<std::uint32_t>& word) {
+  const base::SanitizerPermit does_not_wait;
   syscall(SYS_futex, &word, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
 }
 
