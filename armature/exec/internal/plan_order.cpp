@@ -23,8 +23,8 @@ class Sorter {
     ++waiting_for_[second];
   }
 
-  /// @param cyclic  set to true if a cycle had to be broken
-  std::vector<Index> sort(bool* cyclic = nullptr) {
+  /// @param cycle  is given the first cycle that had to be broken, each node before the next
+  std::vector<Index> sort(std::vector<Index>* cycle = nullptr) {
     std::vector<Index> order;
     std::vector<bool> done(after_.size(), false);
     std::priority_queue<Index, std::vector<Index>, std::greater<>> ready;
@@ -35,7 +35,7 @@ class Sorter {
     while (order.size() < after_.size()) {
       if (ready.empty()) {
         while (done[first_open]) ++first_open;
-        if (cyclic != nullptr) *cyclic = true;
+        if (cycle != nullptr && cycle->empty()) *cycle = find_cycle(first_open, done);
         waiting_for_[first_open] = 0;
         ready.push(first_open);
       }
@@ -54,6 +54,28 @@ class Sorter {
   }
 
  private:
+  /// Every node that is not done waits for another such node: going back from one to the next ends
+  /// in a cycle.
+  std::vector<Index> find_cycle(Index start, const std::vector<bool>& done) const {
+    std::vector<Index> before(after_.size(), kNone);
+    for (Index node = 0; node < after_.size(); ++node) {
+      for (const Index later : after_[node]) {
+        if (!done[node]) before[later] = node;
+      }
+    }
+    std::vector<Index> way;
+    std::vector<bool> seen(after_.size(), false);
+    Index node = start;
+    for (; !seen[node]; node = before[node]) {
+      seen[node] = true;
+      way.push_back(node);
+    }
+    way.erase(way.begin(), std::find(way.begin(), way.end(), node));
+    std::reverse(way.begin(), way.end());
+    std::rotate(way.begin(), std::min_element(way.begin(), way.end()), way.end());
+    return way;
+  }
+
   std::vector<std::vector<Index>> after_;
   std::vector<std::size_t> waiting_for_;
 };
@@ -86,41 +108,72 @@ void order_subscriptions(const Blueprint& blueprint, Plan& plan) {
                    });
 }
 
-/// Writers before readers among the components that a thread updates.
-void order_updates(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
-  std::vector<Index> place(blueprint.components.size(), kNone);
-  std::vector<std::vector<const ConnectionPlan*>> inside(plan.threads.size());
-  for (const ThreadPlan& thread : plan.threads) {
-    for (Index i = 0; i < thread.updating.size(); ++i) place[thread.updating[i]] = i;
-  }
-  for (const ConnectionPlan& connection : plan.connections) {
-    const Index thread = plan.thread_of[connection.from];
-    const bool both_update = place[connection.from] != kNone && place[connection.to] != kNone;
-    if (both_update && thread == plan.thread_of[connection.to]) {
-      inside[thread].push_back(&connection);
+/// Writers before readers among the components that each thread updates.
+class UpdateOrder {
+ public:
+  UpdateOrder(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics)
+      : blueprint_(blueprint),
+        plan_(plan),
+        diagnostics_(diagnostics),
+        place_(blueprint.components.size(), kNone),
+        inside_(plan.threads.size()) {
+    for (const ThreadPlan& thread : plan.threads) {
+      for (Index i = 0; i < thread.updating.size(); ++i) place_[thread.updating[i]] = i;
+    }
+    for (const ConnectionPlan& connection : plan.connections) {
+      const Index thread = plan.thread_of[connection.from];
+      const bool both_update = place_[connection.from] != kNone && place_[connection.to] != kNone;
+      const bool at_once = !connection.entry->policy.one_cycle_delay;
+      if (both_update && at_once && thread == plan.thread_of[connection.to]) {
+        inside_[thread].push_back(&connection);
+      }
     }
   }
-  for (Index t = 0; t < plan.threads.size(); ++t) {
-    ThreadPlan& thread = plan.threads[t];
-    if (thread.updating.size() < 2) continue;
-    Sorter sorter(thread.updating.size());
-    for (const ConnectionPlan* connection : inside[t]) {
-      if (connection->entry->policy.one_cycle_delay) continue;
-      sorter.before(place[connection->from], place[connection->to]);
+
+  void run() {
+    for (Index t = 0; t < plan_.threads.size(); ++t) {
+      if (plan_.threads[t].updating.size() > 1) order(t);
     }
-    bool cyclic = false;
-    std::vector<Index> order = sorter.sort(&cyclic);
-    for (Index& each : order) each = thread.updating[each];
-    thread.updating = std::move(order);
-    if (!cyclic) continue;
-    const ConnectionEntry& entry = *inside[t].back()->entry;
-    diagnostics.error(entry.where,
-                      "the components that share the thread " + quoted(thread.name) +
-                          " read each other's data in a loop, so that no order has every writer "
-                          "before its reader",
-                      "declare on one connection of the loop: delay: one_cycle");
   }
-}
+
+ private:
+  void order(Index thread) {
+    std::vector<Index>& updating = plan_.threads[thread].updating;
+    Sorter sorter(updating.size());
+    for (const ConnectionPlan* connection : inside_[thread]) {
+      sorter.before(place_[connection->from], place_[connection->to]);
+    }
+    std::vector<Index> loop;
+    std::vector<Index> order = sorter.sort(&loop);
+    for (Index& each : order) each = updating[each];
+    for (Index& each : loop) each = updating[each];
+    updating = std::move(order);
+    if (!loop.empty()) report(thread, loop);
+  }
+
+  void report(Index thread, const std::vector<Index>& loop) {
+    std::string way;
+    for (const Index each : loop) way += blueprint_.components[each].component->name() + " -> ";
+    way += blueprint_.components[loop.front()].component->name();
+    const auto closes = [&](const ConnectionPlan* connection) {
+      return connection->from == loop.back() && connection->to == loop.front();
+    };
+    const auto& inside = inside_[thread];
+    const ConnectionPlan& last = **std::find_if(inside.begin(), inside.end(), closes);
+    diagnostics_.error(last.entry->where,
+                       "components that share the thread " + quoted(plan_.threads[thread].name) +
+                           " read each other's data in a loop, so that no order has every writer "
+                           "before its reader: " +
+                           way,
+                       "declare on one connection of the loop: delay: one_cycle");
+  }
+
+  const Blueprint& blueprint_;
+  Plan& plan_;
+  base::Diagnostics& diagnostics_;
+  std::vector<Index> place_;  ///< of a component among those that its thread updates
+  std::vector<std::vector<const ConnectionPlan*>> inside_;  ///< for each thread
+};
 
 void list_members(Plan& plan) {
   for (const Index component : plan.start_order) {
@@ -133,7 +186,7 @@ void list_members(Plan& plan) {
 void plan_order(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
   order_start(blueprint, plan);
   order_subscriptions(blueprint, plan);
-  order_updates(blueprint, plan, diagnostics);
+  UpdateOrder(blueprint, plan, diagnostics).run();
   list_members(plan);
 }
 

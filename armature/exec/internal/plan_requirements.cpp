@@ -82,7 +82,7 @@ class RequirementPlanner {
         operation->is_command() != caller.needs_command()) {
       diagnostics_.error(
           place(entry, caller),
-          user_of(entry, caller) + " calls " + caller.signature().text() +
+          user_of(entry, caller) + " as " + caller.signature().text() +
               kind_text(caller.needs_command()) + ", but " +
               quoted(operation->owner().name() + "." + std::string(operation->name())) + " is " +
               operation->signature().text() + kind_text(operation->is_command()));
@@ -100,7 +100,7 @@ class RequirementPlanner {
     if (event == nullptr) return;
     if (!event->signature().same_as(handler.signature())) {
       diagnostics_.error(place(entry, handler),
-                         user_of(entry, handler) + " takes " + handler.signature().text() +
+                         user_of(entry, handler) + " as " + handler.signature().text() +
                              ", but the event " +
                              quoted(event->owner().name() + "." + std::string(event->name())) +
                              " is " + event->signature().text());
@@ -173,10 +173,10 @@ class RequirementPlanner {
       if (blueprint_.components[peer].component->name() == name) return true;
     }
     if (is_absent(name)) return true;
-    diagnostics_.error(entry.where,
-                       user_of(entry, requirement) + " wants the peer " + quoted(name) +
-                           ", which is not among its peers",
-                       "add it: peers: [" + name + "]");
+    diagnostics_.error(
+        entry.where,
+        user_of(entry, requirement) + " of " + quoted(name) + ", which is not among its peers",
+        "add it: peers: [" + name + "]");
     return false;
   }
 

@@ -3,6 +3,7 @@
 #include <deque>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "armature/exec/internal/wiring.hpp"
@@ -22,6 +23,7 @@ class ThreadPlanner {
       check_activity(entry);
       if (entry.activity.owns_thread()) plan_.thread_of[i] = own_thread(i, entry);
     }
+    check_thread_names();
     ThreadPlan service;
     service.name = "service";
     service.activity.kind = Activity::Kind::kTriggered;
@@ -83,31 +85,55 @@ class ThreadPlanner {
 
   Index join(Index thread, Index component, const ComponentEntry& entry) {
     ThreadPlan& shared = plan_.threads[thread];
-    const Activity& first = shared.activity;
-    const Activity& mine = entry.activity;
-    const bool same = first.kind == mine.kind && first.period == mine.period &&
-                      first.priority == mine.priority && first.scheduler == mine.scheduler;
-    if (!same) {
+    const std::string differences = differences_of(shared.activity, entry.activity);
+    if (!differences.empty()) {
       const component::Component& other = *blueprint_.components[shared.updating[0]].component;
       diagnostics_.error(entry.where,
                          quoted(entry.component->name()) + " and " + quoted(other.name()) +
-                             " share the thread " + quoted(shared.name) +
-                             ", but not kind, period, scheduler and priority",
+                             " share the thread " + quoted(shared.name) + ", but differ in " +
+                             differences,
                          "give both the same, or each its own thread");
     }
-    shared.activity.budget += mine.budget;
+    shared.activity.budget += entry.activity.budget;
     shared.updating.push_back(component);
     return thread;
+  }
+
+  static std::string differences_of(const Activity& a, const Activity& b) {
+    const std::pair<const char*, bool> checks[] = {
+        {"kind", a.kind == b.kind},
+        {"period", a.period == b.period},
+        {"scheduler", a.scheduler == b.scheduler},
+        {"priority", a.priority == b.priority},
+        {"CPUs", a.cpus == b.cpus},
+        {"overrun", a.overrun == b.overrun && a.late_cycles_to_fault == b.late_cycles_to_fault}};
+    std::string text;
+    for (const auto& [what, same] : checks) {
+      if (!same) text += (text.empty() ? "" : ", ") + std::string(what);
+    }
+    return text;
+  }
+
+  void check_thread_names() {
+    for (const auto& [name, thread] : shared_threads_) {
+      for (const ThreadPlan& other : plan_.threads) {
+        if (other.name != name || &other == &plan_.threads[thread]) continue;
+        const ComponentEntry& entry = blueprint_.components[plan_.threads[thread].updating[0]];
+        diagnostics_.error(entry.where,
+                           "the thread " + quoted(name) + " of " + quoted(entry.component->name()) +
+                               " has the name of a component that has its own thread",
+                           "give the shared thread another name");
+      }
+    }
   }
 
   void find_edges() {
     triggered_by_.resize(blueprint_.components.size());
     called_or_triggered_by_.resize(blueprint_.components.size());
     for (const ConnectionPlan& connection : plan_.connections) {
-      if (connection.input->triggers()) add(triggered_by_, connection.from, connection.to);
-      if (connection.input->triggers()) {
-        add(called_or_triggered_by_, connection.from, connection.to);
-      }
+      if (!connection.input->triggers()) continue;
+      add(triggered_by_, connection.from, connection.to);
+      add(called_or_triggered_by_, connection.from, connection.to);
     }
     for (const SubscriptionPlan& subscription : plan_.subscriptions) {
       add(triggered_by_, subscription.from, subscription.to);
