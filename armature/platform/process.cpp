@@ -3,9 +3,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include <sys/utsname.h>
@@ -20,19 +17,6 @@ std::string kernel_version() {
 }
 
 void exit_now(int status) { ::_exit(status); }
-
-base::Error restart_with(const std::vector<std::pair<std::string, std::string>>& variables) {
-  for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string line{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  std::vector<char*> arguments;
-  for (std::size_t at = 0; at < line.size(); at += std::strlen(&line[at]) + 1) {
-    arguments.push_back(&line[at]);
-  }
-  arguments.push_back(nullptr);
-  ::execv("/proc/self/exe", arguments.data());
-  return {std::string("cannot start this program anew: ") + std::strerror(errno)};
-}
 
 base::Error start_again(const std::vector<std::string>& arguments,
                         const std::vector<std::pair<std::string, std::string>>& environment) {

@@ -16,10 +16,6 @@ std::string kernel_version();
 /// hangs.
 [[noreturn]] void exit_now(int status);
 
-/// Starts this program anew, in this process and with the same arguments, with `variables` (name,
-/// value) added to its environment. Returns only if that fails.
-base::Error restart_with(const std::vector<std::pair<std::string, std::string>>& variables);
-
 /// Starts this program again, in this process, with variables added to its environment; returns
 /// only if that failed. Threads and memory of now are gone.
 /// @param arguments  as `main` got them
