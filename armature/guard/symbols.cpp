@@ -12,6 +12,37 @@
 #include <cxxabi.h>
 
 namespace armature::guard {
+namespace {
+
+/// Reads on until `closing`, and makes long argument lists short.
+std::string shortened_until(char closing, std::string_view& rest) {
+  constexpr std::string_view kAllocator = ", std::allocator<";
+  constexpr std::size_t kLongest = 72;
+  std::string text;
+  while (!rest.empty() && rest.front() != closing) {
+    const char letter = rest.front();
+    rest.remove_prefix(1);
+    text += letter;
+    const bool is_operator = text.size() > 8 && text.compare(text.size() - 9, 8, "operator") == 0;
+    if (is_operator || (letter != '(' && letter != '<')) continue;
+    const bool allocator = text.size() >= kAllocator.size() && text.ends_with(kAllocator);
+    const char end = letter == '(' ? ')' : '>';
+    const std::string inner = shortened_until(end, rest);
+    if (!rest.empty()) rest.remove_prefix(1);
+    if (allocator) {
+      text.resize(text.size() - kAllocator.size());
+    } else {
+      text += (inner.size() > kLongest ? "..." : inner) + end;
+    }
+  }
+  while (closing == '>' && text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::string shortened(std::string_view name) { return shortened_until('\0', name); }
+
 std::string demangled(const char* name) {
   int status = 0;
   char* const text = abi::__cxa_demangle(name, nullptr, nullptr, &status);
@@ -46,7 +77,7 @@ Symbols::Function Symbols::at(const void* return_address) {
   char offset[24];
   std::snprintf(offset, sizeof offset, "+0x%" PRIxPTR, in_file);
   const char* const name = content.function_at(in_file);
-  return {name == nullptr ? std::string() : demangled(name),
+  return {name == nullptr ? std::string() : shortened(demangled(name)),
           found->file.substr(found->file.rfind('/') + 1) + offset};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/guard/internal/elf.hpp"
@@ -12,6 +13,9 @@ namespace armature::guard {
 
 /// `Pid::on_update()` for the `_ZN3Pid9on_updateEv` of the linker; other names stay as they are.
 std::string demangled(const char* name);
+
+/// The name of a function without allocators, and with `...` for long arguments.
+std::string shortened(std::string_view name);
 
 /// Names the functions of the process, static and hidden ones too, from the symbol tables of the
 /// files that it was loaded from. Takes none of the loader's locks, so any thread may ask.

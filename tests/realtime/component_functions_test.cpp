@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// Components, properties, operations, commands, events, state machines.
+#include <string>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/exec/engine.hpp"
+#include "armature/exec/periodic_schedule.hpp"
+#include "tests/realtime/expect_realtime.hpp"
+
+namespace armature::component {
+namespace {
+
+using std::chrono::milliseconds;
+
+class Server final : public Component {
+ public:
+  using Component::Component;
+
+  int calls = 0;
+  double add(double a, const std::vector<double>& b) {
+    ++calls;
+    return a + b.front();
+  }
+  Outcome begin_move(const std::vector<double>& target) {
+    return target.front() < 0.0 ? refused("below zero") : accepted();
+  }
+  void forget() { ++calls; }
+  bool is_far() { return true; }
+
+  using Component::error;
+  using Component::log_debug;
+  using Component::log_error;
+  using Component::log_info;
+  using Component::log_warning;
+
+  Property<std::vector<double>> gains{this, "Gains", {1.0, 2.0}, "", "", changeable_while_running};
+  Operation<double(double, const std::vector<double>&)> add_{this, "add", serve<&Server::add>, ""};
+  Operation<double(double, const std::vector<double>&)> queued_{this, "queued", serve<&Server::add>,
+                                                                "", in_own_thread};
+  Command<const std::vector<double>&> move{this, "move", serve<&Server::begin_move>, "",
+                                           cancelled_by<&Server::forget>};
+  Event<double, int> happened{this, "happened", "", {}};
+  Trigger forth{"forth"};
+  Trigger back{"back"};
+  StateMachine machine{
+      this, "machine", "", in_state("A", during<&Server::forget>, on(forth, to("B"))),
+      in_state(
+          "B", entering<&Server::forget>, leaving<&Server::forget>,
+          in_state("Near", when<&Server::is_far>(to("Far"))),
+          in_state("Far", on(back, guarded_by<&Server::is_far>, doing<&Server::forget>, to("A"))))};
+};
+
+class Client final : public Component {
+ public:
+  using Component::Component;
+
+  int heard = 0;
+  void hear(const double&, const int&) { ++heard; }
+
+  OperationCaller<double(double, const std::vector<double>&)> add{this, "add", ""};
+  OperationCaller<double(double, const std::vector<double>&)> queued{this, "queued", ""};
+  CommandCaller<const std::vector<double>&> move{this, "move", ""};
+  EventHandler<double, int> on_happened{this, "happened", serve<&Client::hear>, ""};
+};
+
+/// Client and server in two threads, or in one.
+class ComponentFunctions : public ::testing::TestWithParam<bool> {
+ protected:
+  ComponentFunctions() {
+    client_.assign_context(here_);
+    server_.assign_context(GetParam() ? here_ : there_);
+    client_.add.connect(server_.add_);
+    client_.queued.connect(server_.queued_);
+    client_.move.connect(server_.move);
+    server_.happened.subscribe(client_.on_happened);
+    client_.queued.prepare(1.0, vector_);
+    there_.log = &log_;
+    here_.log = &log_;
+    for (Component* each : {static_cast<Component*>(&client_), static_cast<Component*>(&server_)}) {
+      EXPECT_TRUE(each->configure());
+      EXPECT_TRUE(each->start());
+    }
+    // A sent vector has found its size once.
+    for (std::size_t i = 0; i < kDefaultOutstanding; ++i) {
+      static_cast<void>(client_.move.send(vector_));
+      deliver();
+      server_.move.complete();
+    }
+  }
+  ~ComponentFunctions() override {
+    server_.happened.unsubscribe_all();
+    for (auto* caller : client_.interface().callers) caller->disconnect();
+  }
+
+  void deliver() {
+    for (ExecutionContext* context : {&here_, &there_}) {
+      rt::Message* message = context->inbox.take_all();
+      while (message != nullptr) {
+        rt::Message* const next = rt::Inbox::next(*message);
+        message->deliver();
+        message = next;
+      }
+    }
+  }
+
+  ExecutionContext here_{"here"};
+  ExecutionContext there_{"there"};
+  rt::LogQueue log_{8};
+  Server server_{"server"};
+  Client client_{"client"};
+  const std::vector<double> vector_{1.0, 2.0, 3.0};
+};
+
+INSTANTIATE_TEST_SUITE_P(Threads, ComponentFunctions, ::testing::Bool(), [](const auto& each) {
+  return std::string(each.param ? "InOneThread" : "BetweenThreads");
+});
+
+TEST_P(ComponentFunctions, TimeAndAdmission) {
+  base::Time now{};
+  bool admitted = false;
+  expect_realtime("Component::time", [&] { now = server_.time(); });
+  expect_realtime("Component::admits", [&] { admitted = server_.admits(); });
+  base::Time expiry{};
+  expect_realtime("Component::next_expiry", [&] { expiry = server_.next_expiry(); });
+  EXPECT_GT(expiry, now);
+  EXPECT_TRUE(admitted);
+}
+
+TEST_P(ComponentFunctions, UpdateAndRun) {
+  expect_realtime("Component::update", [&] { server_.update(); });
+  int runs = 0;
+  expect_realtime("Component::run", [&] { server_.run(here_, [&] { ++runs; }); });
+  EXPECT_EQ(runs, 101);
+}
+
+TEST_P(ComponentFunctions, Measurements) {
+  here_.measuring = true;
+  expect_realtime("Component::close_measurements", [&] {
+    client_.run(here_, [] {});
+    Component::close_measurements(here_);
+  });
+  EXPECT_EQ(client_.execution_ticks().summary().count, 101u);
+}
+
+TEST_P(ComponentFunctions, HandlersThatSetThemselvesOff) {
+  Entrance entrance(client_, "port");
+  int entered = 0;
+  expect_realtime("Entrance::pass", [&] {
+    entrance.pass(here_, [&] {
+      ++entered;
+      entrance.pass(here_, [&] { ++entered; });
+    });
+  });
+  EXPECT_EQ(entered, 101);
+  EXPECT_EQ(client_.state(), State::kException);
+}
+
+TEST_P(ComponentFunctions, CodeThatNestsTooDeeply) {
+  here_.depth_limit = 0;
+  int runs = 0;
+  expect_realtime("Component::run", [&] { client_.run(here_, [&] { ++runs; }); });
+  EXPECT_EQ(runs, 0);
+  EXPECT_EQ(client_.state(), State::kException);
+}
+
+TEST_P(ComponentFunctions, ErrorAndFault) {
+  expect_realtime("Component::error", [&] { server_.error("a reason"); });
+  EXPECT_EQ(server_.state(), State::kRunTimeError);
+  expect_realtime("Component::fault", [&] { server_.fault("another reason"); });
+  EXPECT_EQ(server_.state(), State::kException);
+}
+
+TEST_P(ComponentFunctions, Logging) {
+  expect_realtime("Component::log_debug", [&] {
+    server_.log_debug("{} {} {} {}", 1, 2.0, true, "text");
+    server_.log_info("{}", 1);
+    server_.log_warning("{}", std::string_view("text"));
+    server_.log_error("nothing more");
+  });
+  EXPECT_GT(log_.dropped(), 0u);
+}
+
+TEST_P(ComponentFunctions, Properties) {
+  double sum = 0.0;
+  expect_realtime("Property::get", [&] { sum += server_.gains.get()[1]; });
+  EXPECT_EQ(sum, 202.0);
+  types::Value other = types::Value::of(std::vector<double>{3.0, 4.0, 5.0});
+  expect_realtime("PropertyBase::swap", [&] { server_.gains.swap(other); });
+  EXPECT_EQ(server_.gains.get().size(), 3u);
+}
+
+TEST_P(ComponentFunctions, AnOperationInTheCallersThread) {
+  double sum = 0.0;
+  expect_realtime("OperationCaller::operator()", [&] { sum += client_.add(1.0, vector_).value; });
+  EXPECT_EQ(sum, 202.0);
+}
+
+TEST_P(ComponentFunctions, AnOperationInItsOwnThread) {
+  double sum = 0.0;
+  expect_realtime("OperationCaller::send", [&] {
+    const SendHandle<double> handle = client_.queued.send(1.0, vector_);
+    deliver();
+    sum += handle.collect().value;
+  });
+  EXPECT_EQ(sum, 202.0);
+  bool pending = true;
+  expect_realtime("SendHandle::collect", [&] {
+    const SendHandle<double> handle = client_.queued.send(1.0, vector_);
+    pending = pending && handle.collect().status == CallStatus::kPending;
+    deliver();
+    sum += handle.collect().value;
+  });
+  EXPECT_TRUE(pending);
+  bool cancelled = true;
+  expect_realtime("SendHandle::cancel", [&] {
+    SendHandle<double> handle = client_.queued.send(1.0, vector_);
+    cancelled = cancelled && handle.cancel();
+    deliver();
+  });
+  EXPECT_TRUE(cancelled);
+}
+
+TEST_P(ComponentFunctions, TooManyCallsAtOnce) {
+  expect_realtime("OperationCaller::send",
+                  [&] { static_cast<void>(client_.queued.send(1.0, vector_)); });
+  EXPECT_EQ(client_.queued.refused(), 101u - kDefaultOutstanding);
+  deliver();
+}
+
+TEST_P(ComponentFunctions, ACommandToEachOfItsEnds) {
+  CommandStage stage = CommandStage::kFree;
+  const auto run = [&](auto&& end) {
+    CommandHandle handle = client_.move.send(vector_);
+    deliver();
+    end(handle);
+    deliver();
+    stage = handle.stage();
+  };
+  expect_realtime("CommandCaller::send",
+                  [&] { run([&](CommandHandle&) { server_.move.complete(); }); });
+  EXPECT_EQ(stage, CommandStage::kDone);
+  expect_realtime("Command::report", [&] {
+    run([&](CommandHandle&) {
+      server_.move.report(0.5);
+      server_.move.fail("it is blocked");
+    });
+  });
+  EXPECT_EQ(stage, CommandStage::kFailed);
+  expect_realtime("CommandCaller::send",
+                  [&] { run([&](CommandHandle& handle) { handle.cancel(); }); });
+  EXPECT_EQ(stage, CommandStage::kCancelled);
+}
+
+TEST_P(ComponentFunctions, Events) {
+  expect_realtime("Event::raise", [&] {
+    server_.happened.raise(1.0, 2);
+    deliver();
+  });
+  EXPECT_EQ(client_.heard, 101);
+  // A full queue is no exception.
+  expect_realtime("Event::raise", [&] { server_.happened.raise(1.0, 2); });
+  deliver();
+}
+
+TEST_P(ComponentFunctions, StateMachines) {
+  std::string_view path;
+  bool far = true;
+  int states = 0;
+  const auto round = [&] {
+    server_.forth.raise();
+    server_.update();  // from near to far
+    path = server_.machine.path();
+    far = far && server_.machine.is_in("B/Far");
+    states += server_.machine.current();
+    server_.back.raise();
+  };
+  expect_realtime("Trigger::raise", round);
+  expect_realtime("StateMachine::path", round);
+  expect_realtime("StateMachine::is_in", round);
+  expect_realtime("StateMachine::current", round);
+  EXPECT_EQ(path, "B/Far");
+  EXPECT_TRUE(far);
+  EXPECT_EQ(server_.machine.transitions_taken(), 4u * 101u * 3u);
+  TriggerStatus status = TriggerStatus::kNotRunning;
+  expect_realtime("StateMachine::post", [&] { status = server_.machine.post(0); });
+  EXPECT_NE(status, TriggerStatus::kNotRunning);
+}
+
+struct Nothing final : rt::Message {
+  Nothing() : rt::Message([](rt::Message&) {}) {}
+};
+
+TEST(RealtimeContexts, MessagesArePosted) {
+  ExecutionContext context("here");
+  context.wakes_on_messages = true;
+  Nothing message;
+  expect_realtime("ExecutionContext::post", [&] {
+    context.post(message);
+    context.inbox.take_all();
+  });
+}
+
+TEST(RealtimeContexts, ScheduleSettles) {
+  exec::PeriodicSchedule schedule(milliseconds(1), false);
+  base::Time now{};
+  schedule.begin(now);
+  expect_realtime("PeriodicSchedule::settle", [&] { schedule.settle(now += milliseconds(2)); });
+  EXPECT_EQ(schedule.cycles_run(), 101u);
+  EXPECT_EQ(schedule.cycles_skipped(), 101u);
+}
+
+}  // namespace
+}  // namespace armature::component

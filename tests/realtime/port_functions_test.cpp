@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ports, for every way in which reader and writer may be connected.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "tests/realtime/expect_realtime.hpp"
+
+namespace armature::component {
+namespace {
+
+using std::chrono::milliseconds;
+
+class Source final : public Component {
+ public:
+  using Component::Component;
+  OutputPort<double> number{this, "Number", ""};
+  OutputPort<std::vector<double>> vector{this, "Vector", "", "", fixed_size(7)};
+};
+
+class Sink final : public Component {
+ public:
+  using Component::Component;
+
+  int handled = 0;
+  InputPort<double> number{this, "Number", ""};
+  InputPort<std::vector<double>> vector{this, "Vector", "", "", fixed_size(7)};
+  InputPort<double> triggering{this, "Triggering", "", "", on_data<&Sink::handle>};
+
+ private:
+  void handle(double) { ++handled; }
+};
+
+struct Connection {
+  std::string name;
+  ConnectionPolicy policy;
+  bool same_thread;
+};
+
+std::vector<Connection> connections() {
+  ConnectionPolicy latest;
+  ConnectionPolicy refusing{ConnectionPolicy::Kind::kFifo, 4, rt::WhenFull::kRefuse, false};
+  ConnectionPolicy dropping{ConnectionPolicy::Kind::kFifo, 4, rt::WhenFull::kDropOldest, false};
+  ConnectionPolicy delayed;
+  delayed.one_cycle_delay = true;
+  std::vector<Connection> all;
+  for (const bool same : {true, false}) {
+    const std::string where = same ? "InOneThread" : "BetweenThreads";
+    all.push_back({"Latest" + where, latest, same});
+    all.push_back({"RefusingFifo" + where, refusing, same});
+    all.push_back({"DroppingFifo" + where, dropping, same});
+    all.push_back({"Delayed" + where, delayed, same});
+  }
+  return all;
+}
+
+class PortFunctions : public ::testing::TestWithParam<Connection> {
+ protected:
+  void SetUp() override {
+    source_.assign_context(here_);
+    sink_.assign_context(GetParam().same_thread ? here_ : there_);
+    for (Component* component :
+         {static_cast<Component*>(&source_), static_cast<Component*>(&sink_)})
+      ASSERT_TRUE(component->configure());
+    source_.number.prepare();
+    source_.vector.prepare();
+  }
+  void connect(OutputPortBase& output, InputPortBase& input) {
+    output.connect(input, GetParam().policy);
+    ASSERT_TRUE(sink_.start());
+  }
+  /// What the reader's thread does with what was sent to it.
+  void begin_cycle() {
+    ExecutionContext& context = sink_.context();
+    ++context.cycle;
+    for (rt::Inbox* inbox : {&context.next_cycle, &context.inbox}) {
+      rt::Message* message = inbox->take_all();
+      while (message != nullptr) {
+        rt::Message* const next = rt::Inbox::next(*message);
+        message->deliver();
+        message = next;
+      }
+    }
+  }
+
+  ExecutionContext here_{"here"};
+  ExecutionContext there_{"there"};
+  Source source_{"source"};
+  Sink sink_{"sink"};
+};
+
+TEST_P(PortFunctions, ANumberIsWrittenAndRead) {
+  connect(source_.number, sink_.number);
+  double sum = 0.0;
+  expect_realtime("OutputPort::write", [&] { source_.number.write(1.0); });
+  expect_realtime("InputPort::read", [&] {
+    begin_cycle();
+    source_.number.write(2.0);
+    sum += sink_.number.read().value;
+  });
+  EXPECT_GT(sum, 0.0);
+}
+
+TEST_P(PortFunctions, AVectorIsWrittenAndRead) {
+  connect(source_.vector, sink_.vector);
+  const std::vector<double> wrong_size(3, 1.0);
+  const std::vector<double> right_size(7, 1.0);
+  expect_realtime("OutputPort::write", [&] {
+    source_.vector.write(right_size);
+    source_.vector.write(wrong_size);
+  });
+  EXPECT_EQ(source_.vector.counters().wrong_size, 101u);
+  double sum = 0.0;
+  expect_realtime("InputPort::read", [&] {
+    begin_cycle();
+    source_.vector.write(right_size);
+    sum += sink_.vector.read().value[6];
+  });
+  EXPECT_GT(sum, 0.0);
+}
+
+TEST_P(PortFunctions, AWriteRunsTheHandler) {
+  connect(source_.number, sink_.triggering);
+  expect_realtime("OutputPort::write", [&] {
+    source_.number.write(1.0);
+    begin_cycle();
+  });
+  EXPECT_GE(sink_.handled, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Connections, PortFunctions, ::testing::ValuesIn(connections()),
+                         [](const auto& each) { return each.param.name; });
+
+class AgeFunctions : public ::testing::TestWithParam<Reaction> {};
+
+TEST_P(AgeFunctions, DataThatIsTooOldIsReactedTo) {
+  ExecutionContext context("here");
+  Source source("source");
+  Sink sink("sink");
+  source.assign_context(context);
+  sink.assign_context(context);
+  sink.number.set_max_age(max_age(milliseconds(1), GetParam()));
+  source.number.connect(sink.number, {});
+  ASSERT_TRUE(sink.configure());
+  ASSERT_TRUE(sink.start());
+  expect_realtime("InputPortBase::check_age", [&] {
+    context.cycle_time = context.cycle_time.load() + milliseconds(5);
+    sink.number.check_age();
+  });
+  EXPECT_EQ(sink.number.counters().stale, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Reactions, AgeFunctions,
+                         ::testing::Values(Reaction::kHold, Reaction::kZero, Reaction::kStop,
+                                           Reaction::kFault),
+                         [](const auto& each) { return std::string(name_of(each.param)); });
+
+}  // namespace
+}  // namespace armature::component

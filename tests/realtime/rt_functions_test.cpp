@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real-time functions of base, platform, types and rt.
+#include <atomic>
+#include <cstddef>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "armature/base/fixed_text.hpp"
+#include "armature/platform/clock.hpp"
+#include "armature/platform/futex.hpp"
+#include "armature/rt/inbox.hpp"
+#include "armature/rt/latest.hpp"
+#include "armature/rt/log.hpp"
+#include "armature/rt/ring.hpp"
+#include "armature/rt/statistics.hpp"
+#include "armature/rt/wakeup.hpp"
+#include "armature/types/struct.hpp"
+#include "armature/types/type.hpp"
+#include "tests/realtime/expect_realtime.hpp"
+
+namespace armature {
+
+struct Reading {
+  double time = 0.0;
+  std::vector<double> positions;
+  base::FixedText<15> label;
+};
+
+ARMATURE_STRUCT(Reading, time, positions, label);
+
+namespace {
+
+TEST(RealtimeFunctions, FixedText) {
+  base::FixedText<15> text;
+  bool equal = true;
+  expect_realtime("FixedText", [&] {
+    text.assign("joint");
+    text.append(" 1, and more than there is room for");
+    equal = equal && text == base::FixedText<15>("joint 1, and mo");
+  });
+  EXPECT_TRUE(equal);
+}
+
+TEST(RealtimeFunctions, Clocks) {
+  base::Time last{};
+  expect_realtime("platform::monotonic_now", [&] { last = platform::monotonic_now(); });
+  EXPECT_GT(last, base::Time{});
+  std::uint64_t ticks = 0;
+  expect_realtime("platform::ticks", [&] { ticks = platform::ticks(); });
+  EXPECT_GT(ticks, 0u);
+}
+
+TEST(RealtimeFunctions, FutexWake) {
+  std::atomic<std::uint32_t> word{0};
+  expect_realtime("platform::futex_wake_one", [&] { platform::futex_wake_one(word); });
+}
+
+TEST(RealtimeFunctions, TypesOfTheSameShape) {
+  const types::Type& type = types::type_of<Reading>();
+  const Reading a{1.0, {1.0, 2.0, 3.0}, "a"};
+  Reading b{2.0, {4.0, 5.0, 6.0}, "b"};
+  bool same = false;
+  expect_realtime("types::same_shape", [&] {
+    same = types::same_shape(type, &a, &b);
+    type.assign(&b, &a);
+  });
+  EXPECT_TRUE(same);
+  EXPECT_EQ(b.positions, a.positions);
+}
+
+TEST(RealtimeFunctions, Encoding) {
+  const types::Type& type = types::type_of<Reading>();
+  const Reading reading{1.0, {1.0, 2.0, 3.0}, "a"};
+  std::vector<std::byte> to(types::encoded_size(type, &reading));
+  std::size_t size = 0;
+  expect_realtime("types::encoded_size", [&] { size = types::encoded_size(type, &reading); });
+  EXPECT_EQ(size, to.size());
+  expect_realtime("types::encode_to", [&] { size = types::encode_to(type, &reading, to.data()); });
+  EXPECT_EQ(size, to.size());
+}
+
+TEST(RealtimeFunctions, LatestOfAVector) {
+  const std::vector<double> sample(7, 1.0);
+  rt::Latest<std::vector<double>> latest(sample);
+  bool fresh = false;
+  expect_realtime("Latest::write", [&] { latest.write(sample); });
+  expect_realtime("Latest::fetch", [&] {
+    latest.write(sample);
+    fresh = latest.fetch();
+  });
+  EXPECT_TRUE(fresh);
+}
+
+class RingTest : public ::testing::TestWithParam<rt::WhenFull> {};
+
+TEST_P(RingTest, PushAndPopOfAVector) {
+  const std::vector<double> sample(7, 1.0);
+  rt::Ring<std::vector<double>> ring(8, GetParam(), sample);
+  expect_realtime("Ring::push", [&] { ring.push(sample); });  // full before it ends
+  const std::vector<double>* last = nullptr;
+  expect_realtime("Ring::pop", [&] {
+    ring.push(sample);
+    last = ring.pop();
+  });
+  ASSERT_NE(last, nullptr);
+  EXPECT_EQ(*last, sample);
+}
+
+INSTANTIATE_TEST_SUITE_P(WhenFull, RingTest,
+                         ::testing::Values(rt::WhenFull::kRefuse, rt::WhenFull::kDropOldest));
+
+struct CountedMessage final : rt::Signal {
+  CountedMessage() : rt::Signal(&deliver) {}
+  static void deliver(rt::Message& message) {
+    auto& self = static_cast<CountedMessage&>(message);
+    self.lower();
+    ++self.delivered;
+  }
+  int delivered = 0;
+};
+
+TEST(RealtimeFunctions, Inbox) {
+  rt::Inbox inbox;
+  CountedMessage message;
+  bool empty = true;
+  const auto take = [&] {
+    rt::Message* const taken = inbox.take_all();
+    if (taken != nullptr) taken->deliver();
+  };
+  expect_realtime("Inbox::push", [&] {
+    inbox.push(message);
+    take();
+  });
+  expect_realtime("Inbox::empty", [&] { empty = empty && inbox.empty(); });
+  expect_realtime("Inbox::take_all", take);
+  expect_realtime("Signal::raise", [&] {
+    message.raise(inbox);
+    message.raise(inbox);
+    take();
+  });
+  EXPECT_TRUE(empty);
+  EXPECT_EQ(message.delivered, 202);
+}
+
+TEST(RealtimeFunctions, LogQueueFullOrNot) {
+  rt::LogQueue queue(8);
+  rt::LogRecord record;
+  record.format = "{} of {}";
+  record.arguments = {rt::LogArgument(1), rt::LogArgument("a text")};
+  expect_realtime("LogQueue::push", [&] { queue.push(record); });
+  EXPECT_EQ(queue.dropped(), 101u - 8u);
+}
+
+TEST(RealtimeFunctions, Distribution) {
+  rt::Distribution distribution;
+  std::uint64_t value = 1;
+  expect_realtime("Distribution::add", [&] { distribution.add(value *= 3); });
+  EXPECT_EQ(distribution.summary().count, 101u);
+}
+
+TEST(RealtimeFunctions, WakeupOfAThreadThatSleeps) {
+  rt::Wakeup wakeup;
+  rt::Wakeup answer;
+  std::atomic<bool> ending{false};
+  std::thread sleeper([&] {
+    while (!ending) {
+      wakeup.wait();
+      answer.notify();
+    }
+  });
+  expect_realtime("Wakeup::notify", [&] {
+    wakeup.notify();
+    const rt::PermitScope permit;
+    answer.wait();
+  });
+  ending = true;
+  wakeup.notify();
+  sleeper.join();
+}
+
+TEST(RealtimeFunctions, WakeupThatIsTried) {
+  rt::Wakeup wakeup;
+  bool taken = true;
+  expect_realtime("Wakeup::try_wait", [&] {
+    wakeup.notify();
+    taken = taken && wakeup.try_wait() && !wakeup.try_wait();
+  });
+  EXPECT_TRUE(taken);
+}
+
+}  // namespace
+}  // namespace armature
