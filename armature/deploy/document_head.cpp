@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/deploy/internal/document_head.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <utility>
@@ -84,18 +85,28 @@ bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
   return false;
 }
 
-void check_document_keys(const Value& tree, base::Diagnostics& diagnostics) {
+std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
+  constexpr std::array<std::pair<const char*, Value::Kind>, 5> kKinds = {
+      {{"parameters", Value::Kind::kMap},
+       {"components", Value::Kind::kMap},
+       {"composites", Value::Kind::kMap},
+       {"connections", Value::Kind::kList},
+       {"composed", Value::Kind::kMap}}};
   const ValueReader reader("document", diagnostics);
   Fields fields(tree, reader);
-  for (const char* key : {"application", "on_fault", "include", "libraries"}) fields.take(key);
-  for (const char* key : {"parameters", "components", "composites"}) {
-    require_kind(fields.take(key), Value::Kind::kMap, key, reader);
-  }
-  require_kind(fields.take("connections"), Value::Kind::kList, "connections", reader);
-  fields.take("scripts");
-  require_kind(fields.take("recorder"), Value::Kind::kMap, "recorder", reader);
-  require_kind(fields.take("composed"), Value::Kind::kMap, "composed", reader);
+  std::vector<std::string> known;
+  const auto take = [&](const char* key) {
+    known.emplace_back(key);
+    return fields.take(key);
+  };
+  for (const char* key : {"application", "on_fault", "include", "libraries", "scripts"}) take(key);
+  for (const auto& [key, kind] : kKinds) require_kind(take(key), kind, key, reader);
+  require_kind(take("recorder"), Value::Kind::kMap, "recorder", reader);
   fields.refuse_others();
+  std::erase_if(tree.entries, [&](const Property& entry) {
+    return std::find(known.begin(), known.end(), entry.name) == known.end();
+  });
+  return std::move(tree.entries);
 }
 
 Value head_of(const Value& tree) {

@@ -35,13 +35,13 @@ class Sources {
   Value parse(std::string_view text, const std::string& path) {
     seen_.push_back(path);
     open_.push_back(path);
-    Value own = parse_file(text, path);
-    Value all = internal::make_map(own.where);
-    if (const Property* include = find(own.entries, "include")) {
+    std::vector<Property> own = parse_file(text, path);
+    Value all = internal::make_map({path, 0, 0});
+    if (const Property* include = find(own, "include")) {
       for (const Value* one : internal::items_of(&include->value)) add_included(*one, path, all);
     }
-    std::erase_if(own.entries, [](const Property& entry) { return entry.name == "include"; });
-    for (Property& section : own.entries) merge_section(all, std::move(section), true);
+    std::erase_if(own, [](const Property& entry) { return entry.name == "include"; });
+    for (Property& section : own) merge_section(all, std::move(section), true);
     open_.pop_back();
     return all;
   }
@@ -52,13 +52,11 @@ class Sources {
     return platform::read_file(path, options_.limits.file_bytes);
   }
 
-  Value parse_file(std::string_view text, const std::string& path) {
+  std::vector<Property> parse_file(std::string_view text, const std::string& path) {
     const bool xml = std::filesystem::path(path).extension() == ".xml";
     Value tree = xml ? internal::parse_xml(text, path, options_.limits, diagnostics_)
                      : internal::parse_yaml(text, path, options_.limits, diagnostics_);
-    if (tree.kind == Value::Kind::kNone) tree = internal::make_map({path, 0, 0});
-    internal::check_document_keys(tree, diagnostics_);
-    return tree;
+    return internal::sections_of(std::move(tree), diagnostics_);
   }
 
   void add_included(const Value& name, const std::string& includer, Value& all) {

@@ -8,6 +8,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/deploy/internal/fields.hpp"
+#include "armature/deploy/internal/once_per_place.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 
 namespace armature::deploy::internal {
@@ -27,9 +28,15 @@ struct Member {
 class Resolver {
  public:
   Resolver(Document& document, const NameTable& names, base::Diagnostics& diagnostics)
-      : document_(document), names_(names), diagnostics_(diagnostics) {
+      : document_(document), names_(names), reports_(diagnostics) {
     for (Composite& composite : document.composites) {
       if (names.contains(composite.name)) composites_[composite.name] = &composite;
+    }
+    for (const Component& component : document.components) {
+      std::string owner = names.parent_of(component.name);
+      for (; !owner.empty(); owner = names.parent_of(owner)) {
+        parts_[owner].push_back(component.name.substr(owner.size() + 1));
+      }
     }
   }
 
@@ -38,6 +45,7 @@ class Resolver {
     for (auto it = document_.composites.rbegin(); it != document_.composites.rend(); ++it) {
       if (composites_.count(it->name) == 0) continue;
       for (Export& one : it->exports) resolve_export(*it, one);
+      report();
     }
   }
 
@@ -52,10 +60,12 @@ class Resolver {
     std::vector<Reference> delays;
     for (const Reference& delay : component.delays) resolve_delay(delay, scope, delays);
     component.delays = std::move(delays);
+    report();
   }
 
   void resolve_endpoint(Endpoint& endpoint, const std::string& scope) {
     resolve_member(scope, {ExportKind::kPort}, {endpoint.component, endpoint.port, endpoint.where});
+    report();
   }
 
  private:
@@ -71,30 +81,29 @@ class Resolver {
       follow_export({one.kind}, {one.component, one.member, one.where});
       return;
     }
-    diagnostics_.error(one.where,
-                       "composite " + in_quotes(owner.model) + " has no part " +
-                           in_quotes(one.component) + " to export " + in_quotes(one.name) + " from",
-                       base::suggestion(one.component, parts_of(owner)));
+    found_.error(one.where,
+                 "composite " + in_quotes(owner.model) + " has no part " +
+                     in_quotes(one.component) + " to export " + in_quotes(one.name) + " from",
+                 base::suggestion(one.component, parts_of(owner)));
   }
 
-  std::vector<std::string> parts_of(const Composite& owner) const {
-    std::vector<std::string> parts;
-    const std::string prefix = owner.name + ".";
-    for (const Component& component : document_.components) {
-      if (component.name.rfind(prefix, 0) == 0)
-        parts.push_back(component.name.substr(prefix.size()));
-    }
-    return parts;
+  const std::vector<std::string>& parts_of(const Composite& owner) { return parts_[owner.name]; }
+
+  /// An entry of a range or a composite that is used often meets the same mistake each time.
+  void report() {
+    if (found_.empty()) return;
+    reports_.add(found_);
+    found_ = {};
   }
 
   bool check_visible(const std::string& scope, const std::string& name,
                      const base::Location& where) {
     if (!names_.contains(name) || names_.visible(scope, name)) return true;
     const std::string owner = names_.parent_of(name);
-    diagnostics_.error(where,
-                       in_quotes(name.substr(owner.size() + 1)) + " is a part of composite " +
-                           in_quotes(owner) + ", which hides it",
-                       "use what the composite exports, or export more");
+    found_.error(where,
+                 in_quotes(name.substr(owner.size() + 1)) + " is a part of composite " +
+                     in_quotes(owner) + ", which hides it",
+                 "use what the composite exports, or export more");
     return false;
   }
 
@@ -119,10 +128,10 @@ class Resolver {
       }
       known.push_back(one.name);
     }
-    diagnostics_.error(member.where,
-                       "composite " + in_quotes(owner->name) + " exports no " +
-                           std::string(to_text(*kinds.begin())) + " " + in_quotes(member.name),
-                       base::suggestion(member.name, known));
+    found_.error(member.where,
+                 "composite " + in_quotes(owner->name) + " exports no " +
+                     std::string(to_text(*kinds.begin())) + " " + in_quotes(member.name),
+                 base::suggestion(member.name, known));
   }
 
   /// A composite as a peer stands for the parts that serve what it exports.
@@ -144,8 +153,8 @@ class Resolver {
       }
     }
     if (peers.size() > before) return;
-    diagnostics_.error(peer.where, "composite " + in_quotes(name) +
-                                       " exports no operation, event or property for its peers");
+    found_.error(peer.where, "composite " + in_quotes(name) +
+                                 " exports no operation, event or property for its peers");
   }
 
   void resolve_delay(const Reference& delay, const std::string& scope,
@@ -163,7 +172,9 @@ class Resolver {
 
   Document& document_;
   const NameTable& names_;
-  base::Diagnostics& diagnostics_;
+  OncePerPlace reports_;
+  base::Diagnostics found_;
+  std::unordered_map<std::string, std::vector<std::string>> parts_;
   std::unordered_map<std::string, const Composite*> composites_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <unordered_map>
 
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/internal/xml_tree.hpp"
@@ -112,14 +113,16 @@ Value value_of(const XmlElement& element, base::Diagnostics& diagnostics) {
 
 std::vector<Property> properties_of(const XmlElement& element, base::Diagnostics& diagnostics) {
   std::vector<Property> properties;
+  std::unordered_map<std::string_view, const base::Location*> first;
   for (const XmlElement& child : element.children) {
     if (child.name.empty()) {
       diagnostics.error(child.where, "a property needs a name", "add name=\"...\"");
       continue;
     }
-    if (const Property* first = find(properties, child.name)) {
+    const auto [earlier, is_new] = first.emplace(child.name, &child.where);
+    if (!is_new) {
       diagnostics.error(child.where, in_quotes(child.name) + " is given twice",
-                        "first at " + place_text(first->where));
+                        "first at " + place_text(*earlier->second));
       continue;
     }
     properties.push_back(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/deploy/document.hpp"
@@ -13,8 +14,8 @@ namespace armature::deploy::internal {
 bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
                   const ValueReader& reader);
 
-/// The keys that a document may have, each with the right kind of value; errors for all others.
-void check_document_keys(const Value& tree, base::Diagnostics& diagnostics);
+/// The sections that a document may have, each with the right kind of value; errors for all else.
+std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics);
 
 /// The part of the tree that concerns the application as a whole.
 Value head_of(const Value& tree);
