@@ -3,6 +3,7 @@
 """Shows that check_coverage.py finds what it should, on small trees."""
 import shutil
 import tempfile
+import sys
 import unittest
 from pathlib import Path
 
@@ -89,4 +90,4 @@ class CheckCoverage(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])
