@@ -25,9 +25,9 @@ constexpr double kDeadlineShare = 0.95;  // the kernel admits no more
 /// Finds each thread's execution time and period.
 class LoadFinder {
  public:
-  LoadFinder(const exec::Blueprint& blueprint, const exec::Plan& plan,
-             const ExecutionTimes& measured, base::Diagnostics& diagnostics)
-      : blueprint_(blueprint), plan_(plan), measured_(measured), diagnostics_(diagnostics) {}
+  LoadFinder(const exec::Blueprint& blueprint, const ExecutionTimes& measured,
+             base::Diagnostics& diagnostics)
+      : blueprint_(blueprint), measured_(measured), diagnostics_(diagnostics) {}
 
   ThreadLoad load_of(const exec::ThreadPlan& thread) {
     ThreadLoad load;
@@ -83,7 +83,6 @@ class LoadFinder {
   }
 
   const exec::Blueprint& blueprint_;
-  const exec::Plan& plan_;
   const ExecutionTimes& measured_;
   base::Diagnostics& diagnostics_;
 };
@@ -254,7 +253,7 @@ Schedule check_schedule(const exec::Blueprint& blueprint, const exec::Plan& plan
   schedule.cpus = cpus;
   schedule.threads.reserve(plan.threads.size());
   std::vector<LoadChecker::Task> tasks;
-  LoadFinder finder(blueprint, plan, measured, diagnostics);
+  LoadFinder finder(blueprint, measured, diagnostics);
   for (const exec::ThreadPlan& thread : plan.threads) {
     if (thread.members.empty()) continue;
     schedule.threads.push_back(finder.load_of(thread));
