@@ -14,7 +14,7 @@ install(TARGETS armature_all EXPORT armature)
 install(EXPORT armature NAMESPACE armature:: FILE armatureTargets.cmake DESTINATION ${package_dir})
 install(DIRECTORY armature DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING
         PATTERN "*.hpp"
-        PATTERN testing EXCLUDE
+        REGEX "armature/(guard|testing/model)$" EXCLUDE
         PATTERN "test_*" EXCLUDE)
 
 write_basic_package_version_file(armatureConfigVersion.cmake COMPATIBILITY SameMinorVersion)

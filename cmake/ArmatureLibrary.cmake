@@ -79,14 +79,14 @@ function(armature_runtime_options target)
   endif()
 endfunction()
 
-# testing is for the tests of this tree, everything else goes into the package.
+# Everything goes into the package; guard and testing are for tests and for watching, so they are
+# no part of armature::armature.
 function(armature_install_library name)
-  if(name STREQUAL testing)
-    return()
-  endif()
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS armature_${name} EXPORT armature)
-  set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES armature::${name})
+  if(NOT name MATCHES "^(guard|testing)$")
+    set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES armature::${name})
+  endif()
 endfunction()
 
 # armature_program(NAME armature SOURCES main.cpp USES cli LINK CLI11::CLI11)

@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+RAW_TEXT = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 OPERATING_SYSTEM = re.compile(
     r"(sys|linux|asm|net|netinet|arpa|bits)/.*|"
     r"(aio|cpuid|dirent|dlfcn|errno|execinfo|fcntl|fnmatch|glob|grp|ifaddrs|link|malloc|mqueue|"
@@ -106,6 +107,8 @@ class Tree:
 
 
 def parse(text):
+    # A program that is written by this one includes what it wants.
+    text = RAW_TEXT.sub(lambda raw: "\n" * raw[0].count("\n"), text)
     return [(text.count("\n", 0, match.start(1)) + 1, match[1], match[2])
             for match in INCLUDE.finditer(text)]
 

@@ -83,6 +83,15 @@ class CheckLayers(unittest.TestCase):
         self.assert_accepted("armature/platform/thread.hpp", "<pthread.h>")
         self.assert_refused("armature/rt/loop.cpp", "<sys/mman.h>", "only armature/platform and guard")
 
+    def test_what_a_raw_text_includes_is_its_own_affair(self):
+        self.write("armature/cli/new.cpp",
+                   'auto text = R"(\n#include "armature/testing/guard.hpp"\n)";\n')
+        self.assertEqual(list(Tree(self.root).problems()), [])
+        self.write("armature/cli/new.cpp",
+                   'auto text = R"(\n)";\n#include "armature/testing/guard.hpp"\n')
+        self.assertEqual([p.split(": ")[0] for p in Tree(self.root).problems()],
+                         ["armature/cli/new.cpp:3"])
+
     def test_includes_are_whole_paths(self):
         self.assert_refused("armature/rt/ring.hpp", '"latest.hpp"', "whole path")
 
