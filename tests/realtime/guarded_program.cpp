@@ -29,12 +29,14 @@ class Recorder final : public component::Component {
  private:
   void on_update() override {
     if (careless) remember();
+    last_ = static_cast<int>(cycles_.size());
   }
   [[gnu::noinline]] void remember() {
     if (cycles_.size() == cycles_.capacity()) cycles_.reserve(cycles_.size() + 100);
     cycles_.push_back(1);
   }
   std::vector<int> cycles_;
+  int last_ = 0;
 };
 
 void run_application(bool careless) {
