@@ -26,7 +26,7 @@ add_test(NAME @name@_deployment
 find_package(GTest)
 if(GTest_FOUND)
   add_executable(@name@_test @name@_test.cpp @name@.cpp)
-  target_link_libraries(@name@_test PRIVATE armature::exec GTest::gtest_main)
+  target_link_libraries(@name@_test PRIVATE armature::testing GTest::gtest_main)
   add_test(NAME @name@_test COMMAND @name@_test)
 else()
   message(STATUS "No GoogleTest (Debian: libgtest-dev), so @name@_test is not built")
@@ -98,74 +98,42 @@ ARMATURE_COMPONENT_LIBRARY(@name@, registry) {
 
 constexpr std::string_view kTest = R"(#include "@name@.hpp"
 
-#include <chrono>
-#include <optional>
-#include <utility>
+#include <memory>
 
 #include <gtest/gtest.h>
 
-#include "armature/exec/application.hpp"
+#include "armature/testing/harness.hpp"
+#include "armature/testing/realtime_guard.hpp"
 
 namespace @name@ {
 namespace {
 
-using namespace std::chrono_literals;
-using armature::exec::Activity;
-using armature::types::Value;
-
-/// What the tests put in.
-class Source final : public Component {
- public:
-  using Component::Component;
-  double value = 0.0;
-
- private:
-  void on_update() override { output_.write(value); }
-  OutputPort<double> output_{this, "Value", "as the test says", "rad"};
-};
-
-/// A @Name@ behind a source, in simulated time.
 class @Name@Test : public ::testing::Test {
  protected:
-  void start(double share, double goal) {
-    armature::exec::Blueprint blueprint;
-    blueprint.add<Source>("Source", Activity::periodic(10ms)).value = goal;
-    blueprint.add<@Name@>("Followed", Activity::periodic(10ms));
-    blueprint.connect("Source.Value", "Followed.Goal");
-    armature::exec::ApplicationOptions options;
-    options.simulated = true;
-    application_.emplace(std::move(blueprint), std::move(options));
-    const auto diagnostics = application_->start();
-    ASSERT_TRUE(diagnostics.ok()) << diagnostics.to_text();
-    ASSERT_TRUE(application_->set_property("Followed", "Share", Value::of(share)).ok());
-  }
-
-  double position() {
-    const auto value = application_->value_of("Followed", "Position");
-    return value.ok() ? *value.value().get_if<double>() : -1.0;
-  }
-
-  std::optional<armature::exec::Application> application_;
+  armature::testing::Harness follower_{std::make_unique<@Name@>("follower")};
 };
 
 TEST_F(@Name@Test, ReachesItsGoal) {
-  start(0.5, 2.0);
-  application_->run_for(1s);
-  EXPECT_NEAR(position(), 2.0, 1e-9);
-}
-
-TEST_F(@Name@Test, StaysWithAShareOfZero) {
-  start(0.0, 2.0);
-  application_->run_for(1s);
-  EXPECT_EQ(position(), 0.0);
+  ASSERT_TRUE(follower_.start()) << follower_.reason();
+  follower_.write("Goal", 2.0);
+  follower_.run_cycles(100);
+  EXPECT_NEAR(follower_.output<double>("Position"), 2.0, 1e-9);
 }
 
 TEST_F(@Name@Test, BeginsWhereItIsTold) {
-  start(0.0, 2.0);
-  const auto result = application_->call("Followed", "beginAt", {Value::of(0.5)});
-  ASSERT_TRUE(result.ok()) << result.error();
-  application_->run_for(100ms);
-  EXPECT_EQ(position(), 0.5);
+  follower_.set("Share", 0.0);
+  ASSERT_TRUE(follower_.start()) << follower_.reason();
+  ASSERT_TRUE(follower_.call("beginAt", 0.5));
+  follower_.run_cycles();
+  EXPECT_EQ(follower_.output<double>("Position"), 0.5);
+}
+
+TEST_F(@Name@Test, IsRealTime) {
+  ASSERT_TRUE(follower_.start()) << follower_.reason();
+  follower_.write("Goal", 2.0);
+  const armature::testing::RealtimeGuard guard;
+  follower_.run_cycles(10);
+  EXPECT_EQ(guard.violations(), 0u) << guard.report();
 }
 
 }  // namespace
@@ -196,7 +164,7 @@ If Armature is not installed in /usr or /usr/local, tell CMake where: `-DCMAKE_P
 | file | what it has |
 | --- | --- |
 | `@name@.hpp`, `@name@.cpp` | the component `@Name@`: a property, two ports, an operation |
-| `@name@_test.cpp` | its test, in simulated time |
+| `@name@_test.cpp` | its test: the component alone, on a bench |
 | `@name@.yaml` | a deployment of two of them; leave out `--sim` to run in real time |
 
 `armature models --library-path build/lib/armature @Name@` describes the component, `armature graph @name@.yaml` draws the
