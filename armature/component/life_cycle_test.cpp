@@ -85,8 +85,7 @@ TEST_F(LifeCycle, EachTransitionIsRefusedFromEveryOtherStateWithBothNamesAndTheR
       EXPECT_FALSE(outcome) << step.name << " from " << name_of(state);
       const bool why = state == State::kRunTimeError || state == State::kException;
       EXPECT_EQ(outcome.reason(), std::string("cannot ") + step.name + " while " +
-                                      std::string(name_of(state)) +
-                                      (why ? ": for the test" : ""));
+                                      std::string(name_of(state)) + (why ? ": for the test" : ""));
       EXPECT_EQ(component.state(), state);
       EXPECT_THAT(component.calls, ElementsAre());
     }
