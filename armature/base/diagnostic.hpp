@@ -19,7 +19,8 @@ struct Location {
 
 enum class Severity { kNote, kWarning, kError };
 
-/// One finding about something a user wrote: where, what is wrong, what was expected, how to mend it.
+/// One finding about something a user wrote: where, what is wrong, what was expected, how to mend
+/// it.
 struct Diagnostic {
   Severity severity = Severity::kError;
   Location where;

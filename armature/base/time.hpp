@@ -8,8 +8,8 @@ namespace armature::base {
 
 using Duration = std::chrono::nanoseconds;
 
-/// Marks time points of an application's clock, monotonic or simulated; it cannot be asked for "now"
-/// because only the application knows which of the two it runs on.
+/// Marks time points of an application's clock, monotonic or simulated; it cannot be asked for
+/// "now" because only the application knows which of the two it runs on.
 struct ApplicationClock {
   using duration = Duration;
   using rep = duration::rep;

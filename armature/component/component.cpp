@@ -43,6 +43,7 @@ Component::~Component() = default;
 Outcome Component::wrong_state(std::string_view transition) const {
   Reason why("cannot ");
   why.append(transition).append(" while ").append(name_of(state()));
+  if (!reason_.empty()) why.append(": ").append(reason_);
   return refused(why);
 }
 

@@ -66,8 +66,8 @@ base::Diagnostics Application::start() {
   base::Diagnostics diagnostics = check();
   if (!diagnostics.ok()) return diagnostics;
   incidents_ = std::make_unique<internal::Incidents>();
-  make_engines();
   apply_declared_reactions();
+  make_engines();
   const bool up = configure_all(diagnostics) && connect_all(diagnostics) &&
                   prepare_threads(diagnostics) && start_all(diagnostics);
   if (up) {
@@ -123,17 +123,12 @@ RunEnd Application::run_for(base::Duration duration, const platform::StopSignal*
   const base::Time end = now() + duration;
   if (options_.simulated) return simulate_until(end, stop);
   constexpr base::Duration kLogPeriod = std::chrono::milliseconds(20);
-  constexpr base::Duration kLossPeriod = std::chrono::seconds(1);
-  base::Time tell_losses_at = now() + kLossPeriod;
   while (true) {
     drain_logs();
     if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
     const base::Time at = now();
-    if (at >= tell_losses_at) {
-      logs_.tell_losses(at);
-      tell_losses_at = at + kLossPeriod;
-    }
+    logs_.tell_losses_now_and_then(at);
     if (at >= end) return RunEnd::kTimeUp;
     const base::Time next = std::min(end, at + kLogPeriod);
     if (stop != nullptr) {
@@ -151,6 +146,7 @@ RunEnd Application::simulate_until(base::Time end, const platform::StopSignal* s
       if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
       if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     }
+    logs_.tell_losses_now_and_then(simulated_now_);
     if (simulated_now_ >= end) return RunEnd::kTimeUp;
     simulated_now_ = std::min(end, simulation_->next_due());
   }

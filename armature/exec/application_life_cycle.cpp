@@ -163,10 +163,10 @@ void Application::stop_group(const std::vector<Component*>& group, base::Diagnos
     if (!rest.empty()) stop_group(rest, diagnostics);
     return;
   }
-  std::vector<Component*> open = group;
-  if (!is_stuck(*group.front())) {
-    open = run_hooks_in(context, series, patience(options_.stop_limit)).open;
-  }
+  // If the thread is known to hang, nobody waits; its components stop when it goes on.
+  const base::Duration limit =
+      is_stuck(*group.front()) ? base::Duration::zero() : options_.stop_limit;
+  const std::vector<Component*> open = run_hooks_in(context, series, patience(limit)).open;
   if (open.empty()) return;
   give_up_thread(context);
   const Component* const where = context.running.load(std::memory_order_relaxed);

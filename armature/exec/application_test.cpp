@@ -1,116 +1,286 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/application.hpp"
 
-#include <algorithm>
-#include <thread>
+#include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/exec/internal/test_models.hpp"
+#include "armature/exec/internal/test_components.hpp"
+#include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec {
 namespace {
 
-using namespace std::chrono_literals;
 using component::State;
-using test::Counter;
-using test::Gain;
-using test::Journal;
-using test::Sink;
-using test::Witness;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-ApplicationOptions simulated() {
-  ApplicationOptions options;
-  options.simulated = true;
-  return options;
-}
-
-/// Three witnesses A -> B -> C, each noting what happens to it.
+/// Three probes A -> B -> C, each noting what happens to it.
 struct Chain {
   Journal journal;
   Blueprint blueprint;
-  Witness* a;
-  Witness* b;
-  Witness* c;
+  Probe* a;
+  Probe* b;
+  Probe* c;
 
   Chain() {
     // Declared against the flow, which is what decides.
-    c = &blueprint.add<Witness>("C", Activity::periodic(10ms));
-    b = &blueprint.add<Witness>("B", Activity::periodic(10ms));
-    a = &blueprint.add<Witness>("A", Activity::periodic(10ms));
-    for (Witness* each : {a, b, c}) each->journal = &journal;
-    blueprint.connect("A.Out", "B.In");
-    blueprint.connect("B.Out", "C.In");
+    c = &blueprint.add<Probe>("C", Activity::periodic(10ms));
+    b = &blueprint.add<Probe>("B", Activity::periodic(10ms));
+    a = &blueprint.add<Probe>("A", Activity::periodic(10ms));
+    blueprint.connect("A.Out", "B.Look");
+    blueprint.connect("B.Out", "C.Look");
+    for (Probe* each : {a, b, c}) {
+      each->journal = &journal;
+      each->actions["update"] = [] {};
+    }
   }
+
+  /// What was noted but for the updates.
+  std::vector<std::string> life() {
+    std::vector<std::string> entries = journal.take();
+    std::erase_if(entries, [](const std::string& entry) { return entry.ends_with("update"); });
+    return entries;
+  }
+  std::vector<State> states() const { return {a->state(), b->state(), c->state()}; }
 };
 
 class ApplicationTime : public ::testing::TestWithParam<bool> {
  protected:
-  static ApplicationOptions options() {
-    ApplicationOptions options;
-    options.simulated = GetParam();
-    options.hook_limit = 60s;
-    options.stop_limit = 60s;
-    return options;
-  }
+  static ApplicationOptions options() { return patient(GetParam()); }
 };
-INSTANTIATE_TEST_SUITE_P(SimulatedAndReal, ApplicationTime, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(InBothKindsOfTime, ApplicationTime, ::testing::Bool(),
+                         [](const auto& test) { return test.param ? "Simulated" : "Real"; });
+
+// --- start and stop ------------------------------------------------------------------------------
 
 TEST_P(ApplicationTime, StartsInTheOrderOfTheFlowAndStopsInReverse) {
   Chain chain;
   Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(), "");
+  EXPECT_TRUE(application.running());
+  EXPECT_THAT(chain.life(),
+              ElementsAre("A configure", "B configure", "C configure", "A activate", "B activate",
+                          "C activate", "A start", "B start", "C start"));
+  EXPECT_THAT(chain.states(), ElementsAre(State::kRunning, State::kRunning, State::kRunning));
+  EXPECT_EQ(application.stop().to_text(), "");
+  EXPECT_FALSE(application.running());
+  EXPECT_THAT(chain.life(),
+              ElementsAre("C stop", "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
+  EXPECT_THAT(application.casualties(), IsEmpty());
+}
+
+TEST_P(ApplicationTime, NeighboursOfOneThreadStopInTheSameOrder) {
+  Journal journal;
+  Blueprint blueprint;
+  for (const char* name : {"A", "B", "C", "D"}) {
+    Activity activity = Activity::periodic(10ms);
+    activity.thread = name < std::string("C") ? "first" : "second";
+    blueprint.add<Probe>(name, activity).journal = &journal;
+  }
+  blueprint.connect("A.Out", "C.Look");
+  blueprint.connect("C.Out", "B.Look");
+  blueprint.connect("B.Out", "D.Look");
+  Application application(std::move(blueprint), options());
   ASSERT_TRUE(application.start().ok());
   EXPECT_TRUE(application.stop().ok());
-  EXPECT_THAT(chain.journal,
-              ElementsAre("A configure", "B configure", "C configure", "A activate", "B activate",
-                          "C activate", "A start", "B start", "C start", "C stop", "B stop",
-                          "A stop", "C cleanup", "B cleanup", "A cleanup"));
+  std::vector<std::string> stops = journal.take();
+  std::erase_if(stops, [](const std::string& entry) { return !entry.ends_with("stop"); });
+  EXPECT_THAT(stops, ElementsAre("D stop", "B stop", "C stop", "A stop"));
 }
 
-TEST_P(ApplicationTime, ARefusalToStartUndoesEverythingAndNamesTheReason) {
+TEST_P(ApplicationTime, StartingTwiceOrStoppingTwiceDoesNothing) {
   Chain chain;
-  chain.b->refuse_in = "start";
   Application application(std::move(chain.blueprint), options());
-  const base::Diagnostics diagnostics = application.start();
-  EXPECT_THAT(diagnostics.to_text(), HasSubstr("'B' refuses to start: not today"));
-  EXPECT_FALSE(application.running());
-  EXPECT_EQ(chain.a->state(), State::kPreOperational);
-  EXPECT_EQ(chain.b->state(), State::kPreOperational);
-  EXPECT_EQ(chain.c->state(), State::kPreOperational);
-  EXPECT_EQ(std::count(chain.journal.begin(), chain.journal.end(), "C start"), 0);
-  EXPECT_EQ(std::count(chain.journal.begin(), chain.journal.end(), "A stop"), 1);
-  chain.b->refuse_in.clear();
-  EXPECT_TRUE(application.start().ok()) << "nothing half done: it can be started again";
+  ASSERT_TRUE(application.start().ok());
+  chain.life();
+  EXPECT_TRUE(application.start().empty());
+  EXPECT_THAT(chain.life(), IsEmpty());
+  EXPECT_TRUE(application.stop().ok());
+  chain.life();
+  EXPECT_TRUE(application.stop().empty());
+  EXPECT_THAT(chain.life(), IsEmpty());
 }
 
-TEST_P(ApplicationTime, EveryRefusalToConfigureIsTold) {
+TEST_P(ApplicationTime, ItsDestructorStopsEverything) {
   Chain chain;
-  chain.a->refuse_in = "configure";
-  chain.c->throw_in = "configure";
-  Application application(std::move(chain.blueprint), options());
-  const std::string text = application.start().to_text();
-  EXPECT_THAT(text, HasSubstr("'A' refuses to configure: not today"));
-  EXPECT_THAT(text, HasSubstr("thrown in configure"));
-  EXPECT_EQ(std::count(chain.journal.begin(), chain.journal.end(), "B start"), 0);
+  {
+    Application application(std::move(chain.blueprint), options());
+    ASSERT_TRUE(application.start().ok());
+    chain.life();
+  }
+  EXPECT_THAT(chain.life(),
+              ElementsAre("C stop", "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
 }
 
 TEST_P(ApplicationTime, RunsAgainAfterAStop) {
   Blueprint blueprint;
   blueprint.add<Counter>("Counter", Activity::periodic(1ms));
   Sink& sink = blueprint.add<Sink>("Sink");
+  Gain& gain = blueprint.add<Gain>("Gain", Activity::triggered());
   blueprint.add_peer("Sink", "Counter");
-  blueprint.connect("Counter.Count", "Sink.In");
+  blueprint.connect("Counter.Count", "Gain.In");
+  blueprint.connect("Gain.Out", "Sink.In");
   Application application(std::move(blueprint), options());
-  for (int round = 1; round <= 2; ++round) {
+  for (int round = 1; round <= 3; ++round) {
     ASSERT_TRUE(application.start().ok());
-    while (sink.ticks < 5 * round) application.run_for(1ms);
+    const int ticks = sink.ticks;
+    const int steps = gain.steps;
+    EXPECT_TRUE(
+        run_until(application, [&] { return sink.ticks >= ticks + 5 && gain.steps >= steps + 5; }));
     EXPECT_TRUE(application.stop().ok());
   }
 }
+
+TEST_P(ApplicationTime, RefusesWhatItsCheckRefusesAndTouchesNothing) {
+  Chain chain;
+  chain.blueprint.connect("A.Out", "C.Nothing");
+  Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(),
+            "error: 'C' has no input port 'Nothing' (known: In, Look)\n");
+  EXPECT_FALSE(application.running());
+  EXPECT_THAT(chain.life(), IsEmpty());
+}
+
+// --- refusals and faults on the way up -----------------------------------------------------------
+
+TEST_P(ApplicationTime, ARefusalToConfigureLeavesNothingHalfDone) {
+  Chain chain;
+  chain.b->refusals["configure"] = "no card answers";
+  Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(), "error: 'B' refuses to configure: no card answers\n");
+  EXPECT_FALSE(application.running());
+  EXPECT_THAT(chain.life(),
+              ElementsAre("A configure", "B configure", "C configure", "C cleanup", "A cleanup"));
+  EXPECT_THAT(chain.states(),
+              ElementsAre(State::kPreOperational, State::kPreOperational, State::kPreOperational));
+  chain.b->refusals.clear();
+  EXPECT_TRUE(application.start().ok()) << "it can be started again";
+}
+
+TEST_P(ApplicationTime, EveryRefusalToConfigureIsTold) {
+  Chain chain;
+  chain.a->refusals["configure"] = "no bus";
+  chain.c->throw_in("configure");
+  Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(),
+            "error: 'A' refuses to configure: no bus\n"
+            "error: 'C' refuses to configure: exception: thrown in configure\n");
+}
+
+TEST_P(ApplicationTime, ARefusalToActivateComesBeforeAnybodyStarts) {
+  Chain chain;
+  chain.b->refusals["activate"] = "not today";
+  Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(), "error: 'B' refuses to start: not today\n");
+  EXPECT_THAT(chain.life(), ElementsAre("A configure", "B configure", "C configure", "A activate",
+                                        "B activate", "C cleanup", "B cleanup", "A cleanup"));
+  chain.b->refusals.clear();
+  EXPECT_TRUE(application.start().ok());
+}
+
+TEST_P(ApplicationTime, ARefusalToStartStopsWhatHadStartedInReverse) {
+  Chain chain;
+  chain.c->refusals["start"] = "not today";
+  Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(), "error: 'C' refuses to start: not today\n");
+  EXPECT_THAT(chain.life(), ElementsAre("A configure", "B configure", "C configure", "A activate",
+                                        "B activate", "C activate", "A start", "B start", "C start",
+                                        "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
+  EXPECT_THAT(chain.states(),
+              ElementsAre(State::kPreOperational, State::kPreOperational, State::kPreOperational));
+  chain.c->refusals.clear();
+  EXPECT_TRUE(application.start().ok());
+}
+
+TEST_P(ApplicationTime, AnExceptionOnTheWayUpIsARefusalAndItCanBeStartedAgain) {
+  for (const char* hook : {"configure", "activate", "start"}) {
+    Chain chain;
+    chain.b->throw_in(hook);
+    Application application(std::move(chain.blueprint), options());
+    const std::string verb = hook == std::string("configure") ? "configure" : "start";
+    EXPECT_EQ(application.start().to_text(),
+              "error: 'B' refuses to " + verb + ": exception: thrown in " + hook + "\n");
+    EXPECT_THAT(chain.states(), ElementsAre(State::kPreOperational, State::kPreOperational,
+                                            State::kPreOperational));
+    ASSERT_EQ(application.casualties().size(), 1u);
+    EXPECT_EQ(application.casualties()[0].component, "B");
+    EXPECT_EQ(application.casualties()[0].state, State::kException);
+    EXPECT_EQ(application.casualties()[0].reason, std::string("exception: thrown in ") + hook);
+    chain.b->actions.erase(hook);
+    EXPECT_EQ(application.start().to_text(), "") << hook;
+  }
+}
+
+TEST_P(ApplicationTime, AFaultThatOthersCauseOnTheWayUpIsToldToo) {
+  Chain chain;
+  chain.b->actions["start"] = [&] {
+    chain.a->fault("pushed");
+    chain.c->fault("pushed too");
+  };
+  Application application(std::move(chain.blueprint), options());
+  EXPECT_EQ(application.start().to_text(),
+            "error: 'C' refuses to start: cannot start while Exception: pushed too\n");
+  chain.c->actions["start"] = [&] { chain.a->fault("pushed"); };
+  chain.b->actions.erase("start");
+  EXPECT_EQ(application.start().to_text(), "error: 'A' faulted while others started: pushed\n");
+  chain.c->actions.erase("start");
+  EXPECT_EQ(application.start().to_text(), "");
+}
+
+TEST_P(ApplicationTime, SizesThatDoNotFitAfterConfiguringAreFoundBeforeTheStart) {
+  class Source final : public component::Component {
+   public:
+    using Component::Component;
+    component::OutputPort<std::vector<double>> out{this, "Out", "values"};
+
+   private:
+    component::Outcome on_configure() override {
+      out.set_sample({1.0, 2.0, 3.0});
+      return component::accepted();
+    }
+  };
+  class Target final : public component::Component {
+   public:
+    using Component::Component;
+    component::InputPort<std::vector<double>> in{this, "In", "values", "",
+                                                 component::fixed_size(2)};
+  };
+  Blueprint blueprint;
+  blueprint.add<Source>("Source");
+  blueprint.add<Target>("Target");
+  blueprint.connect("Source.Out", "Target.In");
+  blueprint.connections[0].where = {"robot.yaml", 8, 5};
+  Application application(std::move(blueprint), options());
+  EXPECT_EQ(application.start().to_text(),
+            "robot.yaml:8:5: error: 'Source.Out' was configured with another number of elements "
+            "than 'Target.In' expects\n");
+}
+
+TEST_P(ApplicationTime, WhoDoesNotStartByItselfIsStartedLater) {
+  Chain chain;
+  chain.blueprint.components[0].autostart = false;
+  chain.blueprint.components[1].autostart = false;
+  chain.blueprint.components[1].autoconfigure = false;
+  Application application(std::move(chain.blueprint), options());
+  ASSERT_TRUE(application.start().ok());
+  EXPECT_THAT(chain.states(),
+              ElementsAre(State::kRunning, State::kPreOperational, State::kStopped));
+  chain.life();
+  EXPECT_TRUE(application.start_component("C"));
+  EXPECT_TRUE(application.start_component("B"));
+  EXPECT_THAT(chain.life(),
+              ElementsAre("C activate", "C start", "B configure", "B activate", "B start"));
+  EXPECT_TRUE(application.stop().ok());
+  EXPECT_THAT(chain.life(),
+              ElementsAre("C stop", "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
+}
+
+// --- faults while it runs ------------------------------------------------------------------------
 
 TEST_P(ApplicationTime, AnExceptionFaultsItsComponentAndWhatReadsItStops) {
   Blueprint blueprint;
@@ -122,64 +292,159 @@ TEST_P(ApplicationTime, AnExceptionFaultsItsComponentAndWhatReadsItStops) {
   blueprint.connect("Gain.Out", "Sink.In");
   Application application(std::move(blueprint), options());
   ASSERT_TRUE(application.start().ok());
-  while (sink.state() == State::kRunning) application.run_for(1ms);
+  EXPECT_TRUE(run_until(application, [&] { return sink.state() != State::kRunning; }));
   application.run_for(3ms);
   EXPECT_EQ(gain.state(), State::kException);
   EXPECT_EQ(counter.state(), State::kRunning) << "the writer goes on";
   EXPECT_EQ(application.faults(), 1u);
   EXPECT_EQ(application.reactions(), 1u);
   EXPECT_EQ(gain.steps, 3);
-  EXPECT_THAT(std::string(sink.reason()), HasSubstr("'In'"));
+  EXPECT_TRUE(application.stop().ok());
+  ASSERT_EQ(application.casualties().size(), 2u);
+  EXPECT_EQ(application.casualties()[0].component, "Gain");
+  EXPECT_EQ(application.casualties()[0].state, State::kException);
+  EXPECT_EQ(application.casualties()[0].reason, "exception: broken tooth");
+  EXPECT_EQ(application.casualties()[1].component, "Sink");
+  EXPECT_EQ(application.casualties()[1].state, State::kStopped);
+  EXPECT_EQ(application.casualties()[1].reason,
+            "input 'In': the component that writes it is out of service");
+  gain.throw_at = 0;
+  EXPECT_EQ(application.start().to_text(), "") << "a fault does not outlive the application";
 }
 
-TEST_P(ApplicationTime, AFaultEndsTheRunIfThatIsDeclared) {
+TEST_P(ApplicationTime, AnExceptionInAnyHookOrHandlerStaysWithItsComponent) {
+  for (const char* hook : {"update", "in", "error"}) {
+    Blueprint blueprint;
+    blueprint.add<Probe>("Other", Activity::periodic(1ms));
+    Probe& writer = blueprint.add<Probe>("Writer", Activity::periodic(1ms));
+    Probe& probe = blueprint.add<Probe>("Probe", Activity::periodic(1ms));
+    blueprint.connect("Writer.Out", "Probe.In");
+    writer.actions["update"] = [&] { writer.out.write(1.0); };
+    if (hook == std::string("error")) probe.actions["update"] = [&] { probe.error("odd"); };
+    probe.throw_in(hook);
+    Application application(std::move(blueprint), options());
+    ASSERT_TRUE(application.start().ok());
+    EXPECT_TRUE(run_until(application, [&] { return probe.state() == State::kException; }));
+    EXPECT_EQ(application.find("Other")->state(), State::kRunning);
+    EXPECT_EQ(writer.state(), State::kRunning);
+    EXPECT_TRUE(application.stop().ok());
+    EXPECT_EQ(application.casualties().at(0).reason, std::string("exception: thrown in ") + hook);
+  }
+}
+
+TEST_P(ApplicationTime, AnExceptionWhileStoppingDoesNotKeepTheOthersFromStopping) {
   Chain chain;
-  chain.b->throw_in = "update";
-  ApplicationOptions all_stop = options();
-  all_stop.on_fault = OnFault::kStop;
-  Application application(std::move(chain.blueprint), all_stop);
+  chain.b->throw_in("stop");
+  Application application(std::move(chain.blueprint), options());
   ASSERT_TRUE(application.start().ok());
-  EXPECT_EQ(application.run_for(60s), RunEnd::kFaulted);
+  chain.life();
+  EXPECT_EQ(application.stop().to_text(), "");
+  EXPECT_THAT(chain.life(),
+              ElementsAre("C stop", "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
+  EXPECT_EQ(application.faults(), 1u);
+  ASSERT_EQ(application.casualties().size(), 1u);
+  EXPECT_EQ(application.casualties()[0].reason, "exception: thrown in stop");
 }
 
-TEST_P(ApplicationTime, ToolsReadWriteAndCallWhileItRuns) {
-  Blueprint blueprint;
-  blueprint.add<Counter>("Counter", Activity::periodic(1ms));
-  Gain& gain = blueprint.add<Gain>("Gain", Activity::triggered());
-  blueprint.connect("Counter.Count", "Gain.In");
-  Application application(std::move(blueprint), options());
+TEST_P(ApplicationTime, AnExceptionInACleanupIsToldAndTheOthersCleanUp) {
+  Chain chain;
+  chain.b->throw_in("cleanup");
+  Application application(std::move(chain.blueprint), options());
   ASSERT_TRUE(application.start().ok());
-  while (gain.steps < 3) application.run_for(1ms);
-  ASSERT_TRUE(application.set_property("Gain", "Factor", types::Value::of(-1.0)).ok());
-  const auto called = application.call("Gain", "scale", {types::Value::of(7.0)});
-  ASSERT_TRUE(called.ok()) << called.error();
-  EXPECT_EQ(*called.value()->get_if<double>(), -7.0);
-  const int before = gain.steps;
-  while (gain.steps == before) application.run_for(1ms);
-  const auto value = application.value_of("Gain", "Out");
-  ASSERT_TRUE(value.ok()) << value.error();
-  EXPECT_LT(*value.value().get_if<double>(), 0.0);
-  EXPECT_THAT(application.call("Gain", "scale", {}).error(), HasSubstr("double(double)"));
-  EXPECT_FALSE(application.value_of("Gain", "Nothing").ok());
+  chain.life();
+  EXPECT_EQ(application.stop().to_text(),
+            "error: 'B' faulted while it was cleaned up: exception: thrown in cleanup\n");
+  EXPECT_THAT(chain.life(),
+              ElementsAre("C stop", "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
 }
 
-TEST_P(ApplicationTime, OneComponentStopsAndStartsWhileTheOthersRun) {
-  Blueprint blueprint;
-  blueprint.add<Counter>("Counter", Activity::periodic(1ms));
-  Gain& gain = blueprint.add<Gain>("Gain", Activity::triggered());
-  blueprint.connect("Counter.Count", "Gain.In");
-  Application application(std::move(blueprint), options());
+TEST_P(ApplicationTime, OneWithAFaultIsResetAndStartsWhileTheOthersRun) {
+  Chain chain;
+  Application application(std::move(chain.blueprint), options());
+  chain.b->throw_in("update");
   ASSERT_TRUE(application.start().ok());
-  while (gain.steps < 3) application.run_for(1ms);
-  EXPECT_TRUE(application.stop_component("Gain").ok());
-  EXPECT_EQ(gain.state(), State::kStopped);
-  const int stopped_at = gain.steps;
-  application.run_for(5ms);
-  EXPECT_EQ(gain.steps, stopped_at);
-  EXPECT_TRUE(application.start_component("Gain").ok());
-  while (gain.steps == stopped_at) application.run_for(1ms);
-  EXPECT_FALSE(application.start_component("Nobody").ok());
+  EXPECT_TRUE(run_until(application, [&] { return chain.b->state() == State::kException; }));
+  EXPECT_FALSE(application.start_component("B")) << "not without a reset";
+  ASSERT_TRUE(application.run_in_thread_of(*chain.b, [&] { chain.b->actions.erase("update"); }));
+  EXPECT_TRUE(application.reset_component("B"));
+  EXPECT_EQ(chain.b->state(), State::kStopped);
+  EXPECT_TRUE(application.start_component("B"));
+  EXPECT_EQ(chain.b->state(), State::kRunning);
+  EXPECT_EQ(chain.a->state(), State::kRunning);
+  EXPECT_TRUE(application.stop().ok());
+  EXPECT_THAT(application.casualties().size(), 1u) << "C, which reads B, had stopped";
 }
+
+TEST_P(ApplicationTime, AnErrorRunsTheErrorHookUntilItRecovers) {
+  Chain chain;
+  chain.c->actions["update"] = [&] { chain.c->error("odd value"); };
+  Application application(std::move(chain.blueprint), options());
+  ASSERT_TRUE(application.start().ok());
+  EXPECT_TRUE(run_until(application, [&] { return chain.c->state() == State::kRunTimeError; }));
+  ASSERT_TRUE(application.run_in_thread_of(*chain.c, [&] { chain.c->actions["update"] = [] {}; }));
+  EXPECT_TRUE(application.recover_component("C"));
+  EXPECT_EQ(chain.c->state(), State::kRunning);
+  EXPECT_FALSE(application.recover_component("C"));
+}
+
+// --- the end of a run ----------------------------------------------------------------------------
+
+TEST_P(ApplicationTime, ARunEndsWhenItsTimeIsUp) {
+  Chain chain;
+  Application application(std::move(chain.blueprint), options());
+  ASSERT_TRUE(application.start().ok());
+  const base::Time begin = application.now();
+  EXPECT_EQ(application.run_for(15ms), RunEnd::kTimeUp);
+  EXPECT_GE(application.now() - begin, 15ms);
+}
+
+TEST_P(ApplicationTime, AFaultEndsTheRunIfThatIsDeclaredAndElseNot) {
+  for (const OnFault on_fault : {OnFault::kStop, OnFault::kContinue}) {
+    Chain chain;
+    chain.c->throw_in("update");
+    ApplicationOptions declared = options();
+    declared.on_fault = on_fault;
+    Application application(std::move(chain.blueprint), declared);
+    ASSERT_TRUE(application.start().ok());
+    if (on_fault == OnFault::kStop) {
+      EXPECT_EQ(application.run_for(60s), RunEnd::kFaulted);
+    } else {
+      EXPECT_TRUE(run_until(application, [&] { return application.faults() > 0; }));
+      EXPECT_EQ(application.run_for(15ms), RunEnd::kTimeUp);
+    }
+  }
+}
+
+TEST_P(ApplicationTime, ADeclaredReactionEndsTheRunLikeAFault) {
+  Blueprint blueprint;
+  Probe& writer = blueprint.add<Probe>("Writer", Activity::periodic(1ms));
+  Probe& reader = blueprint.add<Probe>("Reader", Activity::periodic(1ms));
+  blueprint.connect("Writer.Out", "Reader.Look");
+  blueprint.connections[0].max_age = component::max_age(3ms);
+  writer.actions["start"] = [&] { writer.out.write(1.0); };
+  ApplicationOptions declared = options();
+  declared.on_fault = OnFault::kStop;
+  Application application(std::move(blueprint), declared);
+  ASSERT_TRUE(application.start().ok());
+  EXPECT_EQ(application.run_for(60s), RunEnd::kStoppedByReaction);
+  EXPECT_EQ(reader.state(), State::kStopped);
+  EXPECT_EQ(application.faults(), 0u);
+}
+
+TEST_P(ApplicationTime, AStopSignalEndsTheRun) {
+  Chain chain;
+  Application application(std::move(chain.blueprint), options());
+  ASSERT_TRUE(application.start().ok());
+  {
+    const platform::StopSignal stop;
+    EXPECT_EQ(application.run_for(15ms, &stop), RunEnd::kTimeUp);
+    std::raise(SIGTERM);
+    EXPECT_EQ(application.run_for(std::chrono::hours(24 * 365), &stop), RunEnd::kStopRequested);
+  }
+  EXPECT_TRUE(application.stop().ok());
+}
+
+// --- cycles --------------------------------------------------------------------------------------
 
 TEST_P(ApplicationTime, EveryPeriodIsACycleRunOrACycleSkipped) {
   Blueprint blueprint;
@@ -191,119 +456,40 @@ TEST_P(ApplicationTime, EveryPeriodIsACycleRunOrACycleSkipped) {
   const base::Time end = application.now();
   EXPECT_TRUE(application.stop().ok());
   const ThreadStatistics statistics = application.thread_statistics().front();
+  EXPECT_EQ(statistics.name, "Counter");
   const std::uint64_t cycles = statistics.cycles_run + statistics.cycles_skipped;
   EXPECT_GE(cycles, static_cast<std::uint64_t>((end - begin) / 1ms) - 1);
+  EXPECT_EQ(statistics.latency_ns.count, statistics.cycles_run);
+  EXPECT_EQ(statistics.cycle_ticks.count, statistics.cycles_run);
   if (GetParam()) {
     EXPECT_EQ(cycles, 200u);
   }
 }
 
-TEST(Application, RefusesWhatItsCheckRefusesAndTouchesNothing) {
-  Chain chain;
-  chain.blueprint.connect("A.Out", "C.Nothing");
-  Application application(std::move(chain.blueprint), simulated());
-  EXPECT_FALSE(application.start().ok());
-  EXPECT_THAT(chain.journal, IsEmpty());
-}
-
-TEST(Application, ItsDestructorStopsEverything) {
-  Chain chain;
-  {
-    Application application(std::move(chain.blueprint), simulated());
-    ASSERT_TRUE(application.start().ok());
-  }
-  EXPECT_EQ(chain.journal.back(), "A cleanup");
-}
-
-TEST(Application, AHookThatHangsIsNamedAndTheRestIsLeftAlone) {
-  struct Hanging : Witness {
-    using Witness::Witness;
-    component::Outcome on_configure() override {
-      while (!released) std::this_thread::yield();
-      return component::accepted();
-    }
-    std::atomic<bool> released{false};
-  };
+TEST_P(ApplicationTime, ExecutionTimesAreTakenForEachComponentInTheCyclesAskedFor) {
   Blueprint blueprint;
-  Hanging& hanging = blueprint.add<Hanging>("Stuck");
-  ApplicationOptions options = simulated();
-  options.hook_limit = 50ms;
-  Application application(std::move(blueprint), options);
-  EXPECT_THAT(application.start().to_text(), HasSubstr("'Stuck' hangs: on_configure"));
-  EXPECT_TRUE(application.hangs());
-  hanging.released = true;
-}
-
-TEST(Application, AThreadThatHangsIsNamedWithItsComponentAndTheOthersStop) {
-  struct Hanging : Witness {
-    using Witness::Witness;
-    void on_update() override {
-      entered = true;
-      while (!released) std::this_thread::yield();
-    }
-    std::atomic<bool> entered{false};
-    std::atomic<bool> released{false};
-  };
-  Journal journal;
-  Blueprint blueprint;
-  Witness& other = blueprint.add<Witness>("Other", Activity::periodic(1ms));
-  other.journal = &journal;
-  Hanging& hanging = blueprint.add<Hanging>("Stuck", Activity::periodic(1ms));
-  ApplicationOptions options;
-  options.stop_limit = 50ms;
-  Application application(std::move(blueprint), options);
+  Counter& counter = blueprint.add<Counter>("Counter", Activity::periodic(1ms));
+  Gain& gain = blueprint.add<Gain>("Gain");
+  Sink& sink = blueprint.add<Sink>("Sink");
+  blueprint.connect("Counter.Count", "Gain.In");
+  blueprint.connect("Gain.Out", "Sink.In");
+  ApplicationOptions fourth = options();
+  fourth.measure_every = 4;
+  Application application(std::move(blueprint), fourth);
   ASSERT_TRUE(application.start().ok());
-  while (!hanging.entered) application.run_for(1ms);
-  const std::string text = application.stop().to_text();
-  EXPECT_THAT(text, HasSubstr("'Stuck' did not stop"));
-  EXPECT_THAT(text, HasSubstr("hangs in 'Stuck'"));
-  EXPECT_TRUE(application.hangs());
-  EXPECT_EQ(std::count(journal.begin(), journal.end(), "Other stop"), 1);
-  hanging.released = true;
-}
-
-/// Everything that a run of a threaded application shows: who ran when with what.
-class Recorder : public test::Component {
- public:
-  using Component::Component;
-  component::InputPort<double> a{this, "A", "value", "rad", component::on_data<&Recorder::on_a>};
-  component::InputPort<double> b{this, "B", "value", "rad"};
-  std::string trace;
-
- private:
-  void on_a(double value) {
-    const auto other = b.read();
-    trace += std::to_string(base::to_ns(time())) + " " + std::to_string(value) + " " +
-             std::to_string(other.value) + std::string(name_of(other.status)) + "\n";
-  }
-};
-
-std::string simulated_trace() {
-  Blueprint blueprint;
-  blueprint.add<Counter>("Fast", Activity::periodic(1ms, 50));
-  blueprint.add<Counter>("Slow", Activity::periodic(7ms, 60));
-  blueprint.add<Gain>("Gain", Activity::triggered(40));
-  Recorder& recorder = blueprint.add<Recorder>("Recorder", Activity::triggered(30));
-  blueprint.connect("Fast.Count", "Gain.In");
-  blueprint.connect("Gain.Out", "Recorder.A",
-                    {component::ConnectionPolicy::Kind::kFifo, 4, rt::WhenFull::kRefuse, false});
-  blueprint.connect("Slow.Count", "Recorder.B");
-  Application application(std::move(blueprint), simulated());
-  EXPECT_TRUE(application.start().ok());
-  application.run_for(2s);
+  EXPECT_TRUE(run_until(application, [&] { return gain.steps >= 100; }));
   EXPECT_TRUE(application.stop().ok());
-  return recorder.trace;
+  const std::uint64_t cycles = application.thread_statistics().front().cycles_run;
+  EXPECT_EQ(counter.execution_ticks().summary().count, cycles / 4);
+  EXPECT_EQ(gain.execution_ticks().summary().count, cycles / 4);
+  EXPECT_EQ(sink.execution_ticks().summary().count, 0u) << "it only lies there";
 }
 
-TEST(SimulatedApplication, TwoRunsAreEqualToTheLastBit) {
-  const std::string first = simulated_trace();
-  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 2000);
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(simulated_trace(), first);
-}
-
-TEST(SimulatedApplication, AtOneTimeTheMoreUrgentRunsFirst) {
-  // Slow is more urgent than Fast, so at 7 ms its new count is there before Fast's chain runs.
-  EXPECT_THAT(simulated_trace(), HasSubstr("7000000 14.000000 1.000000new"));
+TEST_P(ApplicationTime, AnApplicationWithoutComponentsRunsToo) {
+  Application application(Blueprint{}, options());
+  EXPECT_EQ(application.start().to_text(), "");
+  EXPECT_EQ(application.run_for(1ms), RunEnd::kTimeUp);
+  EXPECT_EQ(application.stop().to_text(), "");
 }
 
 }  // namespace

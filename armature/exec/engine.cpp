@@ -95,6 +95,7 @@ void Engine::end() {
 }
 
 bool Engine::deliver_leftovers() {
+  close_account();
   if (context_.inbox.empty() && context_.next_cycle.empty()) return false;
   deliver(context_.next_cycle.take_all());
   deliver(context_.inbox.take_all());

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
 #include "armature/exec/task.hpp"
@@ -90,12 +91,14 @@ HookReport run_hooks(const HookSeries& series, const HookPatience& patience) {
   constexpr std::size_t kHookStack = 8u << 20;  // like a main thread's: hooks load files and models
   request.stack_bytes = kHookStack;
   request.prefault = false;
-  platform::Thread thread(request, [progress] { progress->run(); });
-  if (progress->wait(patience)) {
-    thread.join();
-  } else {
-    progress->leave_alone();
-    thread.abandon();
+  try {
+    platform::Thread thread(request, [progress] { progress->run(); });
+    if (!progress->wait(patience)) {
+      progress->leave_alone();
+      thread.abandon();
+    }
+  } catch (const std::system_error&) {
+    progress->run();  // without anybody to watch it: better than not at all
   }
   return progress->report();
 }

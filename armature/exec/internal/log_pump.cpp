@@ -20,7 +20,12 @@ void LogPump::drain(Engine& engine) {
   }
 }
 
+void LogPump::tell_losses_now_and_then(base::Time now) {
+  if (now >= told_at_ + std::chrono::seconds(1)) tell_losses(now);
+}
+
 void LogPump::tell_losses(base::Time now) {
+  told_at_ = now;
   for (Source& source : sources_) {
     const std::uint64_t dropped = source.engine->log().dropped();
     const std::uint64_t before = std::exchange(source.told_losses, dropped);
@@ -30,7 +35,7 @@ void LogPump::tell_losses(base::Time now) {
     record.time = now;
     record.component = source.engine->context().name;
     record.format =
-        "{} log lines of this thread were dropped: it wrote them faster than they can be printed";
+        "{} log lines of this thread were dropped: they came faster than they can be printed";
     record.arguments[0] = dropped - before;
     sink_(record);
   }

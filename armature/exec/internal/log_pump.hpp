@@ -23,6 +23,8 @@ class LogPump {
   void drain(Engine& engine);
   /// One warning for each thread that lost lines since the last time.
   void tell_losses(base::Time now);
+  /// The same, if it was not done for a second.
+  void tell_losses_now_and_then(base::Time now);
 
  private:
   struct Source {
@@ -32,6 +34,7 @@ class LogPump {
 
   Sink sink_;
   std::vector<Source> sources_;
+  base::Time told_at_{};
 };
 
 }  // namespace armature::exec::internal

@@ -3,10 +3,13 @@
 
 // For tests: components that do as they are told, and short ways to plan and run them.
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,22 +37,19 @@ class Journal {
     const std::lock_guard lock(mutex_);
     entries_.push_back(std::move(entry));
   }
-  std::vector<std::string> entries() const {
+  /// What was noted since the last time.
+  std::vector<std::string> take() {
     const std::lock_guard lock(mutex_);
-    return entries_;
-  }
-  void clear() {
-    const std::lock_guard lock(mutex_);
-    entries_.clear();
+    return std::exchange(entries_, {});
   }
 
  private:
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::vector<std::string> entries_;
 };
 
-/// Notes which of its hooks ran, and does in each what the test put there; an action under the name
-/// of a hook runs in it, and a refusal is its answer.
+/// Notes which of its hooks and handlers ran, and does in each what the test put there. Hooks are
+/// named configure, activate, start, update, stop, cleanup, error and reset, the handler in.
 class Probe : public component::Component {
  public:
   using Component::Component;
@@ -68,6 +68,10 @@ class Probe : public component::Component {
                                   component::may_stay_open};
   component::InputPort<double> look{this, "Look", "is only read", "", component::may_stay_open};
   component::OutputPort<double> out{this, "Out", "whatever the test writes"};
+
+  void throw_in(const std::string& hook) {
+    actions[hook] = [hook] { throw std::runtime_error("thrown in " + hook); };
+  }
 
  private:
   component::Outcome on_configure() override { return answer("configure"); }
@@ -91,6 +95,55 @@ class Probe : public component::Component {
   }
 };
 
+/// Raises an event and writes a count in each cycle.
+class Counter : public component::Component {
+ public:
+  using Component::Component;
+  component::Event<std::int64_t> tick{this, "Tick", "before each count"};
+  component::OutputPort<double> count{this, "Count", "cycles", "rad"};
+
+ private:
+  void on_update() override {
+    tick.raise(cycles_);
+    count.write(static_cast<double>(++cycles_));
+  }
+  std::int64_t cycles_ = 0;
+};
+
+/// Passes on what it is given, by a factor.
+class Gain : public component::Component {
+ public:
+  using Component::Component;
+  component::Property<double> factor{
+      this, "Factor", 2.0, "of the output", "", component::changeable_while_running};
+  component::InputPort<double> in{this, "In", "value", "rad", component::on_data<&Gain::step>};
+  component::OutputPort<double> out{this, "Out", "value times factor", "rad"};
+  component::Operation<double(double)> scale{this, "scale", component::serve<&Gain::scaled>,
+                                             "value times factor", component::in_own_thread};
+  std::atomic<int> steps{0};
+  int throw_at = 0;
+
+ private:
+  void step(double value) {
+    if (++steps == throw_at) throw std::runtime_error("broken tooth");
+    out.write(factor * value);
+  }
+  double scaled(double value) { return factor * value; }
+};
+
+/// Keeps the last value, and reacts to Tick.
+class Sink : public component::Component {
+ public:
+  using Component::Component;
+  component::InputPort<double> in{this, "In", "value", "rad"};
+  component::EventHandler<std::int64_t> tick{this, "Tick", component::serve<&Sink::on_tick>,
+                                             "counts", component::optional};
+  std::atomic<int> ticks{0};
+
+ private:
+  void on_tick(std::int64_t) { ++ticks; }
+};
+
 /// Lets the application run until `condition` holds; false if that takes absurdly long.
 inline bool run_until(Application& application, const std::function<bool()>& condition) {
   const base::Time deadline = platform::monotonic_now() + 60s;
@@ -101,9 +154,12 @@ inline bool run_until(Application& application, const std::function<bool()>& con
   return true;
 }
 
-inline ApplicationOptions simulated() {
+/// Limits that a busy machine does not reach, unless a test is about them.
+inline ApplicationOptions patient(bool simulated) {
   ApplicationOptions options;
-  options.simulated = true;
+  options.simulated = simulated;
+  options.hook_limit = 60s;
+  options.stop_limit = 60s;
   return options;
 }
 
