@@ -28,7 +28,7 @@ void check_saved_files(const Document& document, base::Diagnostics& diagnostics)
     if (first) continue;
     diagnostics.error(file.where,
                       in_quotes(component.name) + " and " + in_quotes(owner->second->name) +
-                          " both save their properties to " + in_quotes(file.path),
+                          " both save their properties to " + internal::path_in_quotes(file.path),
                       "give each its own file");
   }
 }

@@ -207,7 +207,7 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
     missing += (missing.empty() ? "" : ", ") + std::string(property->name());
   }
   if (!missing.empty()) {
-    diagnostics_.error(file.where, "property file " + in_quotes(file.path) + " of " +
+    diagnostics_.error(file.where, "property file " + internal::path_in_quotes(file.path) + " of " +
                                        in_quotes(written.name) + " must be complete, but lacks " +
                                        missing);
   }
@@ -243,7 +243,8 @@ const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bo
   std::error_code ignored;
   const bool from_disk = options_.read == nullptr;
   if (from_disk && may_be_missing && !std::filesystem::exists(path, ignored)) {
-    diagnostics_.note(file.where, "there is no " + in_quotes(path) + " yet; it is written at stop");
+    diagnostics_.note(file.where, "there is no " + internal::path_in_quotes(path) +
+                                      " yet; it is written at stop");
     return nullptr;
   }
   const base::Result<std::string> text =

@@ -76,7 +76,8 @@ void ConnectionBuilder::add_named(const NamedConnection& named) {
     for (const Endpoint* input : ends.inputs) add(*output, *input, named.policy, named.where);
   }
   const bool useless = ends.outputs.empty() || ends.inputs.empty();
-  if (!useless || !ends.complete) return;
+  const bool reported = !ends.complete || named.ports.size() < 2;
+  if (!useless || reported) return;
   diagnostics_.error(named.where,
                      "connection " + in_quotes(named.name) + " has no " +
                          (ends.outputs.empty() ? "output" : "input") +

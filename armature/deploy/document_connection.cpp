@@ -2,7 +2,9 @@
 #include <map>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
+#include "armature/base/near_name.hpp"
 #include "armature/deploy/internal/document_reader.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 
@@ -119,12 +121,23 @@ std::optional<NamedConnection> read_named(const Value* name, const Value& ports,
 
 std::string text_of(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
 
-void check_named(NamedConnection& connection,
+/// The other name that a mistyped one was probably meant to be.
+std::string other_name_hint(const std::string& name, const std::vector<NamedConnection>& all) {
+  std::vector<std::string> others;
+  for (const NamedConnection& one : all) {
+    if (one.name != name) others.push_back(one.name);
+  }
+  const std::string near = base::near_name(name, others);
+  return near.empty() ? "" : "did you mean '" + near + "'?";
+}
+
+void check_named(NamedConnection& connection, const std::vector<NamedConnection>& all,
                  const std::unordered_map<std::string, std::size_t>& order,
                  base::Diagnostics& diagnostics) {
   const ValueReader reader("connection " + in_quotes(connection.name), diagnostics);
   if (connection.ports.size() < 2) {
-    reader.error(connection.where, "only one port has this name; nothing is connected");
+    reader.error(connection.where, "only one port has this name; nothing is connected",
+                 other_name_hint(connection.name, all));
   }
   std::multimap<std::size_t, Endpoint> by_component;  // keeps the order within a component
   for (Endpoint& port : connection.ports) {
@@ -146,19 +159,22 @@ void check_named(NamedConnection& connection,
 }  // namespace
 
 void check_connections(Document& document, base::Diagnostics& diagnostics) {
-  std::unordered_map<std::string, const Connection*> first;
-  for (const Connection& one : document.connections) {
+  std::unordered_map<std::string, base::Location> first;
+  std::erase_if(document.connections, [&](const Connection& one) {
     const std::string text = text_of(one.from) + " -> " + text_of(one.to);
-    const auto [earlier, is_new] = first.emplace(text, &one);
-    if (is_new) continue;
+    const auto [earlier, is_new] = first.emplace(text, one.where);
+    if (is_new) return false;
     diagnostics.error(one.where, "connection " + in_quotes(text) + " is given twice",
-                      "first at " + place_text(earlier->second->where));
-  }
+                      "first at " + place_text(earlier->second));
+    return true;
+  });
   std::unordered_map<std::string, std::size_t> order;
   for (const Component& component : document.components) {
     order.emplace(component.name, order.size());
   }
-  for (NamedConnection& one : document.named_connections) check_named(one, order, diagnostics);
+  for (NamedConnection& one : document.named_connections) {
+    check_named(one, document.named_connections, order, diagnostics);
+  }
 }
 
 std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagnostics) {

@@ -67,7 +67,7 @@ class Sources {
     const std::filesystem::path folder = std::filesystem::path(includer).parent_path();
     const std::string path = (folder / name.text).lexically_normal().string();
     if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
-      diagnostics_.error(name.where, in_quotes(path) + " includes itself");
+      diagnostics_.error(name.where, internal::path_in_quotes(path) + " includes itself");
       return;
     }
     if (std::find(seen_.begin(), seen_.end(), path) != seen_.end()) return;

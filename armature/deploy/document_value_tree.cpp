@@ -93,4 +93,6 @@ std::string in_quotes(std::string_view text) {
   return "'" + one_line + (shortened ? "...'" : "'");
 }
 
+std::string path_in_quotes(std::string_view path) { return "'" + std::string(path) + "'"; }
+
 }  // namespace armature::deploy::internal

@@ -17,6 +17,7 @@ namespace armature::deploy {
 namespace {
 
 using internal::in_quotes;
+using internal::path_in_quotes;
 namespace fs = std::filesystem;
 
 constexpr const char* kPathVariable = "ARMATURE_LIBRARY_PATH";
@@ -63,18 +64,18 @@ base::Result<const component::LibraryDescription*> describe(const std::string& f
   using Entry = const component::LibraryDescription* (*)();
   const auto entry = reinterpret_cast<Entry>(loaded.value().symbol(component::kLibraryEntry));
   if (entry == nullptr) {
-    return base::Error{in_quotes(file) + " is no component library: it does not export " +
+    return base::Error{path_in_quotes(file) + " is no component library: it does not export " +
                        component::kLibraryEntry +
                        "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
   }
   const component::LibraryDescription* const description = entry();
   const bool complete = description != nullptr && description->abi != nullptr &&
                         description->name != nullptr && description->fill != nullptr;
-  if (!complete) return base::Error{in_quotes(file) + " does not describe itself"};
+  if (!complete) return base::Error{path_in_quotes(file) + " does not describe itself"};
   const std::string_view theirs = description->abi;
   const std::string_view ours = component::abi_tag();
   if (theirs != ours) {
-    return base::Error{in_quotes(file) + " was built for " + std::string(theirs) +
+    return base::Error{path_in_quotes(file) + " was built for " + std::string(theirs) +
                        ", but this program is " + std::string(ours) +
                        ": rebuild the library with this program's headers and compiler"};
   }
@@ -115,7 +116,7 @@ base::Result<std::string> find_library(std::string_view name,
   if (name.find('/') != std::string_view::npos) {
     const std::string file = (fs::path(folders.empty() ? "." : folders.back()) / name).string();
     if (is_there(file)) return file;
-    return base::Error{what + " was not found: there is no " + in_quotes(file)};
+    return base::Error{what + " was not found: there is no " + path_in_quotes(file)};
   }
   for (const std::string& folder : folders) {
     const std::string file = (fs::path(folder) / file_name(name)).string();
@@ -142,8 +143,8 @@ base::Result<void> load_library(const std::string& file, component::Registry& re
   }
   const std::string problems = registry.end_library();
   if (!thrown.empty())
-    return base::Error{in_quotes(file) + " threw while it was loaded: " + thrown};
-  if (!problems.empty()) return base::Error{in_quotes(file) + ": " + problems};
+    return base::Error{path_in_quotes(file) + " threw while it was loaded: " + thrown};
+  if (!problems.empty()) return base::Error{path_in_quotes(file) + ": " + problems};
   return {};
 }
 

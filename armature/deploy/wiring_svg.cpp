@@ -22,6 +22,8 @@ using internal::WiringLayout;
 constexpr double kBend = 40.0;
 constexpr double kTextBaseline = 4.0;
 constexpr double kPortText = 7.0;
+constexpr double kLegendWidth = 500.0;
+constexpr double kLegendHeight = 24.0;
 
 constexpr std::string_view kStyle = R"(<style>
   text { font-family: "DejaVu Sans", "Segoe UI", Helvetica, Arial, sans-serif; font-size: 12px; fill: #1d2733; }
@@ -181,17 +183,43 @@ std::string draw_lane(const internal::WiringThread& thread, const internal::Lane
          escaped(thread.activity) + "</tspan></text>\n";
 }
 
+/// What the lines mean, below the lanes.
+std::string draw_legend(Point at) {
+  struct Line {
+    std::string_view style;
+    std::string_view marker;
+    std::string_view meaning;
+  };
+  constexpr std::array<Line, 4> kLines = {{{"data", "data", "data"},
+                                           {"trigger", "trigger", "data that triggers"},
+                                           {"event", "trigger", "event"},
+                                           {"peer", "peer", "use of a peer"}}};
+  constexpr double kLength = 30.0;
+  constexpr double kSpace = 8.0;
+  std::string text;
+  for (const Line& line : kLines) {
+    const Point end{at.x + kLength, at.y};
+    text += "<path class=\"" + std::string(line.style) + "\" marker-end=\"url(#" +
+            std::string(line.marker) + ")\" d=\"M" + point(at) + " L" + point(end) + "\"/>\n" +
+            label("model", "start", {end.x + kSpace, at.y}, line.meaning);
+    at.x = end.x + internal::text_width(line.meaning) + 3.0 * kSpace;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string graph_as_svg(const exec::Blueprint& blueprint, const exec::Plan& plan) {
   const Wiring wiring = internal::make_wiring(blueprint, plan);
   const WiringLayout layout = internal::place(wiring);
-  const std::string size =
-      "width=\"" + number(layout.width) + "\" height=\"" + number(layout.height) + "\"";
+  const double width = std::max(layout.width, kLegendWidth);
+  const double height = layout.height + kLegendHeight;
+  const std::string size = "width=\"" + number(width) + "\" height=\"" + number(height) + "\"";
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " +
-                    number(layout.width) + " " + number(layout.height) + "\">\n<title>" +
+                    number(width) + " " + number(height) + "\">\n<title>" +
                     escaped(wiring.application) + "</title>\n" + std::string(kStyle) +
-                    rectangle("page", 0, 0, layout.width, layout.height, 0);
+                    rectangle("page", 0, 0, width, height, 0) +
+                    draw_legend({internal::kMargin, layout.height + kLegendHeight / 3.0});
   for (std::size_t i = 0; i < wiring.threads.size(); ++i) {
     svg += draw_lane(wiring.threads[i], layout.lanes[i], layout.width);
   }

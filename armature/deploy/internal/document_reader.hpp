@@ -27,8 +27,8 @@ std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagn
 std::optional<std::variant<Connection, NamedConnection>> read_connection(
     const Value& map, base::Diagnostics& diagnostics);
 
-/// Refuses connections that are there twice and names with less than two ports; puts the ports of
-/// a name into the order of their components.
+/// Refuses connections that are there twice, leaving one, and names with less than two ports; puts
+/// the ports of a name into the order of their components.
 void check_connections(Document& document, base::Diagnostics& diagnostics);
 
 std::vector<Export> read_exports(const Value& value, const ValueReader& reader);

@@ -34,4 +34,7 @@ std::string_view trimmed(std::string_view text);
 /// `'Joint1'`, or a shortened form of a long text.
 std::string in_quotes(std::string_view text);
 
+/// Never shortened: somebody is to find the file.
+std::string path_in_quotes(std::string_view path);
+
 }  // namespace armature::deploy::internal
