@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
+#include <map>
 #include <utility>
 
 #include "armature/deploy/internal/document_reader.hpp"
@@ -33,6 +35,9 @@ void read_overrun(const Value& value, const ValueReader& reader, Activity& activ
 }
 
 /// The kind of activity that the keys name; at most one of them may.
+/// Stands for a period that could not be read, which was reported, so that the rest is checked.
+constexpr base::Duration kUnreadPeriod = std::chrono::seconds(1);
+
 void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Activity& activity) {
   const Value* periodic = fields.take("periodic");
   const Value* triggered = fields.take("triggered");
@@ -44,6 +49,7 @@ void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Ac
   }
   if (periodic != nullptr) {
     activity.kind = ActivityKind::kPeriodic;
+    activity.period = kUnreadPeriod;
     assign(reader.duration(*periodic, "periodic"), activity.period);
   }
   const auto choose = [&](const Value* flag, ActivityKind kind) {
@@ -104,6 +110,18 @@ void read_peer(const Value& value, const ValueReader& reader, std::vector<Peer>&
   }
 }
 
+/// A peer that is there twice would serve each requirement twice.
+void check_peers(std::vector<Peer>& peers, const ValueReader& reader) {
+  std::map<std::string, base::Location> first;
+  std::erase_if(peers, [&](const Peer& peer) {
+    const auto [earlier, is_new] = first.emplace(peer.name, peer.where);
+    if (is_new) return false;
+    reader.error(peer.where, "peer " + in_quotes(peer.name) + " is given twice",
+                 "first at " + place_text(earlier->second));
+    return true;
+  });
+}
+
 void read_bindings(const Value& value, const ValueReader& reader, Component& component) {
   Fields fields(value, reader);
   for (const Property& entry : value.entries) {
@@ -160,8 +178,10 @@ void read_flags(Fields& fields, const ValueReader& reader, Component& component)
   }
 }
 
-void check_component(const ValueReader& reader, const Component& component) {
-  if (component.model.empty()) {
+void check_component(const Value& body, const ValueReader& reader, const Component& component) {
+  const Property* model = find(body.entries, "model");
+  const bool reported = model != nullptr && model->value.literal;  // a parameter without value
+  if (component.model.empty() && !reported) {
     reader.error(component.where, "it has no model", "write model: and a component model's name");
   }
   if (component.autostart && !component.autoconf) {
@@ -175,7 +195,7 @@ void check_component(const ValueReader& reader, const Component& component) {
 }  // namespace
 
 void check_values(const std::string& name, const Value& value, const ValueReader& reader) {
-  if (value.kind == Value::Kind::kNone) {
+  if (value.kind == Value::Kind::kNone && !value.literal) {
     reader.error(value.where, name + " has no value",
                  "braces of {i} and ${name} need quotes; an empty text is \"\"");
   }
@@ -251,6 +271,7 @@ Component read_component(const std::string& name, const base::Location& where, c
   for (const Value* peer : items_of(fields.take("peers"))) {
     read_peer(*peer, reader, component.peers);
   }
+  check_peers(component.peers, reader);
   if (const Value* bind = fields.take("bind")) read_bindings(*bind, reader, component);
   for (const Value* delay : items_of(fields.take("delays"))) {
     if (auto other = reader.dotted_name(*delay, "delays")) {
@@ -262,7 +283,7 @@ Component read_component(const std::string& name, const base::Location& where, c
   }
   read_flags(fields, reader, component);
   fields.refuse_others();
-  check_component(reader, component);
+  check_component(body, reader, component);
   return component;
 }
 

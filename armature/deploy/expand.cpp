@@ -175,6 +175,15 @@ Value Expander::expand_whole_text(const Value& value, const Scope& scope,
   const std::optional<Use> use = value.literal ? std::nullopt : next_use(value.text, 0);
   const bool alone = use && use->begin == 0 && use->end == value.text.size();
   const Property* parameter = alone ? find(scope.parameters, use->name) : nullptr;
+  const bool unknown =
+      alone && (parameter == nullptr || parameter->value.kind == Value::Kind::kNone);
+  if (unknown) {
+    if (parameter == nullptr) find_parameter(use->name, scope, value.where, diagnostics);
+    Value none;
+    none.literal = true;  // that there is no value was reported
+    none.where = value.where;
+    return none;
+  }
   if (parameter != nullptr &&
       (parameter->value.literal || parameter->value.kind != Value::Kind::kText)) {
     if (!spend(count_nodes(parameter->value), value.where, diagnostics)) return {};

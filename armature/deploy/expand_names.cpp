@@ -85,6 +85,7 @@ class Resolver {
                  "composite " + in_quotes(owner.model) + " has no part " +
                      in_quotes(one.component) + " to export " + in_quotes(one.name) + " from",
                  base::suggestion(one.component, parts_of(owner)));
+    one.component = owner.name;  // no component: what uses the export is not reported again
   }
 
   const std::vector<std::string>& parts_of(const Composite& owner) { return parts_[owner.name]; }

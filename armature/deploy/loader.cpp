@@ -114,7 +114,8 @@ base::Result<std::string> find_library(std::string_view name,
                                        const std::vector<std::string>& folders) {
   const std::string what = "component library " + in_quotes(name);
   if (name.find('/') != std::string_view::npos) {
-    const std::string file = (fs::path(folders.empty() ? "." : folders.back()) / name).string();
+    const fs::path folder = folders.empty() ? "." : folders.back();
+    const std::string file = (folder / fs::path(name).lexically_normal()).string();
     if (is_there(file)) return file;
     return base::Error{what + " was not found: there is no " + path_in_quotes(file)};
   }

@@ -106,7 +106,7 @@ TEST(FindLibrary, ANameWithASlashIsAFileBesideTheDeployment) {
   const std::string file = folder.add("mine.so", "");
   EXPECT_EQ(find_library(file, {TEST_LIBRARIES}).value(), file);
   EXPECT_EQ(find_library("./mine.so", {TEST_LIBRARIES, folder.path()}).value(),
-            folder.path() + "/./mine.so");
+            folder.path() + "/mine.so");
   EXPECT_EQ(find_library("build/mine.so", {TEST_LIBRARIES, folder.path()}).error(),
             "component library 'build/mine.so' was not found: there is no '" + folder.path() +
                 "/build/mine.so'");

@@ -155,7 +155,10 @@ class LoadChecker {
                              std::to_string(load.activity.priority) + ") answers within " +
                              to_text(load.response) + " at worst, but its period is " +
                              to_text(load.period);
-    const std::string hint = "it waits for " + names_of(rivals(task)) +
+    const std::string others = names_of(rivals(task));
+    const std::string hint =
+        others.empty() ? "give it a longer period or a shorter execution time"
+                       : "it waits for " + others +
                              "; give it a longer period, a higher priority or a CPU of its own";
     // Where a more urgent thread may run on another CPU, the bound is only an upper one.
     if (exact(task)) {
@@ -218,13 +221,24 @@ class LoadChecker {
     for (const Task* task : tasks) {
       names += (names.empty() ? "" : ", ") + in_quotes(task->load->name);
     }
-    return names.empty() ? "nobody" : names;
+    return names;
   }
 
   std::vector<Task> tasks_;
   Cpus all_cpus_;
   base::Diagnostics& diagnostics_;
 };
+
+/// It may be checked on another machine than the one it is to run on, so this is no error.
+void warn_of_missing_cpus(const exec::ThreadPlan& thread, const base::Location& where, int cpus,
+                          base::Diagnostics& diagnostics) {
+  for (const int cpu : thread.activity.cpus) {
+    if (cpu < cpus) continue;
+    diagnostics.warning(where, "thread " + in_quotes(thread.name) + " is to run on CPU " +
+                                   std::to_string(cpu) + ", but this machine has CPUs 0 to " +
+                                   std::to_string(cpus - 1));
+  }
+}
 
 /// Where some times are known, the others are missed; where none is, nobody asked.
 void note_unknown(const std::vector<ThreadLoad>& threads, base::Diagnostics& diagnostics) {
@@ -259,6 +273,7 @@ Schedule check_schedule(const exec::Blueprint& blueprint, const exec::Plan& plan
     schedule.threads.push_back(finder.load_of(thread));
     ThreadLoad& load = schedule.threads.back();
     const Index first = thread.updating.empty() ? thread.members[0] : thread.updating[0];
+    warn_of_missing_cpus(thread, blueprint.components[first].where, cpus, diagnostics);
     if (load.known()) tasks.push_back({&load, {}, blueprint.components[first].where});
   }
   note_unknown(schedule.threads, diagnostics);

@@ -77,6 +77,14 @@ TEST(Schedule, ThreadsOnDifferentCpusDoNotDisturbEachOther) {
   EXPECT_EQ(deployment.schedule.threads[1].response, 9ms);
 }
 
+TEST(Schedule, ACpuThatTheMachineDoesNotHaveIsAWarning) {
+  const Deployment deployment = sources({periodic(10000, 30, 1000, ", cpus: [1, 2]")}, 2);
+  EXPECT_TRUE(deployment.ok());
+  EXPECT_EQ(deployment.diagnostics.to_text(),
+            "app.yaml:2:3: warning: thread 'T0' is to run on CPU 2, but this machine has CPUs 0 to "
+            "1\n");
+}
+
 TEST(Schedule, AsManyThreadsAsCpusDoNotWait) {
   const Deployment deployment = sources({periodic(10000, 30, 9000), periodic(10000, 20, 9000)}, 2);
   ASSERT_TRUE(deployment.diagnostics.empty()) << deployment.diagnostics.to_text();
