@@ -112,7 +112,8 @@ class Command final : public OperationBase, public Step {
   template <auto Function, typename... Options>
   Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
           Options... options)
-      : OperationBase(*owner, name, doc, Signature::of<void, Args...>({}), true),
+      : OperationBase(*owner,
+                      std::make_unique<About>(name, doc, Signature::of<void, Args...>({}), true)),
         function_([](Component& component, Args... arguments) -> Outcome {
           using Owner = internal::OwnerOf<Function>;
           static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
@@ -282,7 +283,8 @@ class CommandCaller final : public OperationCallerBase {
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
   CommandCaller(Component* owner, std::string_view name, std::string_view doc, Options... options)
-      : OperationCallerBase(*owner, name, doc, Signature::of<void, Args...>({})) {
+      : OperationCallerBase(*owner,
+                            std::make_unique<About>(name, doc, Signature::of<void, Args...>({}))) {
     (apply(options), ...);
   }
 
@@ -299,19 +301,19 @@ class CommandCaller final : public OperationCallerBase {
       command_->owner().context().post(*ticket);
       return CommandHandle(*ticket);
     }
-    ++refused_;
+    ++about().refused;
     return CommandHandle(CallStatus::kQueueFull);
   }
 
   void connect(OperationBase& base) override {
     command_ = static_cast<Command<Args...>*>(&base);
-    target_ = &base;
+    about().target = &base;
     tickets_.clear();
     for (std::size_t i = 0; i < outstanding_; ++i) tickets_.emplace_back(new Ticket(*command_));
   }
   void disconnect() override {
     command_ = nullptr;
-    target_ = nullptr;
+    about().target = nullptr;
     tickets_.clear();
   }
 

@@ -36,33 +36,34 @@ std::string_view name_of(State state) {
   return "unknown";
 }
 
-Component::Component(std::string name) : name_(std::move(name)), context_(&no_context()) {}
+Component::Component(std::string name)
+    : context_(&no_context()), rest_(std::make_unique<Rest>(*this, std::move(name))) {}
 
 Component::~Component() = default;
 
 Outcome Component::wrong_state(std::string_view transition) const {
   Reason why("cannot ");
   why.append(transition).append(" while ").append(name_of(state()));
-  if (!reason_.empty()) why.append(": ").append(reason_);
+  if (!rest_->reason.empty()) why.append(": ").append(rest_->reason);
   return refused(why);
 }
 
 void Component::assign_context(ExecutionContext& context) {
   context_ = &context;
-  reported_fault_.lower();
-  for (InputPortBase* input : interface_.inputs) input->forget_messages();
+  rest_->reported_fault.lower();
+  for (InputPortBase* input : rest_->interface.inputs) input->forget_messages();
 }
 
 /// Runs a hook that may refuse, and enters `next` if it neither did nor faulted.
 Outcome Component::run_hook(Outcome (Component::*hook)(), State next) {
   const State before = state();
-  reason_.clear();
+  rest_->reason.clear();
   Outcome outcome = accepted();
   const bool completed = run(*context_, [&] { outcome = (this->*hook)(); });
-  const bool faulted = !completed || state() != before || !reason_.empty();
-  if (faulted) return refused(reason_);
+  const bool faulted = !completed || state() != before || !rest_->reason.empty();
+  if (faulted) return refused(rest_->reason);
   if (!outcome) {
-    reason_ = outcome.reason();
+    rest_->reason = outcome.reason();
   } else {
     enter(next);
   }
@@ -71,13 +72,13 @@ Outcome Component::run_hook(Outcome (Component::*hook)(), State next) {
 
 Outcome Component::configure() {
   if (state() != State::kPreOperational) return wrong_state("configure");
-  for (const StateMachine* machine : interface_.machines) {
+  for (const StateMachine* machine : rest_->interface.machines) {
     if (machine->problems().empty()) continue;
-    reason_ = Reason("state machine '").append(machine->name()).append("': ");
-    return refused(reason_.append(machine->problems().front()));
+    rest_->reason = Reason("state machine '").append(machine->name()).append("': ");
+    return refused(rest_->reason.append(machine->problems().front()));
   }
   Outcome outcome = run_hook(&Component::on_configure, State::kStopped);
-  configured_ = outcome.ok();
+  rest_->configured = outcome.ok();
   return outcome;
 }
 
@@ -89,14 +90,14 @@ Outcome Component::activate() {
 Outcome Component::start() {
   if (state() != State::kStopped) return wrong_state("start");
   aging_ = false;
-  checked_at_ = time();
-  for (InputPortBase* input : interface_.inputs) {
+  rest_->checked_at = time();
+  for (InputPortBase* input : rest_->interface.inputs) {
     input->begin();
     if (input->max_age() > base::Duration::zero()) aging_ = true;
   }
   Outcome outcome = run_hook(&Component::on_start, State::kRunning);
   if (!outcome) return outcome;
-  for (Step* step : steps_before_) {
+  for (Step* step : rest_->steps_before) {
     if (state() == State::kRunning) run(*context_, [&] { step->start(); });
   }
   return state() == State::kException ? refused(reason()) : outcome;
@@ -116,19 +117,20 @@ void Component::cleanup() {
 void Component::retire() {
   if (state() != State::kStopped && state() != State::kException) return;
   enter(State::kPreOperational);
-  if (std::exchange(configured_, false)) run(*context_, [this] { on_cleanup(); });
+  if (std::exchange(rest_->configured, false)) run(*context_, [this] { on_cleanup(); });
 }
 
 Outcome Component::recover() {
   if (state() != State::kRunTimeError) return wrong_state("recover");
-  reason_.clear();
+  rest_->reason.clear();
   enter(State::kRunning);
   return accepted();
 }
 
 Outcome Component::reset() {
   if (state() != State::kException) return wrong_state("reset");
-  return run_hook(&Component::on_reset, configured_ ? State::kStopped : State::kPreOperational);
+  return run_hook(&Component::on_reset,
+                  rest_->configured ? State::kStopped : State::kPreOperational);
 }
 
 void Component::update() {
@@ -138,15 +140,15 @@ void Component::update() {
   }
   if (!admits()) return;
   run(*context_, [this] {
-    for (Step* step : steps_before_) step->step();
+    for (Step* step : rest_->steps_before) step->step();
     if (state() == State::kRunning) on_update();
-    for (Step* step : steps_after_) step->step();
+    for (Step* step : rest_->steps_after) step->step();
   });
 }
 
 void Component::error(std::string_view reason) {
   if (state() != State::kRunning) return;
-  reason_ = reason;
+  rest_->reason = reason;
   enter(State::kRunTimeError);
   log_warning("{}", reason);
 }
@@ -154,13 +156,13 @@ void Component::error(std::string_view reason) {
 void Component::fault(std::string_view reason) {
   const State before = state();
   if (before == State::kException) {
-    if (reason_.empty()) reason_ = reason;
+    if (rest_->reason.empty()) rest_->reason = reason;
     return;
   }
-  reason_ = reason;
+  rest_->reason = reason;
   enter(State::kException);
-  halt_steps(reason_);
-  log_error("fault: {}", reason_.view());
+  halt_steps(rest_->reason);
+  log_error("fault: {}", rest_->reason.view());
   if (before == State::kRunning || before == State::kRunTimeError) tell_readers_lost();
   if (context_->supervisor != nullptr) context_->supervisor->component_faulted(*this);
 }
@@ -169,7 +171,7 @@ void Component::stop_because(std::string_view reason) {
   if (state() != State::kRunning && state() != State::kRunTimeError) return;
   const Reason kept(reason);
   stop();
-  if (state() != State::kException) reason_ = kept;
+  if (state() != State::kException) rest_->reason = kept;
   log_warning("stopped: {}", kept.view());
   tell_readers_lost();
   if (context_->supervisor != nullptr) context_->supervisor->component_stopped_itself(*this);
@@ -196,9 +198,9 @@ void Component::refuse_depth(ExecutionContext& where) noexcept {
 void Component::fault_from(ExecutionContext& where, std::string_view reason) {
   if (context_->shares_thread_with(where)) {
     fault(reason);
-  } else if (!reported_fault_.taken.exchange(true, std::memory_order_acquire)) {
-    reported_fault_.reason = reason;
-    context_->raise(reported_fault_);
+  } else if (!rest_->reported_fault.taken.exchange(true, std::memory_order_acquire)) {
+    rest_->reported_fault.reason = reason;
+    context_->raise(rest_->reported_fault);
   }
 }
 
@@ -209,22 +211,33 @@ void Component::ReportedFault::deliver(rt::Message& message) {
   report.taken.store(false, std::memory_order_release);
 }
 
+void Component::set_at_once(bool on) {
+  if (on == admits_at_once_) return;
+  admits_at_once_ = on;
+  for (InputPortBase* input : rest_->interface.inputs) input->set_at_once(on);
+}
+
+bool Component::admits_after_look() noexcept {
+  if (aging_ && rest_->checked_at != time()) check_ages();
+  return state() == State::kRunning;
+}
+
 void Component::check_ages() {
-  checked_at_ = time();
-  for (InputPortBase* input : interface_.inputs) input->check_age();
+  rest_->checked_at = time();
+  for (InputPortBase* input : rest_->interface.inputs) input->check_age();
 }
 
 base::Time Component::next_expiry() const {
   base::Time earliest = base::Time::max();
   if (!aging_ || state() != State::kRunning) return earliest;
-  for (const InputPortBase* input : interface_.inputs) {
+  for (const InputPortBase* input : rest_->interface.inputs) {
     earliest = std::min(earliest, input->expiry());
   }
   return earliest;
 }
 
 void Component::tell_readers_lost() {
-  for (OutputPortBase* output : interface_.outputs) {
+  for (OutputPortBase* output : rest_->interface.outputs) {
     for (InputPortBase* reader : output->readers()) {
       if (&reader->owner() != this) reader->tell_lost();
     }
@@ -232,37 +245,38 @@ void Component::tell_readers_lost() {
 }
 
 void Component::halt_steps(std::string_view why) {
-  for (Step* step : steps_before_) step->halt(why);
-  for (Step* step : steps_after_) step->halt(why);
+  for (Step* step : rest_->steps_before) step->halt(why);
+  for (Step* step : rest_->steps_after) step->halt(why);
 }
 
 void Component::add_step(Step& step, bool before_update) {
-  (before_update ? steps_before_ : steps_after_).push_back(&step);
+  (before_update ? rest_->steps_before : rest_->steps_after).push_back(&step);
 }
 
 void Component::remove_step(Step& step) {
-  std::erase(steps_before_, &step);
-  std::erase(steps_after_, &step);
+  std::erase(rest_->steps_before, &step);
+  std::erase(rest_->steps_after, &step);
 }
 
-void Component::take_time(ExecutionContext& where) {
+void Component::charge(ExecutionContext& where, Component* ran) noexcept {
   const std::uint64_t now = rt::ticks();
   // What runs here as a guest keeps its measurements in its own thread.
-  Component* const last = where.running.load(std::memory_order_relaxed);
-  if (last != nullptr && last->context_ == &where) {
-    last->measured_ticks_ += now - where.mark;
-    if (!std::exchange(last->measured_, true)) {
-      last->next_measured_ = std::exchange(where.measured, last);
+  if (ran != nullptr && ran->context_ == &where) {
+    Rest& rest = *ran->rest_;
+    rest.measured_ticks += now - where.mark;
+    if (!std::exchange(rest.measured, true)) {
+      rest.next_measured = std::exchange(where.measured, ran);
     }
   }
   where.mark = now;
 }
 
 void Component::close_measurements(ExecutionContext& where) {
-  for (Component* each = std::exchange(where.measured, nullptr); each != nullptr;
-       each = std::exchange(each->next_measured_, nullptr)) {
-    each->execution_ticks_.add(std::exchange(each->measured_ticks_, 0));
-    each->measured_ = false;
+  for (Component* each = std::exchange(where.measured, nullptr); each != nullptr;) {
+    Rest& rest = *each->rest_;
+    rest.execution_ticks.add(std::exchange(rest.measured_ticks, 0));
+    rest.measured = false;
+    each = std::exchange(rest.next_measured, nullptr);
   }
 }
 
@@ -270,7 +284,7 @@ void Component::log(rt::LogLevel level, const char* format, const LogArguments& 
   rt::LogRecord record;
   record.level = level;
   record.time = time();
-  record.component = name_;
+  record.component = rest_->name;
   record.format = format;
   record.arguments = arguments;
   const auto* here = static_cast<const ExecutionContext*>(rt::guard_state().context);

@@ -3,14 +3,19 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/base/time.hpp"
 #include "armature/component/context.hpp"
+#include "armature/component/entrance.hpp"
+#include "armature/component/internal/side_by_side.hpp"
 #include "armature/component/outcome.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/rt/statistics.hpp"
@@ -72,14 +77,17 @@ class Component {
   Component& operator=(const Component&) = delete;
   virtual ~Component();
 
-  const std::string& name() const { return name_; }
+  static void* operator new(std::size_t size) { return internal::allocate_side_by_side(size); }
+  static void operator delete(void* at, std::size_t size) { internal::free_side_by_side(at, size); }
+
+  const std::string& name() const { return rest_->name; }
   /// @thread any
   State state() const { return state_.load(std::memory_order_acquire); }
   /// Serves operations: configured and without an exception.
   bool ready() const { return state() >= State::kStopped; }
   /// Why the component is in its state after a refusal, an error or a fault; empty if all is well.
   /// @thread its own, or any while it does not run
-  std::string_view reason() const { return reason_.view(); }
+  std::string_view reason() const { return rest_->reason.view(); }
 
   /// The cycle time of the thread: one value for everything that happens in a cycle.
   /// @rt nonblocking
@@ -111,11 +119,7 @@ class Component {
   /// declared reaction takes it out of service. Looks at the ages once in each cycle.
   /// @rt nonblocking, no allocation
   /// @thread its own
-  bool admits() {
-    if (aging_ && checked_at_ != time()) [[unlikely]]
-      check_ages();
-    return state() == State::kRunning;
-  }
+  bool admits() noexcept { return admits_at_once_ || admits_after_look(); }
   bool has_aging_inputs() const { return aging_; }
   /// When the reaction to old data of an input is due if nothing new comes; the end of time if none
   /// is.
@@ -123,9 +127,9 @@ class Component {
   /// @thread its own
   base::Time next_expiry() const;
 
-  const Interface& interface() const { return interface_; }
+  const Interface& interface() const { return rest_->interface; }
   /// The declaration lists, for the members that enter themselves.
-  Interface& declare() { return interface_; }
+  Interface& declare() { return rest_->interface; }
   void add_step(Step& step, bool before_update);
   void remove_step(Step& step);
 
@@ -134,7 +138,7 @@ class Component {
   void assign_context(ExecutionContext& context);
 
   /// Execution time of the component in each measured cycle, in ticks, without what it called.
-  const rt::Distribution& execution_ticks() const { return execution_ticks_; }
+  const rt::Distribution& execution_ticks() const { return rest_->execution_ticks; }
   /// Adds up a measured cycle of all that ran in it.
   /// @rt nonblocking, no allocation, O(components that ran)
   /// @thread the context's
@@ -146,15 +150,47 @@ class Component {
   /// @rt as the code is; itself a few nanoseconds
   template <typename Code>
   bool run(ExecutionContext& where, Code&& code) noexcept {
-    if (where.depth == where.depth_limit) [[unlikely]] {
+    if (where.measuring) [[unlikely]]
+      charge(where, where.running());
+    const bool completed = enter_hook(where, code);
+    if (where.measuring) [[unlikely]]
+      charge(where, this);
+    return completed;
+  }
+
+  // --- the same in two halves, for code of one component that runs code of another -------------
+  /// The half of the one that calls `callee`: it accounts for the time.
+  template <typename Code>
+  void call_out(Component& callee, Code&& code) noexcept {
+    ExecutionContext& where = *context_;
+    if (where.measuring) [[unlikely]]
+      charge(where, this);
+    code();
+    if (where.measuring) [[unlikely]]
+      charge(where, &callee);
+  }
+  /// The half of the one that is called: what escapes from its hook or operation goes no further.
+  template <typename Code>
+  [[gnu::always_inline]] bool enter_hook(ExecutionContext& where, Code&& code) noexcept {
+    HookEntrance* const place = where.next_hook;
+    if (place == where.end_of_hooks) [[unlikely]] {
       refuse_depth(where);
       return false;
     }
-    Component* const outer = where.running.load(std::memory_order_relaxed);
-    if (where.measuring) [[unlikely]]
-      take_time(where);
-    where.running.store(this, std::memory_order_relaxed);
-    ++where.depth;
+    place->component_.store(this, std::memory_order_relaxed);
+    where.next_hook = place + 1;
+    const bool completed = enter_handler(where, *place, place->outer_, code);
+    where.next_hook = place;
+    return completed;
+  }
+  /// The same for a handler that does not run yet.
+  /// @param outer  where `through` keeps what was entered before
+  template <typename Code>
+  [[gnu::always_inline]] bool enter_handler(ExecutionContext& where, const Entrance& through,
+                                            const Entrance*& outer, Code&& code) noexcept {
+    const Entrance* const before = where.innermost.load(std::memory_order_relaxed);
+    outer = before;
+    where.innermost.store(&through, std::memory_order_relaxed);
     bool completed = true;
     try {
       code();
@@ -162,10 +198,7 @@ class Component {
       completed = false;
       contain(std::current_exception(), where);
     }
-    if (where.measuring) [[unlikely]]
-      take_time(where);
-    --where.depth;
-    where.running.store(outer, std::memory_order_relaxed);
+    where.innermost.store(before, std::memory_order_relaxed);
     return completed;
   }
 
@@ -215,33 +248,48 @@ class Component {
     Reason reason;
   };
 
-  /// Adds the time since the last mark to what ran until now.
-  static void take_time(ExecutionContext& where);
+  /// Adds the time since the last mark to `ran`, which may be nobody.
+  static void charge(ExecutionContext& where, Component* ran) noexcept;
   void contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept;
   void refuse_depth(ExecutionContext& where) noexcept;
   void fault_from(ExecutionContext& where, std::string_view reason);
-  void enter(State state) { state_.store(state, std::memory_order_release); }
+  void enter(State state) {
+    state_.store(state, std::memory_order_release);
+    set_at_once(state == State::kRunning && !aging_);
+  }
+  void set_at_once(bool on);
+  bool admits_after_look() noexcept;
   void check_ages();
   void tell_readers_lost();
   void halt_steps(std::string_view why);
   Outcome run_hook(Outcome (Component::*hook)(), State next);
   Outcome wrong_state(std::string_view transition) const;
 
-  std::string name_;
+  /// What no handler touches. It lies apart, so that the members of the derived class lie close to
+  /// what every handler touches: a cycle of many components is as fast as their data is small.
+  struct Rest {
+    Rest(Component& component, std::string component_name)
+        : name(std::move(component_name)), reported_fault(component) {}
+
+    std::string name;
+    std::uint64_t measured_ticks = 0;
+    Component* next_measured = nullptr;
+    bool measured = false;
+    base::Time checked_at{};  ///< when the ages of its inputs were looked at
+    Interface interface;
+    std::vector<Step*> steps_before;
+    std::vector<Step*> steps_after;
+    bool configured = false;
+    rt::Distribution execution_ticks;
+    Reason reason;
+    ReportedFault reported_fault;
+  };
+
   ExecutionContext* context_;
   std::atomic<State> state_{State::kPreOperational};
-  Interface interface_;
-  std::vector<Step*> steps_before_;
-  std::vector<Step*> steps_after_;
-  std::uint64_t measured_ticks_ = 0;
-  base::Time checked_at_{};
-  Component* next_measured_ = nullptr;
-  bool measured_ = false;
+  bool admits_at_once_ = false;
   bool aging_ = false;
-  bool configured_ = false;
-  rt::Distribution execution_ticks_;
-  Reason reason_;
-  ReportedFault reported_fault_{*this};
+  std::unique_ptr<Rest> rest_;
 };
 
 }  // namespace armature::component

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "armature/base/time.hpp"
+#include "armature/component/entrance.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/log.hpp"
@@ -15,7 +18,6 @@
 namespace armature::component {
 
 class Component;
-class Entrance;
 
 /// Told by components of what the application must react to.
 /// @rt both functions are called on real-time threads
@@ -28,23 +30,25 @@ class Supervisor {
   ~Supervisor() = default;
 };
 
-/// So deep handlers and operations may always nest in one thread.
+/// So deep hooks and operations may always nest in one thread.
 inline constexpr int kLeastDepthLimit = 64;
 
 /// The thread that runs a component, as far as the component needs to know it. The execution engine
 /// owns it; all components that share a thread share its context.
 struct ExecutionContext {
-  explicit ExecutionContext(std::string context_name) : name(std::move(context_name)) {}
+  explicit ExecutionContext(std::string context_name) : name(std::move(context_name)) {
+    limit_depth(kLeastDepthLimit);
+  }
 
   std::string name;
   std::atomic<base::Time> cycle_time{base::Time{}};  ///< read from the clock once in each cycle
   std::uint64_t cycle = 0;                           ///< counts the cycles
-  std::atomic<Component*> running{nullptr};          ///< whose code runs now
-  int depth = 0;                        ///< how many components' code is entered and not left
-  int depth_limit = kLeastDepthLimit;   ///< what the stack has room for
-  const Entrance* innermost = nullptr;  ///< the handler entered last
+  std::atomic<const Entrance*> innermost{nullptr};   ///< through which the present code was entered
+  std::unique_ptr<HookEntrance[]> hooks;             ///< those that are entered, and room for more
+  HookEntrance* next_hook = nullptr;
+  HookEntrance* end_of_hooks = nullptr;
   bool measuring = false;         ///< this cycle's execution times are taken for each component
-  std::uint64_t mark = 0;         ///< tick at which `running` last changed, while measuring
+  std::uint64_t mark = 0;         ///< tick at which another one began to run, while measuring
   Component* measured = nullptr;  ///< the first of those that ran while measuring
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};
@@ -55,6 +59,21 @@ struct ExecutionContext {
   rt::Wakeup wakeup;
   rt::LogQueue* log = nullptr;
   Supervisor* supervisor = nullptr;
+
+  /// So many hooks and operations may nest: what the stack has room for.
+  /// @thread configuration only
+  void limit_depth(int limit) {
+    hooks = std::make_unique<HookEntrance[]>(static_cast<std::size_t>(limit));
+    next_hook = hooks.get();
+    end_of_hooks = hooks.get() + limit;
+  }
+
+  /// The component whose code runs now, nullptr if none does.
+  /// @thread any
+  Component* running() const {
+    const Entrance* const entrance = innermost.load(std::memory_order_relaxed);
+    return entrance == nullptr ? nullptr : &entrance->component();
+  }
 
   /// Has `message` delivered by this context's thread.
   /// @rt nonblocking, no allocation

@@ -8,21 +8,37 @@
 
 namespace armature::component {
 
-void Entrance::refuse(ExecutionContext& where) const {
+namespace {
+
+/// The first of `from` and those outside of it that is a handler.
+const Entrance* handler_from(const Entrance* from) {
+  while (from != nullptr && from->handler().empty()) from = from->outer();
+  return from;
+}
+
+}  // namespace
+
+void Entrance::refuse(ExecutionContext& where) const noexcept {
   std::array<const Entrance*, 8> way{this};
   std::size_t length = 1;
-  const Entrance* each = where.innermost;
-  for (; each != this && length < way.size(); each = each->outer_) way[length++] = each;
+  const Entrance* each = handler_from(where.innermost.load(std::memory_order_relaxed));
+  while (each != this && each != nullptr && length < way.size()) {
+    way[length++] = each;
+    each = handler_from(each->outer());
+  }
 
   Reason why("a handler set itself off: ");
-  why.append(component_.name()).append(".").append(name_).append(each == this ? "" : " -> ...");
+  why.append(component().name())
+      .append(".")
+      .append(handler())
+      .append(each == this ? "" : " -> ...");
   while (length-- > 0) {
     why.append(" -> ")
-        .append(way[length]->component_.name())
+        .append(way[length]->component().name())
         .append(".")
-        .append(way[length]->name_);
+        .append(way[length]->handler());
   }
-  component_.fault_from(where, why);
+  component().fault_from(where, why);
 }
 
 }  // namespace armature::component

@@ -1,43 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <string_view>
-
-#include "armature/component/context.hpp"
 
 namespace armature::component {
 
-/// The way into a handler of a component. While the handler runs it may set off others, but not,
-/// through them, itself: that would have no end, and faults its component with the way it took.
+class Component;
+struct ExecutionContext;
+
+/// A way into a component's code: a handler's, or the one of its hooks and operations. Those that
+/// were entered and not left in a thread form a chain, innermost first.
 class Entrance {
  public:
-  /// @param name  of the port or event, living as long as the component
-  Entrance(Component& component, std::string_view name) : component_(component), name_(name) {}
+  Entrance() = default;
+  Entrance(const Entrance&) = delete;
+  Entrance& operator=(const Entrance&) = delete;
 
-  /// Runs `code`, which throws nothing, unless it runs already.
-  /// @rt as the code is
+  virtual Component& component() const = 0;
+  /// Of the port or event; empty for hooks and operations.
+  virtual std::string_view handler() const { return {}; }
+  /// The one that was entered before; meaningful while this one is entered.
+  virtual const Entrance* outer() const { return nullptr; }
+
+  /// Faults the component because this handler, while it runs, was set off by what it set off; the
+  /// reason tells the way it took.
+  /// @rt nonblocking, no allocation
   /// @thread that of `where`
-  template <typename Code>
-  void pass(ExecutionContext& where, Code&& code) {
-    if (inside_) [[unlikely]] {
-      refuse(where);
-      return;
-    }
-    inside_ = true;
-    outer_ = where.innermost;
-    where.innermost = this;
-    code();
-    where.innermost = outer_;
-    inside_ = false;
-  }
+  void refuse(ExecutionContext& where) const noexcept;
+
+ protected:
+  ~Entrance() = default;
+};
+
+/// The way into a hook or operation. A component's operations may run in several threads at once,
+/// so that each thread has a stack of these.
+class HookEntrance final : public Entrance {
+ public:
+  Component& component() const override { return *component_.load(std::memory_order_relaxed); }
+  const Entrance* outer() const override { return outer_; }
 
  private:
-  void refuse(ExecutionContext& where) const;
-
-  Component& component_;
-  std::string_view name_;
+  friend class Component;
+  std::atomic<Component*> component_{nullptr};
   const Entrance* outer_ = nullptr;
-  bool inside_ = false;
 };
 
 }  // namespace armature::component

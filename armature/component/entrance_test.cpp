@@ -167,7 +167,7 @@ TEST_F(Reentrance, OperationsThatCallEachOtherWithoutEndFaultBeforeTheStackIsUse
   EXPECT_EQ(first.reason(),
             "handlers and operations nest too deeply in thread 'thread': do they call each other "
             "without end?");
-  EXPECT_EQ(thread_.context.depth, 0);
+  EXPECT_EQ(thread_.context.next_hook, thread_.context.hooks.get());
 }
 
 TEST(Entrance, ALongWayIsShortenedInTheMiddle) {

@@ -95,38 +95,45 @@ inline constexpr std::size_t kDefaultEventQueue = 16;
 /// A component's declared reaction to an event of one of its peers.
 class EventHandlerBase : public Requirement {
  public:
-  const Signature& signature() const { return signature_; }
-  bool runs_in_raisers_thread() const { return in_raisers_thread_; }
-  const LeadsTo& effects() const { return leads_to_; }
-  std::size_t queue_capacity() const { return queue_capacity_; }
-  EventBase* source() const { return source_; }
-  bool bound() const override { return source_ != nullptr; }
+  const Signature& signature() const { return about().signature; }
+  bool runs_in_raisers_thread() const { return about().in_raisers_thread; }
+  const LeadsTo& effects() const { return about().leads_to; }
+  std::size_t queue_capacity() const { return about().queue_capacity; }
+  EventBase* source() const { return about().source; }
+  bool bound() const override { return source() != nullptr; }
+  std::string_view handler() const final { return name(); }
+  const Entrance* outer() const final { return outer_; }
   /// Events that came while the queue was full.
-  std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+  std::uint64_t dropped() const { return about().dropped.load(std::memory_order_relaxed); }
 
  protected:
-  EventHandlerBase(Component& owner, std::string_view name, std::string_view doc,
-                   Signature signature)
-      : Requirement(owner, name, doc), entrance_(owner, name), signature_(std::move(signature)) {
+  struct About : Requirement::About {
+    About(std::string_view its_name, std::string_view its_doc, Signature its_signature)
+        : Requirement::About(its_name, its_doc), signature(std::move(its_signature)) {}
+
+    Signature signature;
+    bool in_raisers_thread = false;
+    LeadsTo leads_to;
+    std::size_t queue_capacity = kDefaultEventQueue;
+    EventBase* source = nullptr;
+    std::atomic<std::uint64_t> dropped{0};
+  };
+
+  EventHandlerBase(Component& owner, std::unique_ptr<About> about)
+      : Requirement(owner, std::move(about)) {
     owner.declare().handlers.push_back(this);
   }
 
   using Requirement::apply;
-  void apply(InRaisersThread) { in_raisers_thread_ = true; }
-  void apply(const LeadsTo& effects) { leads_to_ = effects; }
-  void apply(QueueSize queue) { queue_capacity_ = queue.capacity; }
+  void apply(InRaisersThread) { about().in_raisers_thread = true; }
+  void apply(const LeadsTo& effects) { about().leads_to = effects; }
+  void apply(QueueSize queue) { about().queue_capacity = queue.capacity; }
 
-  void count_drop() { dropped_.store(dropped() + 1, std::memory_order_relaxed); }
+  About& about() const { return static_cast<About&>(Requirement::about()); }
+  void count_drop() { about().dropped.store(dropped() + 1, std::memory_order_relaxed); }
 
-  Entrance entrance_;
-  EventBase* source_ = nullptr;
-
- private:
-  Signature signature_;
-  bool in_raisers_thread_ = false;
-  LeadsTo leads_to_;
-  std::size_t queue_capacity_ = kDefaultEventQueue;
-  std::atomic<std::uint64_t> dropped_{0};
+  const Entrance* outer_ = nullptr;
+  bool inside_ = false;  ///< it runs
 };
 
 enum class RaiseStatus : std::uint8_t { kDelivered, kNobodyListens, kQueueFull };
@@ -150,7 +157,7 @@ class Event final : public EventBase {
   /// @return kQueueFull if at least one subscriber could not be told
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  RaiseStatus raise(const Args&... arguments) {
+  RaiseStatus raise(const Args&... arguments) noexcept {
     ++raised_;
     RaiseStatus status =
         subscribers_.empty() ? RaiseStatus::kNobodyListens : RaiseStatus::kDelivered;
@@ -158,7 +165,9 @@ class Event final : public EventBase {
     for (EventHandler<Args...>* handler : queued_) {
       if (!handler->enqueue(arguments...)) status = RaiseStatus::kQueueFull;
     }
-    for (EventHandler<Args...>* handler : direct_) handler->handle(owner().context(), arguments...);
+    for (EventHandler<Args...>* handler : direct_) {
+      owner().call_out(handler->owner(), [&] { handler->handle(owner().context(), arguments...); });
+    }
     return status;
   }
 
@@ -194,48 +203,57 @@ class EventHandler final : public EventHandlerBase {
   template <auto Function, typename... Options>
   EventHandler(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
                Options... options)
-      : EventHandler(
-            owner, name,
-            [](void* self, const Args&... arguments) {
-              using Owner = internal::OwnerOf<Function>;
-              static_assert(std::is_invocable_v<decltype(Function), Owner&, const Args&...>,
-                            "the member function does not take the arguments of the event");
-              (static_cast<Owner&>(*static_cast<Component*>(self)).*Function)(arguments...);
-            },
-            owner, doc, options...) {}
+      : EventHandlerBase(*owner,
+                         std::make_unique<About>(name, doc, Signature::of<void, Args...>({}))),
+        handle_(
+            [](EventHandler& handler, ExecutionContext& where, const Args&... arguments) noexcept {
+              handler.handle_with(where, [&] {
+                using Owner = internal::OwnerOf<Function>;
+                static_assert(std::is_invocable_v<decltype(Function), Owner&, const Args&...>,
+                              "the member function does not take the arguments of the event");
+                (static_cast<Owner&>(handler.owner()).*Function)(arguments...);
+              });
+            }) {
+    (apply(options), ...);
+  }
 
   /// For handlers that are not a member function: `function` is given `self`.
   template <typename... Options>
   EventHandler(Component* owner, std::string_view name,
                void (*function)(void* self, const Args&...), void* self, std::string_view doc,
                Options... options)
-      : EventHandlerBase(*owner, name, doc, Signature::of<void, Args...>({})),
-        function_(function),
-        self_(self) {
+      : EventHandlerBase(*owner,
+                         std::make_unique<About>(name, doc, Signature::of<void, Args...>({}))),
+        handle_(
+            [](EventHandler& handler, ExecutionContext& where, const Args&... arguments) noexcept {
+              const About& about = handler.about();
+              handler.handle_with(where, [&] { about.function(about.self, arguments...); });
+            }) {
+    about().function = function;
+    about().self = self;
     (apply(options), ...);
   }
 
   // --- for the event that is subscribed to -----------------------------------------------------
   void bind(Event<Args...>& event, bool queued) {
-    source_ = &event;
-    if (queued) queue_ = std::make_unique<Queue>(*this, queue_capacity());
+    about().source = &event;
+    if (queued) about().queue = std::make_unique<Queue>(*this, queue_capacity());
   }
   void unbind() {
-    source_ = nullptr;
-    queue_.reset();
+    about().source = nullptr;
+    about().queue.reset();
   }
-  void handle(ExecutionContext& where, const Args&... arguments) {
-    Component& component = owner();
-    const bool own_thread = &where == &component.context();
-    if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
-    entrance_.pass(where, [&] { component.run(where, [&] { function_(self_, arguments...); }); });
+  /// For a component that calls out (see Component::call_out).
+  void handle(ExecutionContext& where, const Args&... arguments) noexcept {
+    handle_(*this, where, arguments...);
   }
   bool enqueue(const Args&... arguments) {
-    if (queue_->events.push(std::tuple<Args...>(arguments...)) == rt::PushResult::kRefused) {
+    Queue& queue = *about().queue;
+    if (queue.events.push(std::tuple<Args...>(arguments...)) == rt::PushResult::kRefused) {
       count_drop();
       return false;
     }
-    owner().context().raise(*queue_);
+    owner().context().raise(queue);
     return true;
   }
 
@@ -251,7 +269,9 @@ class EventHandler final : public EventHandlerBase {
       while (const std::tuple<Args...>* event = queue.events.pop()) {
         std::apply(
             [&queue](const Args&... arguments) {
-              queue.self.handle(queue.self.owner().context(), arguments...);
+              Component& component = queue.self.owner();
+              component.run(component.context(),
+                            [&] { queue.self.handle(component.context(), arguments...); });
             },
             *event);
       }
@@ -260,9 +280,27 @@ class EventHandler final : public EventHandlerBase {
     rt::Ring<std::tuple<Args...>> events;
   };
 
-  void (*function_)(void* self, const Args&...);
-  void* self_;
-  std::unique_ptr<Queue> queue_;
+  struct About final : EventHandlerBase::About {
+    using EventHandlerBase::About::About;
+    void (*function)(void* self, const Args&...) = nullptr;
+    void* self = nullptr;
+    std::unique_ptr<Queue> queue;
+  };
+  About& about() const { return static_cast<About&>(EventHandlerBase::about()); }
+
+  template <typename Code>
+  void handle_with(ExecutionContext& where, Code&& code) noexcept {
+    Component& component = owner();
+    const bool own_thread = &where == &component.context();
+    if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
+    if (inside_) [[unlikely]]
+      return refuse(where);
+    inside_ = true;
+    component.enter_handler(where, *this, outer_, code);
+    inside_ = false;
+  }
+
+  void (*handle_)(EventHandler&, ExecutionContext&, const Args&...) noexcept;
 };
 
 }  // namespace armature::component

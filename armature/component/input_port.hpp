@@ -44,14 +44,14 @@ class OutputPortBase;
 class InputPortBase : public PortBase {
  public:
   bool triggers() const { return triggers_; }
-  const LeadsTo& effects() const { return leads_to_; }
-  bool allows_fan_in() const { return fan_in_; }
-  bool connected() const { return !writers_.empty(); }
-  const std::vector<OutputPortBase*>& writers() const { return writers_; }
-  base::Duration max_age() const { return max_age_; }
-  Reaction stale_reaction() const { return stale_reaction_; }
-  Reaction lost_reaction() const { return lost_reaction_; }
-  InputCounters counters() const { return counters_; }
+  const LeadsTo& effects() const { return about().leads_to; }
+  bool allows_fan_in() const { return about().fan_in; }
+  bool connected() const { return !about().writers.empty(); }
+  const std::vector<OutputPortBase*>& writers() const { return about().writers; }
+  base::Duration max_age() const { return about().max_age; }
+  Reaction stale_reaction() const { return about().stale_reaction; }
+  Reaction lost_reaction() const { return about().lost_reaction; }
+  InputCounters counters() const { return about().counters; }
 
   /// Declares an age from outside, as a deployment does for a connection.
   void set_max_age(MaxAge declared) { apply(declared); }
@@ -69,61 +69,92 @@ class InputPortBase : public PortBase {
 
   /// A writer faulted: the reader's thread reacts as declared.
   /// @thread the writer's
-  void tell_lost() { owner().context().raise(lost_); }
+  void tell_lost() { owner().context().raise(about().lost); }
+
+  /// Its component runs and has no ages to look at, or not any more.
+  void set_at_once(bool on) { set(kRests, !on); }
 
   /// The component starts: reactions to ages count from now.
   void begin();
 
   /// What was on its way to this port from another thread is gone with that thread.
-  void forget_messages() { lost_.lower(); }
+  void forget_messages() { about().lost.lower(); }
+
+  std::string_view handler() const final { return name(); }
+  const Entrance* outer() const final { return outer_; }
 
  protected:
-  InputPortBase(Component& owner, std::string name, std::string_view doc, std::string_view unit,
-                const types::Type& type);
-
-  using PortBase::apply;
-  void apply(MaxAge declared) {
-    max_age_ = declared.age;
-    stale_reaction_ = declared.reaction;
-  }
-  void apply(OnLost declared) { lost_reaction_ = declared.reaction; }
-  void apply(FanIn) { fan_in_ = true; }
-  void apply(const LeadsTo& effects) { leads_to_ = effects; }
-
-  virtual void look_for_newer() = 0;
-
-  bool is_stale(base::Time written) const {
-    return max_age_ > base::Duration::zero() && owner().time() - written > max_age_;
-  }
-  bool reads_zero(bool stale) const {
-    return zeroed_ || (stale && stale_reaction_ == Reaction::kZero);
-  }
-
-  Entrance entrance_;  ///< into the handler
-  bool triggers_ = false;
-  bool zeroed_ = false;  ///< its writer was lost, and nothing came since
-  std::vector<OutputPortBase*> writers_;
-  InputCounters counters_;
-
- private:
   struct Lost final : rt::Signal {
     explicit Lost(InputPortBase& port) : rt::Signal(&Lost::deliver), self(port) {}
     static void deliver(rt::Message& message);
     InputPortBase& self;
   };
 
+  struct About : PortBase::About {
+    template <typename... Description>
+    explicit About(InputPortBase& port, Description&&... description)
+        : PortBase::About(std::forward<Description>(description)...), lost(port) {}
+
+    bool fan_in = false;
+    bool late = false;  ///< the reaction to old data happened
+    LeadsTo leads_to;
+    Reaction stale_reaction = Reaction::kStop;
+    Reaction lost_reaction = Reaction::kStop;
+    base::Duration max_age{};
+    base::Time started{};
+    std::vector<OutputPortBase*> writers;
+    InputCounters counters;
+    Lost lost;
+  };
+
+  InputPortBase(Component& owner, std::unique_ptr<About> about)
+      : PortBase(owner, std::move(about)) {}
+
+  using PortBase::apply;
+  void apply(MaxAge declared) {
+    about().max_age = declared.age;
+    about().stale_reaction = declared.reaction;
+    set(kAges, declared.age > base::Duration::zero());
+  }
+  void apply(OnLost declared) { about().lost_reaction = declared.reaction; }
+  void apply(FanIn) { about().fan_in = true; }
+  void apply(const LeadsTo& effects) { about().leads_to = effects; }
+
+  virtual void look_for_newer() = 0;
+
+  About& about() const { return static_cast<About&>(PortBase::about()); }
+  bool is_stale(base::Time written) const {
+    return has(kAges) && owner().time() - written > about().max_age;
+  }
+  bool reads_zero(bool stale) const {
+    return has(kZeroed) || (stale && about().stale_reaction == Reaction::kZero);
+  }
+
+  /// What makes a port less simple than most; all of it in one byte, so that one look tells.
+  enum Special : std::uint8_t {
+    kAges = 1,    ///< a maximum age is declared
+    kZeroed = 2,  ///< its writer was lost, and nothing came since
+    kPulls = 4,   ///< a read takes from channels
+    kRests = 8,   ///< its component does not run, or looks at ages first
+  };
+  bool is_special() const { return special_ != 0; }
+  /// Its handler may run without a further look.
+  bool is_simple() const { return (special_ | inside_) == 0; }
+  bool has(Special what) const { return (special_ & what) != 0; }
+  void set(Special what, bool on) {
+    special_ = static_cast<std::uint8_t>(on ? special_ | what : special_ & ~what);
+  }
+
+  const Entrance* outer_ = nullptr;
+  bool triggers_ = false;
+  std::uint8_t inside_ = 0;  ///< 1 while its handler runs
+
+ private:
   void react(Reaction reaction, std::string_view what);
   /// When the present data was written; waiting for the first counts from the start.
   base::Time written() const;
 
-  bool fan_in_ = false;
-  bool late_ = false;  ///< the reaction to old data happened
-  LeadsTo leads_to_;
-  Reaction stale_reaction_ = Reaction::kStop;
-  Reaction lost_reaction_ = Reaction::kStop;
-  base::Duration max_age_{};
-  base::Time started_{};
-  Lost lost_;
+  std::uint8_t special_ = kRests;
 };
 
 /// Option of an input port: a write runs `Handler`, a member function of the component that takes
@@ -149,31 +180,33 @@ class InputPort final : public InputPortBase {
   template <typename... Options>
   InputPort(Component* owner, std::string name, std::string_view doc, std::string_view unit = {},
             Options... options)
-      : InputPortBase(*owner, std::move(name), doc, unit, types::type_of<T>()) {
+      : InputPortBase(*owner,
+                      std::make_unique<About>(static_cast<InputPortBase&>(*this), std::move(name),
+                                              doc, unit, types::type_of<T>())),
+        source_(&about().empty) {
     (apply(options), ...);
     owner->declare().inputs.push_back(this);
   }
   ~InputPort() override {
-    for (OutputPortBase* writer : writers_) internal::forget_reader(*writer, *this);
+    for (OutputPortBase* writer : about().writers) internal::forget_reader(*writer, *this);
   }
 
   /// The newest value (of a FIFO: the next), and whether it is new, was read before, was never
   /// written, or can never come because nothing is connected.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  Reading<T> read() {
-    if (!channels_.empty() && !triggers_ && !std::exchange(looked_ahead_, false)) pull();
+  Reading<T> read() noexcept {
+    if (is_special()) [[unlikely]]
+      return read_special();
     const Sample<T>& sample = *source_;
     const ReadStatus status = status_of(sample);
-    const bool stale = is_stale(sample.time);
-    const bool empty = status < ReadStatus::kOld || reads_zero(stale);
-    unread_ = false;
-    return {status, stale, empty ? empty_.value : sample.value, sample.time};
+    const bool empty = status < ReadStatus::kOld;
+    return {status, false, empty ? about().empty.value : sample.value, sample.time};
   }
 
   /// The port's place in its array, from 0.
   std::size_t index() const { return index_; }
-  void set_index(std::size_t index) { index_ = index; }
+  void set_index(std::size_t index) { index_ = static_cast<std::uint32_t>(index); }
 
   const void* current() const override { return &source_->value; }
   base::Time current_time() const override { return source_->time; }
@@ -183,103 +216,155 @@ class InputPort final : public InputPortBase {
   void connect_source(OutputPortBase& writer, const Sample<T>& source) {
     source_ = &source;
     seen_ = source.sequence == 0 ? 0 : source.sequence - 1;
-    writers_.push_back(&writer);
+    about().writers.push_back(&writer);
   }
   internal::Channel<T>& connect_channel(OutputPortBase& writer,
                                         std::unique_ptr<internal::Channel<T>> channel) {
     channel->writer = &writer;
-    writers_.push_back(&writer);
-    channels_.push_back(std::move(channel));
-    return *channels_.back();
+    About& mine = about();
+    mine.writers.push_back(&writer);
+    mine.channels.push_back(std::move(channel));
+    set(kPulls, !triggers_);
+    return *mine.channels.back();
   }
   void disconnect(OutputPortBase& writer) {
-    std::erase(writers_, &writer);
-    std::erase_if(channels_, [&writer](const auto& each) { return each->writer == &writer; });
-    next_channel_ = 0;
-    source_ = &empty_;
+    About& mine = about();
+    std::erase(mine.writers, &writer);
+    std::erase_if(mine.channels, [&writer](const auto& each) { return each->writer == &writer; });
+    mine.next_channel = 0;
+    mine.unread = false;
+    mine.looked_ahead = false;
+    set(kPulls, !triggers_ && !mine.channels.empty());
+    source_ = &mine.empty;
     seen_ = 0;
-    unread_ = false;
-    looked_ahead_ = false;
   }
   /// Zeros in the shape of `shape`: what is read before the first write.
   void set_shape(const T& shape) {
-    empty_.value = T(shape);
-    internal::set_to_zero(type(), &empty_.value);
+    about().empty.value = T(shape);
+    internal::set_to_zero(type(), &about().empty.value);
   }
 
-  /// A sample was written in this thread to the place that this port reads.
-  void arrived() {
-    zeroed_ = false;
-    dispatch();
-  }
+  /// A sample was written in this thread to the place that this port reads; for a component that
+  /// calls out (see Component::call_out).
+  /// @param where  the context of both
+  void arrived(ExecutionContext& where) noexcept { arrived_(*this, where); }
   /// Takes what `channel` holds, one handler call for each sample.
   void drain(internal::Channel<T>& channel) {
+    Component& component = owner();
     while (const Sample<T>* sample = channel.pop()) {
       take(channel, *sample);
-      dispatch();
+      ExecutionContext& where = component.context();
+      component.run(where, [this, &where] { arrived(where); });
     }
   }
 
  private:
-  using Dispatch = void (*)(Component&, InputPort&);
+  using Arrived = void (*)(InputPort&, ExecutionContext&) noexcept;
+  struct About final : InputPortBase::About {
+    using InputPortBase::About::About;
+    Sample<T> empty{};
+    std::vector<std::unique_ptr<internal::Channel<T>>> channels;
+    std::size_t next_channel = 0;
+    bool unread = false;        ///< what was taken from a channel last was not read
+    bool looked_ahead = false;  ///< and is to be read before the next is taken
+  };
+
+  About& about() const { return static_cast<About&>(InputPortBase::about()); }
 
   using InputPortBase::apply;
   template <auto Handler>
   void apply(OnData<Handler>) {
     triggers_ = true;
-    dispatch_ = [](Component& component, InputPort& port) {
-      using Owner = typename internal::MemberOf<decltype(Handler)>::Owner;
-      call<Handler>(static_cast<Owner&>(component), port);
+    arrived_ = [](InputPort& port, ExecutionContext& where) noexcept {
+      if (!port.is_simple()) [[unlikely]] {
+        port.arrived_with_care(where, [](InputPort& self, const T& value) {
+          call<Handler>(self.owner(), self, value);
+        });
+        return;
+      }
+      Component& component = port.owner();
+      port.inside_ = 1;
+      component.enter_handler(where, port, port.outer_,
+                              [&] { call<Handler>(component, port, port.source_->value); });
+      port.inside_ = 0;
     };
   }
-  void apply(OnDataUpdate) { triggers_ = true; }
+  void apply(OnDataUpdate) {
+    triggers_ = true;
+    arrived_ = [](InputPort& port, ExecutionContext& where) noexcept {
+      port.set(kZeroed, false);
+      port.pass(where, [&port] { port.owner().update(); });
+    };
+  }
 
-  template <auto Handler, typename Owner>
-  static void call(Owner& owner, InputPort& port) {
+  template <auto Handler>
+  static void call(Component& component, InputPort& port, const T& value) {
+    using Owner = internal::OwnerOf<Handler>;
+    auto& owner = static_cast<Owner&>(component);
     if constexpr (std::is_invocable_v<decltype(Handler), Owner&>) {
       (owner.*Handler)();
-    } else if constexpr (std::is_invocable_v<decltype(Handler), Owner&, const T&>) {
-      (owner.*Handler)(port.take_value());
     } else {
-      static_assert(std::is_invocable_v<decltype(Handler), Owner&, std::size_t, const T&>,
-                    "a handler of an input port takes (), (value) or (index, value)");
-      (owner.*Handler)(port.index_, port.take_value());
+      port.seen_ = port.source_->sequence;
+      if constexpr (std::is_invocable_v<decltype(Handler), Owner&, const T&>) {
+        (owner.*Handler)(value);
+      } else {
+        static_assert(std::is_invocable_v<decltype(Handler), Owner&, std::size_t, const T&>,
+                      "a handler of an input port takes (), (value) or (index, value)");
+        (owner.*Handler)(port.index(), value);
+      }
     }
-  }
-
-  const T& take_value() {
-    seen_ = source_->sequence;
-    return reads_zero(is_stale(source_->time)) ? empty_.value : source_->value;
-  }
-
-  void dispatch() {
-    Component& component = owner();
-    ExecutionContext& context = component.context();
-    if (dispatch_ == nullptr) {
-      entrance_.pass(context, [&] { component.update(); });
-      return;
-    }
-    if (max_age() > base::Duration::zero()) check_age();
-    if (!component.admits()) return;
-    entrance_.pass(context, [&] { component.run(context, [&] { dispatch_(component, *this); }); });
   }
 
   ReadStatus status_of(const Sample<T>& sample) {
-    if (sample.sequence == 0) {
+    if (sample.sequence == seen_) [[unlikely]] {
+      if (sample.sequence != 0) return ReadStatus::kOld;
       return connected() ? ReadStatus::kNone : ReadStatus::kNotConnected;
     }
-    if (sample.sequence == seen_) return ReadStatus::kOld;
-    counters_.missed += sample.sequence - seen_ - 1;
+    const std::uint64_t missed = sample.sequence - seen_ - 1;
+    if (missed != 0) [[unlikely]]
+      about().counters.missed += missed;
     seen_ = sample.sequence;
-    zeroed_ = false;
     return ReadStatus::kNew;
+  }
+
+  [[gnu::noinline]] Reading<T> read_special() noexcept {
+    if (has(kPulls)) {
+      if (!std::exchange(about().looked_ahead, false)) pull();
+      about().unread = false;
+    }
+    const Sample<T>& sample = *source_;
+    const ReadStatus status = status_of(sample);
+    if (status == ReadStatus::kNew) set(kZeroed, false);
+    const bool stale = is_stale(sample.time);
+    const bool empty = status < ReadStatus::kOld || reads_zero(stale);
+    return {status, stale, empty ? about().empty.value : sample.value, sample.time};
+  }
+
+  using Handle = void (*)(InputPort&, const T&);
+  [[gnu::noinline]] void arrived_with_care(ExecutionContext& where, Handle handle) noexcept {
+    set(kZeroed, false);
+    if (has(kAges)) check_age();
+    if (!owner().admits()) return;
+    pass(where, [this, handle] {
+      const bool zero = reads_zero(is_stale(source_->time));
+      handle(*this, zero ? about().empty.value : source_->value);
+    });
+  }
+
+  template <typename Code>
+  void pass(ExecutionContext& where, Code&& code) noexcept {
+    if (inside_ != 0) return refuse(where);
+    inside_ = 1;
+    owner().enter_handler(where, *this, outer_, code);
+    inside_ = 0;
   }
 
   /// Takes the next sample of the channels, in turn; the channel it came from, or nullptr.
   internal::Channel<T>* pull() {
-    for (std::size_t tried = 0; tried < channels_.size(); ++tried) {
-      internal::Channel<T>& channel = *channels_[next_channel_];
-      if (++next_channel_ == channels_.size()) next_channel_ = 0;
+    About& mine = about();
+    for (std::size_t tried = 0; tried < mine.channels.size(); ++tried) {
+      internal::Channel<T>& channel = *mine.channels[mine.next_channel];
+      if (++mine.next_channel == mine.channels.size()) mine.next_channel = 0;
       if (const Sample<T>* sample = channel.pop()) {
         take(channel, *sample);
         return &channel;
@@ -289,30 +374,26 @@ class InputPort final : public InputPortBase {
   }
 
   void take(internal::Channel<T>& channel, const Sample<T>& sample) {
-    counters_.missed += sample.sequence - channel.last_sequence - (unread_ ? 0 : 1);
-    unread_ = !triggers_;
+    About& mine = about();
+    mine.counters.missed += sample.sequence - channel.last_sequence - (mine.unread ? 0 : 1);
+    mine.unread = !triggers_;
     channel.last_sequence = sample.sequence;
     source_ = &sample;
     seen_ = sample.sequence - 1;
-    zeroed_ = false;
+    set(kZeroed, false);
   }
 
   /// A FIFO's next sample is not passed over: it is the one to be read next.
   void look_for_newer() override {
-    if (triggers_ || channels_.empty() || looked_ahead_) return;
+    if (!has(kPulls) || about().looked_ahead) return;
     const internal::Channel<T>* const channel = pull();
-    looked_ahead_ = channel != nullptr && channel->keeps_all();
+    about().looked_ahead = channel != nullptr && channel->keeps_all();
   }
 
-  Dispatch dispatch_ = nullptr;
-  Sample<T> empty_{};
-  const Sample<T>* source_ = &empty_;
+  std::uint32_t index_ = 0;
+  Arrived arrived_ = nullptr;  ///< runs the handler; made for each, so that it is one piece of code
+  const Sample<T>* source_;
   std::uint64_t seen_ = 0;
-  std::vector<std::unique_ptr<internal::Channel<T>>> channels_;
-  std::size_t next_channel_ = 0;
-  std::size_t index_ = 0;
-  bool unread_ = false;        ///< what was taken from a channel last was not read
-  bool looked_ahead_ = false;  ///< and is to be read before the next is taken
 };
 
 }  // namespace armature::component

@@ -310,7 +310,7 @@ TEST_P(ContainmentInHook, AnExceptionFaultsTheComponentAndTheProcessGoesOn) {
   EXPECT_EQ(component_.state(), State::kException);
   EXPECT_EQ(component_.reason(), "exception: card 3 is gone");
   EXPECT_THAT(supervisor_.faulted, ElementsAre("probe"));
-  EXPECT_EQ(thread_.context.running, nullptr);
+  EXPECT_EQ(thread_.context.running(), nullptr);
 }
 
 TEST_P(ContainmentInHook, AnExceptionOfAnUnknownTypeToo) {

@@ -137,7 +137,7 @@ TEST_F(Measurement, AnExceptionDoesNotLoseTheTime) {
   });
   end_cycle();
   EXPECT_GE(first_.execution_ticks().summary().total, kLong);
-  EXPECT_EQ(thread_.context.running, nullptr);
+  EXPECT_EQ(thread_.context.running(), nullptr);
 }
 
 }  // namespace

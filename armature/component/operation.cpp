@@ -48,16 +48,16 @@ std::string_view name_of(CommandStage stage) {
 }
 
 std::string OperationBase::mismatch(const std::vector<types::Value>& arguments) const {
-  bool fits = arguments.size() == signature_.arguments.size();
+  bool fits = arguments.size() == about_->signature.arguments.size();
   for (std::size_t i = 0; fits && i < arguments.size(); ++i) {
-    fits = types::same_type(arguments[i].type(), *signature_.arguments[i].type);
+    fits = types::same_type(arguments[i].type(), *about_->signature.arguments[i].type);
   }
   if (fits) return {};
   std::string given;
   for (const types::Value& argument : arguments) {
     given += (given.empty() ? "" : ", ") + argument.type().name;
   }
-  return "'" + owner_.name() + "." + std::string(name_) + "' is " + signature_.text() +
+  return "'" + owner_.name() + "." + std::string(name()) + "' is " + about_->signature.text() +
          "; it was called with (" + given + ")";
 }
 

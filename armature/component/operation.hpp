@@ -42,11 +42,11 @@ class OperationBase {
   OperationBase& operator=(const OperationBase&) = delete;
   virtual ~OperationBase() = default;
 
-  std::string_view name() const { return name_; }
-  std::string_view doc() const { return doc_; }
-  const Signature& signature() const { return signature_; }
+  std::string_view name() const { return about_->name; }
+  std::string_view doc() const { return about_->doc; }
+  const Signature& signature() const { return about_->signature; }
   Component& owner() const { return owner_; }
-  bool runs_in_own_thread() const { return own_thread_; }
+  bool runs_in_own_thread() const { return about_->own_thread; }
   /// True if accepting it is not the end of it: it has progress and completion.
   virtual bool is_command() const { return false; }
 
@@ -56,19 +56,32 @@ class OperationBase {
       const std::vector<types::Value>& arguments) = 0;
 
  protected:
-  OperationBase(Component& owner, std::string_view name, std::string_view doc, Signature signature,
-                bool own_thread)
-      : owner_(owner),
-        name_(name),
-        doc_(doc),
-        signature_(std::move(signature)),
-        own_thread_(own_thread) {
+  /// What is seldom needed lies apart, as for ports.
+  struct About {
+    About(std::string_view its_name, std::string_view its_doc, Signature its_signature,
+          bool its_own_thread)
+        : name(its_name),
+          doc(its_doc),
+          signature(std::move(its_signature)),
+          own_thread(its_own_thread) {}
+    virtual ~About() = default;
+
+    std::string_view name;
+    std::string_view doc;
+    Signature signature;
+    bool own_thread;
+  };
+
+  OperationBase(Component& owner, std::unique_ptr<About> about)
+      : owner_(owner), about_(std::move(about)) {
     owner.declare().operations.push_back(this);
   }
-  void apply(InOwnThread) { own_thread_ = true; }
+  About& about() const { return *about_; }
+  void apply(InOwnThread) { about_->own_thread = true; }
   void apply(const ArgumentNames& given) {
-    for (std::size_t i = 0; i < signature_.arguments.size() && i < given.names.size(); ++i) {
-      signature_.arguments[i].name = given.names[i];
+    std::vector<Signature::Argument>& arguments = about_->signature.arguments;
+    for (std::size_t i = 0; i < arguments.size() && i < given.names.size(); ++i) {
+      arguments[i].name = given.names[i];
     }
   }
   /// What is wrong with `arguments`, empty if nothing.
@@ -76,10 +89,7 @@ class OperationBase {
 
  private:
   Component& owner_;
-  std::string_view name_;
-  std::string_view doc_;
-  Signature signature_;
-  bool own_thread_;
+  std::unique_ptr<About> about_;
 };
 
 template <typename Function>
@@ -94,41 +104,48 @@ class Operation<R(Args...)> final : public OperationBase {
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
             Options... options)
-      : Operation(
-            owner, name,
-            [](void* self, Args... arguments) -> R {
-              using Owner = internal::OwnerOf<Function>;
-              static_assert(std::is_invocable_r_v<R, decltype(Function), Owner&, Args...>,
-                            "the member function does not fit the signature of the operation");
-              auto& component = static_cast<Owner&>(*static_cast<Component*>(self));
-              return (component.*Function)(static_cast<Args>(arguments)...);
-            },
-            owner, doc, options...) {}
+      : OperationBase(*owner,
+                      std::make_unique<About>(name, doc, Signature::of<R, Args...>({}), false)),
+        execute_([](Operation& operation, ExecutionContext& where, Args... arguments) noexcept {
+          return operation.execute_with(where, [&]() -> R {
+            using Owner = internal::OwnerOf<Function>;
+            static_assert(std::is_invocable_r_v<R, decltype(Function), Owner&, Args...>,
+                          "the member function does not fit the signature of the operation");
+            auto& component = static_cast<Owner&>(operation.owner());
+            return (component.*Function)(static_cast<Args>(arguments)...);
+          });
+        }) {
+    (apply(options), ...);
+  }
 
   /// For operations that are not a member function's: `function` is given `self`.
   template <typename... Options>
   Operation(Component* owner, std::string_view name, R (*function)(void* self, Args...), void* self,
             std::string_view doc, Options... options)
-      : OperationBase(*owner, name, doc, Signature::of<R, Args...>({}), false),
-        function_(function),
-        self_(self) {
+      : OperationBase(*owner,
+                      std::make_unique<About>(name, doc, Signature::of<R, Args...>({}), false)),
+        execute_([](Operation& operation, ExecutionContext& where, Args... arguments) noexcept {
+          return operation.execute_with(where, [&]() -> R {
+            const About& about = operation.about();
+            return about.function(about.self, static_cast<Args>(arguments)...);
+          });
+        }) {
+    about().function = function;
+    about().self = self;
     (apply(options), ...);
   }
 
-  /// Executes it here, as its component's code.
+  /// Executes it here, for a component that calls out (see Component::call_out).
   /// @param where  the context of the calling thread
   CallResult<R> execute(ExecutionContext& where, Args... arguments) noexcept {
+    return execute_(*this, where, static_cast<Args>(arguments)...);
+  }
+  /// Executes it in its own thread, for nobody who runs there.
+  CallResult<R> execute_by_message(Args... arguments) noexcept {
     Component& component = owner();
-    if (!component.ready()) return {CallStatus::kNotReady};
-    CallResult<R> result{CallStatus::kFailed};
-    component.run(where, [&] {
-      if constexpr (std::is_void_v<R>) {
-        function_(self_, static_cast<Args>(arguments)...);
-      } else {
-        result.value = function_(self_, static_cast<Args>(arguments)...);
-      }
-      result.status = CallStatus::kDone;
-    });
+    CallResult<R> result{};
+    component.run(component.context(),
+                  [&] { result = execute(component.context(), static_cast<Args>(arguments)...); });
     return result;
   }
 
@@ -145,7 +162,7 @@ class Operation<R(Args...)> final : public OperationBase {
   base::Result<std::optional<types::Value>> invoke_with(
       [[maybe_unused]] const std::vector<types::Value>& arguments, std::index_sequence<I...>) {
     const CallResult<R> result =
-        execute(owner().context(), *static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
+        execute_by_message(*static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
     if (result.status != CallStatus::kDone) {
       return base::Error{std::string(name()) + ": " + std::string(name_of(result.status)) + ": " +
                          std::string(owner().reason())};
@@ -157,19 +174,41 @@ class Operation<R(Args...)> final : public OperationBase {
     }
   }
 
-  R (*function_)(void* self, Args...);
-  void* self_;
+  template <typename Code>
+  CallResult<R> execute_with(ExecutionContext& where, Code&& code) noexcept {
+    Component& component = owner();
+    if (!component.ready()) return {CallStatus::kNotReady};
+    CallResult<R> result{CallStatus::kFailed};
+    component.enter_hook(where, [&] {
+      if constexpr (std::is_void_v<R>) {
+        code();
+      } else {
+        result.value = code();
+      }
+      result.status = CallStatus::kDone;
+    });
+    return result;
+  }
+
+  struct About final : OperationBase::About {
+    using OperationBase::About::About;
+    R (*function)(void* self, Args...) = nullptr;
+    void* self = nullptr;
+  };
+  About& about() const { return static_cast<About&>(OperationBase::about()); }
+
+  CallResult<R> (*execute_)(Operation&, ExecutionContext&, Args...) noexcept;
 };
 
 /// A component's declared use of an operation of one of its peers.
 class OperationCallerBase : public Requirement {
  public:
-  const Signature& signature() const { return signature_; }
-  OperationBase* target() const { return target_; }
-  bool bound() const override { return target_ != nullptr; }
+  const Signature& signature() const { return about().signature; }
+  OperationBase* target() const { return about().target; }
+  bool bound() const override { return target() != nullptr; }
 
   /// Calls that were not taken because too many were under way.
-  std::uint64_t refused() const { return refused_; }
+  std::uint64_t refused() const { return about().refused; }
 
   /// True if it uses a command with completion, false if a plain operation.
   virtual bool needs_command() const { return false; }
@@ -181,16 +220,20 @@ class OperationCallerBase : public Requirement {
   virtual void disconnect() = 0;
 
  protected:
-  OperationCallerBase(Component& owner, std::string_view name, std::string_view doc,
-                      Signature signature)
-      : Requirement(owner, name, doc), signature_(std::move(signature)) {
+  struct About : Requirement::About {
+    About(std::string_view its_name, std::string_view its_doc, Signature its_signature)
+        : Requirement::About(its_name, its_doc), signature(std::move(its_signature)) {}
+
+    Signature signature;
+    OperationBase* target = nullptr;
+    std::uint64_t refused = 0;
+  };
+
+  OperationCallerBase(Component& owner, std::unique_ptr<About> about)
+      : Requirement(owner, std::move(about)) {
     owner.declare().callers.push_back(this);
   }
-  OperationBase* target_ = nullptr;
-  std::uint64_t refused_ = 0;
-
- private:
-  Signature signature_;
+  About& about() const { return static_cast<About&>(Requirement::about()); }
 };
 
 /// How many sent calls of one caller may be under way; one more is answered kQueueFull.
@@ -206,7 +249,8 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
   OperationCaller(Component* owner, std::string_view name, std::string_view doc, Options... options)
-      : OperationCallerBase(*owner, name, doc, Signature::of<R, Args...>({})) {
+      : OperationCallerBase(*owner,
+                            std::make_unique<About>(name, doc, Signature::of<R, Args...>({}))) {
     (apply(options), ...);
   }
 
@@ -219,7 +263,11 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
     if (operation_ == nullptr) [[unlikely]]
       return {CallStatus::kNotConnected};
     if (direct_ || operation_->owner().context().shares_thread_with(owner().context())) {
-      return operation_->execute(owner().context(), static_cast<Args>(arguments)...);
+      CallResult<R> result{};
+      owner().call_out(operation_->owner(), [&] {
+        result = operation_->execute(owner().context(), static_cast<Args>(arguments)...);
+      });
+      return result;
     }
     return send(static_cast<Args>(arguments)...).wait(kCallLimit);
   }
@@ -229,37 +277,41 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   /// @thread the component's own
   SendHandle<R> send(Args... arguments) {
     if (operation_ == nullptr) return SendHandle<R>(CallStatus::kNotConnected);
-    for (std::size_t tried = 0; tried < records_.size(); ++tried) {
-      Record& record = *records_[next_];
-      if (++next_ == records_.size()) next_ = 0;
+    About& mine = about();
+    for (std::size_t tried = 0; tried < mine.records.size(); ++tried) {
+      Record& record = *mine.records[mine.next];
+      if (++mine.next == mine.records.size()) mine.next = 0;
       if (!record.try_claim()) continue;
       record.arguments = std::tuple<const std::decay_t<Args>&...>(arguments...);
       operation_->owner().context().post(record);
       return SendHandle<R>(record);
     }
-    ++refused_;
+    ++mine.refused;
     return SendHandle<R>(CallStatus::kQueueFull);
   }
 
   /// Gives the queue's memory the shape of these arguments, so that sending them never allocates.
   void prepare(Args... sample) {
-    for (auto& record : records_) {
+    for (auto& record : about().records) {
       record->arguments = std::tuple<const std::decay_t<Args>&...>(sample...);
     }
   }
 
   void connect(OperationBase& base) override {
     operation_ = static_cast<Operation<R(Args...)>*>(&base);
-    target_ = &base;
     direct_ = !base.runs_in_own_thread() || &base.owner().context() == &owner().context();
-    records_.clear();
-    next_ = 0;
-    for (std::size_t i = 0; i < outstanding_; ++i) records_.emplace_back(new Record(*operation_));
+    About& mine = about();
+    mine.target = &base;
+    mine.records.clear();
+    mine.next = 0;
+    for (std::size_t i = 0; i < mine.outstanding; ++i) {
+      mine.records.emplace_back(new Record(*operation_));
+    }
   }
   void disconnect() override {
     operation_ = nullptr;
-    target_ = nullptr;
-    records_.clear();
+    about().target = nullptr;
+    about().records.clear();
   }
 
  private:
@@ -273,7 +325,7 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
       if (!record.try_begin()) return;
       record.finish(std::apply(
           [&record](const std::decay_t<Args>&... given) {
-            return record.operation.execute(record.operation.owner().context(), given...);
+            return record.operation.execute_by_message(given...);
           },
           record.arguments));
     }
@@ -281,14 +333,19 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
     std::tuple<std::decay_t<Args>...> arguments{};
   };
 
+  struct About final : OperationCallerBase::About {
+    using OperationCallerBase::About::About;
+    std::size_t outstanding = kDefaultOutstanding;
+    std::vector<std::unique_ptr<Record, SharedRecord::LetGo>> records;
+    std::size_t next = 0;
+  };
+  About& about() const { return static_cast<About&>(OperationCallerBase::about()); }
+
   using OperationCallerBase::apply;
-  void apply(Outstanding option) { outstanding_ = option.count; }
+  void apply(Outstanding option) { about().outstanding = option.count; }
 
   Operation<R(Args...)>* operation_ = nullptr;
-  bool direct_ = false;
-  std::size_t outstanding_ = kDefaultOutstanding;
-  std::vector<std::unique_ptr<Record, SharedRecord::LetGo>> records_;
-  std::size_t next_ = 0;
+  bool direct_ = false;  ///< a call runs here
 };
 
 }  // namespace armature::component

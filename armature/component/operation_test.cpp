@@ -106,7 +106,7 @@ TEST_F(Calls, WithoutAnOptionAnOperationRunsInTheCallersThread) {
   start(server_);
   client_.add.connect(server_.add);
   const Component* running = nullptr;
-  server_.then = [&] { running = one_.context.running; };
+  server_.then = [&] { running = one_.context.running(); };
   EXPECT_EQ(client_.add(1.0, 2.0).value, 3.0);
   EXPECT_EQ(running, &server_);
   EXPECT_TRUE(other_.context.inbox.empty());

@@ -25,8 +25,8 @@ struct OutputCounters {
 
 class OutputPortBase : public PortBase {
  public:
-  OutputCounters counters() const { return counters_; }
-  const std::vector<InputPortBase*>& readers() const { return readers_; }
+  OutputCounters counters() const { return about().counters; }
+  const std::vector<InputPortBase*>& readers() const { return about().readers; }
 
   /// Connects `input`, which has the same type (see exec's checks), for the threads that both
   /// components are assigned to.
@@ -42,9 +42,15 @@ class OutputPortBase : public PortBase {
   virtual bool fits(const InputPortBase& input) const = 0;
 
  protected:
-  using PortBase::PortBase;
-  OutputCounters counters_;
-  std::vector<InputPortBase*> readers_;
+  struct About : PortBase::About {
+    using PortBase::About::About;
+    OutputCounters counters;
+    std::vector<InputPortBase*> readers;
+  };
+  OutputPortBase(Component& owner, std::unique_ptr<About> about)
+      : PortBase(owner, std::move(about)) {}
+
+  About& about() const { return static_cast<About&>(PortBase::about()); }
 };
 
 /// Writes typed data to any number of inputs.
@@ -61,7 +67,8 @@ class OutputPort final : public OutputPortBase {
   template <typename... Options>
   OutputPort(Component* owner, std::string name, std::string_view doc, std::string_view unit = {},
              Options... options)
-      : OutputPortBase(*owner, std::move(name), doc, unit, types::type_of<T>()) {
+      : OutputPortBase(*owner,
+                       std::make_unique<About>(std::move(name), doc, unit, types::type_of<T>())) {
     (apply(options), ...);
     owner->declare().outputs.push_back(this);
   }
@@ -70,17 +77,13 @@ class OutputPort final : public OutputPortBase {
   /// Writes `value` and runs the handlers that are to run on it in this thread.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  WriteStatus write(const T& value) {
+  [[gnu::always_inline]] WriteStatus write(const T& value) noexcept {
     if constexpr (!std::is_trivially_copyable_v<T>) {
-      if (!types::same_shape(type(), &sample_.value, &value)) {
-        ++counters_.wrong_size;
-        return WriteStatus::kWrongSize;
-      }
+      return write_shaped(value);
+    } else {
+      sample_.value = value;
+      return tell();
     }
-    sample_.value = value;
-    sample_.time = owner().time();
-    ++sample_.sequence;
-    return deliver();
   }
 
   /// Gives the port its shape, e.g. a vector its size, where no property declares it.
@@ -111,43 +114,68 @@ class OutputPort final : public OutputPortBase {
 
   void connect(InputPortBase& base, const ConnectionPolicy& policy) override {
     auto& input = static_cast<InputPort<T>&>(base);
-    readers_.push_back(&base);
+    about().readers.push_back(&base);
     input.set_shape(sample_.value);
     const bool same_thread = &owner().context() == &base.owner().context();
     const bool latest = policy.kind == ConnectionPolicy::Kind::kLatest;
     if (same_thread && latest && !policy.one_cycle_delay && !base.allows_fan_in()) {
       input.connect_source(*this, sample_);
-      if (base.triggers()) triggered_.push_back(&input);
+      if (base.triggers()) about().triggered.push_back(&input);
+      choose_delivery();
       return;
     }
     auto& channel = input.connect_channel(*this, make_channel(input, policy, same_thread));
     channel.last_sequence = sample_.sequence;
     if (base.triggers()) {
-      telling_.push_back(&channel);
+      about().telling.push_back(&channel);
     } else {
-      channels_.push_back(&channel);
+      about().channels.push_back(&channel);
       hand_over_last(channel);
     }
+    choose_delivery();
   }
 
   void disconnect_all() override {
-    for (InputPortBase* reader : readers_) static_cast<InputPort<T>*>(reader)->disconnect(*this);
-    readers_.clear();
-    triggered_.clear();
-    channels_.clear();
-    telling_.clear();
+    About& mine = about();
+    for (InputPortBase* reader : mine.readers) {
+      static_cast<InputPort<T>*>(reader)->disconnect(*this);
+    }
+    mine.readers.clear();
+    mine.triggered.clear();
+    mine.channels.clear();
+    mine.telling.clear();
+    choose_delivery();
   }
 
   void forget(InputPortBase& input) override {
     const auto leads_there = [&input](const Channel* each) { return &each->reader() == &input; };
-    std::erase(readers_, &input);
-    std::erase(triggered_, &input);
-    std::erase_if(channels_, leads_there);
-    std::erase_if(telling_, leads_there);
+    About& mine = about();
+    std::erase(mine.readers, &input);
+    std::erase(mine.triggered, &input);
+    std::erase_if(mine.channels, leads_there);
+    std::erase_if(mine.telling, leads_there);
+    choose_delivery();
   }
 
  private:
   using Channel = internal::Channel<T>;
+  struct About final : OutputPortBase::About {
+    using OutputPortBase::About::About;
+    std::vector<InputPort<T>*> triggered;  ///< readers in this thread whose handlers run now
+    std::vector<Channel*> channels;
+    std::vector<Channel*> telling;  ///< channels whose readers are to be told
+  };
+
+  About& about() const { return static_cast<About&>(OutputPortBase::about()); }
+
+  /// Most ports have one handler to run, or nothing to do but to keep the value.
+  void choose_delivery() {
+    const About& mine = about();
+    const bool by_channel = !mine.channels.empty() || !mine.telling.empty();
+    only_handler_ = !by_channel && mine.triggered.size() == 1 ? mine.triggered.front() : nullptr;
+    delivers_ = by_channel || !mine.triggered.empty();
+    unread_ = mine.readers.empty() ? WriteStatus::kNotConnected : WriteStatus::kWritten;
+  }
 
   std::unique_ptr<Channel> make_channel(InputPort<T>& input, const ConnectionPolicy& policy,
                                         bool same_thread) {
@@ -165,6 +193,27 @@ class OutputPort final : public OutputPortBase {
                                                                       sample_);
   }
 
+  [[gnu::noinline]] WriteStatus write_shaped(const T& value) noexcept {
+    if (!types::same_shape(type(), &sample_.value, &value)) {
+      ++about().counters.wrong_size;
+      return WriteStatus::kWrongSize;
+    }
+    sample_.value = value;
+    return tell();
+  }
+
+  [[gnu::always_inline]] WriteStatus tell() noexcept {
+    Component& writer = owner();
+    sample_.time = writer.time();
+    ++sample_.sequence;
+    if (only_handler_ == nullptr) return delivers_ ? deliver() : unread_;
+    ExecutionContext& where = writer.context();
+    if (where.measuring) [[unlikely]]
+      return deliver();
+    only_handler_->arrived(where);
+    return WriteStatus::kWritten;
+  }
+
   /// A value from before the connection was made is read as new, whatever the kind of connection.
   void hand_over_last(Channel& channel) {
     if (sample_.sequence == 0) return;
@@ -172,14 +221,18 @@ class OutputPort final : public OutputPortBase {
     channel.push(sample_);
   }
 
-  WriteStatus deliver() {
-    WriteStatus status = readers_.empty() ? WriteStatus::kNotConnected : WriteStatus::kWritten;
-    for (Channel* channel : channels_) note(channel->push(sample_), status);
-    for (Channel* channel : telling_) {
+  /// Apart, so that it adds nothing to the common case.
+  [[gnu::noinline]] WriteStatus deliver() noexcept {
+    const About& mine = about();
+    WriteStatus status = WriteStatus::kWritten;
+    for (Channel* channel : mine.channels) note(channel->push(sample_), status);
+    for (Channel* channel : mine.telling) {
       note(channel->push(sample_), status);
       channel->tell_reader();
     }
-    for (InputPort<T>* input : triggered_) input->arrived();
+    for (InputPort<T>* input : mine.triggered) {
+      owner().call_out(input->owner(), [&] { input->arrived(owner().context()); });
+    }
     return status;
   }
 
@@ -187,18 +240,18 @@ class OutputPort final : public OutputPortBase {
     if (result == rt::PushResult::kTaken) [[likely]]
       return;
     if (result == rt::PushResult::kRefused) {
-      ++counters_.refused;
+      ++about().counters.refused;
       status = WriteStatus::kFull;
     } else {
-      ++counters_.dropped;
+      ++about().counters.dropped;
       if (status != WriteStatus::kFull) status = WriteStatus::kDropped;
     }
   }
 
   Sample<T> sample_{};
-  std::vector<InputPort<T>*> triggered_;  ///< readers in this thread whose handlers run now
-  std::vector<Channel*> channels_;
-  std::vector<Channel*> telling_;  ///< channels whose readers are to be told
+  InputPort<T>* only_handler_ = nullptr;  ///< all that a write has to run
+  bool delivers_ = false;                 ///< a write has something to do for its readers
+  WriteStatus unread_ = WriteStatus::kNotConnected;  ///< what a write that has nothing to do says
 };
 
 }  // namespace armature::component

@@ -48,42 +48,39 @@ bool LeadsTo::includes(std::string_view name) const {
   return false;
 }
 
-InputPortBase::InputPortBase(Component& owner, std::string name, std::string_view doc,
-                             std::string_view unit, const types::Type& type)
-    : PortBase(owner, std::move(name), doc, unit, type),
-      entrance_(owner, this->name()),
-      lost_(*this) {}
-
 void InputPortBase::begin() {
-  started_ = owner().time();
-  late_ = false;
-  zeroed_ = false;
+  about().started = owner().time();
+  about().late = false;
+  set(kZeroed, false);
 }
 
 void InputPortBase::check_age() {
-  const bool ages = max_age_ > base::Duration::zero() && connected();
-  if (!ages || owner().state() != State::kRunning) return;
+  if (!has(kAges) || !connected() || owner().state() != State::kRunning) return;
   look_for_newer();
-  const bool was_late = std::exchange(late_, is_stale(written()));
-  if (!late_ || was_late) return;
-  ++counters_.stale;
-  if (stale_reaction_ != Reaction::kZero) react(stale_reaction_, "its data is older than declared");
+  About& mine = about();
+  const bool was_late = std::exchange(mine.late, is_stale(written()));
+  if (!mine.late || was_late) return;
+  ++mine.counters.stale;
+  if (mine.stale_reaction != Reaction::kZero) {
+    react(mine.stale_reaction, "its data is older than declared");
+  }
 }
 
 base::Time InputPortBase::written() const {
-  return current_sequence() == 0 ? started_ : std::max(current_time(), started_);
+  return current_sequence() == 0 ? about().started : std::max(current_time(), about().started);
 }
 
 base::Time InputPortBase::expiry() const {
-  const bool ages = max_age_ > base::Duration::zero() && connected() && !late_;
-  return ages ? written() + max_age_ + base::Duration(1) : base::Time::max();
+  const bool ages = has(kAges) && connected() && !about().late;
+  return ages ? written() + about().max_age + base::Duration(1) : base::Time::max();
 }
 
 void InputPortBase::Lost::deliver(rt::Message& message) {
   auto& lost = static_cast<Lost&>(message);
   lost.lower();
-  ++lost.self.counters_.lost;
-  lost.self.react(lost.self.lost_reaction_, "the component that writes it is out of service");
+  About& about = lost.self.about();
+  ++about.counters.lost;
+  lost.self.react(about.lost_reaction, "the component that writes it is out of service");
 }
 
 void InputPortBase::react(Reaction reaction, std::string_view what) {
@@ -94,7 +91,7 @@ void InputPortBase::react(Reaction reaction, std::string_view what) {
     case Reaction::kHold:
       break;
     case Reaction::kZero:
-      zeroed_ = true;
+      set(kZeroed, true);
       break;
     case Reaction::kStop:
       owner().stop_because(reason);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -113,19 +114,21 @@ LeadsTo leads_to(Names... names) {
 }
 inline LeadsTo leads_to_nothing() { return {{}, true}; }
 
-class PortBase {
+class PortBase : public Entrance {
  public:
-  PortBase(const PortBase&) = delete;
-  PortBase& operator=(const PortBase&) = delete;
   virtual ~PortBase() = default;
 
-  const std::string& name() const { return name_; }
-  std::string_view doc() const { return doc_; }
-  std::string_view unit() const { return unit_; }
-  const types::Type& type() const { return type_; }
+  static void* operator new(std::size_t size) { return internal::allocate_side_by_side(size); }
+  static void operator delete(void* at, std::size_t size) { internal::free_side_by_side(at, size); }
+
+  const std::string& name() const { return about_->name; }
+  std::string_view doc() const { return about_->doc; }
+  std::string_view unit() const { return about_->unit; }
+  const types::Type& type() const { return about_->type; }
   Component& owner() const { return owner_; }
-  const PortSize& declared_size() const { return size_; }
-  bool stays_open() const { return may_stay_open_; }
+  Component& component() const final { return owner_; }
+  const PortSize& declared_size() const { return about_->size; }
+  bool stays_open() const { return about_->may_stay_open; }
 
   /// The value that a tool shows.
   /// @thread the component's own
@@ -134,21 +137,33 @@ class PortBase {
   virtual std::uint64_t current_sequence() const = 0;
 
  protected:
-  PortBase(Component& owner, std::string name, std::string_view doc, std::string_view unit,
-           const types::Type& type)
-      : owner_(owner), name_(std::move(name)), doc_(doc), unit_(unit), type_(type) {}
+  /// What is seldom needed. It lies apart, so that what every write and read touches lies close
+  /// together: a cycle of many components is as fast as their data is small.
+  struct About {
+    About(std::string port_name, std::string_view port_doc, std::string_view port_unit,
+          const types::Type& port_type)
+        : name(std::move(port_name)), doc(port_doc), unit(port_unit), type(port_type) {}
+    virtual ~About() = default;
 
-  void apply(PortSize size) { size_ = size; }
-  void apply(MayStayOpen) { may_stay_open_ = true; }
+    std::string name;
+    std::string_view doc;
+    std::string_view unit;
+    const types::Type& type;
+    PortSize size;
+    bool may_stay_open = false;
+  };
+
+  PortBase(Component& owner, std::unique_ptr<About> about)
+      : owner_(owner), about_(std::move(about)) {}
+
+  void apply(PortSize size) { about_->size = size; }
+  void apply(MayStayOpen) { about_->may_stay_open = true; }
+
+  About& about() const { return *about_; }
 
  private:
   Component& owner_;
-  std::string name_;
-  std::string_view doc_;
-  std::string_view unit_;
-  const types::Type& type_;
-  PortSize size_;
-  bool may_stay_open_ = false;
+  std::unique_ptr<About> about_;
 };
 
 /// Data on ports never grows: no text inside; vectors keep the size they were configured with.

@@ -45,35 +45,40 @@ std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"
 
 PropertyBase::PropertyBase(Component& owner, std::string_view name, std::string_view doc,
                            std::string_view unit, const types::Type& type, bool persistent)
-    : owner_(owner), name_(name), doc_(doc), unit_(unit), type_(type), persistent_(persistent) {
+    : about_(new About{owner, name, doc, unit, type, persistent}) {
   owner.declare().properties.push_back(this);
 }
 
 std::string PropertyBase::check(const types::Value& value) const {
-  const std::string subject = "property " + quoted(name_) + " of " + quoted(owner_.name());
-  if (!types::same_type(value.type(), type_)) {
-    return subject + " is a " + type_.name + ", not a " + value.type().name;
+  const std::string subject =
+      "property " + quoted(about_->name) + " of " + quoted(about_->owner.name());
+  if (!types::same_type(value.type(), about_->type)) {
+    return subject + " is a " + about_->type.name + ", not a " + value.type().name;
   }
-  if (!limits_) return {};
+  if (!about_->limits) return {};
   bool inside = true;
-  types::visit_leaves(type_, value.data(),
-                      [&](const std::string&, const types::Type& type, const void* data) {
-                        const std::optional<double> number = as_number(type, data);
-                        if (number && !(*number >= limits_->low && *number <= limits_->high)) {
-                          inside = false;
-                        }
-                      });
+  types::visit_leaves(
+      about_->type, value.data(),
+      [&](const std::string&, const types::Type& type, const void* data) {
+        const std::optional<double> number = as_number(type, data);
+        if (number && !(*number >= about_->limits->low && *number <= about_->limits->high)) {
+          inside = false;
+        }
+      });
   if (inside) return {};
-  return subject + " is " + value.text() + ", outside " + number_text(limits_->low) + " .. " +
-         number_text(limits_->high) + (unit_.empty() ? "" : " " + std::string(unit_));
+  return subject + " is " + value.text() + ", outside " + number_text(about_->limits->low) +
+         " .. " + number_text(about_->limits->high) +
+         (about_->unit.empty() ? "" : " " + std::string(about_->unit));
 }
 
 std::string PropertyBase::objection(const types::Value& value) const {
-  const bool running = owner_.state() == State::kRunning || owner_.state() == State::kRunTimeError;
-  if (running && !changeable_) return "cannot change while the component runs; stop it first";
-  for (const PropertyFollower* follower : followers_) {
+  const bool running =
+      about_->owner.state() == State::kRunning || about_->owner.state() == State::kRunTimeError;
+  if (running && !about_->changeable)
+    return "cannot change while the component runs; stop it first";
+  for (const PropertyFollower* follower : about_->followers) {
     std::string objection = follower->objection();
-    const bool changes = value.text() != types::to_text(type_, data());
+    const bool changes = value.text() != types::to_text(about_->type, data());
     if (!objection.empty() && changes) return "cannot change: " + objection;
   }
   return {};
@@ -84,17 +89,18 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
     return base::Error{std::move(problem)};
   }
   if (const std::string reason = objection(value); !reason.empty()) {
-    return base::Error{"property " + quoted(name_) + " of " + quoted(owner_.name()) + " " + reason};
+    return base::Error{"property " + quoted(about_->name) + " of " + quoted(about_->owner.name()) +
+                       " " + reason};
   }
   types::Value copy = value;
   swap(copy);
-  set_ = true;
+  about_->set = true;
   tell_followers();
   return {};
 }
 
 void PropertyBase::tell_followers() {
-  for (PropertyFollower* follower : followers_) follower->follow();
+  for (PropertyFollower* follower : about_->followers) follower->follow();
 }
 
 }  // namespace armature::component

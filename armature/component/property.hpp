@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,17 +48,17 @@ class PropertyBase {
   PropertyBase& operator=(const PropertyBase&) = delete;
   virtual ~PropertyBase() = default;
 
-  std::string_view name() const { return name_; }
-  std::string_view doc() const { return doc_; }
-  std::string_view unit() const { return unit_; }
-  const types::Type& type() const { return type_; }
-  Component& owner() const { return owner_; }
+  std::string_view name() const { return about_->name; }
+  std::string_view doc() const { return about_->doc; }
+  std::string_view unit() const { return about_->unit; }
+  const types::Type& type() const { return about_->type; }
+  Component& owner() const { return about_->owner; }
   /// False for an attribute, which no file keeps.
-  bool persistent() const { return persistent_; }
-  bool changeable() const { return changeable_; }
-  bool is_mandatory() const { return mandatory_; }
-  bool was_set() const { return set_; }
-  const std::optional<Range>& limits() const { return limits_; }
+  bool persistent() const { return about_->persistent; }
+  bool changeable() const { return about_->changeable; }
+  bool is_mandatory() const { return about_->mandatory; }
+  bool was_set() const { return about_->set; }
+  const std::optional<Range>& limits() const { return about_->limits; }
 
   virtual const void* data() const = 0;
 
@@ -74,31 +75,35 @@ class PropertyBase {
   virtual void swap(types::Value& value) = 0;
 
   /// `follower` lives as long as the component.
-  void add_follower(PropertyFollower& follower) { followers_.push_back(&follower); }
+  void add_follower(PropertyFollower& follower) { about_->followers.push_back(&follower); }
 
  protected:
   PropertyBase(Component& owner, std::string_view name, std::string_view doc, std::string_view unit,
                const types::Type& type, bool persistent);
 
-  void apply(Range limits) { limits_ = limits; }
-  void apply(ChangeableWhileRunning) { changeable_ = true; }
-  void apply(Mandatory) { mandatory_ = true; }
+  void apply(Range limits) { about_->limits = limits; }
+  void apply(ChangeableWhileRunning) { about_->changeable = true; }
+  void apply(Mandatory) { about_->mandatory = true; }
   void tell_followers();
 
  private:
   std::string objection(const types::Value& value) const;
 
-  Component& owner_;
-  std::string_view name_;
-  std::string_view doc_;
-  std::string_view unit_;
-  const types::Type& type_;
-  bool persistent_;
-  bool changeable_ = false;
-  bool mandatory_ = false;
-  bool set_ = false;
-  std::optional<Range> limits_;
-  std::vector<PropertyFollower*> followers_;
+  /// All but the value lies apart: a loop that reads it reads little more.
+  struct About {
+    Component& owner;
+    std::string_view name;
+    std::string_view doc;
+    std::string_view unit;
+    const types::Type& type;
+    bool persistent;
+    bool changeable = false;
+    bool mandatory = false;
+    bool set = false;
+    std::optional<Range> limits{};
+    std::vector<PropertyFollower*> followers{};
+  };
+  std::unique_ptr<About> about_;
 };
 
 /// A configuration value that persists to files.

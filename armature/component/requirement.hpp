@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "armature/component/component.hpp"
 #include "armature/component/property.hpp"
@@ -27,37 +29,48 @@ struct Wanted {
 inline Wanted only_if(const Property<bool>& property) { return {&property}; }
 
 /// Something that a component uses of a peer: an operation that it calls, an event it reacts to.
-class Requirement {
+class Requirement : public Entrance {
  public:
-  Requirement(const Requirement&) = delete;
-  Requirement& operator=(const Requirement&) = delete;
   virtual ~Requirement() = default;
 
-  std::string_view name() const { return name_; }
-  std::string_view doc() const { return doc_; }
+  std::string_view name() const { return about_->name; }
+  std::string_view doc() const { return about_->doc; }
   Component& owner() const { return owner_; }
-  bool is_optional() const { return optional_; }
+  Component& component() const final { return owner_; }
+  bool is_optional() const { return about_->optional; }
   /// False if a property says that it is not needed.
-  bool wanted() const { return wanted_ == nullptr || wanted_->get(); }
+  bool wanted() const { return about_->wanted == nullptr || about_->wanted->get(); }
   /// The name of the peer that a property demands, empty if any peer will do.
-  std::string peer_name() const { return peer_ == nullptr ? std::string() : peer_->get(); }
+  std::string peer_name() const {
+    return about_->peer == nullptr ? std::string() : about_->peer->get();
+  }
   virtual bool bound() const = 0;
 
  protected:
-  Requirement(Component& owner, std::string_view name, std::string_view doc)
-      : owner_(owner), name_(name), doc_(doc) {}
+  /// What is seldom needed lies apart, as for ports.
+  struct About {
+    About(std::string_view its_name, std::string_view its_doc) : name(its_name), doc(its_doc) {}
+    virtual ~About() = default;
 
-  void apply(From option) { peer_ = option.peer; }
-  void apply(Optional) { optional_ = true; }
-  void apply(Wanted option) { wanted_ = option.property; }
+    std::string_view name;
+    std::string_view doc;
+    const Property<std::string>* peer = nullptr;
+    const Property<bool>* wanted = nullptr;
+    bool optional = false;
+  };
+
+  Requirement(Component& owner, std::unique_ptr<About> about)
+      : owner_(owner), about_(std::move(about)) {}
+
+  void apply(From option) { about_->peer = option.peer; }
+  void apply(Optional) { about_->optional = true; }
+  void apply(Wanted option) { about_->wanted = option.property; }
+
+  About& about() const { return *about_; }
 
  private:
   Component& owner_;
-  std::string_view name_;
-  std::string_view doc_;
-  const Property<std::string>* peer_ = nullptr;
-  const Property<bool>* wanted_ = nullptr;
-  bool optional_ = false;
+  std::unique_ptr<About> about_;
 };
 
 }  // namespace armature::component

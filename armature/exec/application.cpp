@@ -102,7 +102,7 @@ void Application::make_engines() {
                                                 std::move(updating)));
     Engine& engine = *engines_.back();
     engine.measure_every(options_.measure_every);
-    engine.context().depth_limit = thread.depth + component::kLeastDepthLimit;
+    engine.context().limit_depth(thread.depth + component::kLeastDepthLimit);
     engine.context().supervisor = incidents_.get();
     engine.context().simulated = options_.simulated;
     engine.context().cycle_time = now();

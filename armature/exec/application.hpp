@@ -51,7 +51,7 @@ struct ApplicationOptions {
   OnFault on_fault = OnFault::kContinue;
   base::Duration hook_limit = std::chrono::seconds(10);  ///< a hook that takes longer hangs
   base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
-  std::uint64_t measure_every = 16;               ///< execution times are taken in every n-th cycle
+  std::uint64_t measure_every = 61;               ///< execution times are taken in every n-th cycle
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
 };
 

@@ -106,7 +106,7 @@ TEST_P(Control, WorkRunsAsTheComponentsCodeAndAnExceptionFaultsIt) {
   std::string who;
   EXPECT_TRUE(application().run_in_thread_of(*sink_, [&] {
     where = std::this_thread::get_id();
-    who = sink_->context().running.load()->name();
+    who = sink_->context().running()->name();
   }));
   EXPECT_EQ(who, "Sink");
   EXPECT_EQ(where == std::this_thread::get_id(), GetParam()) << "simulated time has no threads";

@@ -169,7 +169,7 @@ void Application::stop_group(const std::vector<Component*>& group, base::Diagnos
   const std::vector<Component*> open = run_hooks_in(context, series, patience(limit)).open;
   if (open.empty()) return;
   give_up_thread(context);
-  const Component* const where = context.running.load(std::memory_order_relaxed);
+  const Component* const where = context.running();
   for (const Component* component : open) {
     diagnostics.error(entry_of(*component).where,
                       quoted(component->name()) + " did not stop: its thread " +

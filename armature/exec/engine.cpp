@@ -22,8 +22,7 @@ constexpr int kMessageRounds = 64;
 
 const char* running_component(const void* context) {
   const Component* const running =
-      static_cast<const component::ExecutionContext*>(context)->running.load(
-          std::memory_order_relaxed);
+      static_cast<const component::ExecutionContext*>(context)->running();
   return running == nullptr ? nullptr : running->name().c_str();
 }
 
