@@ -74,125 +74,137 @@ namespace internal {
 std::string function_name(std::string_view signature);
 
 template <auto Function>
-std::string name_of_function() {
-  return function_name(__PRETTY_FUNCTION__);
+std::string_view signature_of() noexcept {
+  return __PRETTY_FUNCTION__;
 }
 
+/// The name of an action or condition is read from the signature.
+void set(MachineAction& action, void (*call)(void* self), std::string_view signature) noexcept;
+void set(MachineGuard& guard, bool (*call)(void* self), std::string_view signature) noexcept;
+
 template <auto Function>
-MachineAction make_action() {
+void set(MachineAction& action) noexcept {
   using Owner = OwnerOf<Function>;
   static_assert(std::is_invocable_v<decltype(Function), Owner&>,
                 "an action of a state machine is a member function without arguments");
-  return {[](void* self) { (static_cast<Owner&>(*static_cast<Component*>(self)).*Function)(); },
-          nullptr, name_of_function<Function>()};
+  set(
+      action, [](void* self) { (static_cast<Owner&>(*static_cast<Component*>(self)).*Function)(); },
+      signature_of<Function>());
 }
 
 template <auto Function>
-MachineGuard make_guard() {
+void set(MachineGuard& guard) noexcept {
   using Owner = OwnerOf<Function>;
   static_assert(std::is_invocable_r_v<bool, decltype(Function), Owner&>,
                 "a condition of a state machine is bool f() of the component");
-  return {[](void* self) -> bool {
-            return (static_cast<Owner&>(*static_cast<Component*>(self)).*Function)();
-          },
-          nullptr, name_of_function<Function>()};
+  set(
+      guard,
+      [](void* self) -> bool {
+        return (static_cast<Owner&>(*static_cast<Component*>(self)).*Function)();
+      },
+      signature_of<Function>());
 }
 
 }  // namespace internal
 
 /// A transition before its names are looked up; made by `on`, `after`, `when` and `when_done`.
 struct TransitionDefinition {
+  explicit TransitionDefinition(MachineTransition::Cause cause) noexcept;
+  TransitionDefinition(const TransitionDefinition&);
+  TransitionDefinition(TransitionDefinition&&) noexcept;
+  ~TransitionDefinition();
+
   MachineTransition transition;
   std::string target;
   Trigger* trigger = nullptr;
   EventBase* event = nullptr;
 
-  void apply(To option) {
-    target = option.state;
-    transition.to_history = option.history;
+  void apply(To option) noexcept;
+  template <auto Function>
+  void apply(GuardedBy<Function>) noexcept {
+    internal::set<Function>(transition.guard);
   }
   template <auto Function>
-  void apply(GuardedBy<Function>) {
-    transition.guard = internal::make_guard<Function>();
-  }
-  template <auto Function>
-  void apply(Doing<Function>) {
-    transition.action = internal::make_action<Function>();
-  }
-  template <typename... Options>
-  static TransitionDefinition make(MachineTransition::Cause cause, const Options&... options) {
-    TransitionDefinition definition;
-    definition.transition.cause = cause;
-    (definition.apply(options), ...);
-    return definition;
+  void apply(Doing<Function>) noexcept {
+    internal::set<Function>(transition.action);
   }
 };
 
 /// On a trigger: one raised by the component, by a call of an operation, or by a peer's event.
 /// Options of all transitions: to, back_to, guarded_by<&X::f>, doing<&X::f>.
 template <typename... Options>
-TransitionDefinition on(Trigger& trigger, Options... options) {
-  auto definition = TransitionDefinition::make(MachineTransition::Cause::kTrigger, options...);
+TransitionDefinition on(Trigger& trigger, Options... options) noexcept {
+  TransitionDefinition definition(MachineTransition::Cause::kTrigger);
   definition.trigger = &trigger;
+  (definition.apply(options), ...);
   return definition;
 }
 /// On an event that the component itself raises.
 template <typename... Options>
-TransitionDefinition on(EventBase& event, Options... options) {
-  auto definition = TransitionDefinition::make(MachineTransition::Cause::kTrigger, options...);
+TransitionDefinition on(EventBase& event, Options... options) noexcept {
+  TransitionDefinition definition(MachineTransition::Cause::kTrigger);
   definition.event = &event;
+  (definition.apply(options), ...);
   return definition;
 }
 /// In the first step in which the state has been active for `duration`, by the cycle's time.
 template <typename... Options>
-TransitionDefinition after(base::Duration duration, Options... options) {
-  auto definition = TransitionDefinition::make(MachineTransition::Cause::kTime, options...);
+TransitionDefinition after(base::Duration duration, Options... options) noexcept {
+  TransitionDefinition definition(MachineTransition::Cause::kTime);
   definition.transition.after = duration;
+  (definition.apply(options), ...);
   return definition;
 }
 /// `bool f()`, asked in each step.
 template <auto Function, typename... Options>
-TransitionDefinition when(Options... options) {
-  auto definition = TransitionDefinition::make(MachineTransition::Cause::kCondition, options...);
-  definition.transition.guard = internal::make_guard<Function>();
+TransitionDefinition when(Options... options) noexcept {
+  TransitionDefinition definition(MachineTransition::Cause::kCondition);
+  (definition.apply(options), ...);
+  internal::set<Function>(definition.transition.guard);
   return definition;
 }
 /// Once a final substate is entered.
 template <typename... Options>
-TransitionDefinition when_done(Options... options) {
-  return TransitionDefinition::make(MachineTransition::Cause::kDone, options...);
+TransitionDefinition when_done(Options... options) noexcept {
+  TransitionDefinition definition(MachineTransition::Cause::kDone);
+  (definition.apply(options), ...);
+  return definition;
 }
 
 /// A state before its names are looked up; made by `in_state`.
 struct StateDefinition {
+  explicit StateDefinition(std::string_view name) noexcept;
+  StateDefinition(const StateDefinition&);
+  StateDefinition(StateDefinition&&) noexcept;
+  ~StateDefinition();
+
   MachineState state;
   std::vector<StateDefinition> substates;
   std::vector<TransitionDefinition> transitions;
 
-  void apply(std::string_view doc) { state.doc = doc; }
-  void apply(FinalState) { state.final = true; }
-  void apply(StateDefinition substate) { substates.push_back(std::move(substate)); }
-  void apply(TransitionDefinition transition) { transitions.push_back(std::move(transition)); }
+  void apply(std::string_view doc) noexcept;
+  void apply(FinalState) noexcept { state.final = true; }
+  void apply(StateDefinition&& substate) noexcept;
+  void apply(TransitionDefinition&& transition) noexcept;
   template <auto Function>
-  void apply(Entering<Function>) {
-    state.entry = internal::make_action<Function>();
+  void apply(Entering<Function>) noexcept {
+    internal::set<Function>(state.entry);
   }
   template <auto Function>
-  void apply(During<Function>) {
-    state.during = internal::make_action<Function>();
+  void apply(During<Function>) noexcept {
+    internal::set<Function>(state.during);
   }
   template <auto Function>
-  void apply(Leaving<Function>) {
-    state.exit = internal::make_action<Function>();
+  void apply(Leaving<Function>) noexcept {
+    internal::set<Function>(state.exit);
   }
 };
 
 /// A state, and what is in it. Parts: its documentation, entering<&X::f>, during<&X::f>,
 /// leaving<&X::f>, final_state, transitions, substates.
 template <typename... Parts>
-StateDefinition in_state(std::string_view name, Parts... parts) {
-  StateDefinition definition;
-  definition.state.name = name;
+StateDefinition in_state(std::string_view name, Parts... parts) noexcept {
+  StateDefinition definition(name);
   (definition.apply(std::move(parts)), ...);
   return definition;
 }

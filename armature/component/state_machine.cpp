@@ -86,14 +86,15 @@ class StateMachine::OwnEvent final : public EventListener {
   std::size_t trigger_;
 };
 
-StateMachine::StateMachine(Component* owner, std::string name, std::string doc)
-    : owner_(*owner), name_(std::move(name)), doc_(std::move(doc)) {
+StateMachine::StateMachine(Component& owner, std::string_view name, std::string_view doc) noexcept
+    : owner_(owner), name_(name), doc_(doc) {
   owner_.declare().machines.push_back(this);
   owner_.add_step(*this, true);
 }
 
-StateMachine::StateMachine(Component* owner, std::string name, std::string doc, MachineTable table)
-    : StateMachine(owner, std::move(name), std::move(doc)) {
+StateMachine::StateMachine(Component* owner, std::string_view name, std::string_view doc,
+                           MachineTable table)
+    : StateMachine(*owner, name, doc) {
   table_ = std::move(table);
   prepare();
 }
@@ -112,6 +113,7 @@ void StateMachine::define(const StateDefinition& root) {
   for (const StateDefinition& state : root.substates) define_states(state, kNoState);
   int next = 0;
   for (const StateDefinition& state : root.substates) define_transitions(state, next);
+  prepare();
 }
 
 void StateMachine::define_states(const StateDefinition& definition, int parent) {

@@ -43,16 +43,16 @@ class StateMachine final : public Step {
  public:
   /// The states of a machine that is written in C++; see state_definition.hpp.
   template <typename... States>
-  StateMachine(Component* owner, std::string name, std::string doc, States... states)
-      : StateMachine(owner, std::move(name), std::move(doc)) {
-    StateDefinition root;
+  StateMachine(Component* owner, std::string_view name, std::string_view doc,
+               States... states) noexcept
+      : StateMachine(*owner, name, doc) {
+    StateDefinition root("");
     (root.apply(std::move(states)), ...);
     define(root);
-    prepare();
   }
 
   /// A machine as data, as scripts make it. Actions without `self` are given the component.
-  StateMachine(Component* owner, std::string name, std::string doc, MachineTable table);
+  StateMachine(Component* owner, std::string_view name, std::string_view doc, MachineTable table);
 
   StateMachine(const StateMachine&) = delete;
   StateMachine& operator=(const StateMachine&) = delete;
@@ -104,7 +104,7 @@ class StateMachine final : public Step {
   class Busy;
   class OwnEvent;
 
-  StateMachine(Component* owner, std::string name, std::string doc);
+  StateMachine(Component& owner, std::string_view name, std::string_view doc) noexcept;
   void define(const StateDefinition& root);
   void define_states(const StateDefinition& definition, int parent);
   void define_transitions(const StateDefinition& definition, int& state);
