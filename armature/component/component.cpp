@@ -2,6 +2,7 @@
 #include "armature/component/component.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "armature/component/input_port.hpp"
@@ -177,10 +178,10 @@ void Component::stop_because(std::string_view reason) {
   if (context_->supervisor != nullptr) context_->supervisor->component_stopped_itself(*this);
 }
 
-void Component::contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept {
+void Component::contain(ExecutionContext& where) noexcept {
   const rt::PermitScope permit;
   try {
-    std::rethrow_exception(exception);
+    throw;
   } catch (const std::exception& known) {
     fault_from(where, Reason("exception: ").append(known.what()));
   } catch (...) {

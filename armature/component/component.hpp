@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -196,7 +195,7 @@ class Component {
       code();
     } catch (...) {
       completed = false;
-      contain(std::current_exception(), where);
+      contain(where);
     }
     where.innermost.store(before, std::memory_order_relaxed);
     return completed;
@@ -250,7 +249,8 @@ class Component {
 
   /// Adds the time since the last mark to `ran`, which may be nobody.
   static void charge(ExecutionContext& where, Component* ran) noexcept;
-  void contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept;
+  /// Faults because of the exception that is being handled.
+  void contain(ExecutionContext& where) noexcept;
   void refuse_depth(ExecutionContext& where) noexcept;
   void fault_from(ExecutionContext& where, std::string_view reason);
   void enter(State state) {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "armature/base/time.hpp"
 #include "armature/component/entrance.hpp"
@@ -36,9 +35,8 @@ inline constexpr int kLeastDepthLimit = 64;
 /// The thread that runs a component, as far as the component needs to know it. The execution engine
 /// owns it; all components that share a thread share its context.
 struct ExecutionContext {
-  explicit ExecutionContext(std::string context_name) : name(std::move(context_name)) {
-    limit_depth(kLeastDepthLimit);
-  }
+  explicit ExecutionContext(std::string context_name);
+  ~ExecutionContext();
 
   std::string name;
   std::atomic<base::Time> cycle_time{base::Time{}};  ///< read from the clock once in each cycle
@@ -62,11 +60,7 @@ struct ExecutionContext {
 
   /// So many hooks and operations may nest: what the stack has room for.
   /// @thread configuration only
-  void limit_depth(int limit) {
-    hooks = std::make_unique<HookEntrance[]>(static_cast<std::size_t>(limit));
-    next_hook = hooks.get();
-    end_of_hooks = hooks.get() + limit;
-  }
+  void limit_depth(int limit);
 
   /// The component whose code runs now, nullptr if none does.
   /// @thread any
