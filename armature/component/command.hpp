@@ -41,28 +41,13 @@ class CommandTicket : public rt::Message, public SharedRecord {
   /// Why it was refused, failed or was cancelled; empty until it ended.
   std::string_view reason() const { return ended() ? reason_.view() : std::string_view(); }
   bool cancel_requested() const { return cancel_.load(std::memory_order_acquire); }
-  void request_cancel() {
-    if (cancel_.exchange(true, std::memory_order_acq_rel)) return;
-    share_once_more();
-    executor().post(cancellation_);
-  }
-
-  bool try_claim() {
-    if (!try_share()) return false;
-    progress_.store(0.0, std::memory_order_relaxed);
-    cancel_.store(false, std::memory_order_relaxed);
-    stage_.store(CommandStage::kQueued, std::memory_order_relaxed);
-    return true;
-  }
+  void request_cancel();
+  bool try_claim();
 
   /// @thread the executing one
   void report(double progress) { progress_.store(progress, std::memory_order_relaxed); }
   void accept() { stage_.store(CommandStage::kAccepted, std::memory_order_release); }
-  void end(CommandStage stage, std::string_view reason) {
-    reason_ = reason;
-    stage_.store(stage, std::memory_order_release);
-    release();
-  }
+  void end(CommandStage stage, std::string_view reason);
 
  protected:
   virtual ExecutionContext& executor() const = 0;
@@ -74,11 +59,7 @@ class CommandTicket : public rt::Message, public SharedRecord {
   struct Cancellation final : rt::Message {
     explicit Cancellation(CommandTicket& command_ticket)
         : rt::Message(&deliver), ticket(command_ticket) {}
-    static void deliver(rt::Message& message) {
-      CommandTicket& ticket = static_cast<Cancellation&>(message).ticket;
-      ticket.cancel_now();
-      ticket.release();
-    }
+    static void deliver(rt::Message& message);
     CommandTicket& ticket;
   };
 
@@ -102,143 +83,102 @@ struct CancelledBy {};
 template <auto Function>
 inline constexpr CancelledBy<Function> cancelled_by{};
 
-/// An operation that goes on after it was accepted: refused with a reason, or under way with
-/// progress until it is done, failed or cancelled. One at a time; runs in its component's thread.
-template <typename... Args>
-class Command final : public OperationBase, public Step {
+/// What tools know of a command, and how it goes on after it was accepted.
+class CommandBase : public OperationBase, public Step {
  public:
-  /// `Function` is `Outcome f(Args...)`: accepts, or refuses with a reason and changes nothing.
-  /// Options: done_when<&X::f>, cancelled_by<&X::f>, args(names...).
-  template <auto Function, typename... Options>
-  Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
-          Options... options)
-      : OperationBase(*owner,
-                      std::make_unique<About>(name, doc, Signature::of<void, Args...>({}), true)),
-        function_([](Component& component, Args... arguments) -> Outcome {
-          using Owner = internal::OwnerOf<Function>;
-          static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
-                        "a command is served by Outcome f(arguments of the command)");
-          return (static_cast<Owner&>(component).*Function)(static_cast<Args>(arguments)...);
-        }) {
-    (apply(options), ...);
-    owner->add_step(*this, false);
-  }
+  ~CommandBase() override;
 
-  bool is_command() const override { return true; }
+  bool is_command() const final { return true; }
   bool active() const { return phase_ != Phase::kIdle; }
 
   /// For the component: how far it is (0..1), and its end.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  void report(double progress) {
-    if (ticket_ != nullptr) ticket_->report(progress);
-  }
+  void report(double progress);
   void complete() { end(CommandStage::kDone, {}); }
   void fail(std::string_view reason) { end(CommandStage::kFailed, reason); }
 
-  /// Begins the command; `ticket` is told how it fares, if there is one.
-  Outcome begin(CommandTicket* ticket, Args... arguments) {
-    Outcome outcome = accept_or_refuse(static_cast<Args>(arguments)...);
-    if (ticket == nullptr) return outcome;
-    if (!outcome) {
-      ticket->end(CommandStage::kRefused, outcome.reason());
-    } else if (phase_ == Phase::kUnderWay) {
-      ticket_ = ticket;
-      ticket->accept();
-    } else {
-      ticket->end(ended_early_, early_reason_);
-    }
-    return outcome;
-  }
-
   /// Ends the command if it is the one that `ticket` began.
-  void cancel(const CommandTicket& ticket) {
-    if (ticket_ == &ticket) cancel("cancelled by its sender");
-  }
+  void cancel(const CommandTicket& ticket);
 
-  void step() override {
-    if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(owner())) complete();
-  }
-  void halt(std::string_view reason) override { cancel(reason); }
+  void step() final;
+  void halt(std::string_view reason) final { cancel(reason); }
 
-  base::Result<std::optional<types::Value>> invoke(
-      const std::vector<types::Value>& arguments) override {
-    if (std::string problem = mismatch(arguments); !problem.empty()) {
-      return base::Error{std::move(problem)};
-    }
-    const Outcome outcome = begin_with(arguments, std::index_sequence_for<Args...>{});
-    if (!outcome) return base::Error{std::string(outcome.reason())};
-    return std::optional<types::Value>();
-  }
+ protected:
+  enum class Phase : std::uint8_t { kIdle, kBeginning, kUnderWay };
 
- private:
+  CommandBase(Component& owner, std::unique_ptr<About> about) noexcept;
+
   using OperationBase::apply;
   template <auto Predicate>
-  void apply(DoneWhen<Predicate>) {
+  void apply(DoneWhen<Predicate>) noexcept {
     done_ = [](Component& component) -> bool {
       using Owner = internal::OwnerOf<Predicate>;
       return (static_cast<Owner&>(component).*Predicate)();
     };
   }
   template <auto Function>
-  void apply(CancelledBy<Function>) {
+  void apply(CancelledBy<Function>) noexcept {
     cancelled_ = [](Component& component) {
       using Owner = internal::OwnerOf<Function>;
       (static_cast<Owner&>(component).*Function)();
     };
   }
 
-  enum class Phase : std::uint8_t { kIdle, kBeginning, kUnderWay };
+  /// Begins, or refuses because it cannot now; `ticket` is told of a refusal, if there is one.
+  Outcome admit(CommandTicket* ticket);
+  /// Goes on after the component was asked, and tells `ticket`, if there is one.
+  /// @param completed  no exception escaped
+  /// @param outcome    what the component said
+  Outcome begun(CommandTicket* ticket, bool completed, const Outcome& outcome);
 
-  Outcome accept_or_refuse(Args... arguments) {
-    if (owner().state() != State::kRunning) return refused("the component is not running");
-    if (active()) return refused("the command before is still under way");
-    phase_ = Phase::kBeginning;
-    Outcome outcome = accepted();
-    const bool completed = owner().run(
-        owner().context(), [&] { outcome = function_(owner(), static_cast<Args>(arguments)...); });
-    if (completed && outcome.ok()) {
-      if (phase_ == Phase::kBeginning) phase_ = Phase::kUnderWay;
-      return outcome;
-    }
-    phase_ = Phase::kIdle;
-    return completed ? outcome : refused(owner().reason());
-  }
+ private:
+  void cancel(std::string_view reason);
+  void end(CommandStage stage, std::string_view reason);
 
-  template <std::size_t... I>
-  Outcome begin_with([[maybe_unused]] const std::vector<types::Value>& arguments,
-                     std::index_sequence<I...>) {
-    return begin(nullptr, *static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
-  }
-
-  void cancel(std::string_view reason) {
-    if (phase_ != Phase::kUnderWay) {
-      end(CommandStage::kCancelled, reason);
-      return;
-    }
-    CommandTicket* const ticket = std::exchange(ticket_, nullptr);
-    phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
-    if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(owner()); });
-    if (ticket != nullptr) ticket->end(CommandStage::kCancelled, reason);
-  }
-
-  void end(CommandStage stage, std::string_view reason) {
-    CommandTicket* const ticket = std::exchange(ticket_, nullptr);
-    if (phase_ == Phase::kBeginning) {
-      ended_early_ = stage;
-      early_reason_ = reason;
-    }
-    phase_ = Phase::kIdle;
-    if (ticket != nullptr) ticket->end(stage, reason);
-  }
-
-  Outcome (*function_)(Component&, Args...);
   bool (*done_)(Component&) = nullptr;
   void (*cancelled_)(Component&) = nullptr;
   Phase phase_ = Phase::kIdle;
   CommandStage ended_early_ = CommandStage::kDone;  ///< while it was begun
   Reason early_reason_;
   CommandTicket* ticket_ = nullptr;
+};
+
+/// An operation that goes on after it was accepted: refused with a reason, or under way with
+/// progress until it is done, failed or cancelled. One at a time; runs in its component's thread.
+template <typename... Args>
+class Command final : public CommandBase {
+ public:
+  /// `Function` is `Outcome f(Args...)`: accepts, or refuses with a reason and changes nothing.
+  /// Options: done_when<&X::f>, cancelled_by<&X::f>, args(names...).
+  template <auto Function, typename... Options>
+  Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
+          Options... options) noexcept
+      : Command(*owner, name, doc, [](Component& component, Args... arguments) -> Outcome {
+          using Owner = internal::OwnerOf<Function>;
+          static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
+                        "a command is served by Outcome f(arguments of the command)");
+          return (static_cast<Owner&>(component).*Function)(static_cast<Args>(arguments)...);
+        }) {
+    (apply(options), ...);
+  }
+  ~Command() override;
+
+  /// Begins the command; `ticket` is told how it fares, if there is one.
+  Outcome begin(CommandTicket* ticket, Args... arguments);
+
+  base::Result<std::optional<types::Value>> invoke(
+      const std::vector<types::Value>& arguments) override;
+
+ private:
+  using Function = Outcome (*)(Component&, Args...);
+
+  Command(Component& owner, std::string_view name, std::string_view doc,
+          Function function) noexcept;
+  template <std::size_t... I>
+  Outcome begin_with(const std::vector<types::Value>& arguments, std::index_sequence<I...>);
+
+  Function function_;
 };
 
 /// A command that was sent; letting go of it does not cancel it.
@@ -282,68 +222,44 @@ class CommandCaller final : public OperationCallerBase {
  public:
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
-  CommandCaller(Component* owner, std::string_view name, std::string_view doc, Options... options)
-      : OperationCallerBase(*owner,
-                            std::make_unique<About>(name, doc, Signature::of<void, Args...>({}))) {
+  CommandCaller(Component* owner, std::string_view name, std::string_view doc,
+                Options... options) noexcept
+      : CommandCaller(*owner, name, doc) {
     (apply(options), ...);
   }
+  ~CommandCaller() override;
 
   bool needs_command() const override { return true; }
 
   /// Sends the command and returns at once.
   /// @rt nonblocking; allocates only to make room for larger vectors than ever sent
   /// @thread the component's own
-  CommandHandle send(Args... arguments) {
-    if (command_ == nullptr) return CommandHandle(CallStatus::kNotConnected);
-    for (auto& ticket : tickets_) {
-      if (!ticket->try_claim()) continue;
-      ticket->arguments = std::tuple<const std::decay_t<Args>&...>(arguments...);
-      command_->owner().context().post(*ticket);
-      return CommandHandle(*ticket);
-    }
-    ++about().refused;
-    return CommandHandle(CallStatus::kQueueFull);
-  }
+  CommandHandle send(Args... arguments);
 
-  void connect(OperationBase& base) override {
-    command_ = static_cast<Command<Args...>*>(&base);
-    about().target = &base;
-    tickets_.clear();
-    for (std::size_t i = 0; i < outstanding_; ++i) tickets_.emplace_back(new Ticket(*command_));
-  }
-  void disconnect() override {
-    command_ = nullptr;
-    about().target = nullptr;
-    tickets_.clear();
-  }
+  void connect(OperationBase& base) override;
+  void disconnect() override;
 
  private:
-  struct Ticket final : CommandTicket {
-    explicit Ticket(Command<Args...>& target) : CommandTicket(&Ticket::deliver), command(target) {}
-    static void deliver(rt::Message& message) {
-      auto& ticket = static_cast<Ticket&>(message);
-      if (ticket.cancel_requested()) {
-        ticket.end(CommandStage::kCancelled, "cancelled before it began");
-        return;
-      }
-      static_cast<void>(std::apply(
-          [&ticket](const std::decay_t<Args>&... given) {
-            return ticket.command.begin(&ticket, given...);
-          },
-          ticket.arguments));
-    }
-    ExecutionContext& executor() const override { return command.owner().context(); }
-    void cancel_now() override { command.cancel(*this); }
-    Command<Args...>& command;
-    std::tuple<std::decay_t<Args>...> arguments{};
-  };
+  CommandCaller(Component& owner, std::string_view name, std::string_view doc) noexcept;
+
+  struct Ticket;
 
   using OperationCallerBase::apply;
-  void apply(Outstanding option) { outstanding_ = option.count; }
+  void apply(Outstanding option) noexcept { outstanding_ = option.count; }
 
   Command<Args...>* command_ = nullptr;
   std::size_t outstanding_ = kDefaultOutstanding;
   std::vector<std::unique_ptr<Ticket, SharedRecord::LetGo>> tickets_;
 };
 
+// Compiled once, in the library.
+extern template class Command<>;
+extern template class Command<double>;
+extern template class Command<const std::vector<double>&>;
+extern template class CommandCaller<>;
+extern template class CommandCaller<double>;
+extern template class CommandCaller<const std::vector<double>&>;
+
 }  // namespace armature::component
+
+#include "armature/component/internal/command_definitions.hpp"

@@ -19,7 +19,6 @@
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
 #include "armature/rt/inbox.hpp"
-#include "armature/rt/ring.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component {
@@ -40,7 +39,7 @@ class EventBase {
  public:
   EventBase(const EventBase&) = delete;
   EventBase& operator=(const EventBase&) = delete;
-  virtual ~EventBase() = default;
+  virtual ~EventBase();
 
   std::string_view name() const { return name_; }
   std::string_view doc() const { return doc_; }
@@ -60,10 +59,8 @@ class EventBase {
   void add_listener(EventListener& listener) { listeners_.push_back(&listener); }
 
  protected:
-  EventBase(Component& owner, std::string_view name, std::string_view doc, Signature signature)
-      : owner_(owner), name_(name), doc_(doc), signature_(std::move(signature)) {
-    owner.declare().events.push_back(this);
-  }
+  EventBase(Component& owner, std::string_view name, std::string_view doc,
+            Signature signature) noexcept;
 
   void tell_listeners() {
     for (EventListener* listener : listeners_) listener->event_raised();
@@ -95,6 +92,8 @@ inline constexpr std::size_t kDefaultEventQueue = 16;
 /// A component's declared reaction to an event of one of its peers.
 class EventHandlerBase : public Requirement {
  public:
+  ~EventHandlerBase() override;
+
   const Signature& signature() const { return about().signature; }
   bool runs_in_raisers_thread() const { return about().in_raisers_thread; }
   const LeadsTo& effects() const { return about().leads_to; }
@@ -108,8 +107,8 @@ class EventHandlerBase : public Requirement {
 
  protected:
   struct About : Requirement::About {
-    About(std::string_view its_name, std::string_view its_doc, Signature its_signature)
-        : Requirement::About(its_name, its_doc), signature(std::move(its_signature)) {}
+    About(std::string_view its_name, std::string_view its_doc, Signature its_signature);
+    ~About() override;
 
     Signature signature;
     bool in_raisers_thread = false;
@@ -119,15 +118,12 @@ class EventHandlerBase : public Requirement {
     std::atomic<std::uint64_t> dropped{0};
   };
 
-  EventHandlerBase(Component& owner, std::unique_ptr<About> about)
-      : Requirement(owner, std::move(about)) {
-    owner.declare().handlers.push_back(this);
-  }
+  EventHandlerBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
   using Requirement::apply;
-  void apply(InRaisersThread) { about().in_raisers_thread = true; }
-  void apply(const LeadsTo& effects) { about().leads_to = effects; }
-  void apply(QueueSize queue) { about().queue_capacity = queue.capacity; }
+  void apply(InRaisersThread) noexcept { about().in_raisers_thread = true; }
+  void apply(const LeadsTo& effects) noexcept { about().leads_to = effects; }
+  void apply(QueueSize queue) noexcept { about().queue_capacity = queue.capacity; }
 
   About& about() const { return static_cast<About&>(Requirement::about()); }
   void count_drop() { about().dropped.store(dropped() + 1, std::memory_order_relaxed); }
@@ -150,8 +146,8 @@ class Event final : public EventBase {
  public:
   /// @param names  of the arguments, with units: `"position [rad]"`
   Event(Component* owner, std::string_view name, std::string_view doc,
-        std::initializer_list<std::string_view> names = {})
-      : EventBase(*owner, name, doc, Signature::of<void, Args...>(names)) {}
+        std::initializer_list<std::string_view> names = {}) noexcept;
+  ~Event() override;
 
   /// Tells all subscribers: those in this thread run now, the others are queued.
   /// @return kQueueFull if at least one subscriber could not be told
@@ -171,23 +167,8 @@ class Event final : public EventBase {
     return status;
   }
 
-  void subscribe(EventHandlerBase& base) override {
-    auto& handler = static_cast<EventHandler<Args...>&>(base);
-    subscribers_.push_back(&base);
-    const bool same_thread = &owner().context() == &base.owner().context();
-    const bool direct = same_thread || base.runs_in_raisers_thread();
-    (direct ? direct_ : queued_).push_back(&handler);
-    handler.bind(*this, !direct);
-  }
-
-  void unsubscribe_all() override {
-    for (EventHandlerBase* base : subscribers_) {
-      static_cast<EventHandler<Args...>*>(base)->unbind();
-    }
-    subscribers_.clear();
-    direct_.clear();
-    queued_.clear();
-  }
+  void subscribe(EventHandlerBase& base) override;
+  void unsubscribe_all() override;
 
  private:
   std::vector<EventHandler<Args...>*> direct_;
@@ -202,10 +183,9 @@ class EventHandler final : public EventHandlerBase {
   /// Options: from(property or name), optional, in_raisers_thread, queue(n).
   template <auto Function, typename... Options>
   EventHandler(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
-               Options... options)
-      : EventHandlerBase(*owner,
-                         std::make_unique<About>(name, doc, Signature::of<void, Args...>({}))),
-        handle_(
+               Options... options) noexcept
+      : EventHandler(
+            *owner, name, doc,
             [](EventHandler& handler, ExecutionContext& where, const Args&... arguments) noexcept {
               handler.handle_with(where, [&] {
                 using Owner = internal::OwnerOf<Function>;
@@ -221,67 +201,32 @@ class EventHandler final : public EventHandlerBase {
   template <typename... Options>
   EventHandler(Component* owner, std::string_view name,
                void (*function)(void* self, const Args&...), void* self, std::string_view doc,
-               Options... options)
-      : EventHandlerBase(*owner,
-                         std::make_unique<About>(name, doc, Signature::of<void, Args...>({}))),
-        handle_(
-            [](EventHandler& handler, ExecutionContext& where, const Args&... arguments) noexcept {
-              const About& about = handler.about();
-              handler.handle_with(where, [&] { about.function(about.self, arguments...); });
-            }) {
-    about().function = function;
-    about().self = self;
+               Options... options) noexcept
+      : EventHandler(*owner, name, doc, function, self) {
     (apply(options), ...);
   }
+  ~EventHandler() override;
 
   // --- for the event that is subscribed to -----------------------------------------------------
-  void bind(Event<Args...>& event, bool queued) {
-    about().source = &event;
-    if (queued) about().queue = std::make_unique<Queue>(*this, queue_capacity());
-  }
-  void unbind() {
-    about().source = nullptr;
-    about().queue.reset();
-  }
+  void bind(Event<Args...>& event, bool queued);
+  void unbind();
   /// For a component that calls out (see Component::call_out).
   void handle(ExecutionContext& where, const Args&... arguments) noexcept {
     handle_(*this, where, arguments...);
   }
-  bool enqueue(const Args&... arguments) {
-    Queue& queue = *about().queue;
-    if (queue.events.push(std::tuple<Args...>(arguments...)) == rt::PushResult::kRefused) {
-      count_drop();
-      return false;
-    }
-    owner().context().raise(queue);
-    return true;
-  }
+  bool enqueue(const Args&... arguments);
 
  private:
-  struct Queue final : rt::Signal {
-    Queue(EventHandler& handler, std::size_t capacity)
-        : rt::Signal(&Queue::deliver),
-          self(handler),
-          events(capacity, rt::WhenFull::kRefuse, std::tuple<Args...>{}) {}
-    static void deliver(rt::Message& message) {
-      auto& queue = static_cast<Queue&>(message);
-      queue.lower();
-      while (const std::tuple<Args...>* event = queue.events.pop()) {
-        std::apply(
-            [&queue](const Args&... arguments) {
-              Component& component = queue.self.owner();
-              component.run(component.context(),
-                            [&] { queue.self.handle(component.context(), arguments...); });
-            },
-            *event);
-      }
-    }
-    EventHandler& self;
-    rt::Ring<std::tuple<Args...>> events;
-  };
+  using Handle = void (*)(EventHandler&, ExecutionContext&, const Args&...) noexcept;
 
+  EventHandler(Component& owner, std::string_view name, std::string_view doc, Handle call) noexcept;
+  EventHandler(Component& owner, std::string_view name, std::string_view doc,
+               void (*function)(void* self, const Args&...), void* self) noexcept;
+
+  struct Queue;
   struct About final : EventHandlerBase::About {
     using EventHandlerBase::About::About;
+    ~About() override;
     void (*function)(void* self, const Args&...) = nullptr;
     void* self = nullptr;
     std::unique_ptr<Queue> queue;
@@ -300,7 +245,13 @@ class EventHandler final : public EventHandlerBase {
     inside_ = false;
   }
 
-  void (*handle_)(EventHandler&, ExecutionContext&, const Args&...) noexcept;
+  Handle handle_;
 };
 
+// Compiled once, in the library.
+extern template class Event<>;
+extern template class EventHandler<>;
+
 }  // namespace armature::component
+
+#include "armature/component/internal/event_definitions.hpp"

@@ -11,12 +11,17 @@
 #include <vector>
 
 #include "armature/component/entrance.hpp"
-#include "armature/component/internal/channel.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/signature.hpp"
 #include "armature/rt/inbox.hpp"
 
 namespace armature::component {
+
+namespace internal {
+class ChannelBase;
+template <typename T>
+class Channel;
+}  // namespace internal
 
 /// What a read found, and the value; `value` refers into the port until the next read, and in a
 /// handler or hook until that ends.
@@ -41,8 +46,14 @@ struct InputCounters {
 
 class OutputPortBase;
 
+/// Option of an input port: a write runs the component's update.
+struct OnDataUpdate {};
+inline constexpr OnDataUpdate on_data_update{};
+
 class InputPortBase : public PortBase {
  public:
+  ~InputPortBase() override;
+
   bool triggers() const { return triggers_; }
   const LeadsTo& effects() const { return about().leads_to; }
   bool allows_fan_in() const { return about().fan_in; }
@@ -80,10 +91,26 @@ class InputPortBase : public PortBase {
   /// What was on its way to this port from another thread is gone with that thread.
   void forget_messages() { about().lost.lower(); }
 
+  /// The port's place in its array, from 0.
+  std::size_t index() const { return index_; }
+  void set_index(std::size_t index) { index_ = static_cast<std::uint32_t>(index); }
+
   std::string_view handler() const final { return name(); }
   const Entrance* outer() const final { return outer_; }
 
+  // --- for the output port that is connected ---------------------------------------------------
+  void connect_channel(OutputPortBase& writer, std::unique_ptr<internal::ChannelBase> channel);
+  virtual void disconnect(OutputPortBase& writer) = 0;
+  /// A sample was written in this thread to the place that this port reads; for a component that
+  /// calls out (see Component::call_out).
+  /// @param where  the context of both
+  void arrived(ExecutionContext& where) noexcept { arrived_(*this, where); }
+  /// Takes what `channel` holds, one handler call for each sample.
+  virtual void drain(internal::ChannelBase& channel) = 0;
+
  protected:
+  using Arrived = void (*)(InputPortBase&, ExecutionContext&) noexcept;
+
   struct Lost final : rt::Signal {
     explicit Lost(InputPortBase& port) : rt::Signal(&Lost::deliver), self(port) {}
     static void deliver(rt::Message& message);
@@ -91,9 +118,9 @@ class InputPortBase : public PortBase {
   };
 
   struct About : PortBase::About {
-    template <typename... Description>
-    explicit About(InputPortBase& port, Description&&... description)
-        : PortBase::About(std::forward<Description>(description)...), lost(port) {}
+    About(InputPortBase& port, std::string_view port_name, std::string_view port_doc,
+          std::string_view port_unit, const types::Type& port_type);
+    ~About() override;
 
     bool fan_in = false;
     bool late = false;  ///< the reaction to old data happened
@@ -103,24 +130,48 @@ class InputPortBase : public PortBase {
     base::Duration max_age{};
     base::Time started{};
     std::vector<OutputPortBase*> writers;
+    std::vector<std::unique_ptr<internal::ChannelBase>> channels;
+    std::size_t next_channel = 0;
+    bool unread = false;        ///< what was taken from a channel last was not read
+    bool looked_ahead = false;  ///< and is to be read before the next is taken
     InputCounters counters;
     Lost lost;
   };
 
-  InputPortBase(Component& owner, std::unique_ptr<About> about)
-      : PortBase(owner, std::move(about)) {}
+  InputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
   using PortBase::apply;
-  void apply(MaxAge declared) {
-    about().max_age = declared.age;
-    about().stale_reaction = declared.reaction;
-    set(kAges, declared.age > base::Duration::zero());
-  }
-  void apply(OnLost declared) { about().lost_reaction = declared.reaction; }
-  void apply(FanIn) { about().fan_in = true; }
-  void apply(const LeadsTo& effects) { about().leads_to = effects; }
+  void apply(MaxAge declared) noexcept;
+  void apply(OnLost declared) noexcept { about().lost_reaction = declared.reaction; }
+  void apply(FanIn) noexcept { about().fan_in = true; }
+  void apply(const LeadsTo& effects) noexcept { about().leads_to = effects; }
+  void apply(OnDataUpdate) noexcept;
 
+  /// `writer` and its channels are no more.
+  void forget_writer(OutputPortBase& writer);
+  /// The next sample was taken from `channel`.
+  void note_taken(internal::ChannelBase& channel, std::uint64_t sequence);
   virtual void look_for_newer() = 0;
+
+  ReadStatus status_of(std::uint64_t sequence) {
+    if (sequence == seen_) [[unlikely]] {
+      if (sequence != 0) return ReadStatus::kOld;
+      return connected() ? ReadStatus::kNone : ReadStatus::kNotConnected;
+    }
+    const std::uint64_t missed = sequence - seen_ - 1;
+    if (missed != 0) [[unlikely]]
+      about().counters.missed += missed;
+    seen_ = sequence;
+    return ReadStatus::kNew;
+  }
+
+  template <typename Code>
+  void pass(ExecutionContext& where, Code&& code) noexcept {
+    if (inside_ != 0) return refuse(where);
+    inside_ = 1;
+    owner().enter_handler(where, *this, outer_, code);
+    inside_ = 0;
+  }
 
   About& about() const { return static_cast<About&>(PortBase::about()); }
   bool is_stale(base::Time written) const {
@@ -155,6 +206,11 @@ class InputPortBase : public PortBase {
   base::Time written() const;
 
   std::uint8_t special_ = kRests;
+  std::uint32_t index_ = 0;
+
+ protected:
+  Arrived arrived_ = nullptr;  ///< runs the handler; made for each, so that it is one piece of code
+  std::uint64_t seen_ = 0;
 };
 
 /// Option of an input port: a write runs `Handler`, a member function of the component that takes
@@ -165,10 +221,6 @@ struct OnData {};
 template <auto Handler>
 inline constexpr OnData<Handler> on_data{};
 
-/// Option of an input port: a write runs the component's update.
-struct OnDataUpdate {};
-inline constexpr OnDataUpdate on_data_update{};
-
 /// Reads what is written to it, wait-free, from this thread or another.
 template <typename T>
 class InputPort final : public InputPortBase {
@@ -178,18 +230,12 @@ class InputPort final : public InputPortBase {
   /// Name, documentation and unit are literals. Options: on_data<&X::f>, on_data_update, max_age,
   /// on_lost, may_stay_open, fan_in, size_of(property, factor).
   template <typename... Options>
-  InputPort(Component* owner, std::string name, std::string_view doc, std::string_view unit = {},
-            Options... options)
-      : InputPortBase(*owner,
-                      std::make_unique<About>(static_cast<InputPortBase&>(*this), std::move(name),
-                                              doc, unit, types::type_of<T>())),
-        source_(&about().empty) {
+  InputPort(Component* owner, std::string_view name, std::string_view doc,
+            std::string_view unit = {}, Options... options) noexcept
+      : InputPort(*owner, name, doc, unit) {
     (apply(options), ...);
-    owner->declare().inputs.push_back(this);
   }
-  ~InputPort() override {
-    for (OutputPortBase* writer : about().writers) internal::forget_reader(*writer, *this);
-  }
+  ~InputPort() override;
 
   /// The newest value (of a FIFO: the next), and whether it is new, was read before, was never
   /// written, or can never come because nothing is connected.
@@ -199,83 +245,42 @@ class InputPort final : public InputPortBase {
     if (is_special()) [[unlikely]]
       return read_special();
     const Sample<T>& sample = *source_;
-    const ReadStatus status = status_of(sample);
+    const ReadStatus status = status_of(sample.sequence);
     const bool empty = status < ReadStatus::kOld;
     return {status, false, empty ? about().empty.value : sample.value, sample.time};
   }
 
-  /// The port's place in its array, from 0.
-  std::size_t index() const { return index_; }
-  void set_index(std::size_t index) { index_ = static_cast<std::uint32_t>(index); }
-
-  const void* current() const override { return &source_->value; }
-  base::Time current_time() const override { return source_->time; }
-  std::uint64_t current_sequence() const override { return source_->sequence; }
+  const void* current() const override;
+  base::Time current_time() const override;
+  std::uint64_t current_sequence() const override;
 
   // --- for the output port that is connected ---------------------------------------------------
-  void connect_source(OutputPortBase& writer, const Sample<T>& source) {
-    source_ = &source;
-    seen_ = source.sequence == 0 ? 0 : source.sequence - 1;
-    about().writers.push_back(&writer);
-  }
-  internal::Channel<T>& connect_channel(OutputPortBase& writer,
-                                        std::unique_ptr<internal::Channel<T>> channel) {
-    channel->writer = &writer;
-    About& mine = about();
-    mine.writers.push_back(&writer);
-    mine.channels.push_back(std::move(channel));
-    set(kPulls, !triggers_);
-    return *mine.channels.back();
-  }
-  void disconnect(OutputPortBase& writer) {
-    About& mine = about();
-    std::erase(mine.writers, &writer);
-    std::erase_if(mine.channels, [&writer](const auto& each) { return each->writer == &writer; });
-    mine.next_channel = 0;
-    mine.unread = false;
-    mine.looked_ahead = false;
-    set(kPulls, !triggers_ && !mine.channels.empty());
-    source_ = &mine.empty;
-    seen_ = 0;
-  }
+  void connect_source(OutputPortBase& writer, const Sample<T>& source);
+  void disconnect(OutputPortBase& writer) override;
   /// Zeros in the shape of `shape`: what is read before the first write.
-  void set_shape(const T& shape) {
-    about().empty.value = T(shape);
-    internal::set_to_zero(type(), &about().empty.value);
-  }
-
-  /// A sample was written in this thread to the place that this port reads; for a component that
-  /// calls out (see Component::call_out).
-  /// @param where  the context of both
-  void arrived(ExecutionContext& where) noexcept { arrived_(*this, where); }
-  /// Takes what `channel` holds, one handler call for each sample.
-  void drain(internal::Channel<T>& channel) {
-    Component& component = owner();
-    while (const Sample<T>* sample = channel.pop()) {
-      take(channel, *sample);
-      ExecutionContext& where = component.context();
-      component.run(where, [this, &where] { arrived(where); });
-    }
-  }
+  void set_shape(const T& shape);
+  void drain(internal::ChannelBase& channel) override;
 
  private:
-  using Arrived = void (*)(InputPort&, ExecutionContext&) noexcept;
   struct About final : InputPortBase::About {
     using InputPortBase::About::About;
+    ~About() override;
     Sample<T> empty{};
-    std::vector<std::unique_ptr<internal::Channel<T>>> channels;
-    std::size_t next_channel = 0;
-    bool unread = false;        ///< what was taken from a channel last was not read
-    bool looked_ahead = false;  ///< and is to be read before the next is taken
   };
+
+  template <typename Port>
+  friend class PortArray;
+  InputPort(Component& owner, std::string_view name, std::string_view doc,
+            std::string_view unit) noexcept;
 
   About& about() const { return static_cast<About&>(InputPortBase::about()); }
 
   using InputPortBase::apply;
   template <auto Handler>
-  void apply(OnData<Handler>) {
+  void apply(OnData<Handler>) noexcept {
     triggers_ = true;
-    arrived_ = [](InputPort& port, ExecutionContext& where) noexcept {
+    arrived_ = [](InputPortBase& base, ExecutionContext& where) noexcept {
+      auto& port = static_cast<InputPort&>(base);
       if (!port.is_simple()) [[unlikely]] {
         port.arrived_with_care(where, [](InputPort& self, const T& value) {
           call<Handler>(self.owner(), self, value);
@@ -287,13 +292,6 @@ class InputPort final : public InputPortBase {
       component.enter_handler(where, port, port.outer_,
                               [&] { call<Handler>(component, port, port.source_->value); });
       port.inside_ = 0;
-    };
-  }
-  void apply(OnDataUpdate) {
-    triggers_ = true;
-    arrived_ = [](InputPort& port, ExecutionContext& where) noexcept {
-      port.set(kZeroed, false);
-      port.pass(where, [&port] { port.owner().update(); });
     };
   }
 
@@ -315,85 +313,26 @@ class InputPort final : public InputPortBase {
     }
   }
 
-  ReadStatus status_of(const Sample<T>& sample) {
-    if (sample.sequence == seen_) [[unlikely]] {
-      if (sample.sequence != 0) return ReadStatus::kOld;
-      return connected() ? ReadStatus::kNone : ReadStatus::kNotConnected;
-    }
-    const std::uint64_t missed = sample.sequence - seen_ - 1;
-    if (missed != 0) [[unlikely]]
-      about().counters.missed += missed;
-    seen_ = sample.sequence;
-    return ReadStatus::kNew;
-  }
-
-  [[gnu::noinline]] Reading<T> read_special() noexcept {
-    if (has(kPulls)) {
-      if (!std::exchange(about().looked_ahead, false)) pull();
-      about().unread = false;
-    }
-    const Sample<T>& sample = *source_;
-    const ReadStatus status = status_of(sample);
-    if (status == ReadStatus::kNew) set(kZeroed, false);
-    const bool stale = is_stale(sample.time);
-    const bool empty = status < ReadStatus::kOld || reads_zero(stale);
-    return {status, stale, empty ? about().empty.value : sample.value, sample.time};
-  }
+  [[gnu::noinline]] Reading<T> read_special() noexcept;
 
   using Handle = void (*)(InputPort&, const T&);
-  [[gnu::noinline]] void arrived_with_care(ExecutionContext& where, Handle handle) noexcept {
-    set(kZeroed, false);
-    if (has(kAges)) check_age();
-    if (!owner().admits()) return;
-    pass(where, [this, handle] {
-      const bool zero = reads_zero(is_stale(source_->time));
-      handle(*this, zero ? about().empty.value : source_->value);
-    });
-  }
-
-  template <typename Code>
-  void pass(ExecutionContext& where, Code&& code) noexcept {
-    if (inside_ != 0) return refuse(where);
-    inside_ = 1;
-    owner().enter_handler(where, *this, outer_, code);
-    inside_ = 0;
-  }
+  [[gnu::noinline]] void arrived_with_care(ExecutionContext& where, Handle handle) noexcept;
 
   /// Takes the next sample of the channels, in turn; the channel it came from, or nullptr.
-  internal::Channel<T>* pull() {
-    About& mine = about();
-    for (std::size_t tried = 0; tried < mine.channels.size(); ++tried) {
-      internal::Channel<T>& channel = *mine.channels[mine.next_channel];
-      if (++mine.next_channel == mine.channels.size()) mine.next_channel = 0;
-      if (const Sample<T>* sample = channel.pop()) {
-        take(channel, *sample);
-        return &channel;
-      }
-    }
-    return nullptr;
-  }
-
-  void take(internal::Channel<T>& channel, const Sample<T>& sample) {
-    About& mine = about();
-    mine.counters.missed += sample.sequence - channel.last_sequence - (mine.unread ? 0 : 1);
-    mine.unread = !triggers_;
-    channel.last_sequence = sample.sequence;
-    source_ = &sample;
-    seen_ = sample.sequence - 1;
-    set(kZeroed, false);
-  }
-
+  internal::Channel<T>* pull();
+  void take(internal::Channel<T>& channel, const Sample<T>& sample);
   /// A FIFO's next sample is not passed over: it is the one to be read next.
-  void look_for_newer() override {
-    if (!has(kPulls) || about().looked_ahead) return;
-    const internal::Channel<T>* const channel = pull();
-    about().looked_ahead = channel != nullptr && channel->keeps_all();
-  }
+  void look_for_newer() override;
 
-  std::uint32_t index_ = 0;
-  Arrived arrived_ = nullptr;  ///< runs the handler; made for each, so that it is one piece of code
   const Sample<T>* source_;
-  std::uint64_t seen_ = 0;
 };
 
+// Compiled once, in the library.
+extern template class InputPort<bool>;
+extern template class InputPort<int>;
+extern template class InputPort<double>;
+extern template class InputPort<std::vector<double>>;
+
 }  // namespace armature::component
+
+#include "armature/component/internal/input_port_definitions.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/operation.hpp"
 
-#include "armature/component/command.hpp"
-
 namespace armature::component {
 
 std::string_view name_of(CallStatus status) {
@@ -27,25 +25,46 @@ std::string_view name_of(CallStatus status) {
   return "unknown";
 }
 
-std::string_view name_of(CommandStage stage) {
-  switch (stage) {
-    case CommandStage::kFree:
-      return "free";
-    case CommandStage::kQueued:
-      return "queued";
-    case CommandStage::kAccepted:
-      return "under way";
-    case CommandStage::kRefused:
-      return "refused";
-    case CommandStage::kDone:
-      return "done";
-    case CommandStage::kFailed:
-      return "failed";
-    case CommandStage::kCancelled:
-      return "cancelled";
-  }
-  return "unknown";
+OperationBase::About::About(std::string_view its_name, std::string_view its_doc,
+                            Signature its_signature, bool its_own_thread)
+    : name(its_name),
+      doc(its_doc),
+      signature(std::move(its_signature)),
+      own_thread(its_own_thread) {}
+
+OperationBase::About::~About() = default;
+
+OperationBase::OperationBase(Component& owner, std::unique_ptr<About> about) noexcept
+    : owner_(owner), about_(std::move(about)) {
+  owner.declare().operations.push_back(this);
 }
+
+OperationBase::~OperationBase() = default;
+
+void OperationBase::apply(const ArgumentNames& given) noexcept {
+  std::vector<Signature::Argument>& arguments = about_->signature.arguments;
+  for (std::size_t i = 0; i < arguments.size() && i < given.names.size(); ++i) {
+    arguments[i].name = given.names[i];
+  }
+}
+
+base::Error OperationBase::failure(CallStatus status) const {
+  return {std::string(name()) + ": " + std::string(name_of(status)) + ": " +
+          std::string(owner().reason())};
+}
+
+OperationCallerBase::About::About(std::string_view its_name, std::string_view its_doc,
+                                  Signature its_signature)
+    : Requirement::About(its_name, its_doc), signature(std::move(its_signature)) {}
+
+OperationCallerBase::About::~About() = default;
+
+OperationCallerBase::OperationCallerBase(Component& owner, std::unique_ptr<About> about) noexcept
+    : Requirement(owner, std::move(about)) {
+  owner.declare().callers.push_back(this);
+}
+
+OperationCallerBase::~OperationCallerBase() = default;
 
 std::string OperationBase::mismatch(const std::vector<types::Value>& arguments) const {
   bool fits = arguments.size() == about_->signature.arguments.size();

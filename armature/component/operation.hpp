@@ -40,7 +40,7 @@ class OperationBase {
  public:
   OperationBase(const OperationBase&) = delete;
   OperationBase& operator=(const OperationBase&) = delete;
-  virtual ~OperationBase() = default;
+  virtual ~OperationBase();
 
   std::string_view name() const { return about_->name; }
   std::string_view doc() const { return about_->doc; }
@@ -59,12 +59,8 @@ class OperationBase {
   /// What is seldom needed lies apart, as for ports.
   struct About {
     About(std::string_view its_name, std::string_view its_doc, Signature its_signature,
-          bool its_own_thread)
-        : name(its_name),
-          doc(its_doc),
-          signature(std::move(its_signature)),
-          own_thread(its_own_thread) {}
-    virtual ~About() = default;
+          bool its_own_thread);
+    virtual ~About();
 
     std::string_view name;
     std::string_view doc;
@@ -72,20 +68,14 @@ class OperationBase {
     bool own_thread;
   };
 
-  OperationBase(Component& owner, std::unique_ptr<About> about)
-      : owner_(owner), about_(std::move(about)) {
-    owner.declare().operations.push_back(this);
-  }
+  OperationBase(Component& owner, std::unique_ptr<About> about) noexcept;
   About& about() const { return *about_; }
-  void apply(InOwnThread) { about_->own_thread = true; }
-  void apply(const ArgumentNames& given) {
-    std::vector<Signature::Argument>& arguments = about_->signature.arguments;
-    for (std::size_t i = 0; i < arguments.size() && i < given.names.size(); ++i) {
-      arguments[i].name = given.names[i];
-    }
-  }
+  void apply(InOwnThread) noexcept { about_->own_thread = true; }
+  void apply(const ArgumentNames& given) noexcept;
   /// What is wrong with `arguments`, empty if nothing.
   std::string mismatch(const std::vector<types::Value>& arguments) const;
+  /// What `invoke` says of a call that did not succeed.
+  base::Error failure(CallStatus status) const;
 
  private:
   Component& owner_;
@@ -103,37 +93,29 @@ class Operation<R(Args...)> final : public OperationBase {
   /// Options: in_own_thread, args(names...).
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
-            Options... options)
-      : OperationBase(*owner,
-                      std::make_unique<About>(name, doc, Signature::of<R, Args...>({}), false)),
-        execute_([](Operation& operation, ExecutionContext& where, Args... arguments) noexcept {
-          return operation.execute_with(where, [&]() -> R {
-            using Owner = internal::OwnerOf<Function>;
-            static_assert(std::is_invocable_r_v<R, decltype(Function), Owner&, Args...>,
+            Options... options) noexcept
+      : Operation(*owner, name, doc,
+                  [](Operation& operation, ExecutionContext& where, Args... arguments) noexcept {
+                    return operation.execute_with(where, [&]() -> R {
+                      using Owner = internal::OwnerOf<Function>;
+                      static_assert(
+                          std::is_invocable_r_v<R, decltype(Function), Owner&, Args...>,
                           "the member function does not fit the signature of the operation");
-            auto& component = static_cast<Owner&>(operation.owner());
-            return (component.*Function)(static_cast<Args>(arguments)...);
-          });
-        }) {
+                      auto& component = static_cast<Owner&>(operation.owner());
+                      return (component.*Function)(static_cast<Args>(arguments)...);
+                    });
+                  }) {
     (apply(options), ...);
   }
 
   /// For operations that are not a member function's: `function` is given `self`.
   template <typename... Options>
   Operation(Component* owner, std::string_view name, R (*function)(void* self, Args...), void* self,
-            std::string_view doc, Options... options)
-      : OperationBase(*owner,
-                      std::make_unique<About>(name, doc, Signature::of<R, Args...>({}), false)),
-        execute_([](Operation& operation, ExecutionContext& where, Args... arguments) noexcept {
-          return operation.execute_with(where, [&]() -> R {
-            const About& about = operation.about();
-            return about.function(about.self, static_cast<Args>(arguments)...);
-          });
-        }) {
-    about().function = function;
-    about().self = self;
+            std::string_view doc, Options... options) noexcept
+      : Operation(*owner, name, doc, function, self) {
     (apply(options), ...);
   }
+  ~Operation() override;
 
   /// Executes it here, for a component that calls out (see Component::call_out).
   /// @param where  the context of the calling thread
@@ -141,38 +123,22 @@ class Operation<R(Args...)> final : public OperationBase {
     return execute_(*this, where, static_cast<Args>(arguments)...);
   }
   /// Executes it in its own thread, for nobody who runs there.
-  CallResult<R> execute_by_message(Args... arguments) noexcept {
-    Component& component = owner();
-    CallResult<R> result{};
-    component.run(component.context(),
-                  [&] { result = execute(component.context(), static_cast<Args>(arguments)...); });
-    return result;
-  }
+  CallResult<R> execute_by_message(Args... arguments) noexcept;
 
   base::Result<std::optional<types::Value>> invoke(
-      const std::vector<types::Value>& arguments) override {
-    if (std::string problem = mismatch(arguments); !problem.empty()) {
-      return base::Error{std::move(problem)};
-    }
-    return invoke_with(arguments, std::index_sequence_for<Args...>{});
-  }
+      const std::vector<types::Value>& arguments) override;
 
  private:
+  using Execute = CallResult<R> (*)(Operation&, ExecutionContext&, Args...) noexcept;
+
+  Operation(Component& owner, std::string_view name, std::string_view doc,
+            Execute service) noexcept;
+  Operation(Component& owner, std::string_view name, std::string_view doc,
+            R (*function)(void* self, Args...), void* self) noexcept;
+
   template <std::size_t... I>
-  base::Result<std::optional<types::Value>> invoke_with(
-      [[maybe_unused]] const std::vector<types::Value>& arguments, std::index_sequence<I...>) {
-    const CallResult<R> result =
-        execute_by_message(*static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
-    if (result.status != CallStatus::kDone) {
-      return base::Error{std::string(name()) + ": " + std::string(name_of(result.status)) + ": " +
-                         std::string(owner().reason())};
-    }
-    if constexpr (std::is_void_v<R>) {
-      return std::optional<types::Value>();
-    } else {
-      return std::optional(types::Value::of<std::decay_t<R>>(result.value));
-    }
-  }
+  base::Result<std::optional<types::Value>> invoke_with(const std::vector<types::Value>& arguments,
+                                                        std::index_sequence<I...>);
 
   template <typename Code>
   CallResult<R> execute_with(ExecutionContext& where, Code&& code) noexcept {
@@ -192,17 +158,20 @@ class Operation<R(Args...)> final : public OperationBase {
 
   struct About final : OperationBase::About {
     using OperationBase::About::About;
+    ~About() override;
     R (*function)(void* self, Args...) = nullptr;
     void* self = nullptr;
   };
   About& about() const { return static_cast<About&>(OperationBase::about()); }
 
-  CallResult<R> (*execute_)(Operation&, ExecutionContext&, Args...) noexcept;
+  Execute execute_;
 };
 
 /// A component's declared use of an operation of one of its peers.
 class OperationCallerBase : public Requirement {
  public:
+  ~OperationCallerBase() override;
+
   const Signature& signature() const { return about().signature; }
   OperationBase* target() const { return about().target; }
   bool bound() const override { return target() != nullptr; }
@@ -221,18 +190,15 @@ class OperationCallerBase : public Requirement {
 
  protected:
   struct About : Requirement::About {
-    About(std::string_view its_name, std::string_view its_doc, Signature its_signature)
-        : Requirement::About(its_name, its_doc), signature(std::move(its_signature)) {}
+    About(std::string_view its_name, std::string_view its_doc, Signature its_signature);
+    ~About() override;
 
     Signature signature;
     OperationBase* target = nullptr;
     std::uint64_t refused = 0;
   };
 
-  OperationCallerBase(Component& owner, std::unique_ptr<About> about)
-      : Requirement(owner, std::move(about)) {
-    owner.declare().callers.push_back(this);
-  }
+  OperationCallerBase(Component& owner, std::unique_ptr<About> about) noexcept;
   About& about() const { return static_cast<About&>(Requirement::about()); }
 };
 
@@ -248,11 +214,12 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
  public:
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
-  OperationCaller(Component* owner, std::string_view name, std::string_view doc, Options... options)
-      : OperationCallerBase(*owner,
-                            std::make_unique<About>(name, doc, Signature::of<R, Args...>({}))) {
+  OperationCaller(Component* owner, std::string_view name, std::string_view doc,
+                  Options... options) noexcept
+      : OperationCaller(*owner, name, doc) {
     (apply(options), ...);
   }
+  ~OperationCaller() override;
 
   /// Calls and waits for the result. An operation of this thread runs at once, and so does one of a
   /// thread that does not run yet or any more; else it is queued there and waited for, at most one
@@ -269,72 +236,30 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
       });
       return result;
     }
-    return send(static_cast<Args>(arguments)...).wait(kCallLimit);
+    return send_and_wait(static_cast<Args>(arguments)...);
   }
 
   /// Queues the call for the operation's own thread and returns at once.
   /// @rt nonblocking; allocates only to make room for larger vectors than ever sent
   /// @thread the component's own
-  SendHandle<R> send(Args... arguments) {
-    if (operation_ == nullptr) return SendHandle<R>(CallStatus::kNotConnected);
-    About& mine = about();
-    for (std::size_t tried = 0; tried < mine.records.size(); ++tried) {
-      Record& record = *mine.records[mine.next];
-      if (++mine.next == mine.records.size()) mine.next = 0;
-      if (!record.try_claim()) continue;
-      record.arguments = std::tuple<const std::decay_t<Args>&...>(arguments...);
-      operation_->owner().context().post(record);
-      return SendHandle<R>(record);
-    }
-    ++mine.refused;
-    return SendHandle<R>(CallStatus::kQueueFull);
-  }
+  SendHandle<R> send(Args... arguments);
 
   /// Gives the queue's memory the shape of these arguments, so that sending them never allocates.
-  void prepare(Args... sample) {
-    for (auto& record : about().records) {
-      record->arguments = std::tuple<const std::decay_t<Args>&...>(sample...);
-    }
-  }
+  void prepare(Args... sample);
 
-  void connect(OperationBase& base) override {
-    operation_ = static_cast<Operation<R(Args...)>*>(&base);
-    direct_ = !base.runs_in_own_thread() || &base.owner().context() == &owner().context();
-    About& mine = about();
-    mine.target = &base;
-    mine.records.clear();
-    mine.next = 0;
-    for (std::size_t i = 0; i < mine.outstanding; ++i) {
-      mine.records.emplace_back(new Record(*operation_));
-    }
-  }
-  void disconnect() override {
-    operation_ = nullptr;
-    about().target = nullptr;
-    about().records.clear();
-  }
+  void connect(OperationBase& base) override;
+  void disconnect() override;
 
  private:
   static constexpr base::Duration kCallLimit = std::chrono::seconds(1);
 
-  struct Record final : CallRecord<R> {
-    explicit Record(Operation<R(Args...)>& target)
-        : CallRecord<R>(&Record::deliver), operation(target) {}
-    static void deliver(rt::Message& message) {
-      auto& record = static_cast<Record&>(message);
-      if (!record.try_begin()) return;
-      record.finish(std::apply(
-          [&record](const std::decay_t<Args>&... given) {
-            return record.operation.execute_by_message(given...);
-          },
-          record.arguments));
-    }
-    Operation<R(Args...)>& operation;
-    std::tuple<std::decay_t<Args>...> arguments{};
-  };
+  OperationCaller(Component& owner, std::string_view name, std::string_view doc) noexcept;
+  [[gnu::noinline]] CallResult<R> send_and_wait(Args... arguments);
 
+  struct Record;
   struct About final : OperationCallerBase::About {
     using OperationCallerBase::About::About;
+    ~About() override;
     std::size_t outstanding = kDefaultOutstanding;
     std::vector<std::unique_ptr<Record, SharedRecord::LetGo>> records;
     std::size_t next = 0;
@@ -342,10 +267,22 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   About& about() const { return static_cast<About&>(OperationCallerBase::about()); }
 
   using OperationCallerBase::apply;
-  void apply(Outstanding option) { about().outstanding = option.count; }
+  void apply(Outstanding option) noexcept { about().outstanding = option.count; }
 
   Operation<R(Args...)>* operation_ = nullptr;
   bool direct_ = false;  ///< a call runs here
 };
 
+// Compiled once, in the library.
+extern template class Operation<void()>;
+extern template class Operation<bool()>;
+extern template class Operation<double()>;
+extern template class Operation<void(double)>;
+extern template class OperationCaller<void()>;
+extern template class OperationCaller<bool()>;
+extern template class OperationCaller<double()>;
+extern template class OperationCaller<void(double)>;
+
 }  // namespace armature::component
+
+#include "armature/component/internal/operation_definitions.hpp"

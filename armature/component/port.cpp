@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/component/input_port.hpp"
+#include "armature/component/internal/channel.hpp"
 #include "armature/component/output_port.hpp"
 
 namespace armature::component {
@@ -46,6 +47,160 @@ bool LeadsTo::includes(std::string_view name) const {
     if (name.find_first_not_of("0123456789", each.size()) == std::string_view::npos) return true;
   }
   return false;
+}
+
+PortBase::About::About(std::string_view port_name, std::string_view port_doc,
+                       std::string_view port_unit, const types::Type& port_type)
+    : name(port_name), doc(port_doc), unit(port_unit), type(port_type) {}
+
+PortBase::About::~About() = default;
+
+PortBase::PortBase(Component& owner, std::unique_ptr<About> about) noexcept
+    : owner_(owner), about_(std::move(about)) {}
+
+PortBase::~PortBase() = default;
+
+InputPortBase::About::About(InputPortBase& port, std::string_view port_name,
+                            std::string_view port_doc, std::string_view port_unit,
+                            const types::Type& port_type)
+    : PortBase::About(port_name, port_doc, port_unit, port_type), lost(port) {}
+
+InputPortBase::About::~About() = default;
+
+InputPortBase::InputPortBase(Component& owner, std::unique_ptr<About> about) noexcept
+    : PortBase(owner, std::move(about)) {
+  owner.declare().inputs.push_back(this);
+}
+
+InputPortBase::~InputPortBase() {
+  for (OutputPortBase* writer : about().writers) writer->forget(*this);
+}
+
+void InputPortBase::apply(MaxAge declared) noexcept {
+  about().max_age = declared.age;
+  about().stale_reaction = declared.reaction;
+  set(kAges, declared.age > base::Duration::zero());
+}
+
+void InputPortBase::apply(OnDataUpdate) noexcept {
+  triggers_ = true;
+  arrived_ = [](InputPortBase& port, ExecutionContext& where) noexcept {
+    port.set(kZeroed, false);
+    port.pass(where, [&port] { port.owner().update(); });
+  };
+}
+
+void InputPortBase::connect_channel(OutputPortBase& writer,
+                                    std::unique_ptr<internal::ChannelBase> channel) {
+  channel->writer = &writer;
+  about().writers.push_back(&writer);
+  about().channels.push_back(std::move(channel));
+  set(kPulls, !triggers_);
+}
+
+void InputPortBase::forget_writer(OutputPortBase& writer) {
+  About& mine = about();
+  std::erase(mine.writers, &writer);
+  std::erase_if(mine.channels, [&writer](const auto& each) { return each->writer == &writer; });
+  mine.next_channel = 0;
+  mine.unread = false;
+  mine.looked_ahead = false;
+  set(kPulls, !triggers_ && !mine.channels.empty());
+}
+
+void InputPortBase::note_taken(internal::ChannelBase& channel, std::uint64_t sequence) {
+  About& mine = about();
+  mine.counters.missed += sequence - channel.last_sequence - (mine.unread ? 0 : 1);
+  mine.unread = !triggers_;
+  channel.last_sequence = sequence;
+  seen_ = sequence - 1;
+  set(kZeroed, false);
+}
+
+OutputPortBase::About::~About() = default;
+
+OutputPortBase::OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept
+    : PortBase(owner, std::move(about)) {
+  owner.declare().outputs.push_back(this);
+}
+
+OutputPortBase::~OutputPortBase() { disconnect_all(); }
+
+void OutputPortBase::disconnect_all() {
+  About& mine = about();
+  for (InputPortBase* reader : mine.readers) reader->disconnect(*this);
+  mine.readers.clear();
+  mine.triggered.clear();
+  mine.channels.clear();
+  mine.telling.clear();
+  choose_delivery();
+}
+
+void OutputPortBase::forget(InputPortBase& input) {
+  const auto leads_there = [&input](const auto* each) { return &each->reader() == &input; };
+  About& mine = about();
+  std::erase(mine.readers, &input);
+  std::erase(mine.triggered, &input);
+  std::erase_if(mine.channels, leads_there);
+  std::erase_if(mine.telling, leads_there);
+  choose_delivery();
+}
+
+void OutputPortBase::add_reader(InputPortBase& input) {
+  about().readers.push_back(&input);
+  if (input.triggers()) about().triggered.push_back(&input);
+  choose_delivery();
+}
+
+void OutputPortBase::add_reader(InputPortBase& input,
+                                std::unique_ptr<internal::ChannelBase> made_channel,
+                                const void* sample, std::uint64_t sequence) {
+  internal::ChannelBase& channel = *made_channel;
+  about().readers.push_back(&input);
+  input.connect_channel(*this, std::move(made_channel));
+  channel.last_sequence = sequence;
+  (input.triggers() ? about().telling : about().channels).push_back(&channel);
+  // A value from before the connection was made is read as new, whatever the kind of connection.
+  if (!input.triggers() && sequence != 0) {
+    --channel.last_sequence;
+    channel.push(sample);
+  }
+  choose_delivery();
+}
+
+/// Most ports have one handler to run, or nothing to do but to keep the value.
+void OutputPortBase::choose_delivery() {
+  const About& mine = about();
+  const bool by_channel = !mine.channels.empty() || !mine.telling.empty();
+  only_handler_ = !by_channel && mine.triggered.size() == 1 ? mine.triggered.front() : nullptr;
+  delivers_ = by_channel || !mine.triggered.empty();
+  unread_ = mine.readers.empty() ? WriteStatus::kNotConnected : WriteStatus::kWritten;
+}
+
+WriteStatus OutputPortBase::deliver(const void* sample) noexcept {
+  const About& mine = about();
+  WriteStatus status = WriteStatus::kWritten;
+  for (internal::ChannelBase* channel : mine.channels) note(channel->push(sample), status);
+  for (internal::ChannelBase* channel : mine.telling) {
+    note(channel->push(sample), status);
+    channel->tell_reader();
+  }
+  for (InputPortBase* input : mine.triggered) {
+    owner().call_out(input->owner(), [&] { input->arrived(owner().context()); });
+  }
+  return status;
+}
+
+void OutputPortBase::note(rt::PushResult result, WriteStatus& status) {
+  if (result == rt::PushResult::kTaken) [[likely]]
+    return;
+  if (result == rt::PushResult::kRefused) {
+    ++about().counters.refused;
+    status = WriteStatus::kFull;
+  } else {
+    ++about().counters.dropped;
+    if (status != WriteStatus::kFull) status = WriteStatus::kDropped;
+  }
 }
 
 void InputPortBase::begin() {
@@ -122,8 +277,6 @@ void set_to_zero(const types::Type& type, void* value) {
     std::memset(value, 0, type.size);
   }
 }
-
-void forget_reader(OutputPortBase& writer, InputPortBase& reader) { writer.forget(reader); }
 
 }  // namespace internal
 }  // namespace armature::component

@@ -116,7 +116,7 @@ inline LeadsTo leads_to_nothing() { return {{}, true}; }
 
 class PortBase : public Entrance {
  public:
-  virtual ~PortBase() = default;
+  virtual ~PortBase();
 
   static void* operator new(std::size_t size) { return internal::allocate_side_by_side(size); }
   static void operator delete(void* at, std::size_t size) { internal::free_side_by_side(at, size); }
@@ -140,10 +140,9 @@ class PortBase : public Entrance {
   /// What is seldom needed. It lies apart, so that what every write and read touches lies close
   /// together: a cycle of many components is as fast as their data is small.
   struct About {
-    About(std::string port_name, std::string_view port_doc, std::string_view port_unit,
-          const types::Type& port_type)
-        : name(std::move(port_name)), doc(port_doc), unit(port_unit), type(port_type) {}
-    virtual ~About() = default;
+    About(std::string_view port_name, std::string_view port_doc, std::string_view port_unit,
+          const types::Type& port_type);
+    virtual ~About();
 
     std::string name;
     std::string_view doc;
@@ -153,11 +152,10 @@ class PortBase : public Entrance {
     bool may_stay_open = false;
   };
 
-  PortBase(Component& owner, std::unique_ptr<About> about)
-      : owner_(owner), about_(std::move(about)) {}
+  PortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
-  void apply(PortSize size) { about_->size = size; }
-  void apply(MayStayOpen) { about_->may_stay_open = true; }
+  void apply(PortSize size) noexcept { about_->size = size; }
+  void apply(MayStayOpen) noexcept { about_->may_stay_open = true; }
 
   About& about() const { return *about_; }
 
@@ -178,8 +176,6 @@ namespace internal {
 
 /// Every number 0, every text empty, sizes as they are.
 void set_to_zero(const types::Type& type, void* value);
-
-void forget_reader(OutputPortBase& writer, InputPortBase& reader);
 
 template <typename T>
 inline constexpr bool is_vector = false;

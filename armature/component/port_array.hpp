@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 #include "armature/component/input_port.hpp"
@@ -19,34 +19,29 @@ class PortArrayBase : public PropertyFollower {
  public:
   PortArrayBase(const PortArrayBase&) = delete;
   PortArrayBase& operator=(const PortArrayBase&) = delete;
-  virtual ~PortArrayBase() = default;
+  virtual ~PortArrayBase();
 
   std::string_view name() const { return name_; }
   const Property<int>& count() const { return count_; }
 
  protected:
-  PortArrayBase(Component& owner, std::string_view name, Property<int>& count)
-      : name_(name), count_(count) {
-    owner.declare().port_arrays.push_back(this);
-    count.add_follower(*this);
-  }
+  PortArrayBase(Component& owner, std::string_view name, Property<int>& count) noexcept;
 
-  std::size_t wanted() const {
-    const int count = count_.get();
-    return count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
-  std::string port_name(std::size_t index) const {
-    return std::string(name_) + std::to_string(index + 1);
-  }
+  std::size_t wanted() const;
+  std::string port_name(std::size_t index) const;
+  /// Options of the ports are plain data, kept as bytes.
+  void keep_options(const void* options, std::size_t size);
+  const void* options() const { return options_.get(); }
 
   static bool connected(const InputPortBase& port) { return port.connected(); }
   static bool connected(const OutputPortBase& port) { return !port.readers().empty(); }
-  static void forget(InputPortBase& port) { std::erase(port.owner().declare().inputs, &port); }
-  static void forget(OutputPortBase& port) { std::erase(port.owner().declare().outputs, &port); }
+  static void forget(InputPortBase& port);
+  static void forget(OutputPortBase& port);
 
  private:
   std::string_view name_;
   const Property<int>& count_;
+  std::unique_ptr<std::byte[]> options_;
 };
 
 /// As many ports of one kind as an integer property says, named `Name1` to `NameN`; they follow the
@@ -57,60 +52,70 @@ class PortArray final : public PortArrayBase {
   /// The options are those of a single port and hold for each.
   template <typename... Options>
   PortArray(Component* owner, std::string_view name, Property<int>& count, std::string_view doc,
-            std::string_view unit = {}, Options... options)
-      : PortArrayBase(*owner, name, count) {
-    maker_ = make_maker([=](std::string port_name) {
-      return std::make_unique<Port>(owner, std::move(port_name), doc, unit, options...);
-    });
+            std::string_view unit = {}, Options... options) noexcept
+      : PortArray(*owner, name, count, doc, unit) {
+    const auto apply = [options...](Port& port) { (port.apply(options), ...); };
+    using Apply = decltype(apply);
+    static_assert(std::is_trivially_copyable_v<Apply>);
+    keep_options(&apply, sizeof apply);
+    apply_ = [](const void* kept, Port& port) { (*static_cast<Apply*>(kept))(port); };
     PortArray::follow();
   }
+  ~PortArray() override;
 
   std::size_t size() const { return ports_.size(); }
   /// @param index  from 0
   Port& operator[](std::size_t index) { return *ports_[index]; }
 
-  void follow() override {
-    if (!objection().empty()) return;
-    while (ports_.size() > wanted()) {
-      forget(*ports_.back());
-      ports_.pop_back();
-    }
-    ports_.reserve(wanted());
-    while (ports_.size() < wanted()) {
-      ports_.push_back(maker_->make(port_name(ports_.size())));
-      if constexpr (requires { ports_.back()->set_index(0); }) {
-        ports_.back()->set_index(ports_.size() - 1);
-      }
-    }
-  }
-  std::string objection() const override {
-    for (const auto& port : ports_) {
-      if (connected(*port)) return "port '" + port->name() + "' is connected";
-    }
-    return {};
-  }
+  void follow() override;
+  std::string objection() const override;
 
  private:
-  /// Makes one more port with the options of all.
-  struct Maker {
-    virtual ~Maker() = default;
-    virtual std::unique_ptr<Port> make(std::string name) const = 0;
-  };
-  template <typename Make>
-  static std::unique_ptr<Maker> make_maker(Make make) {
-    struct Wrapped final : Maker {
-      explicit Wrapped(Make function) : function_(std::move(function)) {}
-      std::unique_ptr<Port> make(std::string name) const override {
-        return function_(std::move(name));
-      }
-      Make function_;
-    };
-    return std::make_unique<Wrapped>(std::move(make));
-  }
+  PortArray(Component& owner, std::string_view name, Property<int>& count, std::string_view doc,
+            std::string_view unit) noexcept;
 
-  std::unique_ptr<Maker> maker_;
+  Component& owner_;
+  std::string_view doc_;
+  std::string_view unit_;
+  void (*apply_)(const void* options, Port& port) = nullptr;
   std::vector<std::unique_ptr<Port>> ports_;
 };
+
+template <typename Port>
+PortArray<Port>::PortArray(Component& owner, std::string_view name, Property<int>& count,
+                           std::string_view doc, std::string_view unit) noexcept
+    : PortArrayBase(owner, name, count), owner_(owner), doc_(doc), unit_(unit) {}
+
+template <typename Port>
+PortArray<Port>::~PortArray() = default;
+
+template <typename Port>
+void PortArray<Port>::follow() {
+  if (!objection().empty()) return;
+  while (ports_.size() > wanted()) {
+    forget(*ports_.back());
+    ports_.pop_back();
+  }
+  ports_.reserve(wanted());
+  while (ports_.size() < wanted()) {
+    const std::size_t index = ports_.size();
+    ports_.emplace_back(new Port(owner_, port_name(index), doc_, unit_));
+    apply_(options(), *ports_.back());
+    if constexpr (requires(Port & port) { port.set_index(0); }) ports_.back()->set_index(index);
+  }
+}
+
+template <typename Port>
+std::string PortArray<Port>::objection() const {
+  for (const auto& port : ports_) {
+    if (connected(*port)) return "port '" + port->name() + "' is connected";
+  }
+  return {};
+}
+
+// Compiled once, in the library.
+extern template class PortArray<InputPort<double>>;
+extern template class PortArray<OutputPort<double>>;
 
 template <typename T>
 using InputPorts = PortArray<InputPort<T>>;

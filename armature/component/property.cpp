@@ -44,10 +44,12 @@ std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"
 }  // namespace
 
 PropertyBase::PropertyBase(Component& owner, std::string_view name, std::string_view doc,
-                           std::string_view unit, const types::Type& type, bool persistent)
+                           std::string_view unit, const types::Type& type, bool persistent) noexcept
     : about_(new About{owner, name, doc, unit, type, persistent}) {
   owner.declare().properties.push_back(this);
 }
+
+PropertyBase::~PropertyBase() = default;
 
 std::string PropertyBase::check(const types::Value& value) const {
   const std::string subject =

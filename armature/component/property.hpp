@@ -46,7 +46,7 @@ class PropertyBase {
  public:
   PropertyBase(const PropertyBase&) = delete;
   PropertyBase& operator=(const PropertyBase&) = delete;
-  virtual ~PropertyBase() = default;
+  virtual ~PropertyBase();
 
   std::string_view name() const { return about_->name; }
   std::string_view doc() const { return about_->doc; }
@@ -79,11 +79,11 @@ class PropertyBase {
 
  protected:
   PropertyBase(Component& owner, std::string_view name, std::string_view doc, std::string_view unit,
-               const types::Type& type, bool persistent);
+               const types::Type& type, bool persistent) noexcept;
 
-  void apply(Range limits) { about_->limits = limits; }
-  void apply(ChangeableWhileRunning) { about_->changeable = true; }
-  void apply(Mandatory) { about_->mandatory = true; }
+  void apply(Range limits) noexcept { about_->limits = limits; }
+  void apply(ChangeableWhileRunning) noexcept { about_->changeable = true; }
+  void apply(Mandatory) noexcept { about_->mandatory = true; }
   void tell_followers();
 
  private:
@@ -113,8 +113,11 @@ class Property : public PropertyBase {
  public:
   template <typename... Options>
   Property(Component* owner, std::string_view name, std::type_identity_t<T> initial,
-           std::string_view doc, std::string_view unit = {}, Options... options)
-      : Property(owner, name, std::move(initial), doc, unit, true, options...) {}
+           std::string_view doc, std::string_view unit = {}, Options... options) noexcept
+      : Property(*owner, name, std::move(initial), doc, unit, true) {
+    (apply(options), ...);
+  }
+  ~Property() override;
 
   /// @rt nonblocking, no allocation
   /// @thread the component's own
@@ -129,18 +132,12 @@ class Property : public PropertyBase {
     tell_followers();
   }
 
-  const void* data() const override { return &value_; }
-
-  void swap(types::Value& value) override { std::swap(value_, *static_cast<T*>(value.data())); }
+  const void* data() const override;
+  void swap(types::Value& value) override;
 
  protected:
-  template <typename... Options>
-  Property(Component* owner, std::string_view name, T initial, std::string_view doc,
-           std::string_view unit, bool persistent, Options... options)
-      : PropertyBase(*owner, name, doc, unit, types::type_of<T>(), persistent),
-        value_(std::move(initial)) {
-    (apply(options), ...);
-  }
+  Property(Component& owner, std::string_view name, T&& initial, std::string_view doc,
+           std::string_view unit, bool persistent) noexcept;
 
  private:
   T value_;
@@ -152,8 +149,39 @@ class Attribute final : public Property<T> {
  public:
   template <typename... Options>
   Attribute(Component* owner, std::string_view name, std::type_identity_t<T> initial,
-            std::string_view doc, std::string_view unit = {}, Options... options)
-      : Property<T>(owner, name, std::move(initial), doc, unit, false, options...) {}
+            std::string_view doc, std::string_view unit = {}, Options... options) noexcept
+      : Property<T>(*owner, name, std::move(initial), doc, unit, false) {
+    (this->apply(options), ...);
+  }
 };
+
+template <typename T>
+Property<T>::Property(Component& owner, std::string_view name, T&& initial, std::string_view doc,
+                      std::string_view unit, bool persistent) noexcept
+    : PropertyBase(owner, name, doc, unit, types::type_of<T>(), persistent),
+      value_(std::move(initial)) {}
+
+template <typename T>
+Property<T>::~Property() = default;
+
+template <typename T>
+const void* Property<T>::data() const {
+  return &value_;
+}
+
+template <typename T>
+void Property<T>::swap(types::Value& value) {
+  std::swap(value_, *static_cast<T*>(value.data()));
+}
+
+// Compiled once, in the library.
+extern template class Property<bool>;
+extern template class Property<int>;
+extern template class Property<double>;
+extern template class Property<std::string>;
+extern template class Property<std::vector<double>>;
+extern template class Attribute<bool>;
+extern template class Attribute<int>;
+extern template class Attribute<double>;
 
 }  // namespace armature::component

@@ -31,7 +31,7 @@ inline Wanted only_if(const Property<bool>& property) { return {&property}; }
 /// Something that a component uses of a peer: an operation that it calls, an event it reacts to.
 class Requirement : public Entrance {
  public:
-  virtual ~Requirement() = default;
+  virtual ~Requirement();
 
   std::string_view name() const { return about_->name; }
   std::string_view doc() const { return about_->doc; }
@@ -41,16 +41,14 @@ class Requirement : public Entrance {
   /// False if a property says that it is not needed.
   bool wanted() const { return about_->wanted == nullptr || about_->wanted->get(); }
   /// The name of the peer that a property demands, empty if any peer will do.
-  std::string peer_name() const {
-    return about_->peer == nullptr ? std::string() : about_->peer->get();
-  }
+  std::string peer_name() const;
   virtual bool bound() const = 0;
 
  protected:
   /// What is seldom needed lies apart, as for ports.
   struct About {
     About(std::string_view its_name, std::string_view its_doc) : name(its_name), doc(its_doc) {}
-    virtual ~About() = default;
+    virtual ~About();
 
     std::string_view name;
     std::string_view doc;
@@ -59,12 +57,11 @@ class Requirement : public Entrance {
     bool optional = false;
   };
 
-  Requirement(Component& owner, std::unique_ptr<About> about)
-      : owner_(owner), about_(std::move(about)) {}
+  Requirement(Component& owner, std::unique_ptr<About> about) noexcept;
 
-  void apply(From option) { about_->peer = option.peer; }
-  void apply(Optional) { about_->optional = true; }
-  void apply(Wanted option) { about_->wanted = option.property; }
+  void apply(From option) noexcept { about_->peer = option.peer; }
+  void apply(Optional) noexcept { about_->optional = true; }
+  void apply(Wanted option) noexcept { about_->wanted = option.property; }
 
   About& about() const { return *about_; }
 

@@ -4,9 +4,9 @@
 // How samples travel where reader and writer do not simply share one place in memory.
 
 #include <cstdint>
-#include <memory>
 #include <utility>
 
+#include "armature/component/input_port.hpp"
 #include "armature/component/port.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/latest.hpp"
@@ -14,69 +14,66 @@
 
 namespace armature::component {
 
-template <typename T>
-class InputPort;
-
 namespace internal {
 
 /// One connection from a writer to a reader. As a signal it tells the reader's thread that there is
 /// something to read.
-template <typename T>
-class Channel : public rt::Signal {
+class ChannelBase : public rt::Signal {
  public:
-  Channel(InputPort<T>& reader, bool directly, bool keeps_all)
-      : rt::Signal(&Channel::deliver),
+  /// @param directly   reader and writer share a thread
+  /// @param keeps_all  a FIFO: each value counts, not only the newest
+  ChannelBase(InputPortBase& reader, bool directly, bool keeps_all)
+      : rt::Signal(&ChannelBase::deliver),
         reader_(reader),
         directly_(directly),
         keeps_all_(keeps_all) {}
-  virtual ~Channel() = default;
+  virtual ~ChannelBase() = default;
 
-  InputPort<T>& reader() const { return reader_; }
-  /// A FIFO: each value counts, not only the newest.
+  InputPortBase& reader() const { return reader_; }
   bool keeps_all() const { return keeps_all_; }
 
+  /// @param sample  a `Sample` of the ports' type
   /// @thread the writer's
-  virtual rt::PushResult push(const Sample<T>& sample) = 0;
-  /// The next sample to read, nullptr if there is none.
-  /// @thread the reader's
-  virtual const Sample<T>* pop() = 0;
+  virtual rt::PushResult push(const void* sample) = 0;
   /// There will be a sample to read in the next cycle.
   virtual bool ripens() const { return false; }
 
   /// Has the reader's handler run: at once if the writer is in the same thread.
-  void tell_reader() {
-    if (directly_) {
-      reader_.drain(*this);
-    } else {
-      reader_.owner().context().raise(*this);
-    }
-  }
+  void tell_reader();
 
-  const void* writer = nullptr;     ///< the port that owns the other end
+  const void* writer = nullptr;     ///< the port at the other end
   std::uint64_t last_sequence = 0;  ///< that the reader took
 
  private:
-  static void deliver(rt::Message& message) {
-    auto& self = static_cast<Channel&>(message);
-    self.lower();
-    self.reader_.drain(self);
-    if (self.ripens())
-      static_cast<rt::Signal&>(self).raise(self.reader_.owner().context().next_cycle);
-  }
+  static void deliver(rt::Message& message);
 
-  InputPort<T>& reader_;
+  InputPortBase& reader_;
   bool directly_;
   bool keeps_all_;
 };
 
 template <typename T>
+class Channel : public ChannelBase {
+ public:
+  using ChannelBase::ChannelBase;
+  /// The next sample to read, nullptr if there is none.
+  /// @thread the reader's
+  virtual const Sample<T>* pop() = 0;
+
+ protected:
+  static const Sample<T>& as_sample(const void* sample) {
+    return *static_cast<const Sample<T>*>(sample);
+  }
+};
+
+template <typename T>
 class LatestChannel final : public Channel<T> {
  public:
-  LatestChannel(InputPort<T>& reader, bool directly, const Sample<T>& shape)
+  LatestChannel(InputPortBase& reader, bool directly, const Sample<T>& shape)
       : Channel<T>(reader, directly, false), latest_(shape) {}
 
-  rt::PushResult push(const Sample<T>& sample) override {
-    latest_.write(sample);
+  rt::PushResult push(const void* sample) override {
+    latest_.write(this->as_sample(sample));
     return rt::PushResult::kTaken;
   }
   const Sample<T>* pop() override { return latest_.fetch() ? &latest_.value() : nullptr; }
@@ -88,11 +85,11 @@ class LatestChannel final : public Channel<T> {
 template <typename T, typename Atomics>
 class FifoChannel final : public Channel<T> {
  public:
-  FifoChannel(InputPort<T>& reader, bool directly, const ConnectionPolicy& policy,
+  FifoChannel(InputPortBase& reader, bool directly, const ConnectionPolicy& policy,
               const Sample<T>& shape)
       : Channel<T>(reader, directly, true), ring_(policy.capacity, policy.when_full, shape) {}
 
-  rt::PushResult push(const Sample<T>& sample) override { return ring_.push(sample); }
+  rt::PushResult push(const void* sample) override { return ring_.push(this->as_sample(sample)); }
   const Sample<T>* pop() override { return ring_.pop(); }
 
  private:
@@ -104,12 +101,12 @@ class FifoChannel final : public Channel<T> {
 template <typename T>
 class DelayChannel final : public Channel<T> {
  public:
-  DelayChannel(InputPort<T>& reader, const Sample<T>& shape)
+  DelayChannel(InputPortBase& reader, const Sample<T>& shape)
       : Channel<T>(reader, false, false), written_(shape), ripe_(shape), read_(shape) {}
 
-  rt::PushResult push(const Sample<T>& sample) override {
+  rt::PushResult push(const void* sample) override {
     if (fresh_ && written_in_ != cycle()) ripen();
-    written_ = sample;
+    written_ = this->as_sample(sample);
     written_in_ = cycle();
     fresh_ = true;
     return rt::PushResult::kTaken;

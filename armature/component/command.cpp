@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/component/command.hpp"
+
+namespace armature::component {
+
+std::string_view name_of(CommandStage stage) {
+  switch (stage) {
+    case CommandStage::kFree:
+      return "free";
+    case CommandStage::kQueued:
+      return "queued";
+    case CommandStage::kAccepted:
+      return "under way";
+    case CommandStage::kRefused:
+      return "refused";
+    case CommandStage::kDone:
+      return "done";
+    case CommandStage::kFailed:
+      return "failed";
+    case CommandStage::kCancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+void CommandTicket::request_cancel() {
+  if (cancel_.exchange(true, std::memory_order_acq_rel)) return;
+  share_once_more();
+  executor().post(cancellation_);
+}
+
+bool CommandTicket::try_claim() {
+  if (!try_share()) return false;
+  progress_.store(0.0, std::memory_order_relaxed);
+  cancel_.store(false, std::memory_order_relaxed);
+  stage_.store(CommandStage::kQueued, std::memory_order_relaxed);
+  return true;
+}
+
+void CommandTicket::end(CommandStage stage, std::string_view reason) {
+  reason_ = reason;
+  stage_.store(stage, std::memory_order_release);
+  release();
+}
+
+void CommandTicket::Cancellation::deliver(rt::Message& message) {
+  CommandTicket& ticket = static_cast<Cancellation&>(message).ticket;
+  ticket.cancel_now();
+  ticket.release();
+}
+
+CommandBase::CommandBase(Component& owner, std::unique_ptr<About> about) noexcept
+    : OperationBase(owner, std::move(about)) {
+  owner.add_step(*this, false);
+}
+
+CommandBase::~CommandBase() = default;
+
+void CommandBase::report(double progress) {
+  if (ticket_ != nullptr) ticket_->report(progress);
+}
+
+void CommandBase::cancel(const CommandTicket& ticket) {
+  if (ticket_ == &ticket) cancel("cancelled by its sender");
+}
+
+void CommandBase::step() {
+  if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(owner())) complete();
+}
+
+Outcome CommandBase::admit(CommandTicket* ticket) {
+  const bool running = owner().state() == State::kRunning;
+  if (running && !active()) {
+    phase_ = Phase::kBeginning;
+    return accepted();
+  }
+  const Outcome refusal =
+      refused(running ? "the command before is still under way" : "the component is not running");
+  if (ticket != nullptr) ticket->end(CommandStage::kRefused, refusal.reason());
+  return refusal;
+}
+
+Outcome CommandBase::begun(CommandTicket* ticket, bool completed, const Outcome& outcome) {
+  const Outcome answer = completed ? outcome : refused(owner().reason());
+  if (!answer) {
+    phase_ = Phase::kIdle;
+  } else if (phase_ == Phase::kBeginning) {
+    phase_ = Phase::kUnderWay;
+  }
+  if (ticket == nullptr) return answer;
+  if (!answer) {
+    ticket->end(CommandStage::kRefused, answer.reason());
+  } else if (phase_ == Phase::kUnderWay) {
+    ticket_ = ticket;
+    ticket->accept();
+  } else {
+    ticket->end(ended_early_, early_reason_);
+  }
+  return answer;
+}
+
+void CommandBase::cancel(std::string_view reason) {
+  if (phase_ != Phase::kUnderWay) {
+    end(CommandStage::kCancelled, reason);
+    return;
+  }
+  CommandTicket* const ticket = std::exchange(ticket_, nullptr);
+  phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
+  if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(owner()); });
+  if (ticket != nullptr) ticket->end(CommandStage::kCancelled, reason);
+}
+
+void CommandBase::end(CommandStage stage, std::string_view reason) {
+  CommandTicket* const ticket = std::exchange(ticket_, nullptr);
+  if (phase_ == Phase::kBeginning) {
+    ended_early_ = stage;
+    early_reason_ = reason;
+  }
+  phase_ = Phase::kIdle;
+  if (ticket != nullptr) ticket->end(stage, reason);
+}
+
+}  // namespace armature::component

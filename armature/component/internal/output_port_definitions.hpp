@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What of an output port is not in its header: nothing of this is needed at every write.
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/component/internal/channel.hpp"
+#include "armature/component/output_port.hpp"
+
+namespace armature::component {
+
+template <typename T>
+OutputPort<T>::OutputPort(Component& owner, std::string_view name, std::string_view doc,
+                          std::string_view unit) noexcept
+    : OutputPortBase(owner, std::make_unique<About>(name, doc, unit, types::type_of<T>())) {}
+
+template <typename T>
+OutputPort<T>::~OutputPort() = default;
+
+template <typename T>
+const void* OutputPort<T>::current() const {
+  return &sample_.value;
+}
+template <typename T>
+base::Time OutputPort<T>::current_time() const {
+  return sample_.time;
+}
+template <typename T>
+std::uint64_t OutputPort<T>::current_sequence() const {
+  return sample_.sequence;
+}
+
+template <typename T>
+void OutputPort<T>::prepare() {
+  if constexpr (internal::is_vector<T>) {
+    if (declared_size().declared()) sample_.value.resize(declared_size().value());
+  }
+}
+
+template <typename T>
+bool OutputPort<T>::fits(const InputPortBase& input) const {
+  if constexpr (internal::is_vector<T>) {
+    const PortSize& expected = input.declared_size();
+    return !expected.declared() || expected.value() == sample_.value.size();
+  } else {
+    return true;
+  }
+}
+
+template <typename T>
+void OutputPort<T>::connect(InputPortBase& base, const ConnectionPolicy& policy) {
+  auto& input = static_cast<InputPort<T>&>(base);
+  input.set_shape(sample_.value);
+  const bool same_thread = &owner().context() == &base.owner().context();
+  const bool latest = policy.kind == ConnectionPolicy::Kind::kLatest;
+  if (same_thread && latest && !policy.one_cycle_delay && !base.allows_fan_in()) {
+    input.connect_source(*this, sample_);
+    add_reader(base);
+  } else {
+    add_reader(base, make_channel(base, policy, same_thread), &sample_, sample_.sequence);
+  }
+}
+
+template <typename T>
+std::unique_ptr<internal::ChannelBase> OutputPort<T>::make_channel(InputPortBase& input,
+                                                                   const ConnectionPolicy& policy,
+                                                                   bool same_thread) {
+  if (policy.one_cycle_delay && same_thread) {
+    return std::make_unique<internal::DelayChannel<T>>(input, sample_);
+  }
+  if (policy.kind == ConnectionPolicy::Kind::kLatest) {
+    return std::make_unique<internal::LatestChannel<T>>(input, same_thread, sample_);
+  }
+  if (same_thread) {
+    return std::make_unique<internal::FifoChannel<T, rt::PlainAtomics>>(input, true, policy,
+                                                                        sample_);
+  }
+  return std::make_unique<internal::FifoChannel<T, rt::StdAtomics>>(input, false, policy, sample_);
+}
+
+template <typename T>
+WriteStatus OutputPort<T>::write_shaped(const T& value) noexcept {
+  if (!types::same_shape(type(), &sample_.value, &value)) {
+    ++about().counters.wrong_size;
+    return WriteStatus::kWrongSize;
+  }
+  sample_.value = value;
+  return tell();
+}
+
+}  // namespace armature::component

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/component/port_array.hpp"
+
+#include <cstring>
+
+namespace armature::component {
+
+PortArrayBase::PortArrayBase(Component& owner, std::string_view name, Property<int>& count) noexcept
+    : name_(name), count_(count) {
+  owner.declare().port_arrays.push_back(this);
+  count.add_follower(*this);
+}
+
+PortArrayBase::~PortArrayBase() = default;
+
+std::size_t PortArrayBase::wanted() const {
+  const int count = count_.get();
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
+std::string PortArrayBase::port_name(std::size_t index) const {
+  return std::string(name_) + std::to_string(index + 1);
+}
+
+void PortArrayBase::keep_options(const void* options, std::size_t size) {
+  options_ = std::make_unique<std::byte[]>(size);
+  std::memcpy(options_.get(), options, size);
+}
+
+void PortArrayBase::forget(InputPortBase& port) {
+  std::erase(port.owner().declare().inputs, &port);
+}
+
+void PortArrayBase::forget(OutputPortBase& port) {
+  std::erase(port.owner().declare().outputs, &port);
+}
+
+}  // namespace armature::component
