@@ -179,6 +179,7 @@ void Component::stop_because(std::string_view reason) {
 
 void Component::contain(const std::exception_ptr& exception, ExecutionContext& where) noexcept {
   const rt::PermitScope permit;
+  where.caught = exception;
   try {
     std::rethrow_exception(exception);
   } catch (const std::exception& known) {
