@@ -25,8 +25,8 @@ class TriggerGraph {
     }
     for (const ConnectionPlan& connection : plan.connections) {
       if (!runs_within_the_write(connection)) continue;
-      add_way(connection.from,
-              {connection.output->name(), handlers_.at(connection.input), &connection.entry->where});
+      add_way(connection.from, {connection.output->name(), handlers_.at(connection.input),
+                                &connection.entry->where});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
       if (!same_thread(subscription.from, subscription.to)) continue;
