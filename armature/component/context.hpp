@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <string>
 
@@ -48,6 +49,7 @@ struct ExecutionContext {
   bool measuring = false;         ///< this cycle's execution times are taken for each component
   std::uint64_t mark = 0;         ///< tick at which another one began to run, while measuring
   Component* measured = nullptr;  ///< the first of those that ran while measuring
+  std::exception_ptr caught;      ///< the last one, kept: to let go of it frees memory
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};
   bool simulated = false;  ///< several contexts take turns in one thread

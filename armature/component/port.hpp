@@ -107,6 +107,7 @@ struct LeadsTo {
   bool declared = false;
 
   bool includes(std::string_view name) const;
+  bool operator==(const LeadsTo&) const = default;
 };
 template <typename... Names>
 LeadsTo leads_to(Names... names) {

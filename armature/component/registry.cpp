@@ -48,4 +48,6 @@ std::vector<std::string> Registry::names() const {
 
 const char* abi_tag() { return ARMATURE_ABI_TAG; }
 
+std::uint64_t runtime_layout() { return layout_fingerprint(); }
+
 }  // namespace armature::component

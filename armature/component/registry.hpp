@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,7 +11,14 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
+#include "armature/component/command.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/event.hpp"
+#include "armature/component/input_port.hpp"
+#include "armature/component/operation.hpp"
+#include "armature/component/output_port.hpp"
+#include "armature/component/property.hpp"
+#include "armature/component/state_machine.hpp"
 
 namespace armature::component {
 
@@ -52,16 +61,20 @@ class Registry {
   std::string problems_;
 };
 
-/// What a component library exports. The host refuses a library whose `abi` is not its own.
+/// What a component library exports. The host refuses a library whose `abi` or `layout` is not its
+/// own, and reads nothing after the one that differs.
 struct LibraryDescription {
   const char* abi;
+  std::uint64_t layout;
   const char* name;
   void (*fill)(Registry& registry);
 };
 
-/// Identifies everything that host and library must agree on: version, compiler's C++ ABI, standard
-/// library, and the sizes of the types that both touch.
+/// Identifies what host and library must agree on: version, compiler's C++ ABI, standard library.
 const char* abi_tag();
+
+/// The `layout_fingerprint()` of the headers that the runtime was built with.
+std::uint64_t runtime_layout();
 
 /// The ABI of whoever includes this header, compiled into each library.
 #define ARMATURE_ABI_TAG                                                        \
@@ -70,19 +83,52 @@ const char* abi_tag();
 #define ARMATURE_STRINGIZE(x) ARMATURE_STRINGIZE_(x)
 #define ARMATURE_STRINGIZE_(x) #x
 
+namespace internal {
+
+/// 64-bit FNV-1a of numbers.
+constexpr std::uint64_t hash_of(std::initializer_list<std::size_t> numbers) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::size_t number : numbers) {
+    hash ^= number;
+    hash *= 0x00000100000001b3u;
+  }
+  return hash;
+}
+
+/// Differs if the size or alignment of any of the types does.
+template <typename... Types>
+constexpr std::uint64_t layout_of() {
+  return hash_of({hash_of({sizeof(Types), alignof(Types)})...});
+}
+
+}  // namespace internal
+
+/// A number that changes with the sizes of the types that host and library share: a library that
+/// was compiled against other headers of the same version has another one.
+consteval std::uint64_t layout_fingerprint() {
+  return internal::hash_of(
+      {__GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI,
+       internal::layout_of<Component, ExecutionContext, Interface, Outcome, Registry,
+                           Registry::Model, StateMachine, Property<double>, Property<std::string>,
+                           InputPort<double>, OutputPort<double>, ConnectionPolicy, Event<>,
+                           EventHandler<>, Operation<void()>, OperationCaller<void()>, Command<>,
+                           CommandCaller<>, types::Type, std::string, std::vector<double>>()});
+}
+
 inline constexpr const char* kLibraryEntry = "armature_component_library";
 
 /// The one function that a component library exports:
 /// `ARMATURE_COMPONENT_LIBRARY(motion, registry) { registry.add<Pid>("PID", "one-joint PID"); }`
-#define ARMATURE_COMPONENT_LIBRARY(library_name, registry)                       \
-  static void armature_fill_registry(::armature::component::Registry& registry); \
-  extern "C" __attribute__((visibility("default")))                              \
-  const ::armature::component::LibraryDescription*                               \
-  armature_component_library() {                                                 \
-    static const ::armature::component::LibraryDescription description{          \
-        ARMATURE_ABI_TAG, #library_name, &armature_fill_registry};               \
-    return &description;                                                         \
-  }                                                                              \
+#define ARMATURE_COMPONENT_LIBRARY(library_name, registry)                            \
+  static void armature_fill_registry(::armature::component::Registry& registry);      \
+  extern "C" __attribute__((visibility("default")))                                   \
+  const ::armature::component::LibraryDescription*                                    \
+  armature_component_library() {                                                      \
+    static const ::armature::component::LibraryDescription description{               \
+        ARMATURE_ABI_TAG, ::armature::component::layout_fingerprint(), #library_name, \
+        &armature_fill_registry};                                                     \
+    return &description;                                                              \
+  }                                                                                   \
   static void armature_fill_registry(::armature::component::Registry& registry)
 
 }  // namespace armature::component

@@ -94,11 +94,36 @@ TEST(Registry, ALibraryExportsOneFunctionThatFillsIt) {
   const LibraryDescription* library = armature_component_library();
   EXPECT_STREQ(library->name, "motion");
   EXPECT_STREQ(library->abi, abi_tag());
+  EXPECT_EQ(library->layout, runtime_layout());
   Registry registry;
   registry.begin_library(library->name);
   library->fill(registry);
   EXPECT_EQ(registry.end_library(), "");
   EXPECT_EQ(registry.find("PID")->library, "motion");
+}
+
+struct Plain {
+  int first;
+  int second;
+};
+struct Larger {
+  int first;
+  int second;
+  int third;
+};
+struct alignas(8) Aligned {
+  int first;
+  int second;
+};
+
+TEST(LayoutFingerprint, DiffersWithTheSizeOrAlignmentOfAnyType) {
+  using internal::layout_of;
+  const std::uint64_t layout = layout_of<Plain, double>();
+  EXPECT_EQ((layout_of<Plain, double>()), layout);
+  EXPECT_NE((layout_of<Larger, double>()), layout);
+  EXPECT_NE((layout_of<Aligned, double>()), layout);
+  EXPECT_NE((layout_of<Plain, float>()), layout);
+  EXPECT_NE((layout_of<double, Plain>()), layout);
 }
 
 }  // namespace

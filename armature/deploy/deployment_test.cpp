@@ -22,6 +22,10 @@ class Recorder final : public component::Component {
   std::vector<std::uint64_t> bits;
 
  private:
+  component::Outcome on_configure() override {
+    bits.reserve(100000);
+    return component::accepted();
+  }
   void on_update() override {
     mean_ += (in_.read().value - mean_) / 3.0;
     std::uint64_t result = 0;

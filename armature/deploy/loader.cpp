@@ -69,9 +69,8 @@ base::Result<const component::LibraryDescription*> describe(const std::string& f
                        "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
   }
   const component::LibraryDescription* const description = entry();
-  const bool complete = description != nullptr && description->abi != nullptr &&
-                        description->name != nullptr && description->fill != nullptr;
-  if (!complete) return base::Error{path_in_quotes(file) + " does not describe itself"};
+  const base::Error undescribed{path_in_quotes(file) + " does not describe itself"};
+  if (description == nullptr || description->abi == nullptr) return undescribed;
   const std::string_view theirs = description->abi;
   const std::string_view ours = component::abi_tag();
   if (theirs != ours) {
@@ -79,6 +78,13 @@ base::Result<const component::LibraryDescription*> describe(const std::string& f
                        ", but this program is " + std::string(ours) +
                        ": rebuild the library with this program's headers and compiler"};
   }
+  if (description->layout != component::runtime_layout()) {
+    return base::Error{path_in_quotes(file) + " was built with other headers of " +
+                       std::string(ours.substr(0, ours.find('/'))) +
+                       " than this program, so they disagree about the layout of components: "
+                       "rebuild the library with the headers of this program"};
+  }
+  if (description->name == nullptr || description->fill == nullptr) return undescribed;
   return description;
 }
 

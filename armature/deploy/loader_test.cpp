@@ -43,6 +43,15 @@ TEST(Loader, AnotherAbiIsRefusedNamingBothBeforeAnythingElseIsTouched) {
                     HasSubstr("rebuild the library")));
 }
 
+TEST(Loader, AnotherLayoutIsRefusedBeforeTheLibraryIsAskedForItsModels) {
+  for (const char* name : {"other_layout", "old_description"}) {
+    EXPECT_EQ(why_not(name), "'" + library(name) +
+                                 "' was built with other headers of armature-0.1 than this "
+                                 "program, so they disagree about the layout of components: "
+                                 "rebuild the library with the headers of this program");
+  }
+}
+
 TEST(Loader, ALibraryWithoutTheFunctionIsNoComponentLibrary) {
   EXPECT_THAT(why_not("no_entry"), AllOf(HasSubstr("libno_entry.so' is no component library"),
                                          HasSubstr("armature_component_library"),

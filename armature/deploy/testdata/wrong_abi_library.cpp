@@ -5,6 +5,7 @@
 extern "C" __attribute__((visibility("default"))) const armature::component::LibraryDescription*
 armature_component_library() {
   static const armature::component::LibraryDescription description{
-      "armature-9.9/0/0/0", "wrong_abi", [](armature::component::Registry&) { __builtin_trap(); }};
+      "armature-9.9/0/0/0", armature::component::layout_fingerprint(), "wrong_abi",
+      [](armature::component::Registry&) { __builtin_trap(); }};
   return &description;
 }

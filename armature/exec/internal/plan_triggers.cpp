@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -11,72 +12,90 @@ namespace armature::exec::internal {
 namespace {
 
 /// The handlers of an application and which of them may set off which other in the same thread.
+/// Handlers of a component that lead to the same are one kind, such as those of an array of ports;
+/// the search goes over kinds, so that its effort grows with the wiring and not with its square.
 class TriggerGraph {
  public:
   TriggerGraph(const Blueprint& blueprint, const Plan& plan) : blueprint_(blueprint), plan_(plan) {
     for (const ConnectionPlan& connection : plan.connections) {
-      if (connection.input->triggers()) node(connection.input, connection.to, *connection.input);
+      if (connection.input->triggers()) add_handler(*connection.input, connection.to);
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
-      node(subscription.handler, subscription.to, *subscription.handler);
+      add_handler(*subscription.handler, subscription.to);
     }
     for (const ConnectionPlan& connection : plan.connections) {
-      if (runs_within_the_write(connection)) {
-        out_of_[connection.from].push_back(
-            {connection.output->name(), index_.at(connection.input), &connection.entry->where});
-      }
+      if (!runs_within_the_write(connection)) continue;
+      add_way(connection.from, {connection.output->name(), handlers_.at(connection.input),
+                                &connection.entry->where});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
-      if (same_thread(subscription.from, subscription.to)) {
-        out_of_[subscription.from].push_back({subscription.event->name(),
-                                              index_.at(subscription.handler),
-                                              &blueprint.components[subscription.to].where});
-      }
+      if (!same_thread(subscription.from, subscription.to)) continue;
+      add_way(subscription.from, {subscription.event->name(), handlers_.at(subscription.handler),
+                                  &blueprint.components[subscription.to].where});
     }
   }
 
   void report_cycles(base::Diagnostics& diagnostics) {
-    state_.assign(nodes_.size(), State::kUnseen);
-    for (std::size_t start = 0; start < nodes_.size(); ++start) {
-      if (state_[start] == State::kUnseen) search(start, diagnostics);
+    for (std::size_t start = 0; start < kinds_.size(); ++start) {
+      if (kinds_[start].state == State::kUnseen) search(start, diagnostics);
     }
   }
 
   /// How deep handlers nest in each thread; to be asked if there are no cycles.
   std::vector<int> depths() const {
     std::vector<int> depths(plan_.threads.size(), 0);
-    for (const Node& node : nodes_) {
-      int& depth = depths[plan_.thread_of[node.component]];
-      depth = std::max(depth, node.depth);
+    for (const Kind& kind : kinds_) {
+      int& depth = depths[plan_.thread_of[kind.component]];
+      depth = std::max(depth, kind.depth);
     }
     return depths;
   }
 
  private:
   enum class State { kUnseen, kOpen, kDone };
-  struct Node {
-    Index component;
-    std::string path;
-    const component::LeadsTo* effects;
-    int depth = 1;  ///< of the handlers that it sets off, itself included
+  struct Handler {
+    std::string_view name;
+    std::size_t kind;
   };
   struct Way {
     std::string_view through;  ///< output port or event
-    std::size_t to;
+    Handler to;
     const base::Location* where;
   };
+  struct Kind {
+    Index component;
+    const component::LeadsTo* effects;
+    std::vector<Way> ways{};
+    State state = State::kUnseen;
+    int depth = 1;  ///< of the handlers that it sets off, itself included
+  };
   struct Visit {
-    std::size_t node;
+    Handler handler;
     std::size_t next_way = 0;
   };
 
   template <typename Entry>
-  void node(const void* key, Index component, const Entry& entry) {
-    if (!index_.emplace(key, nodes_.size()).second) return;
-    nodes_.push_back(
-        {component,
-         blueprint_.components[component].component->name() + "." + std::string(entry.name()),
-         &entry.effects()});
+  void add_handler(const Entry& entry, Index component) {
+    const auto [place, is_new] = handlers_.try_emplace(&entry);
+    if (is_new) place->second = {entry.name(), kind_of(component, entry.effects())};
+  }
+
+  std::size_t kind_of(Index component, const component::LeadsTo& effects) {
+    std::vector<std::size_t>& kinds = kinds_of_[component];
+    for (const std::size_t kind : kinds) {
+      if (*kinds_[kind].effects == effects) return kind;
+    }
+    kinds.push_back(kinds_.size());
+    kinds_.push_back({component, &effects});
+    return kinds.back();
+  }
+
+  void add_way(Index from, const Way& way) {
+    const auto kinds = kinds_of_.find(from);
+    if (kinds == kinds_of_.end()) return;
+    for (const std::size_t kind : kinds->second) {
+      if (kinds_[kind].effects->includes(way.through)) kinds_[kind].ways.push_back(way);
+    }
   }
 
   /// A delayed value is not handled before the next cycle; but in a triggered thread that follows
@@ -90,52 +109,55 @@ class TriggerGraph {
   bool same_thread(Index a, Index b) const { return plan_.thread_of[a] == plan_.thread_of[b]; }
 
   void search(std::size_t start, base::Diagnostics& diagnostics) {
-    std::vector<Visit> path{{start}};
-    state_[start] = State::kOpen;
+    std::vector<Visit> path{{{{}, start}}};
+    kinds_[start].state = State::kOpen;
     while (!path.empty()) {
       Visit& visit = path.back();
-      const Node& here = nodes_[visit.node];
-      const std::vector<Way>& ways = out_of_[here.component];
-      if (visit.next_way == ways.size()) {
-        state_[visit.node] = State::kDone;
+      Kind& here = kinds_[visit.handler.kind];
+      if (visit.next_way == here.ways.size()) {
+        here.state = State::kDone;
         const int depth = here.depth + 1;
         path.pop_back();
-        if (!path.empty()) deepen(path.back().node, depth);
+        if (!path.empty()) deepen(kinds_[path.back().handler.kind], depth);
         continue;
       }
-      const Way& way = ways[visit.next_way++];
-      if (!here.effects->includes(way.through)) continue;
-      if (state_[way.to] == State::kOpen) report(path, way, diagnostics);
-      if (state_[way.to] == State::kDone) deepen(visit.node, nodes_[way.to].depth + 1);
-      if (state_[way.to] != State::kUnseen) continue;
-      state_[way.to] = State::kOpen;
+      const Way& way = here.ways[visit.next_way++];
+      Kind& next = kinds_[way.to.kind];
+      if (next.state == State::kOpen) report(path, way, diagnostics);
+      if (next.state == State::kDone) deepen(here, next.depth + 1);
+      if (next.state != State::kUnseen) continue;
+      next.state = State::kOpen;
       path.push_back({way.to});
     }
   }
 
-  void deepen(std::size_t node, int depth) {
-    nodes_[node].depth = std::max(nodes_[node].depth, depth);
-  }
+  static void deepen(Kind& kind, int depth) { kind.depth = std::max(kind.depth, depth); }
 
+  /// The way leads back to a kind of handler that is on the path.
   void report(const std::vector<Visit>& path, const Way& back, base::Diagnostics& diagnostics) {
-    std::string text;
+    std::string text = path_of(back.to);
     bool inside = false;
     for (const Visit& visit : path) {
-      inside = inside || visit.node == back.to;
-      if (inside) text += nodes_[visit.node].path + " -> ";
+      if (inside) text += " -> " + path_of(visit.handler);
+      inside = inside || visit.handler.kind == back.to.kind;
     }
-    diagnostics.error(*back.where,
-                      "handlers may set each other off without end: " + text + nodes_[back.to].path,
-                      "declare delay: one_cycle on one of these connections, or leads_to(...) on "
-                      "a port whose handler does not write all outputs of its component");
+    diagnostics.error(
+        *back.where,
+        "handlers may set each other off without end: " + text + " -> " + path_of(back.to),
+        "declare delay: one_cycle on one of these connections, or leads_to(...) on "
+        "a port whose handler does not write all outputs of its component");
+  }
+
+  std::string path_of(const Handler& handler) const {
+    const Index component = kinds_[handler.kind].component;
+    return blueprint_.components[component].component->name() + "." + std::string(handler.name);
   }
 
   const Blueprint& blueprint_;
   const Plan& plan_;
-  std::vector<Node> nodes_;
-  std::unordered_map<const void*, std::size_t> index_;
-  std::unordered_map<Index, std::vector<Way>> out_of_;
-  std::vector<State> state_;
+  std::vector<Kind> kinds_;
+  std::unordered_map<Index, std::vector<std::size_t>> kinds_of_;
+  std::unordered_map<const void*, Handler> handlers_;
 };
 
 /// Each level takes room on the thread's stack.

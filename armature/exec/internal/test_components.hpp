@@ -18,6 +18,7 @@
 #include "armature/exec/application.hpp"
 #include "armature/exec/plan.hpp"
 #include "armature/platform/clock.hpp"
+#include "armature/rt/guard.hpp"
 
 namespace armature::exec {
 
@@ -85,6 +86,7 @@ class Probe : public component::Component {
   void on_in() { act("in"); }
 
   void act(const std::string& hook) {
+    const rt::PermitScope what_a_test_does_is_no_real_time_code;
     if (journal != nullptr) journal->note(name() + " " + hook);
     if (const auto action = actions.find(hook); action != actions.end()) action->second();
   }
@@ -125,7 +127,10 @@ class Gain : public component::Component {
 
  private:
   void step(double value) {
-    if (++steps == throw_at) throw std::runtime_error("broken tooth");
+    if (++steps == throw_at) {
+      const rt::PermitScope throwing;
+      throw std::runtime_error("broken tooth");
+    }
     out.write(factor * value);
   }
   double scaled(double value) { return factor * value; }
