@@ -180,7 +180,7 @@ void Component::stop_because(std::string_view reason) {
 
 void Component::contain(ExecutionContext& where) noexcept {
   const rt::PermitScope permit;
-  where.caught = exception;
+  where.caught = std::current_exception();
   try {
     throw;
   } catch (const std::exception& known) {

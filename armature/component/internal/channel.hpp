@@ -35,6 +35,10 @@ class ChannelBase : public rt::Signal {
   /// @param sample  a `Sample` of the ports' type
   /// @thread the writer's
   virtual rt::PushResult push(const void* sample) = 0;
+  /// The number of the newest sample that is certain to be there; 0: of those written so far only
+  /// one is kept.
+  /// @thread any
+  virtual std::uint64_t newest() const { return 0; }
   /// There will be a sample to read in the next cycle.
   virtual bool ripens() const { return false; }
 
@@ -89,11 +93,19 @@ class FifoChannel final : public Channel<T> {
               const Sample<T>& shape)
       : Channel<T>(reader, directly, true), ring_(policy.capacity, policy.when_full, shape) {}
 
-  rt::PushResult push(const void* sample) override { return ring_.push(this->as_sample(sample)); }
+  rt::PushResult push(const void* sample) override {
+    const rt::PushResult result = ring_.push(this->as_sample(sample));
+    if (result != rt::PushResult::kRefused) {
+      newest_.store(this->as_sample(sample).sequence, std::memory_order_release);
+    }
+    return result;
+  }
   const Sample<T>* pop() override { return ring_.pop(); }
+  std::uint64_t newest() const override { return newest_.load(std::memory_order_acquire); }
 
  private:
   rt::Ring<Sample<T>, Atomics> ring_;
+  typename Atomics::template Atomic<std::uint64_t> newest_{0};
 };
 
 /// Within one thread: a sample is read in the cycle after the one in which it was written, whether

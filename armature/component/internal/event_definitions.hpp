@@ -4,12 +4,14 @@
 // What of events and their handlers is not in their header: nothing of this is needed when an event
 // is raised in the thread of its handlers.
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <memory>
 #include <string_view>
 #include <tuple>
 
 #include "armature/component/event.hpp"
-#include "armature/rt/ring.hpp"
 
 namespace armature::component {
 
@@ -41,27 +43,46 @@ void Event<Args...>::unsubscribe_all() {
   queued_.clear();
 }
 
+/// Events on their way to another thread. Each is a message, so that it has its place among all
+/// others that the raiser sent there.
 template <typename... Args>
-struct EventHandler<Args...>::Queue final : rt::Signal {
-  Queue(EventHandler& handler, std::size_t capacity)
-      : rt::Signal(&Queue::deliver),
-        self(handler),
-        events(capacity, rt::WhenFull::kRefuse, std::tuple<Args...>{}) {}
-  static void deliver(rt::Message& message) {
-    auto& queue = static_cast<Queue&>(message);
-    queue.lower();
-    while (const std::tuple<Args...>* event = queue.events.pop()) {
-      std::apply(
-          [&queue](const Args&... arguments) {
-            Component& component = queue.self.owner();
-            component.run(component.context(),
-                          [&] { queue.self.handle(component.context(), arguments...); });
-          },
-          *event);
+struct EventHandler<Args...>::Queue {
+  struct Entry final : rt::Message {
+    Entry() : rt::Message(&Entry::deliver) {}
+    static void deliver(rt::Message& message) {
+      auto& entry = static_cast<Entry&>(message);
+      EventHandler& handler = *entry.handler;
+      const std::tuple<Args...> event = entry.event;
+      entry.waits.store(false, std::memory_order_release);
+      Component& component = handler.owner();
+      component.run(component.context(), [&] {
+        std::apply(
+            [&](const Args&... arguments) { handler.handle(component.context(), arguments...); },
+            event);
+      });
     }
+    EventHandler* handler = nullptr;
+    std::tuple<Args...> event{};
+    std::atomic<bool> waits{false};
+  };
+
+  Queue(EventHandler& handler, std::size_t size)
+      : capacity(std::max<std::size_t>(size, 1)), entries(std::make_unique<Entry[]>(capacity)) {
+    for (std::size_t i = 0; i < capacity; ++i) entries[i].handler = &handler;
   }
-  EventHandler& self;
-  rt::Ring<std::tuple<Args...>> events;
+  /// The next entry, nullptr if it still waits: they are handled in their order.
+  /// @thread the raiser's
+  Entry* claim() {
+    Entry& entry = entries[next];
+    if (entry.waits.load(std::memory_order_acquire)) return nullptr;
+    entry.waits.store(true, std::memory_order_relaxed);
+    if (++next == capacity) next = 0;
+    return &entry;
+  }
+
+  std::size_t capacity;
+  std::unique_ptr<Entry[]> entries;
+  std::size_t next = 0;
 };
 
 template <typename... Args>
@@ -103,12 +124,13 @@ void EventHandler<Args...>::unbind() {
 
 template <typename... Args>
 bool EventHandler<Args...>::enqueue(const Args&... arguments) {
-  Queue& queue = *about().queue;
-  if (queue.events.push(std::tuple<Args...>(arguments...)) == rt::PushResult::kRefused) {
+  auto* const entry = about().queue->claim();
+  if (entry == nullptr) {
     count_drop();
     return false;
   }
-  owner().context().raise(queue);
+  entry->event = std::tuple<Args...>(arguments...);
+  owner().context().post(*entry);
   return true;
 }
 

@@ -65,10 +65,13 @@ template <typename T>
 void InputPort<T>::drain(internal::ChannelBase& base) {
   auto& channel = static_cast<internal::Channel<T>&>(base);
   Component& component = owner();
+  ExecutionContext& where = component.context();
+  // What is written from now on has its own message, behind those that are on their way already.
+  const std::uint64_t last = channel.newest();
   while (const Sample<T>* sample = channel.pop()) {
     take(channel, *sample);
-    ExecutionContext& where = component.context();
     component.run(where, [this, &where] { arrived(where); });
+    if (channel.last_sequence >= last) return;
   }
 }
 
