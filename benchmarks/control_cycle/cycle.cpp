@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "benchmarks/control_cycle/components.hpp"
+#include "benchmarks/control_cycle/pacer.hpp"
 
 namespace armature::benchmarks {
 namespace {
@@ -74,6 +75,16 @@ exec::Blueprint make_cycle(int joints, const CycleThreads& threads) {
   add_joints(blueprint, joints);
   for (int i = 1; i <= joints; ++i) connect_joint(blueprint, std::to_string(i));
   return blueprint;
+}
+
+Pacer& add_pacer(exec::Blueprint& blueprint, int joints) {
+  Pacer& pacer = add<Pacer>(blueprint, "Pacer", {"Sampler", "Actuator"});
+  set(pacer, "joints", joints);
+  for (int i = 1; i <= joints; ++i) {
+    const std::string number = std::to_string(i);
+    blueprint.connect("Joint" + number + ".Position", "Pacer.Position" + number);
+  }
+  return pacer;
 }
 
 }  // namespace armature::benchmarks

@@ -5,6 +5,8 @@
 
 namespace armature::benchmarks {
 
+class Pacer;
+
 /// How the cycle is spread over threads.
 struct CycleThreads {
   exec::Activity sampler;
@@ -18,5 +20,8 @@ CycleThreads one_thread();
 
 /// The sampled-control cycle of `joints` joints.
 exec::Blueprint make_cycle(int joints, const CycleThreads& threads);
+
+/// Adds what runs the cycle again and again.
+Pacer& add_pacer(exec::Blueprint& blueprint, int joints);
 
 }  // namespace armature::benchmarks

@@ -20,6 +20,7 @@ class SimulatedMotor {
   bool index() const { return index_; }
   void drive(double voltage) { voltage_ = voltage; }
   double voltage() const { return voltage_; }
+  friend bool operator==(const SimulatedMotor&, const SimulatedMotor&) = default;
 
  private:
   static constexpr double kPeriod = 0.001;       // s

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "armature/exec/application.hpp"
+#include "benchmarks/control_cycle/monolithic.hpp"
+
+namespace armature::benchmarks {
+
+/// Says which motor of the application's cycle is not, to the last bit, in the state of the loop's;
+/// empty if all are. To be asked between two cycles, both having done the same number.
+std::string difference_of(const exec::Application& application, const MonolithicController& loop,
+                          int joints);
+
+}  // namespace armature::benchmarks

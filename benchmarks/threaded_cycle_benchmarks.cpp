@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sampled-control cycle in four threads, beside the bare futex hops that its wiring needs.
+#include <array>
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "armature/exec/application.hpp"
+#include "benchmarks/baton.hpp"
+#include "benchmarks/control_cycle/comparison.hpp"
+#include "benchmarks/control_cycle/cycle.hpp"
+#include "benchmarks/control_cycle/monolithic.hpp"
+#include "benchmarks/control_cycle/pacer.hpp"
+#include "benchmarks/suite.hpp"
+
+namespace armature::benchmarks {
+namespace {
+
+constexpr double kBound = 1.3;
+constexpr std::int64_t kRounds = 101;
+constexpr std::chrono::milliseconds kBatch(10);
+
+/// Plain threads that wake each other as the cycle's do, and do nothing else. Five wake-ups: the
+/// sampler's thread, in which the joints live, tells the actuator of `Sample` and hands the samples
+/// to the sensor, this to the controller, this to the actuator, and this back to the joints.
+class BareHops {
+ public:
+  BareHops() = default;
+  BareHops(const BareHops&) = delete;
+  BareHops& operator=(const BareHops&) = delete;
+  ~BareHops() {
+    ending_ = true;
+    for (Baton* baton : {&joints_, &sensor_, &controller_, &actuator_}) baton->pass();
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+  void run_cycles(std::int64_t count) {
+    left_ = count;
+    joints_.pass();
+    finish_.wait();
+  }
+
+ private:
+  void run_joints() {
+    while (true) {
+      joints_.wait();
+      if (ending_) return;
+      for (; left_ > 0; --left_) {
+        actuator_.pass();
+        sensor_.pass();
+        joints_.wait();
+      }
+      finish_.pass();
+    }
+  }
+  void run_sensor() {
+    while (true) {
+      sensor_.wait();
+      if (ending_) return;
+      controller_.pass();
+    }
+  }
+  void run_controller() {
+    while (true) {
+      controller_.wait();
+      if (ending_) return;
+      controlled_ = true;
+      actuator_.pass();
+    }
+  }
+  void run_actuator() {
+    while (true) {
+      actuator_.wait();
+      if (ending_) return;
+      if (controlled_.exchange(false)) joints_.pass();
+    }
+  }
+
+  std::int64_t left_ = 0;
+  Baton joints_;
+  Baton sensor_;
+  Baton controller_;
+  Baton actuator_;
+  Baton finish_;
+  std::atomic<bool> controlled_{false};
+  std::atomic<bool> ending_{false};
+  std::array<std::thread, 4> threads_{
+      std::thread([this] { run_joints(); }), std::thread([this] { run_sensor(); }),
+      std::thread([this] { run_controller(); }), std::thread([this] { run_actuator(); })};
+};
+
+void run_cycle(benchmark::State& state, int joints) {
+  const exec::Activity own_thread = exec::Activity::triggered();
+  exec::Blueprint blueprint = make_cycle(joints, {own_thread, own_thread, own_thread, own_thread});
+  Pacer& pacer = add_pacer(blueprint, joints);
+  exec::Application application(std::move(blueprint));
+  const base::Diagnostics started = application.start();
+  if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
+
+  BareHops hops;
+  std::int64_t cycles = 0;
+  Result result = measure_in_turn(
+      state,
+      [&](std::int64_t count) {
+        pacer.run_cycles(count);
+        cycles += count;
+      },
+      [&](std::int64_t count) { hops.run_cycles(count); }, kBatch);
+  result.bound = ratio_at_most(kBound);
+  publish(state, result);
+
+  application.stop();
+  MonolithicController loop(joints);
+  for (std::int64_t i = 0; i < cycles; ++i) loop.cycle();
+  const std::string difference = difference_of(application, loop, joints);
+  if (!difference.empty()) state.SkipWithError(difference.c_str());
+}
+
+}  // namespace
+
+void add_threaded_cycles(const Suite& suite) {
+  for (const int joints : {2, 7, 64, 256, 1000}) {
+    suite.add("cycle_threaded/" + std::to_string(joints), kRounds,
+              [joints](benchmark::State& state) { run_cycle(state, joints); });
+  }
+}
+
+}  // namespace armature::benchmarks
