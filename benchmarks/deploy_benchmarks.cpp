@@ -66,6 +66,7 @@ Cost start(int components) {
 /// Reads a deployment file, makes the components, and checks.
 Cost load(int components) {
   deploy::DeploymentOptions options;
+  options.library_folders = {ARMATURE_LIBRARIES};
   options.document.overrides = {"joints=" + std::to_string(joints_for(components))};
   deploy::Deployment deployment;
   Cost cost = cost_of(1, [&] { deployment = deploy::load_deployment(kDeployment, options); });

@@ -20,7 +20,8 @@ constexpr const char* kDeployment = ARMATURE_SOURCE_DIR "/benchmarks/control_cyc
 void run_resident(benchmark::State& state, const std::string& realtime) {
   std::vector<double> megabytes;
   for ([[maybe_unused]] auto round : state) {
-    const Child robot({ARMATURE_PROGRAM, "run", "--realtime", realtime, kDeployment});
+    const Child robot({ARMATURE_PROGRAM, "run", "--realtime", realtime, "--library-path",
+                       ARMATURE_LIBRARIES, kDeployment});
     platform::sleep_until(platform::monotonic_now() + kUntilSteady);
     megabytes.push_back(robot.resident_bytes() / 1e6);
   }
