@@ -232,7 +232,7 @@ TEST_P(ComponentFunctions, ACommandToEachOfItsEnds) {
   expect_realtime("CommandCaller::send",
                   [&] { run([&](CommandHandle&) { server_.move.complete(); }); });
   EXPECT_EQ(stage, CommandStage::kDone);
-  expect_realtime("Command::report", [&] {
+  expect_realtime("CommandBase::report", [&] {
     run([&](CommandHandle&) {
       server_.move.report(0.5);
       server_.move.fail("it is blocked");
