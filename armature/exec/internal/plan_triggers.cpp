@@ -22,15 +22,15 @@ class TriggerGraph {
     }
     for (const ConnectionPlan& connection : plan.connections) {
       if (runs_within_the_write(connection)) {
-        out_of_[connection.from].push_back(
-            {connection.output->name(), index_.at(connection.input), &connection.entry->where});
+        out_of_[connection.from].push_back({connection.output->name(), index_.at(connection.input),
+                                            &connection.entry->where, is_periodic(connection.to)});
       }
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
       if (same_thread(subscription.from, subscription.to)) {
         out_of_[subscription.from].push_back({subscription.event->name(),
                                               index_.at(subscription.handler),
-                                              &blueprint.components[subscription.to].where});
+                                              &blueprint.components[subscription.to].where, false});
       }
     }
   }
@@ -64,6 +64,7 @@ class TriggerGraph {
     std::string_view through;  ///< output port or event
     std::size_t to;
     const base::Location* where;
+    bool ends_by_delay;
   };
   struct Visit {
     std::size_t node;
@@ -83,8 +84,12 @@ class TriggerGraph {
   /// at once, so that the delay does not end a cycle of handlers.
   bool runs_within_the_write(const ConnectionPlan& connection) const {
     if (!connection.input->triggers() || !same_thread(connection.from, connection.to)) return false;
-    const Activity& activity = plan_.threads[plan_.thread_of[connection.to]].activity;
-    return !connection.entry->policy.one_cycle_delay || activity.kind != Activity::Kind::kPeriodic;
+    return !connection.entry->policy.one_cycle_delay || !is_periodic(connection.to);
+  }
+
+  bool is_periodic(Index component) const {
+    const ThreadPlan& thread = plan_.threads[plan_.thread_of[component]];
+    return thread.activity.kind == Activity::Kind::kPeriodic;
   }
 
   bool same_thread(Index a, Index b) const { return plan_.thread_of[a] == plan_.thread_of[b]; }
@@ -120,14 +125,23 @@ class TriggerGraph {
   void report(const std::vector<Visit>& path, const Way& back, base::Diagnostics& diagnostics) {
     std::string text;
     bool inside = false;
+    bool delay_helps = false;
     for (const Visit& visit : path) {
       inside = inside || visit.node == back.to;
-      if (inside) text += nodes_[visit.node].path + " -> ";
+      if (!inside) continue;
+      text += nodes_[visit.node].path + " -> ";
+      delay_helps = delay_helps || way_taken(visit).ends_by_delay;
     }
     diagnostics.error(*back.where,
                       "handlers may set each other off without end: " + text + nodes_[back.to].path,
-                      "declare delay: one_cycle on one of these connections, or leads_to(...) on "
-                      "a port whose handler does not write all outputs of its component");
+                      std::string("declare ") +
+                          (delay_helps ? "delay: one_cycle on one of these connections, or " : "") +
+                          "leads_to(...) where a handler does not write all outputs of its "
+                          "component");
+  }
+
+  const Way& way_taken(const Visit& visit) const {
+    return out_of_.at(nodes_[visit.node].component)[visit.next_way - 1];
   }
 
   const Blueprint& blueprint_;
