@@ -14,6 +14,8 @@ function(armature_component_library)
   add_library(${arg_NAME} MODULE ${arg_SOURCES})
   target_link_libraries(${arg_NAME} PRIVATE armature::component ${arg_LINK})
   target_compile_options(${arg_NAME} PRIVATE -ffp-contract=off)
+  # Templates of the standard library run from here, also if another library has them too.
+  target_link_options(${arg_NAME} PRIVATE LINKER:-Bsymbolic-functions)
   set_target_properties(
     ${arg_NAME}
     PROPERTIES PREFIX lib

@@ -13,6 +13,14 @@ endif()
 # Assertions stay on while developing; only Release turns them off.
 string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 
+# -O3 makes the libraries half as large again, and a process keeps all of that in memory.
+string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+
+# For what never runs in real time, so that a process has little memory to keep.
+function(armature_compact target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
+endfunction()
+
 # A fused multiply-add here and none there would make simulations differ between machines.
 add_compile_options(-ffp-contract=off)
 
@@ -23,7 +31,7 @@ function(armature_warnings target)
                       $<$<BOOL:${ARMATURE_WERROR}>:-Werror>
                       # std::stable_sort of libstdc++ 12 itself uses a deprecated function
                       $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
-                      # at -O3 GCC 12 warns of "text" + std::string (its bug 105651)
+                      # GCC 12 warns of "text" + std::string (its bug 105651)
                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 endfunction()
 

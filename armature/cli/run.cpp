@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "armature/cli/commands.hpp"
@@ -11,6 +12,7 @@
 #include "armature/deploy/schedule.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
+#include "armature/platform/memory.hpp"
 #include "armature/platform/process.hpp"
 #include "armature/platform/stop_signal.hpp"
 
@@ -21,6 +23,15 @@ using rt::LogLevel;
 
 /// Long enough to be "until stopped", short enough to be added to any time.
 constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
+
+/// What reads and checks deployments is not needed while one runs: no real-time thread ever runs
+/// any of it. It comes back when the run has ended. The program itself stays: the C++ library may
+/// use functions of `std::string` that were compiled into it.
+void release_what_loads() {
+  constexpr std::string_view kLibraries[] = {"libarmature_deploy.so", "libyaml-cpp.so",
+                                             "libpugixml.so"};
+  platform::release_code(kLibraries);
+}
 
 void tell_verdict(const exec::Application& application, const Console& console) {
   for (const exec::Verdict::Line& line : application.verdict().lines) {
@@ -135,6 +146,7 @@ int run(const RunArguments& arguments, Console& console) {
   options.simulated = arguments.simulated;
   options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
   options.log = [&console](const rt::LogRecord& record) { console.log(record); };
+  options.ready = release_what_loads;
   if (!arguments.simulated) console.set_begin(platform::monotonic_now());
 
   const platform::StopSignal stop;

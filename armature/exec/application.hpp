@@ -53,6 +53,7 @@ struct ApplicationOptions {
   base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
   std::uint64_t measure_every = 61;               ///< execution times are taken in every n-th cycle
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
+  std::function<void()> ready;  ///< called by `start` when all is in place, before the first cycle
 };
 
 /// Why a run ended.

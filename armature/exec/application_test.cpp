@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/application.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <string>
 #include <utility>
@@ -72,6 +73,25 @@ TEST_P(ApplicationTime, StartsInTheOrderOfTheFlowAndStopsInReverse) {
   EXPECT_THAT(chain.life(),
               ElementsAre("C stop", "B stop", "A stop", "C cleanup", "B cleanup", "A cleanup"));
   EXPECT_THAT(application.casualties(), IsEmpty());
+}
+
+TEST_P(ApplicationTime, IsReadyAfterEveryStartAndBeforeTheFirstCycle) {
+  Chain chain;
+  for (Probe* each : {chain.a, chain.b, chain.c}) {
+    each->actions["update"] = [&chain] { chain.journal.note("cycle"); };
+  }
+  ApplicationOptions options = ApplicationTime::options();
+  options.ready = [&chain] { chain.journal.note("ready"); };
+  Application application(std::move(chain.blueprint), std::move(options));
+  ASSERT_EQ(application.start().to_text(), "");
+  const auto has_run = [&] { return application.thread_statistics()[0].cycles_run > 0; };
+  EXPECT_TRUE(run_until(application, has_run));
+  EXPECT_EQ(application.stop().to_text(), "");
+  const std::vector<std::string> entries = chain.journal.take();
+  ASSERT_GT(entries.size(), 10u);
+  EXPECT_EQ(entries[8], "C start");
+  EXPECT_EQ(entries[9], "ready");
+  EXPECT_EQ(std::count(entries.begin(), entries.end(), "ready"), 1);
 }
 
 TEST_P(ApplicationTime, NeighboursOfOneThreadStopInTheSameOrder) {

@@ -111,6 +111,7 @@ void Application::start_worker(Index thread) {
 
 void Application::go_live() {
   if (memory_locked_) platform::populate_memory();
+  if (options_.ready) options_.ready();
   const base::Time begin = now();
   for (auto& engine : engines_) engine->begin(begin);
   running_ = true;

@@ -97,11 +97,22 @@ TEST(PlanConnections, ThePlaceInTheFileLeadsTheMessage) {
 }
 
 TEST(PlanConnections, AConnectionGoesFromAnOutputToAnInput) {
-  EXPECT_EQ(problems_with("Reader.Level", "Writer.Level"),
+  EXPECT_EQ(problems_with("Reader.Level", "Reader.Any"),
             "error: 'Reader.Level' is an input port, and a connection starts at an output port "
-            "(write the output port first: Output -> Input)\n"
-            "error: 'Writer.Level' is an output port, and a connection ends at an input port "
-            "(write the output port first: Output -> Input)\n");
+            "(known: Out)\n");
+  EXPECT_EQ(problems_with("Writer.Level", "Reader.Out"),
+            "error: 'Reader.Out' is an output port, and a connection ends at an input port "
+            "(known: Angle, Speed, Frequency, Level, All, Two, Any)\n");
+}
+
+TEST(PlanConnections, OneThatIsBackwardsIsOneMistake) {
+  Blueprint blueprint;
+  blueprint.add<Writer>("Writer");
+  blueprint.add<NeedsInput>("Needs");
+  blueprint.connect("Needs.In", "Writer.Level");
+  EXPECT_EQ(problems_of(blueprint),
+            "error: a connection goes from an output to an input, but 'Needs.In' is an input and "
+            "'Writer.Level' an output (exchange its ends: Writer.Level -> Needs.In)\n");
 }
 
 TEST(PlanConnections, TypesMustBeTheSame) {

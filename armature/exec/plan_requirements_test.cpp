@@ -160,6 +160,23 @@ TEST(PlanRequirements, AnUnknownPeerIsNamedWithTheNearest) {
             "(did you mean 'Axis2'?)\n");
 }
 
+TEST(PlanRequirements, WhatAnUnknownPeerWouldServeIsNotReportedToo) {
+  const std::string problem =
+      "error: 'User' has the peer 'Axsi2', but there is no such component (did you mean "
+      "'Axis2'?)\n";
+  Blueprint blueprint = make_blueprint();
+  blueprint.add_peer("User", "Axsi2");
+  EXPECT_EQ(problems_of(blueprint), problem);
+  ASSERT_TRUE(user_of(blueprint).peer.set(types::Value::of(std::string("Axis2"))));
+  EXPECT_EQ(problems_of(blueprint), problem);
+  for (const char* peer : {"Axis2", "Axsi2"}) {
+    Blueprint bound = make_blueprint();
+    bound.add_peer("User", "Axsi2");
+    bind(bound, "read", peer);
+    EXPECT_EQ(problems_of(bound), problem);
+  }
+}
+
 TEST(PlanRequirements, APropertyMayDemandAPeer) {
   Blueprint blueprint = make_blueprint();
   ASSERT_TRUE(user_of(blueprint).peer.set(types::Value::of(std::string("Axis2"))));

@@ -89,7 +89,7 @@ TEST(PlanActivities, APeriodIsAboveZero) {
 
 TEST(PlanActivities, RealTimePrioritiesAreOneToNinetyNine) {
   Activity activity = Activity::triggered(1);
-  for (const int priority : {0, 100, -5}) {
+  for (const int priority : {100, -5}) {
     activity.priority = priority;
     EXPECT_EQ(problems_with(activity), "error: the activity of 'A' has the priority " +
                                            std::to_string(priority) +
@@ -99,6 +99,14 @@ TEST(PlanActivities, RealTimePrioritiesAreOneToNinetyNine) {
     activity.priority = priority;
     EXPECT_EQ(problems_with(activity), "");
   }
+}
+
+TEST(PlanActivities, SchedulingInRealTimeNeedsAPriority) {
+  Activity activity = Activity::periodic(10ms);
+  activity.scheduler = Activity::Scheduler::kRealtime;
+  EXPECT_EQ(problems_with(activity),
+            "error: the activity of 'A' is scheduled in real time and needs a priority (give it "
+            "one, priority: 1..99, 99 is the most urgent)\n");
 }
 
 TEST(PlanActivities, SchedulingByDeadlineNeedsAPeriodAndABudget) {

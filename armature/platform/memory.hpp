@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string_view>
 
 #include "armature/base/result.hpp"
 
@@ -17,6 +19,11 @@ void unlock_memory();
 /// thread needs it: a buffer that was reserved and never written, a function never called. Leaves
 /// out what none of them uses: the stacks of all threads, and mappings above 256 MB.
 void populate_memory();
+
+/// Gives back the physical memory, locked or not, of the code of the loaded shared objects whose
+/// file names begin with one of `libraries`: for code that no real-time thread runs. Whoever calls
+/// it again waits until the system has read it from the file.
+void release_code(std::span<const std::string_view> libraries);
 
 /// Bytes of physical memory that the process occupies now.
 std::size_t resident_bytes();

@@ -23,8 +23,8 @@ TEST(SharedObject, AMissingFileIsNamed) {
 }
 
 TEST(SharedObject, AFileThatIsNoLibraryIsNamed) {
-  EXPECT_THAT(SharedObject::load(__FILE__).error(),
-              AllOf(HasSubstr(__FILE__), HasSubstr("invalid ELF header")));
+  EXPECT_THAT(SharedObject::load("/etc/passwd").error(),
+              AllOf(HasSubstr("/etc/passwd"), HasSubstr("invalid ELF header")));
 }
 
 TEST(SharedObject, ALibraryWithAnUnresolvedFunctionIsRefusedAtOnce) {

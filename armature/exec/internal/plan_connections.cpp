@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "armature/base/near_name.hpp"
 #include "armature/base/unit.hpp"
@@ -32,6 +33,7 @@ class ConnectionPlanner {
   void plan_one(const ConnectionEntry& entry) {
     const Index from = find_component(entry.from_component, entry);
     const Index to = find_component(entry.to_component, entry);
+    if (from != kNone && to != kNone && is_backwards(from, to, entry)) return;
     OutputPortBase* output = from == kNone ? nullptr : find_output(from, entry);
     InputPortBase* input = to == kNone ? nullptr : find_input(to, entry);
     if (output == nullptr || input == nullptr) return;
@@ -52,6 +54,18 @@ class ConnectionPlanner {
     return found;
   }
 
+  bool is_backwards(Index from, Index to, const ConnectionEntry& entry) {
+    const InputPortBase* input = directory_.input(from, entry.from_port);
+    const OutputPortBase* output = directory_.output(to, entry.to_port);
+    if (input == nullptr || output == nullptr) return false;
+    diagnostics_.error(entry.where,
+                       "a connection goes from an output to an input, but " + quoted(path(*input)) +
+                           " is an input and " + quoted(path(*output)) + " an output",
+                       "exchange its ends: " + path(*output) + " -> " + path(*input));
+    backwards_.insert(input);
+    return true;
+  }
+
   OutputPortBase* find_output(Index component, const ConnectionEntry& entry) {
     OutputPortBase* port = directory_.output(component, entry.from_port);
     if (port != nullptr) return port;
@@ -61,8 +75,7 @@ class ConnectionPlanner {
         is_input ? quoted(entry.from_component + "." + entry.from_port) +
                        " is an input port, and a connection starts at an output port"
                  : quoted(entry.from_component) + " has no output port " + quoted(entry.from_port),
-        is_input ? "write the output port first: Output -> Input"
-                 : base::suggestion(entry.from_port, directory_.output_names(component)));
+        base::suggestion(entry.from_port, directory_.output_names(component)));
     return nullptr;
   }
 
@@ -75,8 +88,7 @@ class ConnectionPlanner {
         is_output ? quoted(entry.to_component + "." + entry.to_port) +
                         " is an output port, and a connection ends at an input port"
                   : quoted(entry.to_component) + " has no input port " + quoted(entry.to_port),
-        is_output ? "write the output port first: Output -> Input"
-                  : base::suggestion(entry.to_port, directory_.input_names(component)));
+        base::suggestion(entry.to_port, directory_.input_names(component)));
     return nullptr;
   }
 
@@ -165,6 +177,7 @@ class ConnectionPlanner {
 
   /// A connection to it exists but is wrong, which was reported.
   bool attempted(const InputPortBase& input) {
+    if (backwards_.count(&input) > 0) return true;
     if (attempted_.empty()) {
       for (const ConnectionEntry& entry : blueprint_.connections) {
         attempted_.emplace(entry.to_component + "." + entry.to_port, true);
@@ -179,6 +192,7 @@ class ConnectionPlanner {
   base::Diagnostics& diagnostics_;
   std::unordered_map<const InputPortBase*, std::vector<const OutputPortBase*>> writers_;
   std::unordered_map<std::string, bool> attempted_;
+  std::unordered_set<const InputPortBase*> backwards_;  ///< that a connection begins at
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -39,18 +40,17 @@ class RequirementPlanner {
  private:
   void find_peers(const ComponentEntry& entry) {
     peers_.clear();
-    peer_absent_ = false;
+    peer_missing_ = false;
     for (const PeerEntry& peer : entry.peers) {
       const Index found = directory_.component(peer.name);
-      if (found == kNone && is_absent(peer.name)) {
-        peer_absent_ = true;
-      } else if (found == kNone) {
+      peer_missing_ = peer_missing_ || found == kNone;
+      if (found != kNone) {
+        peers_.push_back(found);
+      } else if (!is_absent(peer.name)) {
         diagnostics_.error(peer.where,
                            quoted(entry.component->name()) + " has the peer " + quoted(peer.name) +
                                ", but there is no such component",
                            base::suggestion(peer.name, directory_.component_names()));
-      } else {
-        peers_.push_back(found);
       }
     }
   }
@@ -127,7 +127,7 @@ class RequirementPlanner {
       }
     }
     if (found.size() == 1) return found.front();
-    const bool needed = !requirement.is_optional() && !peer_absent_;
+    const bool needed = !requirement.is_optional() && !peer_missing_;
     if (found.empty() && needed) report_missing(entry, requirement, kind);
     if (found.size() > 1) report_ambiguous(entry, requirement, kind, found);
     return {};
@@ -138,9 +138,9 @@ class RequirementPlanner {
                                const Members& members, const std::string& kind) {
     if (is_absent(binding.peer)) return {};
     const Index peer = directory_.component(binding.peer);
-    bool declared = false;
-    for (const Index each : peers_) declared = declared || each == peer;
-    if (peer == kNone || !declared) {
+    const bool declared = std::count(peers_.begin(), peers_.end(), peer) > 0;
+    if (!declared && peer_missing_) return {};
+    if (!declared) {
       diagnostics_.error(
           binding.where,
           quoted(binding.peer) + " is not a peer of " + quoted(entry.component->name()),
@@ -172,7 +172,7 @@ class RequirementPlanner {
     for (const Index peer : peers_) {
       if (blueprint_.components[peer].component->name() == name) return true;
     }
-    if (is_absent(name)) return true;
+    if (is_absent(name) || peer_missing_) return true;
     diagnostics_.error(
         entry.where,
         user_of(entry, requirement) + " of " + quoted(name) + ", which is not among its peers",
@@ -227,7 +227,7 @@ class RequirementPlanner {
   Plan& plan_;
   base::Diagnostics& diagnostics_;
   std::vector<Index> peers_;
-  bool peer_absent_ = false;
+  bool peer_missing_ = false;  ///< which was reported: what it would have served is not
 };
 
 }  // namespace

@@ -49,7 +49,10 @@ class ThreadPlanner {
       diagnostics_.error(entry.where, who + " needs a period above 0");
     }
     const bool realtime = activity.scheduler == Activity::Scheduler::kRealtime;
-    if (realtime && (activity.priority < 1 || activity.priority > 99)) {
+    if (realtime && activity.priority == 0) {
+      diagnostics_.error(entry.where, who + " is scheduled in real time and needs a priority",
+                         "give it one, priority: 1..99, 99 is the most urgent");
+    } else if (realtime && (activity.priority < 1 || activity.priority > 99)) {
       diagnostics_.error(entry.where, who + " has the priority " +
                                           std::to_string(activity.priority) +
                                           "; real-time priorities are 1 .. 99, 99 most urgent");

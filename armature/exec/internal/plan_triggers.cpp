@@ -26,12 +26,12 @@ class TriggerGraph {
     for (const ConnectionPlan& connection : plan.connections) {
       if (!runs_within_the_write(connection)) continue;
       add_way(connection.from, {connection.output->name(), handlers_.at(connection.input),
-                                &connection.entry->where});
+                                &connection.entry->where, is_periodic(connection.to)});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
       if (!same_thread(subscription.from, subscription.to)) continue;
       add_way(subscription.from, {subscription.event->name(), handlers_.at(subscription.handler),
-                                  &blueprint.components[subscription.to].where});
+                                  &blueprint.components[subscription.to].where, false});
     }
   }
 
@@ -61,6 +61,7 @@ class TriggerGraph {
     std::string_view through;  ///< output port or event
     Handler to;
     const base::Location* where;
+    bool ends_by_delay;
   };
   struct Kind {
     Index component;
@@ -102,8 +103,12 @@ class TriggerGraph {
   /// at once, so that the delay does not end a cycle of handlers.
   bool runs_within_the_write(const ConnectionPlan& connection) const {
     if (!connection.input->triggers() || !same_thread(connection.from, connection.to)) return false;
-    const Activity& activity = plan_.threads[plan_.thread_of[connection.to]].activity;
-    return !connection.entry->policy.one_cycle_delay || activity.kind != Activity::Kind::kPeriodic;
+    return !connection.entry->policy.one_cycle_delay || !is_periodic(connection.to);
+  }
+
+  bool is_periodic(Index component) const {
+    const ThreadPlan& thread = plan_.threads[plan_.thread_of[component]];
+    return thread.activity.kind == Activity::Kind::kPeriodic;
   }
 
   bool same_thread(Index a, Index b) const { return plan_.thread_of[a] == plan_.thread_of[b]; }
@@ -137,15 +142,22 @@ class TriggerGraph {
   void report(const std::vector<Visit>& path, const Way& back, base::Diagnostics& diagnostics) {
     std::string text = path_of(back.to);
     bool inside = false;
+    bool delay_helps = false;
     for (const Visit& visit : path) {
       if (inside) text += " -> " + path_of(visit.handler);
       inside = inside || visit.handler.kind == back.to.kind;
+      delay_helps = delay_helps || (inside && way_taken(visit).ends_by_delay);
     }
     diagnostics.error(
         *back.where,
         "handlers may set each other off without end: " + text + " -> " + path_of(back.to),
-        "declare delay: one_cycle on one of these connections, or leads_to(...) on "
-        "a port whose handler does not write all outputs of its component");
+        std::string("declare ") +
+            (delay_helps ? "delay: one_cycle on one of these connections, or " : "") +
+            "leads_to(...) where a handler does not write all outputs of its component");
+  }
+
+  const Way& way_taken(const Visit& visit) const {
+    return kinds_[visit.handler.kind].ways[visit.next_way - 1];
   }
 
   std::string path_of(const Handler& handler) const {
