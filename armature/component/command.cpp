@@ -54,7 +54,8 @@ CommandBase::CommandBase(Component& owner, std::unique_ptr<About> about) noexcep
   owner.add_step(*this, false);
 }
 
-CommandBase::~CommandBase() = default;
+/// Components that are stopped have no command under way; of one that was not, nobody hears again.
+CommandBase::~CommandBase() { end(CommandStage::kCancelled, "its component is gone"); }
 
 void CommandBase::report(double progress) {
   if (ticket_ != nullptr) ticket_->report(progress);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -219,6 +221,20 @@ TEST_F(Commands, MoreThanTheDeclaredNumberSentIsAnAnswerAndCounted) {
   EXPECT_EQ(third.reason(), "queue full");
   EXPECT_TRUE(third.ended());
   EXPECT_EQ(planner_.move_to.refused(), 1u);
+  subordinate_.deliver();
+}
+
+TEST_F(Commands, OfAComponentThatGoesAreOver) {
+  auto axis = std::make_unique<Axis>("short-lived");
+  subordinate_.add(*axis);
+  start(*axis);
+  planner_.move_to.disconnect();
+  planner_.move_to.connect(axis->move_to);
+  const CommandHandle handle = send(1.0);
+  EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
+  axis.reset();
+  EXPECT_EQ(handle.stage(), CommandStage::kCancelled);
+  EXPECT_EQ(handle.reason(), "its component is gone");
 }
 
 TEST_F(Commands, TicketsAreUsedAgainAndBeginAfresh) {

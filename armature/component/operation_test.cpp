@@ -164,6 +164,7 @@ TEST_F(Calls, MoreThanTheDeclaredNumberUnderWayIsAnAnswerAndCounted) {
   EXPECT_FALSE(first.sent());
   first = SendHandle<double>(CallStatus::kPending);
   EXPECT_TRUE(client_.add.send(6.0, 0.0).sent());
+  other_.deliver();
 }
 
 TEST_F(Calls, LettingGoOfAHandleDoesNotCancelTheCall) {
