@@ -3,10 +3,37 @@
 
 namespace armature::exec::internal {
 
+namespace {
+
+/// So few names are looked through faster than an index of them is made.
+constexpr std::size_t kFew = 16;
+
+template <typename Port, typename Index>
+void index_many(const std::vector<Port*>& ports, Index& index) {
+  if (ports.size() <= kFew) return;
+  index.reserve(ports.size());
+  for (Port* port : ports) index.emplace(port->name(), port);
+}
+
+template <typename Port, typename Index>
+Port* find(const std::vector<Port*>& ports, const Index& index, std::string_view name) {
+  if (ports.size() > kFew) {
+    const auto found = index.find(name);
+    return found == index.end() ? nullptr : found->second;
+  }
+  for (Port* port : ports) {
+    if (port->name() == name) return port;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 Directory::Directory(const Blueprint& blueprint, base::Diagnostics& diagnostics)
     : blueprint_(blueprint), ports_(blueprint.components.size()) {
+  components_.reserve(blueprint.components.size());
   for (Index i = 0; i < blueprint.components.size(); ++i) {
     const ComponentEntry& entry = blueprint.components[i];
     const component::Component& component = *entry.component;
@@ -14,8 +41,8 @@ Directory::Directory(const Blueprint& blueprint, base::Diagnostics& diagnostics)
       diagnostics.error(entry.where, "there are two components named " + quoted(component.name()),
                         "give each its own name");
     }
-    for (auto* port : component.interface().inputs) ports_[i].inputs.emplace(port->name(), port);
-    for (auto* port : component.interface().outputs) ports_[i].outputs.emplace(port->name(), port);
+    index_many(component.interface().inputs, ports_[i].inputs);
+    index_many(component.interface().outputs, ports_[i].outputs);
   }
 }
 
@@ -25,13 +52,13 @@ Index Directory::component(std::string_view name) const {
 }
 
 component::InputPortBase* Directory::input(Index component, std::string_view name) const {
-  const auto found = ports_[component].inputs.find(name);
-  return found == ports_[component].inputs.end() ? nullptr : found->second;
+  return find(blueprint_.components[component].component->interface().inputs,
+              ports_[component].inputs, name);
 }
 
 component::OutputPortBase* Directory::output(Index component, std::string_view name) const {
-  const auto found = ports_[component].outputs.find(name);
-  return found == ports_[component].outputs.end() ? nullptr : found->second;
+  return find(blueprint_.components[component].component->interface().outputs,
+              ports_[component].outputs, name);
 }
 
 std::vector<std::string> Directory::component_names() const {

@@ -16,7 +16,9 @@ namespace {
 /// the search goes over kinds, so that its effort grows with the wiring and not with its square.
 class TriggerGraph {
  public:
-  TriggerGraph(const Blueprint& blueprint, const Plan& plan) : blueprint_(blueprint), plan_(plan) {
+  TriggerGraph(const Blueprint& blueprint, const Plan& plan)
+      : blueprint_(blueprint), plan_(plan), kinds_of_(blueprint.components.size()) {
+    handlers_.reserve(plan.connections.size() + plan.subscriptions.size());
     for (const ConnectionPlan& connection : plan.connections) {
       if (connection.input->triggers()) add_handler(*connection.input, connection.to);
     }
@@ -92,9 +94,7 @@ class TriggerGraph {
   }
 
   void add_way(Index from, const Way& way) {
-    const auto kinds = kinds_of_.find(from);
-    if (kinds == kinds_of_.end()) return;
-    for (const std::size_t kind : kinds->second) {
+    for (const std::size_t kind : kinds_of_[from]) {
       if (kinds_[kind].effects->includes(way.through)) kinds_[kind].ways.push_back(way);
     }
   }
@@ -168,7 +168,7 @@ class TriggerGraph {
   const Blueprint& blueprint_;
   const Plan& plan_;
   std::vector<Kind> kinds_;
-  std::unordered_map<Index, std::vector<std::size_t>> kinds_of_;
+  std::vector<std::vector<std::size_t>> kinds_of_;  ///< for each component
   std::unordered_map<const void*, Handler> handlers_;
 };
 
