@@ -96,8 +96,8 @@ void Engine::end() {
 bool Engine::deliver_leftovers() {
   close_account();
   if (context_.inbox.empty() && context_.next_cycle.empty()) return false;
-  deliver(context_.next_cycle.take_all());
-  deliver(context_.inbox.take_all());
+  context_.next_cycle.deliver_all();
+  context_.inbox.deliver_all();
   return true;
 }
 
@@ -174,7 +174,7 @@ void Engine::begin_cycle() {
   ++context_.cycle;
   context_.measuring = context_.cycle % measure_every_ == 0;
   account_open_ = true;
-  deliver(context_.next_cycle.take_all());
+  context_.next_cycle.deliver_all();
 }
 
 void Engine::open(base::Time now) {
@@ -200,17 +200,9 @@ void Engine::close_account() {
 void Engine::deliver_messages() {
   for (int round = 0; round < kMessageRounds; ++round) {
     if (context_.inbox.empty()) return;
-    deliver(context_.inbox.take_all());
+    context_.inbox.deliver_all();
   }
   context_.wakeup.notify();
-}
-
-void Engine::deliver(rt::Message* message) {
-  while (message != nullptr) {
-    rt::Message* const next = rt::Inbox::next(*message);
-    message->deliver();
-    message = next;
-  }
 }
 
 void Engine::fault_if_late() {

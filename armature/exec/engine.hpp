@@ -80,7 +80,6 @@ class Engine {
   void begin_cycle();
   void close_account();
   void deliver_messages();
-  static void deliver(rt::Message* oldest);
   void fault_if_late();
 
   bool periodic() const { return activity_.kind == Activity::Kind::kPeriodic; }

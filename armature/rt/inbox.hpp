@@ -71,6 +71,17 @@ class BasicInbox {
   /// The message after `message`; ask before delivering it, since its sender may use it again then.
   static Message* next(const Message& message) { return message.next_; }
 
+  /// Delivers what is here now, in its order; what is sent meanwhile is left for the next time.
+  /// @rt as the messages' deliveries are
+  /// @thread the owner only
+  void deliver_all() {
+    for (Message* message = take_all(); message != nullptr;) {
+      Message* const after = next(*message);
+      message->deliver();
+      message = after;
+    }
+  }
+
  private:
   typename Atomics::template Atomic<Message*> head_{nullptr};
 };

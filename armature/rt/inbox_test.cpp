@@ -46,6 +46,30 @@ TEST(Inbox, TakesADeliveredMessageAgain) {
   }
 }
 
+/// Is sent once more by its own delivery.
+struct Echo final : Message {
+  explicit Echo(Inbox& its_inbox) : Message(&deliver), inbox(its_inbox) {}
+  static void deliver(Message& message) {
+    auto& self = static_cast<Echo&>(message);
+    ++self.deliveries;
+    self.inbox.push(self);
+  }
+  Inbox& inbox;
+  int deliveries = 0;
+};
+
+TEST(Inbox, DeliversWhatIsThereAndLeavesWhatComesMeanwhile) {
+  Inbox inbox;
+  Echo first(inbox);
+  Echo second(inbox);
+  inbox.push(first);
+  inbox.push(second);
+  inbox.deliver_all();
+  EXPECT_EQ(first.deliveries, 1);
+  EXPECT_EQ(second.deliveries, 1);
+  EXPECT_EQ(take(inbox), (std::vector<Message*>{&first, &second}));
+}
+
 TEST(Signal, IsInTheInboxOnceHoweverOftenItIsRaised) {
   Inbox inbox;
   Letter letter;

@@ -310,11 +310,7 @@ OperationBase& operation(const Component& component, std::string_view name) {
 void run_cycle(ExecutionContext& context, Sampler& sampler, AxesGenerator& generator) {
   context.cycle_time = context.cycle_time.load() + 1ms;
   ++context.cycle;
-  for (auto* message = context.inbox.take_all(); message != nullptr;) {
-    auto* const next = armature::rt::Inbox::next(*message);
-    message->deliver();
-    message = next;
-  }
+  context.inbox.deliver_all();
   generator.update();
   sampler.update();
 }

@@ -94,14 +94,7 @@ class ComponentFunctions : public ::testing::TestWithParam<bool> {
   }
 
   void deliver() {
-    for (ExecutionContext* context : {&here_, &there_}) {
-      rt::Message* message = context->inbox.take_all();
-      while (message != nullptr) {
-        rt::Message* const next = rt::Inbox::next(*message);
-        message->deliver();
-        message = next;
-      }
-    }
+    for (ExecutionContext* context : {&here_, &there_}) context->inbox.deliver_all();
   }
 
   ExecutionContext here_{"here"};

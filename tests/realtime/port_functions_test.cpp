@@ -74,14 +74,7 @@ class PortFunctions : public ::testing::TestWithParam<Connection> {
   void begin_cycle() {
     ExecutionContext& context = sink_.context();
     ++context.cycle;
-    for (rt::Inbox* inbox : {&context.next_cycle, &context.inbox}) {
-      rt::Message* message = inbox->take_all();
-      while (message != nullptr) {
-        rt::Message* const next = rt::Inbox::next(*message);
-        message->deliver();
-        message = next;
-      }
-    }
+    for (rt::Inbox* inbox : {&context.next_cycle, &context.inbox}) inbox->deliver_all();
   }
 
   ExecutionContext here_{"here"};

@@ -141,6 +141,14 @@ TEST(RealtimeFunctions, Inbox) {
   });
   EXPECT_TRUE(empty);
   EXPECT_EQ(message.delivered, 202);
+  CountedMessage other;
+  expect_realtime("Inbox::deliver_all", [&] {
+    inbox.push(other);
+    inbox.push(message);
+    inbox.deliver_all();
+  });
+  EXPECT_TRUE(inbox.empty());
+  EXPECT_GT(other.delivered, 0);
 }
 
 TEST(RealtimeFunctions, LogQueueFullOrNot) {

@@ -109,15 +109,6 @@ struct Letter final : Message {
   std::atomic<bool> on_its_way{false};
 };
 
-void deliver_all(Inbox& inbox) {
-  Message* message = inbox.take_all();
-  while (message != nullptr) {
-    Message* const next = Inbox::next(*message);
-    message->deliver();
-    message = next;
-  }
-}
-
 TEST(InboxStress, EverySenderGetsEachMessageThrough) {
   constexpr std::uint64_t kEach = kRounds / 10;
   Inbox inbox;
@@ -137,7 +128,7 @@ TEST(InboxStress, EverySenderGetsEachMessageThrough) {
     });
   }
   while (senders > 0) {
-    deliver_all(inbox);
+    inbox.deliver_all();
     std::this_thread::yield();
   }
   for (std::thread& thread : threads) thread.join();
@@ -168,9 +159,9 @@ TEST(SignalStress, TheLastValueOfEverySenderIsSeenAndNothingIsLeft) {
       }
     });
   }
-  while (bells[0].seen < kRounds || bells[1].seen < kRounds) deliver_all(inbox);
+  while (bells[0].seen < kRounds || bells[1].seen < kRounds) inbox.deliver_all();
   for (std::thread& thread : threads) thread.join();
-  deliver_all(inbox);
+  inbox.deliver_all();
   EXPECT_TRUE(inbox.empty());
 }
 

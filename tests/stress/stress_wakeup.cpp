@@ -58,12 +58,7 @@ class Station {
 
   void wait_and_deliver() {
     wakeup_.wait();
-    rt::Message* message = inbox_.take_all();
-    while (message != nullptr) {
-      rt::Message* const next = rt::Inbox::next(*message);
-      message->deliver();
-      message = next;
-    }
+    inbox_.deliver_all();
   }
 
  private:

@@ -30,26 +30,17 @@ class TestThread {
 
   /// Handles all messages, also those that their handling causes.
   void deliver() {
-    while (rt::Message* message = context.inbox.take_all()) deliver(message);
+    while (!context.inbox.empty()) context.inbox.deliver_all();
   }
   /// Begins the next cycle, `duration` later.
   void cycle(base::Duration duration = std::chrono::milliseconds(1)) {
     context.cycle_time = context.cycle_time.load() + duration;
     ++context.cycle;
-    deliver(context.next_cycle.take_all());
+    context.next_cycle.deliver_all();
     deliver();
   }
 
   ExecutionContext context;
-
- private:
-  static void deliver(rt::Message* message) {
-    while (message != nullptr) {
-      rt::Message* const next = rt::Inbox::next(*message);
-      message->deliver();
-      message = next;
-    }
-  }
 };
 
 /// Brings components to Running.

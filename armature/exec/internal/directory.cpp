@@ -2,21 +2,23 @@
 #include "armature/exec/internal/directory.hpp"
 
 namespace armature::exec::internal {
-
 namespace {
 
 /// So few names are looked through faster than an index of them is made.
 constexpr std::size_t kFew = 16;
 
-template <typename Port, typename Index>
-void index_many(const std::vector<Port*>& ports, Index& index) {
+template <typename Port>
+using ByName = std::unordered_map<std::string_view, Port*>;
+
+template <typename Port>
+void index_many(const std::vector<Port*>& ports, ByName<Port>& index) {
   if (ports.size() <= kFew) return;
   index.reserve(ports.size());
   for (Port* port : ports) index.emplace(port->name(), port);
 }
 
-template <typename Port, typename Index>
-Port* find(const std::vector<Port*>& ports, const Index& index, std::string_view name) {
+template <typename Port>
+Port* find(const std::vector<Port*>& ports, const ByName<Port>& index, std::string_view name) {
   if (ports.size() > kFew) {
     const auto found = index.find(name);
     return found == index.end() ? nullptr : found->second;
