@@ -108,6 +108,20 @@ TEST(PropertyFile, IsWrittenAsOrocosReadsIt) {
 )");
 }
 
+TEST(PropertyFile, AListWhoseElementsSayTheirTypesKeepsThem) {
+  const auto properties = parse(
+      "<sequence name=\"v\"><simple type=\"char\"><value>1</value></simple>"
+      "<simple type=\"double\"><value>2</value></simple></sequence>");
+  const std::string written = write_cpf(properties);
+  EXPECT_NE(written.find(R"(  <sequence name="v">
+    <simple name="Element0" type="char"><value>1</value></simple>
+    <simple name="Element1" type="double"><value>2.0</value></simple>
+  </sequence>
+)"),
+            std::string::npos)
+      << written;
+}
+
 TEST(PropertyFile, NamesTheTypeThatAValueIsGiven) {
   Property gain{"Kp", {}, "gain", {}};
   gain.value.kind = Value::Kind::kText;

@@ -30,7 +30,8 @@ components:
     delays: S
     properties: {Name: "j{i}", Gains: "${gains}", m: !literal "{i} ${x} {1..2}", t: !short 3,
                  s: {x: "a\tb\n", y: [], z: "<&>"}, e: "", n: "null", d: 10.0, q: 5 deg,
-                 list: [[1, 2], {a: -1}], texts: [a, "b c"], f: !KDL.Frame {x: .5}}
+                 list: [[1, 2], {a: -1}], texts: [a, "b c"], kinds: [!char 1, 2, b],
+                 chars: !strings [!char 1, 2], f: !KDL.Frame {x: .5}}
   C: {model: Card, activity: {triggered: true, scheduler: other, priority: 3}, autostart: false}
   left: {model: Chassis, properties: {size: 3}}
 composites:

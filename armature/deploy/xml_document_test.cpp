@@ -225,7 +225,20 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.xml:2:1: error: simple 'Import' has no <value>\n"},
         Mistake{"character_reference",
                 "<simple name=\"Import\" type=\"string\"><value>&#7;</value></simple>",
-                "robot.xml:2:37: error: control characters are not possible in XML\n"}),
+                "robot.xml:2:44: error: '&#7;' is not a character of XML (write & as &amp;)\n"},
+        Mistake{"character_reference_to_nothing",
+                "<simple name=\"Import\" type=\"string\"><value>a&#0;b</value></simple>",
+                "robot.xml:2:45: error: '&#0;' is not a character of XML (write & as &amp;)\n"},
+        Mistake{"character_reference_too_large",
+                "<simple name=\"Import\" type=\"string\"><value>&#04294967361;</value></simple>",
+                "robot.xml:2:44: error: '&#04294967361;' is not a character of XML (write & as "
+                "&amp;)\n"},
+        Mistake{"character_reference_to_a_surrogate",
+                "<simple name=\"Im&#xD800;\" type=\"string\"><value>x</value></simple>",
+                "robot.xml:2:17: error: '&#xD800;' is not a character of XML (write & as &amp;)\n"},
+        Mistake{"character_reference_unfinished",
+                "<simple name=\"Import\" type=\"string\"><value>R&#38 D</value></simple>",
+                "robot.xml:2:45: error: '&#38' is not a character of XML (write & as &amp;)\n"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(

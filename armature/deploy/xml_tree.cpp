@@ -2,6 +2,10 @@
 #include "armature/deploy/internal/xml_tree.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <system_error>
+#include <utility>
 
 #include <pugixml.hpp>
 
@@ -14,12 +18,42 @@ namespace {
 
 constexpr std::string_view kPrefix = "armature:";
 
+/// The character that `&#digits;` or `&#xdigits;` names, where XML has one (XML 1.0, "Char").
+bool names_a_character(std::string_view digits) {
+  const int base = digits.substr(0, 1) == "x" ? 16 : 10;
+  if (base == 16) digits.remove_prefix(1);
+  std::uint32_t code = 0;
+  const auto [end, failure] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), code, base);
+  if (failure != std::errc() || end != digits.data() + digits.size()) return false;
+  if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+  return !surrogate && code != 0xfffe && code != 0xffff && code <= 0x10ffff;
+}
+
+/// False and an error at the first character reference that names no character. pugixml would make
+/// another character of it, or none, and cut the text there. (It is refused in comments, too.)
+bool check_character_references(std::string_view text, const LineIndex& lines,
+                                base::Diagnostics& diagnostics) {
+  for (std::size_t at = text.find("&#"); at != text.npos; at = text.find("&#", at + 2)) {
+    const std::size_t end = text.find_first_not_of("0123456789abcdefABCDEFx", at + 2);
+    const bool ends = end != text.npos && text[end] == ';';
+    if (ends && names_a_character(text.substr(at + 2, end - at - 2))) continue;
+    const std::size_t shown =
+        std::min(end == text.npos ? text.size() : end + (ends ? 1 : 0), at + 24);
+    diagnostics.error(lines.at(at),
+                      in_quotes(text.substr(at, shown - at)) + " is not a character of XML",
+                      "write & as &amp;");
+    return false;
+  }
+  return true;
+}
+
 /// Builds the element tree from pugixml's nodes.
 class XmlReader {
  public:
-  XmlReader(std::string_view text, const std::string& file, const Limits& limits,
-            base::Diagnostics& diagnostics)
-      : lines_(text, file), limits_(limits), diagnostics_(diagnostics) {}
+  XmlReader(LineIndex lines, const Limits& limits, base::Diagnostics& diagnostics)
+      : lines_(std::move(lines)), limits_(limits), diagnostics_(diagnostics) {}
 
   base::Location at(std::ptrdiff_t offset) const {
     return lines_.at(offset < 0 ? 0 : static_cast<std::size_t>(offset));
@@ -86,7 +120,6 @@ class XmlReader {
   void read_attributes(const pugi::xml_node& node, XmlElement& element) {
     for (const pugi::xml_attribute attribute : node.attributes()) {
       const std::string_view name = attribute.name();
-      check_characters(attribute.value(), element.where);
       if (name == "name") {
         element.name = attribute.value();
       } else if (name == "type") {
@@ -132,13 +165,7 @@ class XmlReader {
         diagnostics_.error(place(child), "unexpected element " + in_quotes(child.name()));
       }
     }
-    check_characters(text, place(node));
     return text;
-  }
-
-  void check_characters(std::string_view text, const base::Location& where) {
-    if (std::none_of(text.begin(), text.end(), is_forbidden_control)) return;
-    diagnostics_.error(where, "control characters are not possible in XML");
   }
 
   LineIndex lines_;
@@ -153,7 +180,9 @@ class XmlReader {
 std::optional<XmlElement> parse_orocos_xml(std::string_view text, const std::string& file,
                                            const Limits& limits, base::Diagnostics& diagnostics) {
   if (!check_source_text(text, file, limits.file_bytes, diagnostics)) return std::nullopt;
-  XmlReader reader(text, file, limits, diagnostics);
+  LineIndex lines(text, file);
+  if (!check_character_references(text, lines, diagnostics)) return std::nullopt;
+  XmlReader reader(std::move(lines), limits, diagnostics);
   pugi::xml_document document;
   const unsigned options = pugi::parse_default | pugi::parse_doctype | pugi::parse_ws_pcdata_single;
   const pugi::xml_parse_result result =

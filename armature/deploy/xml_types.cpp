@@ -33,6 +33,15 @@ bool all_texts(const Value& list) {
                      [](const Value& item) { return item.kind == Value::Kind::kText; });
 }
 
+/// The type of a list is that of its elements: they need none of their own. A list of lists or
+/// maps has none, and what the elements show themselves need not be said.
+void normalise_list_type(Value& list) {
+  if (!all_texts(list)) list.type.clear();
+  if (list.type.empty()) return;
+  for (Value& item : list.items) item.type.clear();
+  if (list.type == shown_list_type(list)) list.type.clear();
+}
+
 }  // namespace
 
 bool is_simple_type(std::string_view type) {
@@ -106,7 +115,7 @@ std::string wrong_with(const Value& value) {
 
 void normalise_type(Value& value) {
   if (value.kind == Value::Kind::kList) {
-    if (!all_texts(value) || value.type == shown_list_type(value)) value.type.clear();
+    normalise_list_type(value);
     return;
   }
   if (value.kind != Value::Kind::kText || value.type.empty()) return;

@@ -176,17 +176,19 @@ void XmlWriter::description(const Property& property) {
 
 void XmlWriter::list(const Property& property) {
   const Value& value = property.value;
-  const bool texts = std::all_of(value.items.begin(), value.items.end(),
-                                 [](const Value& item) { return item.kind == Value::Kind::kText; });
-  const std::string type = !texts               ? ""
+  // In a <sequence> each element says its own type; the other lists say one for all of them.
+  const bool alike = std::all_of(value.items.begin(), value.items.end(), [](const Value& item) {
+    return item.kind == Value::Kind::kText && item.type.empty();
+  });
+  const std::string type = !alike               ? ""
                            : value.type.empty() ? std::string(shown_list_type(value))
                                                 : value.type;
-  open(texts ? "struct" : "sequence", {{"name", property.name}, {"type", type}});
+  open(alike ? "struct" : "sequence", {{"name", property.name}, {"type", type}});
   description(property);
   const std::string element_type(element_type_of(type));
   for (std::size_t i = 0; i < value.items.size(); ++i) {
     Value item = value.items[i];
-    if (item.kind == Value::Kind::kText && item.type.empty()) item.type = element_type;
+    if (alike) item.type = element_type;
     this->property({"Element" + std::to_string(i), std::move(item), {}, {}});
   }
   close();
