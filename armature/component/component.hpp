@@ -149,6 +149,13 @@ class Component {
   /// @rt as the code is; itself a few nanoseconds
   template <typename Code>
   bool run(ExecutionContext& where, Code&& code) noexcept {
+    if (where.owed.any()) [[unlikely]]
+      where.owed.pay();  // a hook or operation may take its time: nobody waits for it
+    return run_handler(where, code);
+  }
+  /// The same for a handler, which is short: threads that others owe a wake-up wait for it.
+  template <typename Code>
+  bool run_handler(ExecutionContext& where, Code&& code) noexcept {
     if (where.measuring) [[unlikely]]
       charge(where, where.running());
     const bool completed = enter_hook(where, code);

@@ -13,6 +13,7 @@
 #include "armature/rt/guard.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/log.hpp"
+#include "armature/rt/owed_wakeups.hpp"
 #include "armature/rt/wakeup.hpp"
 
 namespace armature::component {
@@ -57,6 +58,7 @@ struct ExecutionContext {
   rt::Inbox inbox;       ///< empty when components of this context are disconnected or destroyed
   rt::Inbox next_cycle;  ///< to be delivered first in the next cycle
   rt::Wakeup wakeup;
+  rt::OwedWakeups owed;  ///< of other threads that were sent something by this one
   rt::LogQueue* log = nullptr;
   Supervisor* supervisor = nullptr;
 
@@ -71,15 +73,16 @@ struct ExecutionContext {
     return entrance == nullptr ? nullptr : &entrance->component();
   }
 
-  /// Has `message` delivered by this context's thread.
+  /// Has `message` delivered by this context's thread. That is woken when the hook, operation or
+  /// round of handlers that runs in the calling thread has returned, or is about to wait.
   /// @rt nonblocking, no allocation
   /// @thread any
   void post(rt::Message& message) {
     inbox.push(message);
-    if (wakes_on_messages) wakeup.notify();
+    if (wakes_on_messages) rt::notify_soon(wakeup);
   }
   void raise(rt::Signal& signal) {
-    if (signal.raise(inbox) && wakes_on_messages) wakeup.notify();
+    if (signal.raise(inbox) && wakes_on_messages) rt::notify_soon(wakeup);
   }
 
   /// True if code that runs in `other` may touch what belongs to this context.

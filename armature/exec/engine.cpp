@@ -83,6 +83,7 @@ void Engine::begin(base::Time start) {
 
 void Engine::serve() {
   const AtWork at_work(context_);
+  const rt::OwedWakeups::Account account(context_.owed);
   while (!ending_.load(std::memory_order_acquire)) do_due(wait());
   deliver_messages();
   close_account();
@@ -199,6 +200,7 @@ void Engine::close_account() {
 
 void Engine::deliver_messages() {
   for (int round = 0; round < kMessageRounds; ++round) {
+    context_.owed.pay();
     if (context_.inbox.empty()) return;
     context_.inbox.deliver_all();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "armature/base/realtime.hpp"
+#include "armature/rt/owed_wakeups.hpp"
 
 namespace armature::rt {
 
@@ -37,10 +38,13 @@ class RealtimeScope {
 
 /// Lets the code in its scope allocate and block although the thread is real-time: the framework's
 /// own sleeping, and the way out after an exception. A driver whose calls to its hardware never
-/// wait says so with it.
+/// wait says so with it. Threads that were sent data are woken before it is entered.
 class PermitScope {
  public:
-  PermitScope() noexcept { ++guard_state().permitted_depth; }
+  PermitScope() noexcept {
+    pay_owed_wakeups();
+    ++guard_state().permitted_depth;
+  }
   PermitScope(const PermitScope&) = delete;
   PermitScope& operator=(const PermitScope&) = delete;
   ~PermitScope() { --guard_state().permitted_depth; }

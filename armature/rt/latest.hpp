@@ -20,12 +20,12 @@ template <typename T, typename Atomics = StdAtomics>
 class Latest {
  public:
   /// @param initial  what the reader sees before the first write; gives vectors their size
-  explicit Latest(const T& initial) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
+  explicit Latest(const T& initial) : slots_{initial, initial, initial} {}
 
   /// @rt nonblocking; allocates only if assigning a T of this shape does
   /// @thread the writer only
   void write(const T& value) {
-    slots_[back_].value = value;
+    slots_[back_] = value;
     back_ = middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel) &
             kIndex;
   }
@@ -41,20 +41,18 @@ class Latest {
 
   /// The value that the last `fetch` moved to.
   /// @thread the reader only
-  const T& value() const { return slots_[front_].value; }
+  const T& value() const { return slots_[front_]; }
 
  private:
   static constexpr std::uint8_t kIndex = 3;
   static constexpr std::uint8_t kFresh = 4;
 
-  struct alignas(kCacheLine) Slot {
-    T value;
-  };
-
-  std::array<Slot, 3> slots_;
-  alignas(kCacheLine) std::uint8_t back_ = 0;
-  alignas(kCacheLine) typename Atomics::template Atomic<std::uint8_t> middle_{std::uint8_t{1}};
-  alignas(kCacheLine) std::uint8_t front_ = 2;
+  // Close together: writer and reader take turns far more often than they meet, and each cache line
+  // that changes hands costs more than the copy.
+  typename Atomics::template Atomic<std::uint8_t> middle_{std::uint8_t{1}};
+  std::uint8_t back_ = 0;
+  std::uint8_t front_ = 2;
+  std::array<T, 3> slots_;
 };
 
 }  // namespace armature::rt

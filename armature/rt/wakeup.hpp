@@ -6,18 +6,22 @@
 #include "armature/base/time.hpp"
 #include "armature/platform/futex.hpp"
 #include "armature/rt/atomics.hpp"
+#include "armature/rt/owed_wakeups.hpp"
 
 namespace armature::rt {
 
-/// Sleeping and waking by the kernel; the model checker has its own.
+/// Sleeping and waking by the kernel; the model checker has its own. A thread that is about to
+/// sleep first wakes those that it owes it.
 struct FutexParker {
   using Atomics = StdAtomics;
   static void wait(std::atomic<std::uint32_t>& word, std::uint32_t expected) {
+    pay_owed_wakeups();
     platform::futex_wait(word, expected);
   }
   /// False once `deadline` has passed.
   static bool wait_until(std::atomic<std::uint32_t>& word, std::uint32_t expected,
                          base::Time deadline) {
+    pay_owed_wakeups();
     return platform::futex_wait_until(word, expected, deadline);
   }
   static void wake_one(std::atomic<std::uint32_t>& word) { platform::futex_wake_one(word); }
@@ -30,7 +34,7 @@ struct FutexParker {
 ///
 /// All changes of the state are read-modify-write operations on one word, so there is one order of
 /// them that all threads agree on, and none is lost between "look" and "sleep".
-template <typename Parker = FutexParker>
+template <typename Parker>
 class BasicWakeup {
  public:
   /// @rt nonblocking; a system call only if the thread sleeps
@@ -95,7 +99,5 @@ class BasicWakeup {
 
   typename Parker::Atomics::template Atomic<std::uint32_t> state_{kIdle};
 };
-
-using Wakeup = BasicWakeup<>;
 
 }  // namespace armature::rt

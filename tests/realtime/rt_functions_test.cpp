@@ -12,6 +12,7 @@
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/latest.hpp"
 #include "armature/rt/log.hpp"
+#include "armature/rt/owed_wakeups.hpp"
 #include "armature/rt/ring.hpp"
 #include "armature/rt/statistics.hpp"
 #include "armature/rt/wakeup.hpp"
@@ -195,6 +196,28 @@ TEST(RealtimeFunctions, WakeupThatIsTried) {
     taken = taken && wakeup.try_wait() && !wakeup.try_wait();
   });
   EXPECT_TRUE(taken);
+}
+
+TEST(RealtimeFunctions, WakeupsThatAreOwed) {
+  rt::OwedWakeups owed;
+  const rt::OwedWakeups::Account account(owed);
+  rt::Wakeup wakeup;
+  bool woken = true;
+  expect_realtime("rt::notify_soon", [&] {
+    rt::notify_soon(wakeup);
+    woken = woken && !wakeup.try_wait();
+  });
+  expect_realtime("OwedWakeups::pay", [&] {
+    rt::notify_soon(wakeup);
+    owed.pay();
+    woken = woken && wakeup.try_wait();
+  });
+  expect_realtime("rt::pay_owed_wakeups", [&] {
+    rt::notify_soon(wakeup);
+    rt::pay_owed_wakeups();
+    woken = woken && wakeup.try_wait();
+  });
+  EXPECT_TRUE(woken);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace internal {
 
 /// One connection from a writer to a reader. As a signal it tells the reader's thread that there is
 /// something to read.
-class ChannelBase : public rt::Signal {
+class alignas(rt::kCacheLine) ChannelBase : public rt::Signal {
  public:
   /// @param directly   reader and writer share a thread
   /// @param keeps_all  a FIFO: each value counts, not only the newest

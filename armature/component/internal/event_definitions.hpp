@@ -55,7 +55,7 @@ struct EventHandler<Args...>::Queue {
       const std::tuple<Args...> event = entry.event;
       entry.waits.store(false, std::memory_order_release);
       Component& component = handler.owner();
-      component.run(component.context(), [&] {
+      component.run_handler(component.context(), [&] {
         std::apply(
             [&](const Args&... arguments) { handler.handle(component.context(), arguments...); },
             event);
@@ -70,19 +70,25 @@ struct EventHandler<Args...>::Queue {
       : capacity(std::max<std::size_t>(size, 1)), entries(std::make_unique<Entry[]>(capacity)) {
     for (std::size_t i = 0; i < capacity; ++i) entries[i].handler = &handler;
   }
-  /// The next entry, nullptr if it still waits: they are handled in their order.
+  /// A free entry, nullptr if all wait. The first is taken whenever it is free, so that an event
+  /// that is handled in time stays in one place; the others in turn: they are handled in their
+  /// order.
   /// @thread the raiser's
   Entry* claim() {
-    Entry& entry = entries[next];
-    if (entry.waits.load(std::memory_order_acquire)) return nullptr;
-    entry.waits.store(true, std::memory_order_relaxed);
-    if (++next == capacity) next = 0;
-    return &entry;
+    std::size_t free = 0;
+    if (waits(free)) {
+      free = next;
+      if (capacity == 1 || waits(free)) return nullptr;
+      if (++next == capacity) next = 1;
+    }
+    entries[free].waits.store(true, std::memory_order_relaxed);
+    return &entries[free];
   }
+  bool waits(std::size_t i) const { return entries[i].waits.load(std::memory_order_acquire); }
 
   std::size_t capacity;
   std::unique_ptr<Entry[]> entries;
-  std::size_t next = 0;
+  std::size_t next = 1;
 };
 
 template <typename... Args>

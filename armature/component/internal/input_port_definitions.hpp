@@ -70,7 +70,7 @@ void InputPort<T>::drain(internal::ChannelBase& base) {
   const std::uint64_t last = channel.newest();
   while (const Sample<T>* sample = channel.pop()) {
     take(channel, *sample);
-    component.run(where, [this, &where] { arrived(where); });
+    component.run_handler(where, [this, &where] { arrived(where); });
     if (channel.last_sequence >= last) return;
   }
 }
