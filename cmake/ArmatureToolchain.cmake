@@ -46,8 +46,9 @@ option(ARMATURE_FUZZ "Build the fuzz targets (clang only)" OFF)
 # A test that is too slow or meaningless under a sanitizer can ask for it: "" if there is none.
 add_compile_definitions(ARMATURE_SANITIZER="${ARMATURE_SANITIZE}")
 if(ARMATURE_SANITIZE)
+  # -O1 -g1 is enough for their reports, and compiles in half the time.
   add_compile_options(-fsanitize=${ARMATURE_SANITIZE} -fno-sanitize-recover=all
-                      -fno-omit-frame-pointer)
+                      -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=${ARMATURE_SANITIZE})
 endif()
 
