@@ -24,4 +24,9 @@ using Time = ApplicationClock::time_point;
 constexpr Time time_from_ns(std::int64_t ns) { return Time{Duration{ns}}; }
 constexpr std::int64_t to_ns(Time time) { return time.time_since_epoch().count(); }
 
+/// `by` after `time`, at most the end of time: a limit of `Duration::max()` never passes.
+constexpr Time later(Time time, Duration by) {
+  return time > Time{} && by > Time::max() - time ? Time::max() : time + by;
+}
+
 }  // namespace armature::base

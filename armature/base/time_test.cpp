@@ -19,5 +19,14 @@ TEST(Time, DifferencesAreDurations) {
   EXPECT_LT(start, start + 1ns);
 }
 
+TEST(Time, LaterIsAtMostTheEndOfTime) {
+  const Time start = time_from_ns(2'000'000);
+  EXPECT_EQ(later(start, 1ms), start + 1ms);
+  EXPECT_EQ(later(start, -1ms), start - 1ms);
+  EXPECT_EQ(later(start, Duration::max()), Time::max());
+  EXPECT_EQ(later(Time{}, Duration::max()), Time::max());
+  EXPECT_EQ(later(Time::max(), 1ns), Time::max());
+}
+
 }  // namespace
 }  // namespace armature::base

@@ -157,7 +157,7 @@ class [[nodiscard]] SendHandle {
   /// begun.
   CallResult<R> wait(base::Duration limit) {
     if (record_ == nullptr) return {refusal_};
-    record_->wait_until(rt::monotonic_now() + limit);
+    record_->wait_until(base::later(rt::monotonic_now(), limit));
     if (!done()) {
       cancel();
       return {CallStatus::kTimeout};

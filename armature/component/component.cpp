@@ -19,6 +19,11 @@ ExecutionContext& no_context() {
   return context;
 }
 
+/// Of the engine that works in the calling thread, nullptr if none does.
+const ExecutionContext* context_of_this_thread() {
+  return static_cast<const ExecutionContext*>(rt::guard_state().context);
+}
+
 }  // namespace
 
 std::string_view name_of(State state) {
@@ -52,6 +57,7 @@ Outcome Component::wrong_state(std::string_view transition) const {
 void Component::assign_context(ExecutionContext& context) {
   context_ = &context;
   rest_->reported_fault.lower();
+  rest_->reported_fault.taken = false;
   for (InputPortBase* input : rest_->interface.inputs) input->forget_messages();
 }
 
@@ -155,6 +161,15 @@ void Component::error(std::string_view reason) {
 }
 
 void Component::fault(std::string_view reason) {
+  const ExecutionContext* const here = context_of_this_thread();
+  if (here == nullptr) {
+    enter_fault(reason);
+  } else {
+    fault_from(*here, reason);
+  }
+}
+
+void Component::enter_fault(std::string_view reason) {
   const State before = state();
   if (before == State::kException) {
     if (rest_->reason.empty()) rest_->reason = reason;
@@ -197,9 +212,9 @@ void Component::refuse_depth(ExecutionContext& where) noexcept {
 
 /// Faults at once in the component's own thread, else by a message to it: its state, its commands
 /// and its log belong to that thread.
-void Component::fault_from(ExecutionContext& where, std::string_view reason) {
+void Component::fault_from(const ExecutionContext& where, std::string_view reason) {
   if (context_->shares_thread_with(where)) {
-    fault(reason);
+    enter_fault(reason);
   } else if (!rest_->reported_fault.taken.exchange(true, std::memory_order_acquire)) {
     rest_->reported_fault.reason = reason;
     context_->raise(rest_->reported_fault);
@@ -209,7 +224,7 @@ void Component::fault_from(ExecutionContext& where, std::string_view reason) {
 void Component::ReportedFault::deliver(rt::Message& message) {
   auto& report = static_cast<ReportedFault&>(message);
   report.lower();
-  report.self.fault(report.reason);
+  report.self.enter_fault(report.reason);
   report.taken.store(false, std::memory_order_release);
 }
 
@@ -289,7 +304,7 @@ void Component::log(rt::LogLevel level, const char* format, const LogArguments& 
   record.component = rest_->name;
   record.format = format;
   record.arguments = arguments;
-  const auto* here = static_cast<const ExecutionContext*>(rt::guard_state().context);
+  const ExecutionContext* const here = context_of_this_thread();
   rt::LogQueue* const queue = here != nullptr ? here->log : context_->log;
   if (queue != nullptr) queue->push(record);
 }

@@ -108,8 +108,10 @@ class Component {
   void update();
 
   /// Takes the component out of service from within or by a declared reaction: kException, and what
-  /// depends on it reacts as declared.
+  /// depends on it reacts as declared. In an operation that runs in its caller's thread it comes as
+  /// a message.
   /// @rt nonblocking, no allocation
+  /// @thread one that runs components, or the controlling one while none runs
   void fault(std::string_view reason);
   /// Stops by a declared reaction; the application is told.
   void stop_because(std::string_view reason);
@@ -220,6 +222,7 @@ class Component {
 
   /// From kRunning to kRunTimeError: the error hook runs in place of the update hook.
   /// @rt nonblocking, no allocation
+  /// @thread its own
   void error(std::string_view reason);
 
   /// Log lines; `format` is a literal with `{}` for each of at most four arguments.
@@ -259,7 +262,8 @@ class Component {
   /// Faults because of the exception that is being handled.
   void contain(ExecutionContext& where) noexcept;
   void refuse_depth(ExecutionContext& where) noexcept;
-  void fault_from(ExecutionContext& where, std::string_view reason);
+  void enter_fault(std::string_view reason);
+  void fault_from(const ExecutionContext& where, std::string_view reason);
   void enter(State state) {
     state_.store(state, std::memory_order_release);
     set_at_once(state == State::kRunning && !aging_);

@@ -54,7 +54,7 @@ struct ExecutionContext {
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};
   bool simulated = false;  ///< several contexts take turns in one thread
-  bool wakes_on_messages = false;
+  std::atomic<bool> wakes_on_messages{false};
   rt::Inbox inbox;       ///< empty when components of this context are disconnected or destroyed
   rt::Inbox next_cycle;  ///< to be delivered first in the next cycle
   rt::Wakeup wakeup;
@@ -73,16 +73,24 @@ struct ExecutionContext {
     return entrance == nullptr ? nullptr : &entrance->component();
   }
 
-  /// Has `message` delivered by this context's thread. That is woken when the hook, operation or
-  /// round of handlers that runs in the calling thread has returned, or is about to wait.
+  /// Has `message` delivered by this context's thread, which is woken at once.
   /// @rt nonblocking, no allocation
   /// @thread any
   void post(rt::Message& message) {
     inbox.push(message);
-    if (wakes_on_messages) rt::notify_soon(wakeup);
+    if (wakes_on_messages.load(std::memory_order_relaxed)) wakeup.notify();
   }
   void raise(rt::Signal& signal) {
-    if (signal.raise(inbox) && wakes_on_messages) rt::notify_soon(wakeup);
+    if (signal.raise(inbox) && wakes_on_messages.load(std::memory_order_relaxed)) wakeup.notify();
+  }
+  /// The same where more is to follow: the thread is woken when the calling one pays what it owes.
+  void post_soon(rt::Message& message) {
+    inbox.push(message);
+    if (wakes_on_messages.load(std::memory_order_relaxed)) rt::notify_soon(wakeup);
+  }
+  void raise_soon(rt::Signal& signal) {
+    if (!signal.raise(inbox)) return;
+    if (wakes_on_messages.load(std::memory_order_relaxed)) rt::notify_soon(wakeup);
   }
 
   /// True if code that runs in `other` may touch what belongs to this context.

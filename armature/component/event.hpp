@@ -161,6 +161,7 @@ class Event final : public EventBase {
     for (EventHandler<Args...>* handler : queued_) {
       if (!handler->enqueue(arguments...)) status = RaiseStatus::kQueueFull;
     }
+    if (!queued_.empty()) rt::pay_owed_wakeups();  // who is told of an event is woken at once
     for (EventHandler<Args...>* handler : direct_) {
       owner().call_out(handler->owner(), [&] { handler->handle(owner().context(), arguments...); });
     }

@@ -227,7 +227,8 @@ base::Time InputPortBase::written() const {
 
 base::Time InputPortBase::expiry() const {
   const bool ages = has(kAges) && connected() && !about().late;
-  return ages ? written() + about().max_age + base::Duration(1) : base::Time::max();
+  if (!ages) return base::Time::max();
+  return base::later(base::later(written(), about().max_age), base::Duration(1));
 }
 
 void InputPortBase::Lost::deliver(rt::Message& message) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a thread is woken that another one sends something.
+// When a thread is woken that another one sends something: for data once, when the hook or the
+// handlers that wrote it have returned; for the rest at once.
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
@@ -40,10 +41,9 @@ class WakeUp : public testing::Test {
     there_.context.wakes_on_messages = true;
   }
 
-  void send_all() {
+  void send_data() {
     sender_.first.write(1);
     sender_.second.write(2);
-    sender_.happened.raise();
   }
   bool woken() { return there_.context.wakeup.try_wait(); }
 
@@ -54,14 +54,14 @@ class WakeUp : public testing::Test {
 };
 
 TEST_F(WakeUp, ComesAtOnceFromAThreadThatRunsNoComponents) {
-  send_all();
+  send_data();
   EXPECT_TRUE(woken());
 }
 
-TEST_F(WakeUp, ComesOnceForAllThatAHookSends) {
+TEST_F(WakeUp, ComesOnceForAllDataThatAHookWrites) {
   const rt::OwedWakeups::Account account(here_.context.owed);
   sender_.run(here_.context, [this] {
-    send_all();
+    send_data();
     EXPECT_FALSE(woken());
   });
   here_.context.owed.pay();
@@ -70,24 +70,41 @@ TEST_F(WakeUp, ComesOnceForAllThatAHookSends) {
   EXPECT_FALSE(woken());
 }
 
-TEST_F(WakeUp, ComesOnceForAllThatSeveralHandlersSend) {
+TEST_F(WakeUp, ComesOnceForAllDataThatSeveralHandlersWrite) {
   const rt::OwedWakeups::Account account(here_.context.owed);
-  sender_.run_handler(here_.context, [this] { send_all(); });
+  sender_.run_handler(here_.context, [this] { send_data(); });
   sender_.run_handler(here_.context, [this] { EXPECT_FALSE(woken()); });
   here_.context.owed.pay();
   EXPECT_TRUE(woken());
 }
 
-TEST_F(WakeUp, ComesBeforeTheNextHookOrOperation) {
+TEST_F(WakeUp, ComesBeforeTheNextHookOrSentOperation) {
   const rt::OwedWakeups::Account account(here_.context.owed);
-  sender_.run(here_.context, [this] { send_all(); });
+  sender_.run(here_.context, [this] { send_data(); });
   sender_.run(here_.context, [this] { EXPECT_TRUE(woken()); });
 }
 
-TEST_F(WakeUp, ComesBeforeTheSenderWaits) {
+TEST_F(WakeUp, OfAnEventComesWithinTheHook) {
   const rt::OwedWakeups::Account account(here_.context.owed);
   sender_.run(here_.context, [this] {
-    send_all();
+    sender_.happened.raise();
+    EXPECT_TRUE(woken());
+  });
+}
+
+TEST_F(WakeUp, ComesAtOnceWhereTheWriterMayWait) {
+  const rt::OwedWakeups::Account account(here_.context.owed);
+  sender_.run(here_.context, [this] {
+    const rt::PermitScope waiting;
+    send_data();
+    EXPECT_TRUE(woken());
+  });
+}
+
+TEST_F(WakeUp, ComesBeforeTheWriterWaits) {
+  const rt::OwedWakeups::Account account(here_.context.owed);
+  sender_.run(here_.context, [this] {
+    send_data();
     const rt::PermitScope waiting;
     EXPECT_TRUE(woken());
   });

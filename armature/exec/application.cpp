@@ -69,7 +69,7 @@ base::Diagnostics Application::start() {
   apply_declared_reactions();
   make_engines();
   const bool up = configure_all(diagnostics) && connect_all(diagnostics) &&
-                  prepare_threads(diagnostics) && start_all(diagnostics);
+                  prepare_threads(diagnostics) && start_all(diagnostics) && get_ready(diagnostics);
   if (up) {
     go_live();
   } else {
@@ -120,7 +120,7 @@ void Application::apply_declared_reactions() {
 }
 
 RunEnd Application::run_for(base::Duration duration, const platform::StopSignal* stop) {
-  const base::Time end = now() + duration;
+  const base::Time end = base::later(now(), duration);
   if (options_.simulated) return simulate_until(end, stop);
   constexpr base::Duration kLogPeriod = std::chrono::milliseconds(20);
   while (true) {

@@ -53,7 +53,8 @@ struct ApplicationOptions {
   base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
   std::uint64_t measure_every = 61;               ///< execution times are taken in every n-th cycle
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
-  std::function<void()> ready;  ///< called by `start` when all is in place, before the first cycle
+  /// Called by `start` when all is in place, before the first cycle; if it throws, nothing starts.
+  std::function<void()> ready;
 };
 
 /// Why a run ended.
@@ -162,7 +163,8 @@ class Application final {
   void take_down(base::Diagnostics& diagnostics);
   void stop_running(base::Diagnostics& diagnostics);
   void stop_group(const std::vector<component::Component*>& group, base::Diagnostics& diagnostics);
-  void deliver_leftovers();
+  void deliver_leftovers(base::Diagnostics& diagnostics);
+  void deliver_leftovers_of(Index thread, base::Diagnostics& diagnostics);
   void list_casualties();
   void clean_up(base::Diagnostics& diagnostics);
   void disconnect_all();
@@ -179,6 +181,7 @@ class Application final {
   bool prepare_threads(base::Diagnostics& diagnostics);
   void reserve_system();
   void start_worker(Index thread);
+  bool get_ready(base::Diagnostics& diagnostics);
   void go_live();
   void end_threads(base::Diagnostics& diagnostics);
 

@@ -244,5 +244,45 @@ TEST_P(HangInRealTime, QuestionsToAThreadThatHangsAreAnsweredSo) {
             "the thread of 'Stuck' did not answer in time");
 }
 
+/// Does something that does not end, when it is asked to.
+class Sleeper final : public component::Component {
+ public:
+  using Component::Component;
+  component::Operation<void()> sleep{this, "sleep", component::serve<&Sleeper::do_sleep>,
+                                     "does not return", component::in_own_thread};
+  Trap* trap = nullptr;
+
+ private:
+  void do_sleep() { trap->hold(); }
+};
+
+/// Asks for it at the very end.
+class LastWish final : public component::Component {
+ public:
+  using Component::Component;
+  component::OperationCaller<void()> sleep{this, "sleep", "asks the peer"};
+
+ private:
+  void on_stop() override { sent_ = sleep.send().sent(); }
+  bool sent_ = false;
+};
+
+TEST(HangOfLeftovers, IsNamedAndTheStopEnds) {
+  Trap trap;
+  Blueprint blueprint;
+  blueprint.add<Sleeper>("Sleeper", Activity::triggered()).trap = &trap;
+  blueprint.add<LastWish>("LastWish", Activity::triggered());
+  blueprint.add_peer("LastWish", "Sleeper");
+  ApplicationOptions options = patient(true);  // sent, but nobody runs any more
+  options.stop_limit = 500ms;
+  Application application(std::move(blueprint), options);
+  ASSERT_EQ(application.start().to_text(), "");
+  EXPECT_EQ(application.stop().to_text(),
+            "error: what was sent to the thread 'Sleeper' after its end hangs in 'Sleeper'\n");
+  EXPECT_TRUE(application.hangs());
+  trap.open();
+  wait_for_their_end();
+}
+
 }  // namespace
 }  // namespace armature::exec

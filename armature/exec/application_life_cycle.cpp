@@ -127,11 +127,15 @@ void Application::report_hang(const Component& component, const char* hook, base
 void Application::take_down(base::Diagnostics& diagnostics) {
   stop_running(diagnostics);
   end_threads(diagnostics);
-  deliver_leftovers();
+  deliver_leftovers(diagnostics);
   list_casualties();
   clean_up(diagnostics);
   drain_logs();
   logs_.tell_losses(now());
+  if (!logs_.failure().empty()) {
+    diagnostics.warning({},
+                        "log lines are missing: their receiver threw " + quoted(logs_.failure()));
+  }
 }
 
 /// In reverse order of start; neighbours in this order that share a thread are stopped in one go.
@@ -185,15 +189,39 @@ void Application::give_up_thread(const component::ExecutionContext& context) {
 }
 
 /// What was sent to a thread that had ended already; nobody runs any more, so that this ends soon.
-void Application::deliver_leftovers() {
+void Application::deliver_leftovers(base::Diagnostics& diagnostics) {
   constexpr int kRounds = 64;
   bool any = true;
   for (int round = 0; any && round < kRounds; ++round) {
     any = false;
-    for (auto& engine : engines_) {
-      if (!engine->context().live && engine->deliver_leftovers()) any = true;
+    for (Index t = 0; t < engines_.size(); ++t) {
+      component::ExecutionContext& context = engines_[t]->context();
+      if (context.live || stuck_.count(&context) > 0) continue;
+      engines_[t]->close_account();
+      if (!engines_[t]->has_leftovers()) continue;
+      any = true;
+      deliver_leftovers_of(t, diagnostics);
     }
   }
+}
+
+/// Operations that were sent are their components' code, which may hang like a hook.
+void Application::deliver_leftovers_of(Index thread, base::Diagnostics& diagnostics) {
+  Engine* const engine = engines_[thread].get();
+  Component* const any_member =
+      blueprint_.components[plan_.threads[thread].members.front()].component.get();
+  const internal::HookReport report = run_hooks({{any_member},
+                                                 [engine](Component&) {
+                                                   engine->deliver_leftovers();
+                                                   return component::accepted();
+                                                 }},
+                                                patience(options_.stop_limit));
+  if (!report.hangs) return;
+  give_up_thread(engine->context());
+  const Component* const where = engine->context().running();
+  diagnostics.error({}, "what was sent to the thread " + quoted(engine->context().name) +
+                            " after its end hangs" +
+                            (where == nullptr ? "" : " in " + quoted(where->name())));
 }
 
 void Application::list_casualties() {

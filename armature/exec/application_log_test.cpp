@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <ios>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,6 +98,30 @@ TEST_P(ApplicationLog, AFaultIsLogged) {
   EXPECT_TRUE(run_until(application, [&] { return application.faults() > 0; }));
   EXPECT_TRUE(application.stop().ok());
   EXPECT_THAT(lines_, Contains("error A: fault: exception: thrown in update"));
+}
+
+TEST_P(ApplicationLog, AReceiverThatThrowsGetsNoMoreLinesAndItIsTold) {
+  Blueprint blueprint;
+  Probe& probe = blueprint.add<Probe>("A", Activity::periodic(1ms));
+  for (const char* hook : {"configure", "start", "stop"}) {
+    probe.actions[hook] = [&probe, hook] { probe.log_info("in {}", hook); };
+  }
+  ApplicationOptions options = patient(GetParam());
+  int lines = 0;
+  options.log = [&](const rt::LogRecord&) {
+    ++lines;
+    throw std::ios_base::failure("the disk is full");
+  };
+  Application application(std::move(blueprint), options);
+  ASSERT_TRUE(application.start().ok());
+  application.run_for(30ms);
+  const std::string said = application.stop().to_text();
+  EXPECT_TRUE(
+      said.starts_with("warning: log lines are missing: their receiver threw 'the disk is "
+                       "full"))
+      << said;
+  EXPECT_EQ(lines, 1);
+  EXPECT_EQ(probe.state(), component::State::kPreOperational) << "it was stopped and cleaned up";
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // An application's threads: what is asked of the system for them, and what was granted.
+#include <exception>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
@@ -109,9 +111,21 @@ void Application::start_worker(Index thread) {
        scheduling_text(grant.scheduler, grant.priority, grant.cpus), grant.refusals});
 }
 
-void Application::go_live() {
+/// False if the one who waits for this moment has an objection.
+bool Application::get_ready(base::Diagnostics& diagnostics) {
   if (memory_locked_) platform::populate_memory();
-  if (options_.ready) options_.ready();
+  if (!options_.ready) return true;
+  try {
+    options_.ready();
+  } catch (const std::exception& thrown) {
+    diagnostics.error({}, std::string("not ready: ") + thrown.what());
+  } catch (...) {
+    diagnostics.error({}, "not ready: an exception of an unknown type");
+  }
+  return diagnostics.ok();
+}
+
+void Application::go_live() {
   const base::Time begin = now();
   for (auto& engine : engines_) engine->begin(begin);
   running_ = true;
@@ -121,18 +135,23 @@ void Application::go_live() {
 void Application::end_threads(base::Diagnostics& diagnostics) {
   if (gate_ != nullptr) gate_->give_up();
   for (auto& engine : engines_) engine->end();
+  std::vector<component::ExecutionContext*> ended;
   for (Worker& worker : workers_) {
     component::ExecutionContext& context = worker.engine->context();
     const bool known = stuck_.count(&context) > 0;
     const base::Duration limit = known ? base::Duration::zero() : options_.stop_limit;
     if (worker.thread->join_within(limit)) {
-      context.live = false;
-      context.wakes_on_messages = false;
+      ended.push_back(&context);
       continue;
     }
     worker.thread->abandon();
     give_up_thread(context);
     if (!known) diagnostics.error({}, "the thread " + quoted(context.name) + " does not end");
+  }
+  // Only now: until then the others still sent them messages.
+  for (component::ExecutionContext* context : ended) {
+    context->live = false;
+    context->wakes_on_messages = false;
   }
   workers_.clear();
   gate_.reset();

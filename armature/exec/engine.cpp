@@ -56,6 +56,15 @@ bool ages(const Component& component) {
   });
 }
 
+void fault_those_in_service(const std::vector<Component*>& components, std::string_view reason) {
+  for (Component* component : components) {
+    const component::State state = component->state();
+    const bool in_service =
+        state == component::State::kRunning || state == component::State::kRunTimeError;
+    if (in_service) component->fault(reason);
+  }
+}
+
 }  // namespace
 
 Engine::Engine(std::string name, Activity activity, std::vector<Component*> members,
@@ -79,6 +88,7 @@ void Engine::begin(base::Time start) {
   next_age_check_ = start;
   context_.live = !context_.simulated;
   context_.wakes_on_messages = !context_.simulated;
+  context_.wakeup.notify();  // of what was sent before nobody was told
 }
 
 void Engine::serve() {
@@ -94,12 +104,14 @@ void Engine::end() {
   context_.wakeup.notify();
 }
 
-bool Engine::deliver_leftovers() {
+bool Engine::has_leftovers() const {
+  return !context_.inbox.empty() || !context_.next_cycle.empty();
+}
+
+void Engine::deliver_leftovers() {
   close_account();
-  if (context_.inbox.empty() && context_.next_cycle.empty()) return false;
   context_.next_cycle.deliver_all();
   context_.inbox.deliver_all();
-  return true;
 }
 
 bool Engine::has_messages() const {
@@ -210,16 +222,9 @@ void Engine::deliver_messages() {
 void Engine::fault_if_late() {
   const bool too_late = activity_.overrun == Overrun::kFault &&
                         schedule_.late_in_a_row() >= activity_.late_cycles_to_fault;
-  if (!too_late) return;
-  for (Component* component : updating_) {
-    component->fault("its thread missed too many cycles in a row");
-  }
+  if (too_late) fault_those_in_service(updating_, "its thread missed too many cycles in a row");
 }
 
-void Engine::fault_members(std::string_view reason) {
-  for (Component* component : members_) {
-    if (component->state() == component::State::kRunning) component->fault(reason);
-  }
-}
+void Engine::fault_members(std::string_view reason) { fault_those_in_service(members_, reason); }
 
 }  // namespace armature::exec

@@ -44,9 +44,13 @@ class Engine {
   /// Ends the loop.
   /// @thread any
   void end();
-  /// Handles what arrived after the loop had ended; true if there was anything.
+  /// What arrived after the loop had ended.
   /// @thread whoever joined the engine's own
-  bool deliver_leftovers();
+  bool has_leftovers() const;
+  void deliver_leftovers();
+  /// Ends the statistics of the last cycle.
+  /// @thread its own, or whoever joined that
+  void close_account();
 
   // --- the same in single steps, for simulated time ----------------------------------------------
   bool has_messages() const;
@@ -78,7 +82,6 @@ class Engine {
   void open(base::Time now);
   void close();
   void begin_cycle();
-  void close_account();
   void deliver_messages();
   void fault_if_late();
 

@@ -214,6 +214,12 @@ TEST_F(Faulting, HappensAfterTheDeclaredNumberOfLateCyclesInARow) {
   EXPECT_EQ(probe_.reason(), "its thread missed too many cycles in a row");
 }
 
+TEST_F(Faulting, LeavesThoseAloneThatAreNotInService) {
+  probe_.stop();
+  for (int cycle = 1; cycle <= 5; ++cycle) engine_.step(at(cycle * 20ms));
+  EXPECT_EQ(probe_.state(), State::kStopped);
+}
+
 TEST_F(Faulting, ACycleInTimeBeginsTheCountAgain) {
   for (int round = 0; round < 5; ++round) {
     engine_.step(at(round * 50ms + 20ms));

@@ -22,7 +22,7 @@ void Task::post(component::ExecutionContext& context, std::function<void()> work
 bool Task::run_in(component::ExecutionContext& context, std::function<void()> work,
                   base::Duration limit) {
   const std::shared_ptr<Task> task = send(context, std::move(work));
-  const base::Time deadline = platform::monotonic_now() + limit;
+  const base::Time deadline = base::later(platform::monotonic_now(), limit);
   while (!task->done_.load(std::memory_order_acquire)) {
     if (!task->finished_.wait_until(deadline)) break;
   }

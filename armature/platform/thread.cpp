@@ -200,6 +200,7 @@ void Thread::join() {
 
 bool Thread::join_within(base::Duration limit) {
   if (!state_->joinable) return true;
+  limit = std::min<base::Duration>(limit, std::chrono::hours(24 * 365));  // waits add it to a clock
   // Not pthread_clockjoin_np: ThreadSanitizer does not know it and loses count of the threads.
   {
     std::unique_lock lock(state_->mutex);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/rt/guard.hpp"
 #include "armature/rt/wakeup.hpp"
 
 namespace armature::rt {
@@ -37,10 +38,11 @@ void OwedWakeups::pay() noexcept {
 }
 
 void notify_soon(Wakeup& wakeup) noexcept {
-  if (OwedWakeups* const mine = account()) {
-    mine->owe(wakeup);
-  } else {
+  OwedWakeups* const mine = account();
+  if (mine == nullptr || guard_state().permitted_depth > 0) {
     wakeup.notify();
+  } else {
+    mine->owe(wakeup);
   }
 }
 

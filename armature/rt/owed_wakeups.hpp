@@ -16,8 +16,8 @@ using Wakeup = BasicWakeup<FutexParker>;
 ///
 /// Specification: a wake-up that is owed is notified once by the next `pay`, however often it was
 /// owed; when there is no room for another, all are paid at once. A thread pays at the latest
-/// before it sleeps on a wake-up, and before it enters a `PermitScope`, where it may wait for other
-/// things.
+/// before it sleeps on a wake-up or enters a `PermitScope`, and owes nothing while it is in one:
+/// there it may wait for anything.
 class OwedWakeups {
  public:
   static constexpr std::size_t kMost = 8;
@@ -46,8 +46,8 @@ class OwedWakeups {
   std::size_t count_ = 0;
 };
 
-/// Notifies `wakeup` when the calling thread pays what it owes; at once if it has no account.
-/// `wakeup` must live until then.
+/// Notifies `wakeup` when the calling thread pays what it owes; at once if it has no account or is
+/// in a `PermitScope`. `wakeup` must live until then.
 /// @rt nonblocking
 void notify_soon(Wakeup& wakeup) noexcept;
 

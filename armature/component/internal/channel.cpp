@@ -7,7 +7,7 @@ void ChannelBase::tell_reader() {
   if (directly_) {
     reader_.drain(*this);
   } else {
-    reader_.owner().context().raise(*this);
+    reader_.owner().context().raise_soon(*this);
   }
 }
 

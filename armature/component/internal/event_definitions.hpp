@@ -136,7 +136,7 @@ bool EventHandler<Args...>::enqueue(const Args&... arguments) {
     return false;
   }
   entry->event = std::tuple<Args...>(arguments...);
-  owner().context().post(*entry);
+  owner().context().post_soon(*entry);
   return true;
 }
 

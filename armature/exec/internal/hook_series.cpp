@@ -38,10 +38,10 @@ class Progress {
         std::min<base::Duration>(patience.limit, std::chrono::milliseconds(20));
     std::unique_lock lock(mutex_);
     std::size_t seen = 0;
-    base::Time deadline = platform::monotonic_now() + patience.limit;
+    base::Time deadline = base::later(platform::monotonic_now(), patience.limit);
     while (!changed_.wait_for(lock, look, [this] { return finished_; })) {
       const base::Time now = platform::monotonic_now();
-      if (std::exchange(seen, done_) != done_) deadline = now + patience.limit;
+      if (std::exchange(seen, done_) != done_) deadline = base::later(now, patience.limit);
       if (now > deadline) return false;
       if (!patience.meanwhile) continue;
       lock.unlock();
@@ -91,14 +91,16 @@ HookReport run_hooks(const HookSeries& series, const HookPatience& patience) {
   constexpr std::size_t kHookStack = 8u << 20;  // like a main thread's: hooks load files and models
   request.stack_bytes = kHookStack;
   request.prefault = false;
+  std::unique_ptr<platform::Thread> thread;
   try {
-    platform::Thread thread(request, [progress] { progress->run(); });
-    if (!progress->wait(patience)) {
-      progress->leave_alone();
-      thread.abandon();
-    }
+    thread = std::make_unique<platform::Thread>(request, [progress] { progress->run(); });
   } catch (const std::system_error&) {
     progress->run();  // without anybody to watch it: better than not at all
+    return progress->report();
+  }
+  if (!progress->wait(patience)) {
+    progress->leave_alone();
+    thread->abandon();
   }
   return progress->report();
 }

@@ -12,7 +12,7 @@ namespace armature::exec::internal {
 
 /// A transition of the life cycle of many components, one after the other.
 struct HookSeries {
-  using Transition = component::Outcome (*)(component::Component&);
+  using Transition = std::function<component::Outcome(component::Component&)>;
 
   std::vector<component::Component*> components;
   Transition transition;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/internal/log_pump.hpp"
 
+#include <exception>
 #include <utility>
 
 namespace armature::exec::internal {
@@ -16,7 +17,7 @@ void LogPump::drain() {
 
 void LogPump::drain(Engine& engine) {
   while (const rt::LogRecord* record = engine.log().pop()) {
-    if (sink_) sink_(*record);
+    tell(*record);
   }
 }
 
@@ -37,7 +38,20 @@ void LogPump::tell_losses(base::Time now) {
     record.format =
         "{} log lines of this thread were dropped: they came faster than they can be printed";
     record.arguments[0] = dropped - before;
+    tell(record);
+  }
+}
+
+void LogPump::tell(const rt::LogRecord& record) noexcept {
+  if (!sink_) return;
+  try {
     sink_(record);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    sink_ = nullptr;
+  } catch (...) {
+    failure_ = "an exception of an unknown type";
+    sink_ = nullptr;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "armature/base/time.hpp"
@@ -10,7 +11,8 @@
 
 namespace armature::exec::internal {
 
-/// Carries log lines from the engines' queues to a sink, which may be empty.
+/// Carries log lines from the engines' queues to a sink, which may be empty. A sink that throws
+/// gets no more of them.
 class LogPump {
  public:
   using Sink = std::function<void(const rt::LogRecord&)>;
@@ -25,6 +27,8 @@ class LogPump {
   void tell_losses(base::Time now);
   /// The same, if it was not done for a second.
   void tell_losses_now_and_then(base::Time now);
+  /// What the sink threw; empty if it did not.
+  const std::string& failure() const { return failure_; }
 
  private:
   struct Source {
@@ -32,7 +36,10 @@ class LogPump {
     std::uint64_t told_losses = 0;
   };
 
+  void tell(const rt::LogRecord& record) noexcept;
+
   Sink sink_;
+  std::string failure_;
   std::vector<Source> sources_;
   base::Time told_at_{};
 };
