@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "armature/base/near_name.hpp"
 #include "armature/base/unit.hpp"
@@ -25,6 +27,7 @@ class ConnectionPlanner {
 
   void run() {
     plan_.connections.reserve(blueprint_.connections.size());
+    writers_.reserve(blueprint_.connections.size());
     for (const ConnectionEntry& entry : blueprint_.connections) plan_one(entry);
     for (const ComponentEntry& entry : blueprint_.components) check_open_inputs(entry);
   }
@@ -33,10 +36,14 @@ class ConnectionPlanner {
   void plan_one(const ConnectionEntry& entry) {
     const Index from = find_component(entry.from_component, entry);
     const Index to = find_component(entry.to_component, entry);
-    if (from != kNone && to != kNone && is_backwards(from, to, entry)) return;
-    OutputPortBase* output = from == kNone ? nullptr : find_output(from, entry);
-    InputPortBase* input = to == kNone ? nullptr : find_input(to, entry);
-    if (output == nullptr || input == nullptr) return;
+    OutputPortBase* output = from == kNone ? nullptr : directory_.output(from, entry.from_port);
+    InputPortBase* input = to == kNone ? nullptr : directory_.input(to, entry.to_port);
+    if (output == nullptr || input == nullptr) {
+      if (from != kNone && to != kNone && is_backwards(from, to, entry)) return;
+      if (from != kNone && output == nullptr) report_no_output(from, entry);
+      if (to != kNone && input == nullptr) report_no_input(to, entry);
+      return;
+    }
     check_policy(entry);
     const bool fits = check_types(*output, *input, entry) && check_units(*output, *input, entry) &&
                       check_sizes(*output, *input, entry);
@@ -66,9 +73,7 @@ class ConnectionPlanner {
     return true;
   }
 
-  OutputPortBase* find_output(Index component, const ConnectionEntry& entry) {
-    OutputPortBase* port = directory_.output(component, entry.from_port);
-    if (port != nullptr) return port;
+  void report_no_output(Index component, const ConnectionEntry& entry) {
     const bool is_input = directory_.input(component, entry.from_port) != nullptr;
     diagnostics_.error(
         entry.where,
@@ -76,12 +81,9 @@ class ConnectionPlanner {
                        " is an input port, and a connection starts at an output port"
                  : quoted(entry.from_component) + " has no output port " + quoted(entry.from_port),
         base::suggestion(entry.from_port, directory_.output_names(component)));
-    return nullptr;
   }
 
-  InputPortBase* find_input(Index component, const ConnectionEntry& entry) {
-    InputPortBase* port = directory_.input(component, entry.to_port);
-    if (port != nullptr) return port;
+  void report_no_input(Index component, const ConnectionEntry& entry) {
     const bool is_output = directory_.output(component, entry.to_port) != nullptr;
     diagnostics_.error(
         entry.where,
@@ -89,7 +91,6 @@ class ConnectionPlanner {
                         " is an output port, and a connection ends at an input port"
                   : quoted(entry.to_component) + " has no input port " + quoted(entry.to_port),
         base::suggestion(entry.to_port, directory_.input_names(component)));
-    return nullptr;
   }
 
   void check_policy(const ConnectionEntry& entry) {
@@ -149,19 +150,18 @@ class ConnectionPlanner {
 
   bool check_writers(const OutputPortBase& output, const InputPortBase& input,
                      const ConnectionEntry& entry) {
-    std::vector<const OutputPortBase*>& writers = writers_[&input];
-    for (const OutputPortBase* writer : writers) {
-      if (writer != &output) continue;
+    const auto [first, is_first] = writers_.emplace(&input, &output);
+    if (is_first) return true;
+    if (first->second == &output || !more_writers_.emplace(&input, &output).second) {
       diagnostics_.error(
           entry.where,
           quoted(path(output)) + " is connected to " + quoted(path(input)) + " already",
           "remove one of the two connections");
       return false;
     }
-    writers.push_back(&output);
-    if (writers.size() == 1 || input.allows_fan_in()) return true;
+    if (input.allows_fan_in()) return true;
     diagnostics_.error(entry.where,
-                       quoted(path(input)) + " has two writers: " + quoted(path(*writers.front())) +
+                       quoted(path(input)) + " has two writers: " + quoted(path(*first->second)) +
                            " and " + quoted(path(output)),
                        "an input takes several writers only if its component declares fan_in");
     return false;
@@ -190,7 +190,8 @@ class ConnectionPlanner {
   const Directory& directory_;
   Plan& plan_;
   base::Diagnostics& diagnostics_;
-  std::unordered_map<const InputPortBase*, std::vector<const OutputPortBase*>> writers_;
+  std::unordered_map<const InputPortBase*, const OutputPortBase*> writers_;  ///< the first of each
+  std::set<std::pair<const InputPortBase*, const OutputPortBase*>> more_writers_;
   std::unordered_map<std::string, bool> attempted_;
   std::unordered_set<const InputPortBase*> backwards_;  ///< that a connection begins at
 };

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "armature/exec/internal/wiring.hpp"
@@ -17,22 +16,29 @@ namespace {
 class TriggerGraph {
  public:
   TriggerGraph(const Blueprint& blueprint, const Plan& plan)
-      : blueprint_(blueprint), plan_(plan), kinds_of_(blueprint.components.size()) {
-    handlers_.reserve(plan.connections.size() + plan.subscriptions.size());
+      : blueprint_(blueprint), plan_(plan), first_kind_(blueprint.components.size(), kNone) {
+    kinds_.reserve(2 * blueprint.components.size());
+    // All kinds first: which of them a way begins at is known only then.
+    std::vector<Handler> handlers;
+    handlers.reserve(plan.connections.size() + plan.subscriptions.size());
     for (const ConnectionPlan& connection : plan.connections) {
-      if (connection.input->triggers()) add_handler(*connection.input, connection.to);
+      const component::InputPortBase& input = *connection.input;
+      handlers.push_back(input.triggers() ? handler_of(input, connection.to) : Handler{});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
-      add_handler(*subscription.handler, subscription.to);
+      handlers.push_back(handler_of(*subscription.handler, subscription.to));
     }
+    auto handler = handlers.begin();
     for (const ConnectionPlan& connection : plan.connections) {
+      const Handler& to = *handler++;
       if (!runs_within_the_write(connection)) continue;
-      add_way(connection.from, {connection.output->name(), handlers_.at(connection.input),
-                                &connection.entry->where, is_periodic(connection.to)});
+      add_way(connection.from, {connection.output->name(), to, &connection.entry->where,
+                                is_periodic(connection.to)});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
+      const Handler& to = *handler++;
       if (!same_thread(subscription.from, subscription.to)) continue;
-      add_way(subscription.from, {subscription.event->name(), handlers_.at(subscription.handler),
+      add_way(subscription.from, {subscription.event->name(), to,
                                   &blueprint.components[subscription.to].where, false});
     }
   }
@@ -56,8 +62,8 @@ class TriggerGraph {
  private:
   enum class State { kUnseen, kOpen, kDone };
   struct Handler {
-    std::string_view name;
-    std::size_t kind;
+    std::string_view name{};
+    std::size_t kind = 0;
   };
   struct Way {
     std::string_view through;  ///< output port or event
@@ -68,6 +74,7 @@ class TriggerGraph {
   struct Kind {
     Index component;
     const component::LeadsTo* effects;
+    std::size_t next;  ///< of the same component, or kNone
     std::vector<Way> ways{};
     State state = State::kUnseen;
     int depth = 1;  ///< of the handlers that it sets off, itself included
@@ -78,23 +85,20 @@ class TriggerGraph {
   };
 
   template <typename Entry>
-  void add_handler(const Entry& entry, Index component) {
-    const auto [place, is_new] = handlers_.try_emplace(&entry);
-    if (is_new) place->second = {entry.name(), kind_of(component, entry.effects())};
+  Handler handler_of(const Entry& entry, Index component) {
+    return {entry.name(), kind_of(component, entry.effects())};
   }
 
   std::size_t kind_of(Index component, const component::LeadsTo& effects) {
-    std::vector<std::size_t>& kinds = kinds_of_[component];
-    for (const std::size_t kind : kinds) {
+    for (std::size_t kind = first_kind_[component]; kind != kNone; kind = kinds_[kind].next) {
       if (*kinds_[kind].effects == effects) return kind;
     }
-    kinds.push_back(kinds_.size());
-    kinds_.push_back({component, &effects});
-    return kinds.back();
+    kinds_.push_back({component, &effects, first_kind_[component]});
+    return first_kind_[component] = kinds_.size() - 1;
   }
 
   void add_way(Index from, const Way& way) {
-    for (const std::size_t kind : kinds_of_[from]) {
+    for (std::size_t kind = first_kind_[from]; kind != kNone; kind = kinds_[kind].next) {
       if (kinds_[kind].effects->includes(way.through)) kinds_[kind].ways.push_back(way);
     }
   }
@@ -168,8 +172,7 @@ class TriggerGraph {
   const Blueprint& blueprint_;
   const Plan& plan_;
   std::vector<Kind> kinds_;
-  std::vector<std::vector<std::size_t>> kinds_of_;  ///< for each component
-  std::unordered_map<const void*, Handler> handlers_;
+  std::vector<std::size_t> first_kind_;  ///< of each component, or kNone
 };
 
 /// Each level takes room on the thread's stack.
