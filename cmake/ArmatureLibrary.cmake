@@ -3,6 +3,10 @@
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
 
 find_package(GTest REQUIRED)
+
+# What scripts/demo builds: all that is installed, and the examples; no tests.
+add_custom_target(demo)
+
 if(ARMATURE_FUZZ)
   add_custom_target(fuzz_targets)
 endif()
@@ -84,6 +88,7 @@ endfunction()
 function(armature_install_library name)
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS armature_${name} EXPORT armature)
+  add_dependencies(demo armature_${name})
   if(NOT name MATCHES "^(guard|testing)$")
     set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES armature::${name})
   endif()
@@ -101,6 +106,7 @@ function(armature_program)
   armature_warnings(${arg_NAME})
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME program)
   install(TARGETS ${arg_NAME} EXPORT armature)
+  add_dependencies(demo ${arg_NAME})
 endfunction()
 
 # armature_test(NAME stop_order SOURCES stop_order_test.cpp USES exec testing LINK ...)

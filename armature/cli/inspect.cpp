@@ -48,9 +48,9 @@ int check(const CheckArguments& arguments, const Console& console) {
   const deploy::Deployment deployment = load(arguments.load);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) {
-    console.say(LogLevel::kError, arguments.load.file + ": " +
-                                      std::to_string(deployment.diagnostics.error_count()) +
-                                      " errors");
+    const std::size_t errors = deployment.diagnostics.error_count();
+    console.say(LogLevel::kError, arguments.load.file + ": " + std::to_string(errors) +
+                                      (errors == 1 ? " error" : " errors"));
     return kFailed;
   }
   if (arguments.order) {
@@ -101,6 +101,11 @@ int models(const ModelsArguments& arguments, const Console& console) {
 }
 
 int convert(const std::string& from, const std::string& to, const Console& console) {
+  if (!ends_in(to, ".xml") && !ends_in(to, ".yaml") && !ends_in(to, ".yml")) {
+    console.say(LogLevel::kError, "the name of the file to write says its format: '" + to +
+                                      "' must end in .yaml, .yml or .xml");
+    return kWrongUse;
+  }
   base::Diagnostics diagnostics;
   const deploy::Document document = deploy::load_document(from, {}, diagnostics);
   std::string text;

@@ -285,7 +285,8 @@ TEST_F(PropertyFiles, MistakesInAFileThatManyShareAreReportedForEachButReadOnce)
 
 TEST_F(PropertyFiles, AutosaveKeepsPersistentPropertiesForTheNextRun) {
   const std::string yaml =
-      "components: {A: {model: Source, property_file: a.cpf, autosave: true}}\n";
+      "components:\n"
+      "  A: {model: Source, property_file: a.cpf, autosave: true, activity: {periodic: 1 s}}\n";
   const Deployment first = load(yaml);
   ASSERT_TRUE(first.ok()) << first.diagnostics.to_text();
   EXPECT_THAT(first.diagnostics.to_text(), HasSubstr("a.cpf' yet; it is written at stop"));

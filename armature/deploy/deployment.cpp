@@ -25,6 +25,20 @@ int cpus_of(const DeploymentOptions& options) {
   return present == 0 ? 1 : static_cast<int>(present);
 }
 
+/// Nothing is wrong with these, but hardly anybody means it.
+void warn_of_idle_components(const Deployment& deployment, base::Diagnostics& diagnostics) {
+  const exec::Plan& plan = deployment.plan;
+  for (const exec::Index index : plan.threads[plan.service_thread()].members) {
+    const exec::ComponentEntry& entry = deployment.blueprint.components[index];
+    const component::Interface& interface = entry.component->interface();
+    if (interface.inputs.empty() && interface.outputs.empty()) continue;  // tools may call it
+    diagnostics.warning(entry.where,
+                        "nothing ever runs '" + entry.component->name() +
+                            "': it has no activity, and nothing triggers or calls it",
+                        "give it one, for example activity: {periodic: 10 ms}");
+  }
+}
+
 /// Goes on from the document as far as it could be read, so that all mistakes are found in one run.
 void complete(Deployment& deployment, const DeploymentOptions& options) {
   base::Diagnostics& diagnostics = deployment.diagnostics;
@@ -37,8 +51,12 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
   deployment.blueprint = build_blueprint(document, deployment.models,
                                          {options.document.read, !all_loaded}, diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
+  if (diagnostics.ok() && deployment.blueprint.components.empty()) {
+    diagnostics.error({document.file, 0, 0}, "the file has no components");
+  }
   const ExecutionTimes times = read_times(options.times_file, diagnostics);
   if (!diagnostics.ok()) return;
+  warn_of_idle_components(deployment, diagnostics);
   deployment.schedule =
       check_schedule(deployment.blueprint, deployment.plan, times, cpus_of(options), diagnostics);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "armature/deploy/internal/test_models.hpp"
@@ -79,6 +80,31 @@ TEST(LoadDeployment, AFileThatIsNotThereIsNamedWithTheReason) {
   const Deployment deployment = load_deployment("/nowhere/robot.yaml");
   EXPECT_EQ(deployment.diagnostics.to_text(),
             "error: cannot read '/nowhere/robot.yaml': No such file or directory\n");
+}
+
+TEST(LoadDeployment, AFileWithoutComponentsIsAMistake) {
+  for (const char* text : {"", "# nothing yet\n", "application: empty\n"}) {
+    EXPECT_EQ(parse_deployment(text, "robot.yaml").diagnostics.to_text(),
+              "robot.yaml: error: the file has no components\n");
+  }
+}
+
+TEST(LoadDeployment, WhoIsNeverRunIsWarnedOf) {
+  DeploymentOptions options;
+  options.models = [](component::Registry& registry) {
+    test::add_models(registry);
+    registry.add<Recorder>("Recorder", "records what it reads");
+  };
+  const Deployment deployment = parse_deployment(R"(components:
+  S: {model: Source, activity: {periodic: 7 ms}}
+  A: {model: Recorder}
+connections: [S.Out -> A.In]
+)",
+                                                 "robot.yaml", options);
+  EXPECT_THAT(deployment.diagnostics.to_text(),
+              ::testing::HasSubstr("robot.yaml:3:3: warning: nothing ever runs 'A': it has no "
+                                   "activity, and nothing triggers or calls it (give it one, for "
+                                   "example activity: {periodic: 10 ms})\n"));
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ class @Name@ final : public Component {
 
   Property<double> share_{this, "Share", 0.5, "part of the way that one update goes", "",
                           range(0.0, 1.0), changeable_while_running};
+  Property<double> start_{this, "Start", 0.0, "where it begins", "rad"};
   InputPort<double> goal_{this, "Goal", "where to go", "rad", may_stay_open};
   OutputPort<double> output_{this, "Position", "where it is", "rad"};
   Operation<void(double)> begin_at_{this,
@@ -75,7 +76,7 @@ constexpr std::string_view kSource = R"(#include "@name@.hpp"
 namespace @name@ {
 
 Outcome @Name@::on_start() {
-  position_ = 0.0;
+  position_ = start_;
   return accepted();
 }
 
@@ -144,7 +145,7 @@ constexpr std::string_view kDeployment = R"(# armature run --sim --for 1s @name@
 application: @name@
 libraries: [build/lib/armature/lib@name@.so]
 components:
-  Leader:   {model: @Name@, activity: {periodic: 10 ms}}
+  Leader:   {model: @Name@, activity: {periodic: 10 ms}, properties: {Start: 90 deg}}
   Follower: {model: @Name@, activity: {periodic: 10 ms}, properties: {Share: 0.2}}
 connections:
   - Leader.Position -> Follower.Goal

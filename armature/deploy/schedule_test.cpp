@@ -234,7 +234,9 @@ TEST(LoadTable, ShowsEachThreadInColumns) {
             "thread  activity  scheduler    CPUs  period  time             load    answers within\n"
             "T0      periodic  realtime 80  0     10 ms   120 us declared  1.20 %  120 us\n"
             "T1      periodic  other        any   1 s     ?                ?       ?\n"
-            "load: 1.20 % of one CPU, of 2\n");
+            "load: at least 1.20 % of one CPU, of 2\n"
+            "not known for 1 thread: declare a budget, or measure (run --write-times F, then check "
+            "--times F)\n");
 }
 
 }  // namespace

@@ -95,8 +95,16 @@ std::string Schedule::to_text() const {
   std::vector<Row> rows = {
       {"thread", "activity", "scheduler", "CPUs", "period", "time", "load", "answers within"}};
   for (const ThreadLoad& load : threads) rows.push_back(row_of(load));
-  return internal::table_text(rows) + "load: " + internal::percent_text(utilisation()) +
-         " of one CPU, of " + std::to_string(cpus) + "\n";
+  const auto unknown = std::count_if(threads.begin(), threads.end(),
+                                     [](const ThreadLoad& load) { return !load.known(); });
+  std::string text = internal::table_text(rows) + "load: " + (unknown > 0 ? "at least " : "") +
+                     internal::percent_text(utilisation()) + " of one CPU, of " +
+                     std::to_string(cpus) + "\n";
+  if (unknown > 0) {
+    text += "not known for " + std::to_string(unknown) + (unknown == 1 ? " thread" : " threads") +
+            ": declare a budget, or measure (run --write-times F, then check --times F)\n";
+  }
+  return text;
 }
 
 }  // namespace armature::deploy

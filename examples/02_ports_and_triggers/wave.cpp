@@ -60,8 +60,8 @@ class Watcher final : public Component {
   void on_update() override {
     const auto reading = value_.read();
     if (!reading) return;
-    log_info("{} ({}), {} values in between", reading.value, name_of(reading.status),
-             value_.counters().missed);
+    log_info("{} rad ({}); so far {} values came and went unseen", reading.value,
+             name_of(reading.status), value_.counters().missed);
   }
 
   InputPort<double> value_{this, "Value", "what is watched", "rad"};

@@ -71,6 +71,10 @@ class Checking(unittest.TestCase):
         self.assertIn("/nowhere.yaml", done.stderr)
         self.assertIn("No such file", done.stderr)
 
+    def test_one_mistake_is_one_error(self):
+        done = armature("check", WAVE, "--set", "Source.Frequency=100 Hz")
+        self.assertTrue(done.stderr.endswith(f"armature: {WAVE}: 1 error\n"), done.stderr)
+
     def test_all_mistakes_in_one_run(self):
         done = armature("check", WAVE, "--set", "Source.Frequency=100 Hz", "--set", "Filtr.Weight=1",
                         "--set", "Watcher.activity.priority=200")
@@ -168,6 +172,11 @@ class Looking(unittest.TestCase):
             self.assertEqual(first.returncode, 0, first.stderr)
             self.assertEqual([line for line in first.stderr.splitlines() if "Watcher:" in line],
                              [line for line in second.stderr.splitlines() if "Watcher:" in line])
+
+    def test_convert_to_no_known_format(self):
+        done = armature("convert", WAVE, "/tmp/wave.txt")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("must end in .yaml, .yml or .xml", done.stderr)
 
     def test_convert_to_where_nothing_can_be_written(self):
         done = armature("convert", WAVE, "/nowhere/wave.xml")
