@@ -2,7 +2,9 @@
 // One component uses another: a plain operation, an operation in the owner's thread, and a command
 // that goes on after it was accepted.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "armature/component/author.hpp"
 
@@ -16,8 +18,14 @@ class Lift final : public Component {
   using Component::Component;
 
  private:
+  Outcome on_start() override {
+    updated_ = time();
+    return accepted();
+  }
   void on_update() override {
-    const double step = speed_ * kPeriod;
+    // Not a constant: the deployment says the period.
+    const std::chrono::duration<double> elapsed = time() - std::exchange(updated_, time());
+    const double step = speed_ * elapsed.count();
     height_ += std::clamp(target_ - height_, -step, step);
     if (start_ != target_) travel_.report((height_ - start_) / (target_ - start_));
   }
@@ -38,8 +46,6 @@ class Lift final : public Component {
   bool arrived() { return std::abs(target_ - height_) < 1e-9; }
   void halt() { target_ = height_; }
 
-  static constexpr double kPeriod = 0.01;  // s, as lift.yaml has it
-
   Property<double> top_{this, "Top", 3.0, "highest position", "m", range(0.0, 100.0)};
   Property<double> speed_{this, "Speed", 1.0, "of travel", "m/s", range(0.0, 10.0)};
   Operation<double()> get_top_{this, "top", serve<&Lift::top>, "highest position [m]"};
@@ -56,6 +62,7 @@ class Lift final : public Component {
   double height_ = 0.0;
   double start_ = 0.0;
   double target_ = 0.0;
+  armature::base::Time updated_{};
 };
 
 /// Sends the lift up, too high, and down again, and cancels the last journey half way.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A component whose core is a hierarchical state machine (paper 4, II.C): it takes commands from
 // its superior, moves its subordinate, and reacts to its events.
+#include <chrono>
+#include <utility>
+
 #include "armature/component/author.hpp"
 
 using namespace armature::component;
@@ -16,9 +19,15 @@ class Motor final : public Component {
  private:
   void push(double speed) { speed_ = speed; }
 
+  Outcome on_start() override {
+    updated_ = time();
+    return accepted();
+  }
   void on_update() override {
+    // Not a constant: the deployment says the period.
+    const std::chrono::duration<double> elapsed = time() - std::exchange(updated_, time());
     if (speed_ == 0.0) return;
-    opening_ += speed_ * kPeriod;
+    opening_ += speed_ * elapsed.count();
     if (opening_ >= 1.0 || opening_ <= 0.0) {
       opening_ = opening_ >= 1.0 ? 1.0 : 0.0;
       speed_ = 0.0;
@@ -26,14 +35,13 @@ class Motor final : public Component {
     }
   }
 
-  static constexpr double kPeriod = 0.01;  // s, as door.yaml has it
-
   Operation<void(double)> push_{
       this, "push", serve<&Motor::push>, "sets the speed", in_own_thread, args("speed [1/s]")};
   Event<> end_reached_{this, "EndReached", "the door is fully open or fully closed"};
 
   double opening_ = 0.0;
   double speed_ = 0.0;
+  armature::base::Time updated_{};
 };
 
 /// Opens on request, waits, closes; opens again if something is in the way.
