@@ -35,6 +35,12 @@ class Reader final : public Component {
   OutputPort<double> out{this, "Out", "a plain number"};
 };
 
+class Misdeclared final : public Component {
+ public:
+  using Component::Component;
+  InputPort<double> speed{this, "Speed", "a speed, in a unit that there is not", "rad/sec"};
+};
+
 class NeedsInput final : public Component {
  public:
   using Component::Component;
@@ -129,6 +135,16 @@ TEST(PlanConnections, UnitsMustBeOfTheSameKindAndSize) {
             "error: 'Writer.Level' is in plain numbers, but 'Reader.Speed' expects 'rad/s'\n");
   EXPECT_EQ(problems_with("Writer.Rate", "Reader.Level"),
             "error: 'Writer.Rate' is in '1/s', but 'Reader.Level' expects plain numbers\n");
+}
+
+TEST(PlanConnections, AUnitThatThereIsNotIsTheModelsMistake) {
+  Blueprint blueprint = pair();
+  blueprint.add<Misdeclared>("Other");
+  blueprint.connect("Writer.Position", "Other.Speed");
+  EXPECT_EQ(
+      problems_of(blueprint),
+      "error: 'Writer.Position' is in 'rad', but 'Other.Speed' expects 'rad/sec' (the model of "
+      "'Other' declares a unit that there is not: 'rad/sec')\n");
 }
 
 TEST(PlanConnections, OneUnitMayBeWrittenInTwoWays) {

@@ -125,10 +125,18 @@ class ConnectionPlanner {
     const bool same = from && to && from.value().same_kind(to.value()) &&
                       from.value().factor == to.value().factor;
     if (same) return true;
-    diagnostics_.error(entry.where, quoted(path(output)) + " is in " + unit_text(output.unit()) +
-                                        ", but " + quoted(path(input)) + " expects " +
-                                        unit_text(input.unit()));
+    diagnostics_.error(entry.where,
+                       quoted(path(output)) + " is in " + unit_text(output.unit()) + ", but " +
+                           quoted(path(input)) + " expects " + unit_text(input.unit()),
+                       !from ? no_such_unit(output)
+                       : !to ? no_such_unit(input)
+                             : "");
     return false;
+  }
+
+  static std::string no_such_unit(const component::PortBase& port) {
+    return "the model of " + quoted(port.owner().name()) +
+           " declares a unit that there is not: " + quoted(port.unit());
   }
 
   static std::string unit_text(std::string_view unit) {
