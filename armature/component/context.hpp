@@ -78,24 +78,31 @@ struct ExecutionContext {
   /// @thread any
   void post(rt::Message& message) {
     inbox.push(message);
-    if (wakes_on_messages.load(std::memory_order_relaxed)) wakeup.notify();
+    wake();
   }
   void raise(rt::Signal& signal) {
-    if (signal.raise(inbox) && wakes_on_messages.load(std::memory_order_relaxed)) wakeup.notify();
+    if (signal.raise(inbox)) wake();
   }
   /// The same where more is to follow: the thread is woken when the calling one pays what it owes.
   void post_soon(rt::Message& message) {
     inbox.push(message);
-    if (wakes_on_messages.load(std::memory_order_relaxed)) rt::notify_soon(wakeup);
+    wake_soon();
   }
   void raise_soon(rt::Signal& signal) {
-    if (!signal.raise(inbox)) return;
-    if (wakes_on_messages.load(std::memory_order_relaxed)) rt::notify_soon(wakeup);
+    if (signal.raise(inbox)) wake_soon();
   }
 
   /// True if code that runs in `other` may touch what belongs to this context.
   bool shares_thread_with(const ExecutionContext& other) const {
     return &other == this || simulated || !live.load(std::memory_order_acquire);
+  }
+
+ private:
+  void wake() {
+    if (wakes_on_messages.load(std::memory_order_relaxed)) wakeup.notify();
+  }
+  void wake_soon() {
+    if (wakes_on_messages.load(std::memory_order_relaxed)) rt::notify_soon(wakeup);
   }
 };
 

@@ -26,7 +26,7 @@ bool names_a_character(std::string_view digits) {
   const auto [end, failure] =
       std::from_chars(digits.data(), digits.data() + digits.size(), code, base);
   if (failure != std::errc() || end != digits.data() + digits.size()) return false;
-  if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
+  if (code < 0x20) return !is_forbidden_control(static_cast<char>(code));
   const bool surrogate = code >= 0xd800 && code <= 0xdfff;
   return !surrogate && code != 0xfffe && code != 0xffff && code <= 0x10ffff;
 }

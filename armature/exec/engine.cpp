@@ -109,7 +109,6 @@ bool Engine::has_leftovers() const {
 }
 
 void Engine::deliver_leftovers() {
-  close_account();
   context_.next_cycle.deliver_all();
   context_.inbox.deliver_all();
 }

@@ -145,7 +145,7 @@ TEST_F(EngineTest, EachCycleIsOneEntryInTheStatisticsWithTheMessagesUpToTheNext)
     engine_.step(at(cycle * 10ms + 5ms));
   }
   EXPECT_EQ(engine_.cycle_ticks().summary().count, 2u) << "the third is not over";
-  engine_.deliver_leftovers();
+  engine_.close_account();
   EXPECT_EQ(engine_.cycle_ticks().summary().count, 3u);
 }
 
@@ -156,7 +156,7 @@ TEST_F(EngineTest, ExecutionTimesAreTakenInEveryNthCycleAndIncludeMessages) {
     Task::post(engine_.context(), [&] { probe_.run(engine_.context(), [] {}); });
     engine_.step(at(cycle * 10ms + 5ms));
   }
-  engine_.deliver_leftovers();
+  engine_.close_account();
   EXPECT_EQ(probe_.execution_ticks().summary().count, 3u) << "cycles 2, 4 and 6";
 }
 
