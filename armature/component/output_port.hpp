@@ -61,8 +61,9 @@ class OutputPortBase : public PortBase {
   /// `input` is given samples by `made_channel`; the last one, `sample`, at once.
   void add_reader(InputPortBase& input, std::unique_ptr<internal::ChannelBase> made_channel,
                   const void* sample, std::uint64_t sequence);
-  /// Apart, so that it adds nothing to the common case.
+  /// Apart, so that they add nothing to the common case.
   WriteStatus deliver(const void* sample) noexcept;
+  void run_measured(InputPortBase& input) noexcept;
 
   InputPortBase* only_handler_ = nullptr;  ///< all that a write has to run
   bool delivers_ = false;                  ///< a write has something to do for its readers
@@ -135,9 +136,11 @@ class OutputPort final : public OutputPortBase {
     ++sample_.sequence;
     if (only_handler_ == nullptr) return delivers_ ? deliver(&sample_) : unread_;
     ExecutionContext& where = writer.context();
-    if (where.measuring) [[unlikely]]
-      return deliver(&sample_);
-    only_handler_->arrived(where);
+    if (where.measuring) [[unlikely]] {
+      run_measured(*only_handler_);
+    } else {
+      only_handler_->arrived(where);
+    }
     return WriteStatus::kWritten;
   }
 

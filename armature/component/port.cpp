@@ -185,10 +185,12 @@ WriteStatus OutputPortBase::deliver(const void* sample) noexcept {
     note(channel->push(sample), status);
     channel->tell_reader();
   }
-  for (InputPortBase* input : mine.triggered) {
-    owner().call_out(input->owner(), [&] { input->arrived(owner().context()); });
-  }
+  for (InputPortBase* input : mine.triggered) run_measured(*input);
   return status;
+}
+
+void OutputPortBase::run_measured(InputPortBase& input) noexcept {
+  owner().call_out(input.owner(), [&] { input.arrived(owner().context()); });
 }
 
 void OutputPortBase::note(rt::PushResult result, WriteStatus& status) {

@@ -29,22 +29,22 @@ const char* running_component(const void* context) {
 /// What happens in this scope is the work of `context`: real-time, and reported under its name.
 class AtWork {
  public:
-  explicit AtWork(const component::ExecutionContext& context) : before_(rt::guard_state()) {
-    rt::GuardState& state = rt::guard_state();
-    state.thread = context.name.c_str();
-    state.context = &context;
-    state.running_component = &running_component;
+  explicit AtWork(const component::ExecutionContext& context)
+      : state_(rt::guard_state()), before_(state_), realtime_(state_) {
+    state_.thread = context.name.c_str();
+    state_.context = &context;
+    state_.running_component = &running_component;
   }
   AtWork(const AtWork&) = delete;
   AtWork& operator=(const AtWork&) = delete;
   ~AtWork() {
-    rt::GuardState& state = rt::guard_state();
-    state.thread = before_.thread;
-    state.context = before_.context;
-    state.running_component = before_.running_component;
+    state_.thread = before_.thread;
+    state_.context = before_.context;
+    state_.running_component = before_.running_component;
   }
 
  private:
+  rt::GuardState& state_;
   const rt::GuardState before_;
   const rt::RealtimeScope realtime_;
 };
@@ -113,15 +113,6 @@ void Engine::deliver_leftovers() {
   context_.inbox.deliver_all();
 }
 
-bool Engine::has_messages() const {
-  return !context_.inbox.empty() || (!periodic() && !context_.next_cycle.empty());
-}
-
-base::Time Engine::next_due() const {
-  if (periodic()) return schedule_.next();
-  return aging_.empty() ? base::Time::max() : next_age_check_;
-}
-
 base::Time Engine::wait() {
   const rt::PermitScope sleeping;
   const base::Time due = next_due();
@@ -184,9 +175,10 @@ void Engine::wake(base::Time now) ARMATURE_NONBLOCKING {
 
 void Engine::begin_cycle() {
   ++context_.cycle;
-  context_.measuring = context_.cycle % measure_every_ == 0;
+  context_.measuring = --cycles_to_measured_ == 0;
+  if (context_.measuring) cycles_to_measured_ = measure_every_;
   account_open_ = true;
-  context_.next_cycle.deliver_all();
+  if (!context_.next_cycle.empty()) context_.next_cycle.deliver_all();
 }
 
 void Engine::open(base::Time now) {
@@ -211,7 +203,7 @@ void Engine::close_account() {
 
 void Engine::deliver_messages() {
   for (int round = 0; round < kMessageRounds; ++round) {
-    context_.owed.pay();
+    if (context_.owed.any()) context_.owed.pay();
     if (context_.inbox.empty()) return;
     context_.inbox.deliver_all();
   }

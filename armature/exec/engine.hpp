@@ -33,7 +33,7 @@ class Engine {
   rt::LogQueue& log() { return log_; }
 
   /// Execution times of components are taken in every n-th cycle.
-  void measure_every(std::uint64_t cycles) { measure_every_ = cycles; }
+  void measure_every(std::uint64_t cycles) { measure_every_ = cycles_to_measured_ = cycles; }
 
   /// From now on the thread's cycles count; the components have been started.
   void begin(base::Time start);
@@ -53,10 +53,15 @@ class Engine {
   void close_account();
 
   // --- the same in single steps, for simulated time ----------------------------------------------
-  bool has_messages() const;
+  bool has_messages() const {
+    return !context_.inbox.empty() || (!periodic() && !context_.next_cycle.empty());
+  }
   /// When the engine has something to do without a message; the end of time for a triggered thread
   /// whose inputs have no age.
-  base::Time next_due() const;
+  base::Time next_due() const {
+    if (periodic()) return schedule_.next();
+    return aging_.empty() ? base::Time::max() : next_age_check_;
+  }
   /// Handles the messages, and the cycles that are due at `now`.
   /// @rt
   void step(base::Time now) ARMATURE_NONBLOCKING;
@@ -96,6 +101,7 @@ class Engine {
   base::Time next_age_check_ = base::Time::max();
   PeriodicSchedule schedule_;
   std::uint64_t measure_every_ = 61;
+  std::uint64_t cycles_to_measured_ = measure_every_;
   std::uint64_t opened_ = 0;  ///< tick
   std::uint64_t busy_ = 0;    ///< ticks of the cycle whose account is open
   bool account_open_ = false;

@@ -37,7 +37,8 @@ class PeriodicSchedule {
     if (now < next_) return {};
     Due due;
     due.lateness = now - next_;
-    const auto cycles = static_cast<std::uint64_t>(due.lateness / period_) + 1;
+    const bool in_time = due.lateness < period_;  // mostly, and a division takes its time
+    const auto cycles = in_time ? 1 : static_cast<std::uint64_t>(due.lateness / period_) + 1;
     due.run = catch_up_ ? cycles : 1;
     due.skipped = cycles - due.run;
     next_ += static_cast<std::int64_t>(cycles) * period_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+
 #include "armature/base/realtime.hpp"
 #include "armature/rt/owed_wakeups.hpp"
 
@@ -24,16 +26,24 @@ GuardState& guard_state() noexcept;
 /// Marks the code in its scope as real-time, for the guard and for RealtimeSanitizer.
 class RealtimeScope {
  public:
-  RealtimeScope() noexcept {
-    ++guard_state().realtime_depth;
+  RealtimeScope() noexcept : RealtimeScope(guard_state()) {}
+  /// @param state  the calling thread's
+  explicit RealtimeScope(GuardState& state) noexcept : state_(state) {
+    ++state_.realtime_depth;
+    // Compilers know that malloc does not look at this; the guard in front of it does.
+    std::atomic_signal_fence(std::memory_order_seq_cst);
     base::internal::enter_realtime();
   }
   RealtimeScope(const RealtimeScope&) = delete;
   RealtimeScope& operator=(const RealtimeScope&) = delete;
   ~RealtimeScope() {
     base::internal::leave_realtime();
-    --guard_state().realtime_depth;
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    --state_.realtime_depth;
   }
+
+ private:
+  GuardState& state_;
 };
 
 /// Lets the code in its scope allocate and block although the thread is real-time: the framework's

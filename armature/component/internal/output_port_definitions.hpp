@@ -83,9 +83,22 @@ std::unique_ptr<internal::ChannelBase> OutputPort<T>::make_channel(InputPortBase
   return std::make_unique<internal::FifoChannel<T, rt::StdAtomics>>(input, false, policy, sample_);
 }
 
+namespace internal {
+template <typename T>
+bool same_shape(const types::Type& type, const T& a, const T& b) {
+  return types::same_shape(type, &a, &b);
+}
+/// The usual case, without a look at the type's description.
+template <typename E>
+requires std::is_trivially_copyable_v<E>
+bool same_shape(const types::Type&, const std::vector<E>& a, const std::vector<E>& b) {
+  return a.size() == b.size();
+}
+}  // namespace internal
+
 template <typename T>
 WriteStatus OutputPort<T>::write_shaped(const T& value) noexcept {
-  if (!types::same_shape(type(), &sample_.value, &value)) {
+  if (!internal::same_shape(type(), sample_.value, value)) {
     ++about().counters.wrong_size;
     return WriteStatus::kWrongSize;
   }
