@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sampled-control cycle in four threads, beside the bare futex hops that its wiring needs.
+// The sampled-control cycle in four threads, beside the bare futex hops that its wiring needs, and
+// beside these hops with the same components' work in one thread.
 #include <array>
 #include <atomic>
 #include <stdexcept>
@@ -90,7 +91,28 @@ class BareHops {
       std::thread([this] { run_controller(); }), std::thread([this] { run_actuator(); })};
 };
 
-void run_cycle(benchmark::State& state, int joints) {
+/// What the threaded cycle is measured against.
+enum class Beside { kHops, kHopsAndWork };
+
+/// The same components in one thread.
+class OneThread {
+ public:
+  explicit OneThread(int joints) : application_(make_cycle(joints, one_thread()), simulated()) {
+    const base::Diagnostics started = application_.start();
+    if (!started.ok()) throw std::runtime_error(started.to_text());
+  }
+  void run_cycles(std::int64_t count) { application_.run_for(std::chrono::milliseconds(count)); }
+
+ private:
+  static exec::ApplicationOptions simulated() {
+    exec::ApplicationOptions options;
+    options.simulated = true;
+    return options;
+  }
+  exec::Application application_;
+};
+
+void run_cycle(benchmark::State& state, int joints, Beside beside) {
   const exec::Activity own_thread = exec::Activity::triggered();
   exec::Blueprint blueprint = make_cycle(joints, {own_thread, own_thread, own_thread, own_thread});
   Pacer& pacer = add_pacer(blueprint, joints);
@@ -99,6 +121,7 @@ void run_cycle(benchmark::State& state, int joints) {
   if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
 
   BareHops hops;
+  OneThread work(joints);
   std::int64_t cycles = 0;
   Result result = measure_in_turn(
       state,
@@ -106,7 +129,11 @@ void run_cycle(benchmark::State& state, int joints) {
         pacer.run_cycles(count);
         cycles += count;
       },
-      [&](std::int64_t count) { hops.run_cycles(count); }, kBatch);
+      [&](std::int64_t count) {
+        hops.run_cycles(count);
+        if (beside == Beside::kHopsAndWork) work.run_cycles(count);
+      },
+      kBatch);
   result.bound = ratio_at_most(kBound);
   publish(state, result);
 
@@ -121,8 +148,12 @@ void run_cycle(benchmark::State& state, int joints) {
 
 void add_threaded_cycles(const Suite& suite) {
   for (const int joints : {2, 7, 64, 256, 1000}) {
-    suite.add("cycle_threaded/" + std::to_string(joints), kRounds,
-              [joints](benchmark::State& state) { run_cycle(state, joints); });
+    const std::string number = std::to_string(joints);
+    suite.add("cycle_threaded/" + number, kRounds,
+              [joints](benchmark::State& state) { run_cycle(state, joints, Beside::kHops); });
+    suite.add("cycle_threaded_with_work/" + number, kRounds, [joints](benchmark::State& state) {
+      run_cycle(state, joints, Beside::kHopsAndWork);
+    });
   }
 }
 

@@ -55,7 +55,8 @@ Outcome Component::wrong_state(std::string_view transition) const {
 }
 
 void Component::assign_context(ExecutionContext& context) {
-  context_ = &context;
+  const bool is_first = std::exchange(context_, &context) == &no_context();
+  if (is_first) return;  // nothing was on its way
   rest_->reported_fault.lower();
   rest_->reported_fault.taken = false;
   for (InputPortBase* input : rest_->interface.inputs) input->forget_messages();
@@ -100,7 +101,7 @@ Outcome Component::start() {
   rest_->checked_at = time();
   for (InputPortBase* input : rest_->interface.inputs) {
     input->begin();
-    if (input->max_age() > base::Duration::zero()) aging_ = true;
+    if (input->ages()) aging_ = true;
   }
   Outcome outcome = run_hook(&Component::on_start, State::kRunning);
   if (!outcome) return outcome;

@@ -53,6 +53,7 @@ class Step {
 /// What a component declares, in the order of declaration.
 struct Interface {
   std::vector<PropertyBase*> properties;
+  std::vector<PropertyBase*> mandatory;  ///< those of them that a deployment must give
   std::vector<InputPortBase*> inputs;
   std::vector<OutputPortBase*> outputs;
   std::vector<PortArrayBase*> port_arrays;
@@ -122,6 +123,9 @@ class Component {
   /// @thread its own
   bool admits() noexcept { return admits_at_once_ || admits_after_look(); }
   bool has_aging_inputs() const { return aging_; }
+  /// One of its inputs has an age from now on.
+  /// @thread configuration only
+  void note_aging_input() { aging_ = true; }
   /// When the reaction to old data of an input is due if nothing new comes; the end of time if none
   /// is.
   /// @rt nonblocking, no allocation, O(inputs)
@@ -283,17 +287,18 @@ class Component {
         : name(std::move(component_name)), reported_fault(component) {}
 
     std::string name;
-    std::uint64_t measured_ticks = 0;
-    Component* next_measured = nullptr;
-    bool measured = false;
+    bool configured = false;
     base::Time checked_at{};  ///< when the ages of its inputs were looked at
     Interface interface;
     std::vector<Step*> steps_before;
     std::vector<Step*> steps_after;
-    bool configured = false;
-    rt::Distribution execution_ticks;
     Reason reason;
     ReportedFault reported_fault;
+    // Last, being large: what a transition touches lies close together.
+    std::uint64_t measured_ticks = 0;
+    Component* next_measured = nullptr;
+    bool measured = false;
+    rt::Distribution execution_ticks;
   };
 
   ExecutionContext* context_;

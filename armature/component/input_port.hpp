@@ -59,6 +59,7 @@ class InputPortBase : public PortBase {
   bool allows_fan_in() const { return about().fan_in; }
   bool connected() const { return !about().writers.empty(); }
   const std::vector<OutputPortBase*>& writers() const { return about().writers; }
+  bool ages() const { return has(kAges); }
   base::Duration max_age() const { return about().max_age; }
   Reaction stale_reaction() const { return about().stale_reaction; }
   Reaction lost_reaction() const { return about().lost_reaction; }

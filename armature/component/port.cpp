@@ -51,7 +51,7 @@ bool LeadsTo::includes(std::string_view name) const {
 
 PortBase::About::About(std::string_view port_name, std::string_view port_doc,
                        std::string_view port_unit, const types::Type& port_type)
-    : name(port_name), doc(port_doc), unit(port_unit), type(port_type) {}
+    : name(port_name), type(port_type), unit(port_unit), doc(port_doc) {}
 
 PortBase::About::~About() = default;
 
@@ -80,6 +80,7 @@ void InputPortBase::apply(MaxAge declared) noexcept {
   about().max_age = declared.age;
   about().stale_reaction = declared.reaction;
   set(kAges, declared.age > base::Duration::zero());
+  if (ages()) owner().note_aging_input();
 }
 
 void InputPortBase::apply(OnDataUpdate) noexcept {
@@ -206,9 +207,10 @@ void OutputPortBase::note(rt::PushResult result, WriteStatus& status) {
 }
 
 void InputPortBase::begin() {
+  set(kZeroed, false);
+  if (!ages()) return;
   about().started = owner().time();
   about().late = false;
-  set(kZeroed, false);
 }
 
 void InputPortBase::check_age() {

@@ -146,11 +146,11 @@ class PortBase : public Entrance {
     virtual ~About();
 
     std::string name;
-    std::string_view doc;
-    std::string_view unit;
     const types::Type& type;
+    std::string_view unit;
     PortSize size;
     bool may_stay_open = false;
+    std::string_view doc;
   };
 
   PortBase(Component& owner, std::unique_ptr<About> about) noexcept;

@@ -101,6 +101,11 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
   return {};
 }
 
+void PropertyBase::apply(Mandatory) noexcept {
+  about_->mandatory = true;
+  owner().declare().mandatory.push_back(this);
+}
+
 void PropertyBase::tell_followers() {
   for (PropertyFollower* follower : about_->followers) follower->follow();
 }

@@ -83,7 +83,7 @@ class PropertyBase {
 
   void apply(Range limits) noexcept { about_->limits = limits; }
   void apply(ChangeableWhileRunning) noexcept { about_->changeable = true; }
-  void apply(Mandatory) noexcept { about_->mandatory = true; }
+  void apply(Mandatory) noexcept;
   void tell_followers();
 
  private:

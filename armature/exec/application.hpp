@@ -51,7 +51,9 @@ struct ApplicationOptions {
   OnFault on_fault = OnFault::kContinue;
   base::Duration hook_limit = std::chrono::seconds(10);  ///< a hook that takes longer hangs
   base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
-  std::uint64_t measure_every = 61;               ///< execution times are taken in every n-th cycle
+  /// Execution times of components are taken in every n-th cycle; 0: about four times a second,
+  /// which is nearly free at any rate and number of components.
+  std::uint64_t measure_every = 0;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
   /// Called by `start` when all is in place, before the first cycle; if it throws, nothing starts.
   std::function<void()> ready;

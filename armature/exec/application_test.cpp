@@ -260,6 +260,20 @@ TEST_P(ApplicationTime, ExecutionTimesAreTakenForEachComponentInTheCyclesAskedFo
   EXPECT_EQ(sink.execution_ticks().summary().count, 0u) << "it only lies there";
 }
 
+TEST(Application, ExecutionTimesAreUsuallyTakenFourTimesASecond) {
+  Blueprint blueprint;
+  const Counter& fast = blueprint.add<Counter>("Fast", Activity::periodic(1ms));
+  const Counter& slow = blueprint.add<Counter>("Slow", Activity::periodic(100ms));
+  ApplicationOptions simulated;
+  simulated.simulated = true;
+  Application application(std::move(blueprint), simulated);
+  ASSERT_TRUE(application.start().ok());
+  application.run_for(10s);
+  ASSERT_TRUE(application.stop().ok());
+  EXPECT_EQ(fast.execution_ticks().summary().count, 10'000u / 251);
+  EXPECT_EQ(slow.execution_ticks().summary().count, 100u / 3);
+}
+
 TEST_P(ApplicationTime, AnApplicationWithoutComponentsRunsToo) {
   Application application(Blueprint{}, options());
   EXPECT_EQ(application.start().to_text(), "");

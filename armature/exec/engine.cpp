@@ -49,13 +49,6 @@ class AtWork {
   const rt::RealtimeScope realtime_;
 };
 
-bool ages(const Component& component) {
-  const auto& inputs = component.interface().inputs;
-  return std::any_of(inputs.begin(), inputs.end(), [](const component::InputPortBase* input) {
-    return input->max_age() > base::Duration::zero();
-  });
-}
-
 void fault_those_in_service(const std::vector<Component*>& components, std::string_view reason) {
   for (Component* component : components) {
     const component::State state = component->state();
@@ -78,7 +71,7 @@ Engine::Engine(std::string name, Activity activity, std::vector<Component*> memb
   context_.log = &log_;
   for (Component* member : members_) {
     member->assign_context(context_);
-    if (ages(*member)) aging_.push_back(member);
+    if (member->has_aging_inputs()) aging_.push_back(member);
   }
 }
 

@@ -100,7 +100,7 @@ class Engine {
   std::vector<component::Component*> aging_;  ///< whose inputs have declared ages
   base::Time next_age_check_ = base::Time::max();
   PeriodicSchedule schedule_;
-  std::uint64_t measure_every_ = 61;
+  std::uint64_t measure_every_ = 1;
   std::uint64_t cycles_to_measured_ = measure_every_;
   std::uint64_t opened_ = 0;  ///< tick
   std::uint64_t busy_ = 0;    ///< ticks of the cycle whose account is open

@@ -8,8 +8,8 @@ namespace {
 
 void check_mandatory_properties(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   for (const ComponentEntry& entry : blueprint.components) {
-    for (const component::PropertyBase* property : entry.component->interface().properties) {
-      if (!property->is_mandatory() || property->was_set()) continue;
+    for (const component::PropertyBase* property : entry.component->interface().mandatory) {
+      if (property->was_set()) continue;
       diagnostics.error(entry.where,
                         "property " + internal::quoted(property->name()) + " of " +
                             internal::quoted(entry.component->name()) +

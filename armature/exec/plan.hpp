@@ -24,6 +24,11 @@ struct ConnectionPlan {
   component::OutputPortBase* output;
   component::InputPortBase* input;
   const ConnectionEntry* entry;
+  // Known from the ports and the entry; here as well, since every step of planning asks for it and
+  // those of ten thousand components lie far apart.
+  bool triggers;  ///< data runs a handler of the reader
+  bool delayed;   ///< by one cycle
+  bool reacts;    ///< the entry declares an age or what happens to the reader of a lost writer
 };
 
 struct SubscriptionPlan {

@@ -65,10 +65,10 @@ class Distribution {
     counter.store(counter.load(std::memory_order_relaxed) + by, order);
   }
 
-  std::array<Counter, 256> buckets_{};
   Counter total_{0};
   Counter most_{0};
   Counter least_{~std::uint64_t{0}};
+  std::array<Counter, 256> buckets_{};
 };
 
 }  // namespace armature::rt

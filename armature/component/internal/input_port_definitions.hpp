@@ -57,8 +57,10 @@ void InputPort<T>::disconnect(OutputPortBase& writer) {
 
 template <typename T>
 void InputPort<T>::set_shape(const T& shape) {
-  about().empty.value = T(shape);
-  internal::set_to_zero(type(), &about().empty.value);
+  if constexpr (!std::is_arithmetic_v<T>) {  // which is 0 from the beginning
+    about().empty.value = T(shape);
+    internal::set_to_zero(type(), &about().empty.value);
+  }
 }
 
 template <typename T>

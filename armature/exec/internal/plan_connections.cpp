@@ -48,7 +48,8 @@ class ConnectionPlanner {
     const bool fits = check_types(*output, *input, entry) && check_units(*output, *input, entry) &&
                       check_sizes(*output, *input, entry);
     if (check_writers(*output, *input, entry) && fits) {
-      plan_.connections.push_back({from, to, output, input, &entry});
+      plan_.connections.push_back({from, to, output, input, &entry, input->triggers(),
+                                   entry.policy.one_cycle_delay, entry.max_age || entry.on_lost});
     }
   }
 
@@ -177,7 +178,7 @@ class ConnectionPlanner {
 
   void check_open_inputs(const ComponentEntry& entry) {
     for (const InputPortBase* input : entry.component->interface().inputs) {
-      if (input->stays_open() || writers_.count(input) > 0 || attempted(*input)) continue;
+      if (writers_.count(input) > 0 || input->stays_open() || attempted(*input)) continue;
       diagnostics_.error(entry.where, "nobody writes the input " + quoted(path(*input)),
                          "connect it");
     }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/exec/internal/grouped.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -19,20 +20,22 @@ class Sorter {
 
   void before(Index first, Index second) {
     if (first == second) return;
-    after_[first].push_back(second);
+    after_.add(first, second);
     ++waiting_for_[second];
   }
 
   /// @param cycle  is given the first cycle that had to be broken, each node before the next
   std::vector<Index> sort(std::vector<Index>* cycle = nullptr) {
+    after_.close();
     std::vector<Index> order;
-    std::vector<bool> done(after_.size(), false);
+    order.reserve(after_.groups());
+    std::vector<bool> done(after_.groups(), false);
     std::priority_queue<Index, std::vector<Index>, std::greater<>> ready;
-    for (Index i = 0; i < after_.size(); ++i) {
+    for (Index i = 0; i < after_.groups(); ++i) {
       if (waiting_for_[i] == 0) ready.push(i);
     }
     Index first_open = 0;
-    while (order.size() < after_.size()) {
+    while (order.size() < after_.groups()) {
       if (ready.empty()) {
         while (done[first_open]) ++first_open;
         if (cycle != nullptr && cycle->empty()) *cycle = find_cycle(first_open, done);
@@ -57,14 +60,14 @@ class Sorter {
   /// Every node that is not done waits for another such node: going back from one to the next ends
   /// in a cycle.
   std::vector<Index> find_cycle(Index start, const std::vector<bool>& done) const {
-    std::vector<Index> before(after_.size(), kNone);
-    for (Index node = 0; node < after_.size(); ++node) {
+    std::vector<Index> before(after_.groups(), kNone);
+    for (Index node = 0; node < after_.groups(); ++node) {
       for (const Index later : after_[node]) {
         if (!done[node]) before[later] = node;
       }
     }
     std::vector<Index> way;
-    std::vector<bool> seen(after_.size(), false);
+    std::vector<bool> seen(after_.groups(), false);
     Index node = start;
     for (; !seen[node]; node = before[node]) {
       seen[node] = true;
@@ -76,14 +79,14 @@ class Sorter {
     return way;
   }
 
-  std::vector<std::vector<Index>> after_;
+  Grouped<Index> after_;
   std::vector<std::size_t> waiting_for_;
 };
 
 void order_start(const Blueprint& blueprint, Plan& plan) {
   Sorter sorter(blueprint.components.size());
   for (const ConnectionPlan& connection : plan.connections) {
-    if (!connection.entry->policy.one_cycle_delay) sorter.before(connection.from, connection.to);
+    if (!connection.delayed) sorter.before(connection.from, connection.to);
   }
   plan.start_order = sorter.sort();
 }
@@ -93,9 +96,9 @@ void order_start(const Blueprint& blueprint, Plan& plan) {
 void order_subscriptions(const Blueprint& blueprint, Plan& plan) {
   Sorter sorter(blueprint.components.size());
   for (const ConnectionPlan& connection : plan.connections) {
-    if (connection.input->triggers()) {
+    if (connection.triggers) {
       sorter.before(connection.to, connection.from);
-    } else if (!connection.entry->policy.one_cycle_delay) {
+    } else if (!connection.delayed) {
       sorter.before(connection.from, connection.to);
     }
   }
@@ -123,7 +126,7 @@ class UpdateOrder {
     for (const ConnectionPlan& connection : plan.connections) {
       const Index thread = plan.thread_of[connection.from];
       const bool both_update = place_[connection.from] != kNone && place_[connection.to] != kNone;
-      const bool at_once = !connection.entry->policy.one_cycle_delay;
+      const bool at_once = !connection.delayed;
       if (both_update && at_once && thread == plan.thread_of[connection.to]) {
         inside_[thread].push_back(&connection);
       }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/exec/internal/grouped.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -14,7 +15,11 @@ namespace {
 class ThreadPlanner {
  public:
   ThreadPlanner(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics)
-      : blueprint_(blueprint), plan_(plan), diagnostics_(diagnostics) {}
+      : blueprint_(blueprint),
+        plan_(plan),
+        diagnostics_(diagnostics),
+        triggered_by_(blueprint.components.size()),
+        called_or_triggered_by_(blueprint.components.size()) {}
 
   void run() {
     plan_.thread_of.assign(blueprint_.components.size(), kNone);
@@ -40,7 +45,7 @@ class ThreadPlanner {
   }
 
  private:
-  using Edges = std::vector<std::vector<Index>>;
+  using Edges = Grouped<Index>;
 
   void check_activity(const ComponentEntry& entry) {
     const Activity& activity = entry.activity;
@@ -131,23 +136,23 @@ class ThreadPlanner {
   }
 
   void find_edges() {
-    triggered_by_.resize(blueprint_.components.size());
-    called_or_triggered_by_.resize(blueprint_.components.size());
     for (const ConnectionPlan& connection : plan_.connections) {
-      if (!connection.input->triggers()) continue;
-      add(triggered_by_, connection.from, connection.to);
-      add(called_or_triggered_by_, connection.from, connection.to);
+      if (connection.triggers) add_trigger(connection.from, connection.to);
     }
     for (const SubscriptionPlan& subscription : plan_.subscriptions) {
-      add(triggered_by_, subscription.from, subscription.to);
-      add(called_or_triggered_by_, subscription.from, subscription.to);
+      add_trigger(subscription.from, subscription.to);
     }
     for (const CallPlan& call : plan_.calls) {
-      add(called_or_triggered_by_, call.caller, call.callee);
+      called_or_triggered_by_.add(call.caller, call.callee);
     }
+    triggered_by_.close();
+    called_or_triggered_by_.close();
   }
 
-  static void add(Edges& edges, Index from, Index to) { edges[from].push_back(to); }
+  void add_trigger(Index from, Index to) {
+    triggered_by_.add(from, to);
+    called_or_triggered_by_.add(from, to);
+  }
 
   /// Gives every unassigned component the most urgent thread that reaches it.
   void spread(const Edges& edges) {
@@ -221,13 +226,14 @@ void plan_threads(const Blueprint& blueprint, Plan& plan, base::Diagnostics& dia
 void check_priorities(const Blueprint& blueprint, const Plan& plan,
                       base::Diagnostics& diagnostics) {
   for (const ConnectionPlan& connection : plan.connections) {
-    if (!connection.input->triggers()) continue;
-    const Activity& reader = blueprint.components[connection.to].activity;
     const Activity& writer = plan.threads[plan.thread_of[connection.from]].activity;
-    const bool both_realtime = reader.scheduler == Activity::Scheduler::kRealtime &&
-                               writer.scheduler == Activity::Scheduler::kRealtime;
-    const bool own_thread = reader.kind == Activity::Kind::kTriggered;
-    if (!both_realtime || !own_thread || reader.priority <= writer.priority) continue;
+    const bool urgent = writer.scheduler == Activity::Scheduler::kRealtime;
+    if (!connection.triggers || !urgent) continue;
+    const Activity& reader = blueprint.components[connection.to].activity;
+    const bool interrupts = reader.kind == Activity::Kind::kTriggered &&
+                            reader.scheduler == Activity::Scheduler::kRealtime &&
+                            reader.priority > writer.priority;
+    if (!interrupts) continue;
     diagnostics.error(connection.entry->where,
                       quoted(connection.entry->to_component) + " (priority " +
                           std::to_string(reader.priority) + ") is triggered by " +

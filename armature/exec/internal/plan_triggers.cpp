@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/exec/internal/grouped.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -23,24 +24,26 @@ class TriggerGraph {
     handlers.reserve(plan.connections.size() + plan.subscriptions.size());
     for (const ConnectionPlan& connection : plan.connections) {
       const component::InputPortBase& input = *connection.input;
-      handlers.push_back(input.triggers() ? handler_of(input, connection.to) : Handler{});
+      handlers.push_back(connection.triggers ? handler_of(input, connection.to) : Handler{});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
       handlers.push_back(handler_of(*subscription.handler, subscription.to));
     }
+    ways_ = Grouped<Way>(kinds_.size());
     auto handler = handlers.begin();
     for (const ConnectionPlan& connection : plan.connections) {
       const Handler& to = *handler++;
       if (!runs_within_the_write(connection)) continue;
-      add_way(connection.from, {connection.output->name(), to, &connection.entry->where,
-                                is_periodic(connection.to)});
+      add_way(connection.from, *connection.output,
+              {to, &connection.entry->where, is_periodic(connection.to)});
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
       const Handler& to = *handler++;
       if (!same_thread(subscription.from, subscription.to)) continue;
-      add_way(subscription.from, {subscription.event->name(), to,
-                                  &blueprint.components[subscription.to].where, false});
+      add_way(subscription.from, *subscription.event,
+              {to, &blueprint.components[subscription.to].where, false});
     }
+    ways_.close();
   }
 
   void report_cycles(base::Diagnostics& diagnostics) {
@@ -62,20 +65,18 @@ class TriggerGraph {
  private:
   enum class State { kUnseen, kOpen, kDone };
   struct Handler {
-    std::string_view name{};
+    const component::Entrance* entrance = nullptr;
     std::size_t kind = 0;
   };
   struct Way {
-    std::string_view through;  ///< output port or event
     Handler to;
-    const base::Location* where;
-    bool ends_by_delay;
+    const base::Location* where = nullptr;
+    bool ends_by_delay = false;
   };
   struct Kind {
     Index component;
     const component::LeadsTo* effects;
     std::size_t next;  ///< of the same component, or kNone
-    std::vector<Way> ways{};
     State state = State::kUnseen;
     int depth = 1;  ///< of the handlers that it sets off, itself included
   };
@@ -86,7 +87,7 @@ class TriggerGraph {
 
   template <typename Entry>
   Handler handler_of(const Entry& entry, Index component) {
-    return {entry.name(), kind_of(component, entry.effects())};
+    return {&entry, kind_of(component, entry.effects())};
   }
 
   std::size_t kind_of(Index component, const component::LeadsTo& effects) {
@@ -97,17 +98,19 @@ class TriggerGraph {
     return first_kind_[component] = kinds_.size() - 1;
   }
 
-  void add_way(Index from, const Way& way) {
+  /// @param through  output port or event of `from`
+  template <typename Member>
+  void add_way(Index from, const Member& through, const Way& way) {
     for (std::size_t kind = first_kind_[from]; kind != kNone; kind = kinds_[kind].next) {
-      if (kinds_[kind].effects->includes(way.through)) kinds_[kind].ways.push_back(way);
+      if (kinds_[kind].effects->includes(through.name())) ways_.add(kind, way);
     }
   }
 
   /// A delayed value is not handled before the next cycle; but in a triggered thread that follows
   /// at once, so that the delay does not end a cycle of handlers.
   bool runs_within_the_write(const ConnectionPlan& connection) const {
-    if (!connection.input->triggers() || !same_thread(connection.from, connection.to)) return false;
-    return !connection.entry->policy.one_cycle_delay || !is_periodic(connection.to);
+    if (!connection.triggers || !same_thread(connection.from, connection.to)) return false;
+    return !connection.delayed || !is_periodic(connection.to);
   }
 
   bool is_periodic(Index component) const {
@@ -123,14 +126,15 @@ class TriggerGraph {
     while (!path.empty()) {
       Visit& visit = path.back();
       Kind& here = kinds_[visit.handler.kind];
-      if (visit.next_way == here.ways.size()) {
+      const auto ways = ways_[visit.handler.kind];
+      if (visit.next_way == ways.size()) {
         here.state = State::kDone;
         const int depth = here.depth + 1;
         path.pop_back();
         if (!path.empty()) deepen(kinds_[path.back().handler.kind], depth);
         continue;
       }
-      const Way& way = here.ways[visit.next_way++];
+      const Way& way = ways[visit.next_way++];
       Kind& next = kinds_[way.to.kind];
       if (next.state == State::kOpen) report(path, way, diagnostics);
       if (next.state == State::kDone) deepen(here, next.depth + 1);
@@ -161,17 +165,19 @@ class TriggerGraph {
   }
 
   const Way& way_taken(const Visit& visit) const {
-    return kinds_[visit.handler.kind].ways[visit.next_way - 1];
+    return ways_[visit.handler.kind][visit.next_way - 1];
   }
 
   std::string path_of(const Handler& handler) const {
     const Index component = kinds_[handler.kind].component;
-    return blueprint_.components[component].component->name() + "." + std::string(handler.name);
+    return blueprint_.components[component].component->name() + "." +
+           std::string(handler.entrance->handler());
   }
 
   const Blueprint& blueprint_;
   const Plan& plan_;
   std::vector<Kind> kinds_;
+  Grouped<Way> ways_{0};                 ///< of each kind
   std::vector<std::size_t> first_kind_;  ///< of each component, or kNone
 };
 
