@@ -5,13 +5,19 @@
 
 namespace armature::component {
 
-PortArrayBase::PortArrayBase(Component& owner, std::string_view name, Property<int>& count) noexcept
-    : name_(name), count_(count) {
+PortArrayBase::PortArrayBase(Component& owner, std::string_view name, Property<int>& count,
+                             std::string_view unit) noexcept
+    : name_(name), unit_(unit), count_(count) {
   owner.declare().port_arrays.push_back(this);
   count.add_follower(*this);
 }
 
 PortArrayBase::~PortArrayBase() = default;
+
+bool PortArrayBase::has_name(std::string_view port) const {
+  return port.size() > name_.size() && port.starts_with(name_) &&
+         port.find_first_not_of("0123456789", name_.size()) == std::string_view::npos;
+}
 
 std::size_t PortArrayBase::wanted() const {
   const int count = count_.get();

@@ -22,10 +22,14 @@ class PortArrayBase : public PropertyFollower {
   virtual ~PortArrayBase();
 
   std::string_view name() const { return name_; }
+  std::string_view unit() const { return unit_; }
   const Property<int>& count() const { return count_; }
+  /// True if a port of that name would be one of them.
+  bool has_name(std::string_view port) const;
 
  protected:
-  PortArrayBase(Component& owner, std::string_view name, Property<int>& count) noexcept;
+  PortArrayBase(Component& owner, std::string_view name, Property<int>& count,
+                std::string_view unit) noexcept;
 
   std::size_t wanted() const;
   std::string port_name(std::size_t index) const;
@@ -40,6 +44,7 @@ class PortArrayBase : public PropertyFollower {
 
  private:
   std::string_view name_;
+  std::string_view unit_;
   const Property<int>& count_;
   std::unique_ptr<std::byte[]> options_;
 };
@@ -76,7 +81,6 @@ class PortArray final : public PortArrayBase {
 
   Component& owner_;
   std::string_view doc_;
-  std::string_view unit_;
   void (*apply_)(const void* options, Port& port) = nullptr;
   std::vector<std::unique_ptr<Port>> ports_;
 };
@@ -84,7 +88,7 @@ class PortArray final : public PortArrayBase {
 template <typename Port>
 PortArray<Port>::PortArray(Component& owner, std::string_view name, Property<int>& count,
                            std::string_view doc, std::string_view unit) noexcept
-    : PortArrayBase(owner, name, count), owner_(owner), doc_(doc), unit_(unit) {}
+    : PortArrayBase(owner, name, count, unit), owner_(owner), doc_(doc) {}
 
 template <typename Port>
 PortArray<Port>::~PortArray() = default;
@@ -99,7 +103,7 @@ void PortArray<Port>::follow() {
   ports_.reserve(wanted());
   while (ports_.size() < wanted()) {
     const std::size_t index = ports_.size();
-    ports_.emplace_back(new Port(owner_, port_name(index), doc_, unit_));
+    ports_.emplace_back(new Port(owner_, port_name(index), doc_, unit()));
     apply_(options(), *ports_.back());
     if constexpr (requires(Port & port) { port.set_index(0); }) ports_.back()->set_index(index);
   }

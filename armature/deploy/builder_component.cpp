@@ -10,6 +10,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
+#include "armature/deploy/internal/model_units.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/property_value.hpp"
 #include "armature/platform/file.hpp"
@@ -148,6 +149,7 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
   std::string problem = "returns no component";
   try {
     if (auto component = model->make(written.name)) {
+      if (known_models_.insert(model).second) report_units(written, *model, *component);
       report_machines(written, *component);
       return component;
     }
@@ -160,6 +162,15 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
                                         " cannot be made: the constructor of model " +
                                         in_quotes(written.model) + " " + problem);
   return nullptr;
+}
+
+/// Mistakes of the model, told once, at the first of its components.
+void ComponentBuilder::report_units(const Component& written,
+                                    const component::Registry::Model& model,
+                                    const component::Component& component) {
+  for (std::string& mistake : unit_mistakes(component, model)) {
+    diagnostics_.error(written.model_where, std::move(mistake));
+  }
 }
 
 /// Mistakes in how the author listed states and transitions.

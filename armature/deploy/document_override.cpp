@@ -56,6 +56,18 @@ void refuse_target(const Document& document, const std::string& path,
                     base::suggestion(name, known));
 }
 
+/// A component with a property, or a composite with a parameter, of that name; empty if the
+/// document gives none a value.
+std::string owner_of(const Document& document, std::string_view property) {
+  for (const Component& component : document.components) {
+    if (find(component.properties, property) != nullptr) return component.name;
+  }
+  for (const Composite& composite : document.composites) {
+    if (find(composite.parameters, property) != nullptr) return composite.name;
+  }
+  return {};
+}
+
 /// `value` as the only entry of maps inside each other: `a.b` makes {a: {b: value}}.
 Value nested(std::string_view path, Value value) {
   const std::size_t dot = path.find('.');
@@ -132,6 +144,19 @@ std::vector<Property> take_overrides(std::vector<Override>& overrides, std::stri
     taken.push_back({std::string(name), one.value, {}, one.value.where});
   }
   return taken;
+}
+
+void refuse_parameter(const Document& document, const Override& setting,
+                      const std::vector<std::string>& known, base::Diagnostics& diagnostics) {
+  const std::string form = "properties are set as Component.Property=value";
+  std::string hint = base::suggestion(setting.path, known);
+  if (const std::string owner = owner_of(document, setting.path); !owner.empty()) {
+    hint = form + ", here " + owner + "." + setting.path + "=" + to_text(setting.value);
+  } else if (base::near_name(setting.path, known).empty()) {
+    hint += (hint.empty() ? "" : "; ") + form;
+  }
+  diagnostics.error(setting.value.where, "the document has no parameter " + in_quotes(setting.path),
+                    std::move(hint));
 }
 
 void apply_override(Document& document, const Override& setting, base::Diagnostics& diagnostics) {

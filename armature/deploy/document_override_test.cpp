@@ -79,6 +79,18 @@ TEST(CommandLine, MaySetAParameterThatTheDocumentLeavesOpen) {
   EXPECT_EQ(loaded.document.application, "x");
 }
 
+TEST(CommandLine, SaysHowAPropertyIsSetAlsoWithoutParametersAndOfAComposite) {
+  const char* const rover =
+      "composites: {Rover: {parameters: {radius: 0.1}, components: {left: {model: Wheel}}}}\n"
+      "components: {R: {model: Rover, properties: {radius: 0.2}}}\n";
+  EXPECT_EQ(load_yaml(rover, {"radius=0.3"}).messages(),
+            "<command line>: error: the document has no parameter 'radius' (properties are set as "
+            "Component.Property=value, here R.radius=0.3)\n");
+  EXPECT_EQ(load_yaml(rover, {"Speed=1"}).messages(),
+            "<command line>: error: the document has no parameter 'Speed' (properties are set as "
+            "Component.Property=value)\n");
+}
+
 TEST(CommandLine, ChangesADocumentThatIsLoaded) {
   Loaded loaded = set({});
   apply_override(loaded.document, "Joint1.GearRatio=5", loaded.diagnostics);
@@ -109,6 +121,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"jonts=3",
                 "<command line>: error: the document has no parameter 'jonts' (did you "
                 "mean 'joints'?)\n"},
+        Mistake{"GearRatio=0.5",
+                "<command line>: error: the document has no parameter 'GearRatio' (properties are "
+                "set as Component.Property=value, here Joint1.GearRatio=0.5)\n"},
+        Mistake{"Brake=true",
+                "<command line>: error: the document has no parameter 'Brake' (known: joints, bus; "
+                "properties are set as Component.Property=value)\n"},
         Mistake{"Joint3.x=1",
                 "<command line>: error: there is no component 'Joint3' to set "
                 "'Joint3.x' (did you mean 'Joint1'?)\n"},

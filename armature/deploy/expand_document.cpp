@@ -73,8 +73,8 @@ class DocumentBuilder {
     const Value* parameters = section(tree_, "parameters");
     const std::vector<Property> declared =
         parameters ? parameters->entries : std::vector<Property>{};
-    document_.parameters = expander_.resolve_parameters(declared, parameter_overrides(declared),
-                                                        "the document", diagnostics_);
+    document_.parameters = expander_.resolve_parameters(
+        declared, take_overrides(overrides_, "", names_of(declared)), "the document", diagnostics_);
     Level level{section(tree_, "components"),
                 section(tree_, "connections"),
                 "",
@@ -86,7 +86,12 @@ class DocumentBuilder {
     check_connections(document_, diagnostics_);
     rebase_paths(document_);
     for (const Override& setting : overrides_) {
-      if (!setting.used) internal::apply_override(document_, setting, diagnostics_);
+      if (setting.used) continue;
+      if (setting.names_parameter()) {
+        refuse_parameter(document_, setting, names_of(declared), diagnostics_);
+      } else {
+        internal::apply_override(document_, setting, diagnostics_);
+      }
     }
     return std::move(document_);
   }
@@ -97,18 +102,10 @@ class DocumentBuilder {
     return entry == nullptr ? nullptr : &entry->value;
   }
 
-  std::vector<Property> parameter_overrides(const std::vector<Property>& declared) {
-    std::vector<std::string> known;
-    for (const Property& parameter : declared) known.push_back(parameter.name);
-    for (Override& setting : overrides_) {
-      if (setting.path.find('.') != std::string::npos) continue;
-      setting.used = true;
-      if (std::find(known.begin(), known.end(), setting.path) != known.end()) continue;
-      diagnostics_.error(setting.value.where,
-                         "the document has no parameter " + in_quotes(setting.path),
-                         base::suggestion(setting.path, known));
-    }
-    return take_overrides(overrides_, "", known);
+  static std::vector<std::string> names_of(const std::vector<Property>& properties) {
+    std::vector<std::string> names;
+    for (const Property& property : properties) names.push_back(property.name);
+    return names;
   }
 
   void check_composites(const Value& composites) {
@@ -270,8 +267,7 @@ class DocumentBuilder {
   /// The values that an instance and the command line give: of parameters and exported properties.
   std::vector<Property> given_to(const Composite& composite, const std::vector<Property>& declared,
                                  const Value* properties, const ValueReader& reader) {
-    std::vector<std::string> known;
-    for (const Property& parameter : declared) known.push_back(parameter.name);
+    std::vector<std::string> known = names_of(declared);
     for (const Export& one : composite.exports) {
       if (one.kind == ExportKind::kProperty) known.push_back(one.name);
     }

@@ -9,6 +9,7 @@
 #include "armature/component/describe.hpp"
 #include "armature/deploy/document.hpp"
 #include "armature/deploy/internal/model_description.hpp"
+#include "armature/deploy/internal/model_units.hpp"
 #include "armature/deploy/internal/text_table.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 
@@ -126,7 +127,14 @@ base::Result<ComponentDescription> describe_model(const Registry::Model& model) 
   std::string problem = "returns no component";
   try {
     const std::unique_ptr<component::Component> made = model.make(model.name);
-    if (made != nullptr) return component::describe(*made, model.name);
+    if (made != nullptr) {
+      std::string mistakes;
+      for (const std::string& one : unit_mistakes(*made, model)) {
+        mistakes += (mistakes.empty() ? "" : "; ") + one;
+      }
+      if (!mistakes.empty()) return base::Error{std::move(mistakes)};
+      return component::describe(*made, model.name);
+    }
   } catch (const std::exception& exception) {
     problem = std::string("throws: ") + exception.what();
   } catch (...) {

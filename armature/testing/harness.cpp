@@ -44,6 +44,7 @@ component::Outcome Harness::start() {
   using component::State;
   if (state() == State::kPreOperational) {
     if (component::Outcome configured = component_->configure(); !configured) return configured;
+    for (auto* output : component_->interface().outputs) output->prepare();
   }
   if (component::Outcome activated = component_->activate(); !activated) return activated;
   component::Outcome started = component_->start();

@@ -30,6 +30,7 @@ class Heater final : public component::Component {
     const auto ambient = read_ambient_();
     if (ambient) ambient_seen_.assign(ambient.value);
     seconds_.write(static_cast<double>(base::to_ns(time())) * 1e-9);
+    shares_.write(share_of_zone_);
   }
   void regulate(double measured) {
     power_.write(gain_() * (wanted_.read().value - measured));
@@ -48,6 +49,7 @@ class Heater final : public component::Component {
 
   int cycles_ = 0;
   double target_ = 0.0;
+  std::vector<double> share_of_zone_{0.25, 0.75};
   component::Property<double> gain_{this, "Gain", 1.0, "proportional gain", "W"};
   component::Property<double> limit_{this, "Limit", 90.0, "highest temperature"};
   component::Property<std::string> label_{this, "Label", "", "what people call it"};
@@ -65,6 +67,8 @@ class Heater final : public component::Component {
                                                      component::size_of(zones_)};
   component::OutputPort<double> power_{this, "Power", "heating power", "W"};
   component::OutputPort<double> seconds_{this, "Seconds", "time of the cycle", "s"};
+  component::OutputPort<std::vector<double>> shares_{this, "Shares", "of each zone", "",
+                                                     component::size_of(zones_)};
   component::Event<double> too_hot_{this, "TooHot", "above the limit"};
   component::Operation<double(double)> gain_at_{this, "GainAt", component::serve<&Heater::gain_at>,
                                                 "scaled gain"};
@@ -192,6 +196,12 @@ TEST_F(HarnessTest, VectorsKeepTheirConfiguredSize) {
   heater_.write("Profile", std::vector{1.0, 2.0});
   EXPECT_EQ(error_of([&] { heater_.write("Profile", std::vector{1.0}); }),
             "'heater': 'Profile' was configured for vectors of another size");
+}
+
+TEST_F(HarnessTest, OutputsHaveTheSizeThatTheyDeclare) {
+  ASSERT_TRUE(heater_.start());
+  heater_.run_cycles();
+  EXPECT_EQ(heater_.output<std::vector<double>>("Shares"), (std::vector{0.25, 0.75}));
 }
 
 TEST_F(HarnessTest, AWrongNameIsToldWithTheRightOne) {

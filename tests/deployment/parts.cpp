@@ -136,6 +136,16 @@ class Saved final : public Component {
   Property<std::string> bus_{this, "Bus", "can0", "bus"};
 };
 
+/// Declares units that there are not.
+class Tacho final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  Property<double> limit_{this, "Limit", 1.0, "highest speed", "rad/sec"};
+  OutputPort<double> speed_{this, "Speed", "of the shaft", "RPM"};
+};
+
 }  // namespace
 }  // namespace parts
 
@@ -153,4 +163,5 @@ ARMATURE_COMPONENT_LIBRARY(test_parts, registry) {
   registry.add<Joint>("Joint", "reads a card");
   registry.add<Broken>("Broken", "cannot be made");
   registry.add<Saved>("Saved", "has properties to keep");
+  registry.add<Tacho>("Tacho", "measures a speed");
 }

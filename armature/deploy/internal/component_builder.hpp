@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
@@ -26,6 +27,8 @@ class ComponentBuilder {
 
  private:
   std::unique_ptr<component::Component> make(const Component& written);
+  void report_units(const Component& written, const component::Registry::Model& model,
+                    const component::Component& component);
   void report_machines(const Component& written, const component::Component& component);
   void report_unknown_model(const Component& written);
   bool set_properties(const Component& written, component::Component& component);
@@ -41,6 +44,7 @@ class ComponentBuilder {
   const BuildOptions& options_;
   base::Diagnostics& diagnostics_;
   std::vector<std::string> model_names_;
+  std::unordered_set<const component::Registry::Model*> known_models_;  ///< looked at already
   std::map<std::string, std::unique_ptr<std::vector<Property>>> files_;
 };
 

@@ -7,7 +7,8 @@
 
 namespace armature::deploy::internal {
 
-/// Makes a component of the model and describes it; the error says if its constructor throws.
+/// Makes a component of the model and describes it; the error says if its constructor throws or it
+/// declares a unit that there is not.
 base::Result<component::ComponentDescription> describe_model(
     const component::Registry::Model& model);
 

@@ -15,6 +15,8 @@ struct Override {
   std::string path;
   Value value;
   bool used = false;
+
+  bool names_parameter() const { return path.find('.') == std::string::npos; }
 };
 
 /// Those of `settings` that have the form `path=value`; errors for the others.
@@ -24,6 +26,11 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& settings,
 /// Takes those out whose path is `prefix` and one more name, as properties of that name.
 std::vector<Property> take_overrides(std::vector<Override>& overrides, std::string_view prefix,
                                      const std::vector<std::string>& names);
+
+/// Says that there is no such parameter, and how a property of that name is set.
+/// @param known  the parameters that there are
+void refuse_parameter(const Document& document, const Override& setting,
+                      const std::vector<std::string>& known, base::Diagnostics& diagnostics);
 
 void apply_override(Document& document, const Override& setting, base::Diagnostics& diagnostics);
 

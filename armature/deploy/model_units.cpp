@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/deploy/internal/model_units.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "armature/base/unit.hpp"
+#include "armature/component/author.hpp"
+#include "armature/deploy/internal/value_tree.hpp"
+
+namespace armature::deploy::internal {
+namespace {
+
+/// Looks at the units of one model's members.
+class UnitCheck {
+ public:
+  explicit UnitCheck(const component::Registry::Model& model)
+      : model_("model " + in_quotes(model.name) + " of " +
+               (model.library.empty() ? "the program" : "library " + in_quotes(model.library))) {}
+
+  void look_at(const std::string& member, std::string_view unit) {
+    if (const auto known = base::parse_unit(unit); !known) {
+      mistakes_.push_back(model_ + ": " + member + ": " + known.error());
+    }
+  }
+
+  /// `item` is a property or port, whose type may be a struct.
+  template <typename Item>
+  void look_at(const std::string& kind, const Item& item) {
+    const std::string member = kind + " " + in_quotes(item.name());
+    look_at(member, item.unit());
+    look_at_fields(member, item.type(), "");
+  }
+
+  std::vector<std::string> take() { return std::move(mistakes_); }
+
+ private:
+  void look_at_fields(const std::string& member, const types::Type& type, const std::string& path) {
+    if (type.element != nullptr) look_at_fields(member, *type.element, path);
+    for (const types::Field& field : type.fields) {
+      const std::string inner = path + (path.empty() ? "" : ".") + std::string(field.name);
+      look_at(member + ", field " + in_quotes(inner), field.unit);
+      look_at_fields(member, *field.type, inner);
+    }
+  }
+
+  std::string model_;
+  std::vector<std::string> mistakes_;
+};
+
+/// The ports of an array are not looked at one by one: there may be none of them yet.
+template <typename Ports>
+void look_at_ports(UnitCheck& check, const std::string& kind, const Ports& ports,
+                   const std::vector<component::PortArrayBase*>& arrays) {
+  for (const auto* port : ports) {
+    const bool of_an_array = std::any_of(arrays.begin(), arrays.end(), [&](const auto* array) {
+      return array->has_name(port->name());
+    });
+    if (!of_an_array) check.look_at(kind, *port);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> unit_mistakes(const component::Component& component,
+                                       const component::Registry::Model& model) {
+  const component::Interface& interface = component.interface();
+  UnitCheck check(model);
+  for (const auto* property : interface.properties) {
+    check.look_at(property->persistent() ? "property" : "attribute", *property);
+  }
+  look_at_ports(check, "input", interface.inputs, interface.port_arrays);
+  look_at_ports(check, "output", interface.outputs, interface.port_arrays);
+  for (const auto* array : interface.port_arrays) {
+    check.look_at("ports " + in_quotes(std::string(array->name()) + "1..N"), array->unit());
+  }
+  return check.take();
+}
+
+}  // namespace armature::deploy::internal
