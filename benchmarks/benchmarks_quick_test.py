@@ -20,6 +20,7 @@ COMPONENTS = (100, 1000, 10000)
 AT_RUN_TIME = (
     [f"cycle/{n}" for n in JOINTS]
     + [f"cycle_threaded/{n}" for n in JOINTS]
+    + [f"cycle_threaded_with_work/{n}" for n in JOINTS]
     + ["port_write_read", "port_write_read/vector", "port_write_read_across_threads", "trigger"]
     + ["operation_call", "operation_send_collect", "event/1", "event/8"]
     + ["latency_1khz/p50", "latency_1khz/p99", "latency_1khz/p99.9", "periods_exact"]

@@ -10,7 +10,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
-#include "armature/deploy/internal/model_units.hpp"
+#include "armature/deploy/internal/model_mistakes.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/property_value.hpp"
 #include "armature/platform/file.hpp"
@@ -168,7 +168,7 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
 void ComponentBuilder::report_units(const Component& written,
                                     const component::Registry::Model& model,
                                     const component::Component& component) {
-  for (std::string& mistake : unit_mistakes(component, model)) {
+  for (std::string& mistake : mistakes_of_model(component, model)) {
     diagnostics_.error(written.model_where, std::move(mistake));
   }
 }

@@ -9,7 +9,7 @@
 #include "armature/component/describe.hpp"
 #include "armature/deploy/document.hpp"
 #include "armature/deploy/internal/model_description.hpp"
-#include "armature/deploy/internal/model_units.hpp"
+#include "armature/deploy/internal/model_mistakes.hpp"
 #include "armature/deploy/internal/text_table.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 
@@ -129,7 +129,7 @@ base::Result<ComponentDescription> describe_model(const Registry::Model& model) 
     const std::unique_ptr<component::Component> made = model.make(model.name);
     if (made != nullptr) {
       std::string mistakes;
-      for (const std::string& one : unit_mistakes(*made, model)) {
+      for (const std::string& one : mistakes_of_model(*made, model)) {
         mistakes += (mistakes.empty() ? "" : "; ") + one;
       }
       if (!mistakes.empty()) return base::Error{std::move(mistakes)};

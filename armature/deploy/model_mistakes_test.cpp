@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,6 +43,26 @@ class Wrong final : public Component {
   component::InputPorts<double> each_{this, "Each", wheels_, "of each", "degrees"};
 };
 
+struct Note {
+  double urgency = 0.0;
+  std::string text;
+};
+ARMATURE_STRUCT(Note, urgency, text);
+struct Notes {
+  std::vector<Note> all;
+};
+ARMATURE_STRUCT(Notes, all);
+
+/// Its ports carry text that grows.
+class Talker final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Property<Note> first_{this, "First", {}, "properties may"};
+  component::OutputPort<Notes> said_{this, "Said", "what it said"};
+};
+
 /// The ports of its array exist.
 class Mux final : public Component {
  public:
@@ -63,6 +84,7 @@ void add_models(component::Registry& registry) {
   registry.add<Wrong>("Wrong", "has wrong units");
   EXPECT_EQ(registry.end_library(), "");
   registry.add<Mux>("Mux", "has wrong units in a port array");
+  registry.add<Talker>("Talker", "has ports with text");
   registry.add<Right>("Right", "has no wrong unit");
 }
 
@@ -77,7 +99,7 @@ const std::string kWrong = "model 'Wrong' of library 'drives': ";
 const std::string kMux =
     "model 'Mux' of the program: ports 'Each1..N': unknown unit 'degrees' (did you mean 'deg'?)";
 
-TEST(ModelUnits, EachUnknownOneIsAMistakeThatNamesLibraryModelMemberAndUnit) {
+TEST(ModelMistakes, EachUnknownUnitIsAMistakeThatNamesLibraryModelMemberAndUnit) {
   const std::string answer = answer_to("components: {A: {model: Wrong}}");
   const std::string begin = "app.yaml:1:25: error: " + kWrong;
   EXPECT_THAT(answer,
@@ -94,16 +116,22 @@ TEST(ModelUnits, EachUnknownOneIsAMistakeThatNamesLibraryModelMemberAndUnit) {
   EXPECT_THAT(answer, Not(HasSubstr("torque")));
 }
 
-TEST(ModelUnits, AMistakeIsToldOnceHoweverManyComponentsAndPortsHaveIt) {
+TEST(ModelMistakes, TextThatGrowsInsideThePortsDataIsOne) {
+  EXPECT_EQ(answer_to("components: {A: {model: Talker, activity: {periodic: 1 ms}}}"),
+            "app.yaml:1:25: error: model 'Talker' of the program: output 'Said': Notes has a text "
+            "inside, the field 'all.text', which grows; ports carry base::FixedText\n");
+}
+
+TEST(ModelMistakes, AMistakeIsToldOnceHoweverManyComponentsAndPortsHaveIt) {
   EXPECT_EQ(answer_to("components:\n  A{1..5}: {model: Mux, activity: {periodic: 1 ms}}\n"),
             "app.yaml:2:20: error: " + kMux + "\n");
 }
 
-TEST(ModelUnits, AModelThatNoComponentHasIsNoMistakeOfTheDeployment) {
+TEST(ModelMistakes, AModelThatNoComponentHasIsNoMistakeOfTheDeployment) {
   EXPECT_EQ(answer_to("components: {A: {model: Right}}"), "");
 }
 
-TEST(ModelUnits, AModelWithAMistakeCannotBeDescribed) {
+TEST(ModelMistakes, AModelWithAMistakeCannotBeDescribed) {
   component::Registry registry;
   add_models(registry);
   EXPECT_EQ(describe_model(registry, "Mux").error(), kMux);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/deploy/internal/model_units.hpp"
+#include "armature/deploy/internal/model_mistakes.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -12,10 +13,21 @@
 namespace armature::deploy::internal {
 namespace {
 
-/// Looks at the units of one model's members.
-class UnitCheck {
+/// Where in `type` there is a text that grows, as `field.field`; nothing if there is none.
+std::optional<std::string> place_of_text(const types::Type& type) {
+  if (type.kind == types::Kind::kText) return "";
+  if (type.element != nullptr) return place_of_text(*type.element);
+  for (const types::Field& field : type.fields) {
+    const auto inner = place_of_text(*field.type);
+    if (inner) return std::string(field.name) + (inner->empty() ? "" : ".") + *inner;
+  }
+  return std::nullopt;
+}
+
+/// Looks at one model's members.
+class ModelCheck {
  public:
-  explicit UnitCheck(const component::Registry::Model& model)
+  explicit ModelCheck(const component::Registry::Model& model)
       : model_("model " + in_quotes(model.name) + " of " +
                (model.library.empty() ? "the program" : "library " + in_quotes(model.library))) {}
 
@@ -31,6 +43,18 @@ class UnitCheck {
     const std::string member = kind + " " + in_quotes(item.name());
     look_at(member, item.unit());
     look_at_fields(member, item.type(), "");
+  }
+
+  /// Data on ports never grows: writing it must not allocate.
+  template <typename Port>
+  void look_at_port(const std::string& kind, const Port& port) {
+    look_at(kind, port);
+    const auto place = place_of_text(port.type());
+    if (!place) return;
+    mistakes_.push_back(model_ + ": " + kind + " " + in_quotes(port.name()) + ": " +
+                        port.type().name + " has a text inside" +
+                        (place->empty() ? "" : ", the field " + in_quotes(*place)) +
+                        ", which grows; ports carry base::FixedText");
   }
 
   std::vector<std::string> take() { return std::move(mistakes_); }
@@ -51,22 +75,22 @@ class UnitCheck {
 
 /// The ports of an array are not looked at one by one: there may be none of them yet.
 template <typename Ports>
-void look_at_ports(UnitCheck& check, const std::string& kind, const Ports& ports,
+void look_at_ports(ModelCheck& check, const std::string& kind, const Ports& ports,
                    const std::vector<component::PortArrayBase*>& arrays) {
   for (const auto* port : ports) {
     const bool of_an_array = std::any_of(arrays.begin(), arrays.end(), [&](const auto* array) {
       return array->has_name(port->name());
     });
-    if (!of_an_array) check.look_at(kind, *port);
+    if (!of_an_array) check.look_at_port(kind, *port);
   }
 }
 
 }  // namespace
 
-std::vector<std::string> unit_mistakes(const component::Component& component,
-                                       const component::Registry::Model& model) {
+std::vector<std::string> mistakes_of_model(const component::Component& component,
+                                           const component::Registry::Model& model) {
   const component::Interface& interface = component.interface();
-  UnitCheck check(model);
+  ModelCheck check(model);
   for (const auto* property : interface.properties) {
     check.look_at(property->persistent() ? "property" : "attribute", *property);
   }
