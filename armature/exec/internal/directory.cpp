@@ -7,26 +7,23 @@ namespace {
 /// So few names are looked through faster than an index of them is made.
 constexpr std::size_t kFew = 16;
 
-template <typename Port>
-using ByName = std::unordered_map<std::string_view, Port*>;
-
-template <typename Port>
-void index_many(const std::vector<Port*>& ports, ByName<Port>& index) {
+template <typename Port, typename Places>
+void index_many(const std::vector<Port*>& ports, Places& places) {
   if (ports.size() <= kFew) return;
-  index.reserve(ports.size());
-  for (Port* port : ports) index.emplace(port->name(), port);
+  places.reserve(ports.size());
+  for (Index i = 0; i < ports.size(); ++i) places.emplace(ports[i]->name(), i);
 }
 
-template <typename Port>
-Port* find(const std::vector<Port*>& ports, const ByName<Port>& index, std::string_view name) {
+template <typename Port, typename Places>
+Index place_of(std::string_view name, const std::vector<Port*>& ports, const Places& places) {
   if (ports.size() > kFew) {
-    const auto found = index.find(name);
-    return found == index.end() ? nullptr : found->second;
+    const auto found = places.find(name);
+    return found == places.end() ? kNone : found->second;
   }
-  for (Port* port : ports) {
-    if (port->name() == name) return port;
+  for (Index i = 0; i < ports.size(); ++i) {
+    if (ports[i]->name() == name) return i;
   }
-  return nullptr;
+  return kNone;
 }
 
 }  // namespace
@@ -43,6 +40,8 @@ Directory::Directory(const Blueprint& blueprint, base::Diagnostics& diagnostics)
       diagnostics.error(entry.where, "there are two components named " + quoted(component.name()),
                         "give each its own name");
     }
+    ports_[i].first_input = input_count_;
+    input_count_ += component.interface().inputs.size();
     index_many(component.interface().inputs, ports_[i].inputs);
     index_many(component.interface().outputs, ports_[i].outputs);
   }
@@ -53,14 +52,17 @@ Index Directory::component(std::string_view name) const {
   return found == components_.end() ? kNone : found->second;
 }
 
-component::InputPortBase* Directory::input(Index component, std::string_view name) const {
-  return find(blueprint_.components[component].component->interface().inputs,
-              ports_[component].inputs, name);
+Directory::Input Directory::input(Index component, std::string_view name) const {
+  const auto& inputs = blueprint_.components[component].component->interface().inputs;
+  const Index place = place_of(name, inputs, ports_[component].inputs);
+  if (place == kNone) return {};
+  return {inputs[place], first_input(component) + place};
 }
 
 component::OutputPortBase* Directory::output(Index component, std::string_view name) const {
-  return find(blueprint_.components[component].component->interface().outputs,
-              ports_[component].outputs, name);
+  const auto& outputs = blueprint_.components[component].component->interface().outputs;
+  const Index place = place_of(name, outputs, ports_[component].outputs);
+  return place == kNone ? nullptr : outputs[place];
 }
 
 std::vector<std::string> Directory::component_names() const {

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "armature/base/near_name.hpp"
 #include "armature/base/unit.hpp"
@@ -23,13 +24,16 @@ class ConnectionPlanner {
  public:
   ConnectionPlanner(const Blueprint& blueprint, const Directory& directory, Plan& plan,
                     base::Diagnostics& diagnostics)
-      : blueprint_(blueprint), directory_(directory), plan_(plan), diagnostics_(diagnostics) {}
+      : blueprint_(blueprint),
+        directory_(directory),
+        plan_(plan),
+        diagnostics_(diagnostics),
+        writers_(directory.input_count(), nullptr) {}
 
   void run() {
     plan_.connections.reserve(blueprint_.connections.size());
-    writers_.reserve(blueprint_.connections.size());
     for (const ConnectionEntry& entry : blueprint_.connections) plan_one(entry);
-    for (const ComponentEntry& entry : blueprint_.components) check_open_inputs(entry);
+    for (Index i = 0; i < blueprint_.components.size(); ++i) check_open_inputs(i);
   }
 
  private:
@@ -37,7 +41,8 @@ class ConnectionPlanner {
     const Index from = find_component(entry.from_component, entry);
     const Index to = find_component(entry.to_component, entry);
     OutputPortBase* output = from == kNone ? nullptr : directory_.output(from, entry.from_port);
-    InputPortBase* input = to == kNone ? nullptr : directory_.input(to, entry.to_port);
+    const auto [input, number] =
+        to == kNone ? Directory::Input() : directory_.input(to, entry.to_port);
     if (output == nullptr || input == nullptr) {
       if (from != kNone && to != kNone && is_backwards(from, to, entry)) return;
       if (from != kNone && output == nullptr) report_no_output(from, entry);
@@ -47,7 +52,7 @@ class ConnectionPlanner {
     check_policy(entry);
     const bool fits = check_types(*output, *input, entry) && check_units(*output, *input, entry) &&
                       check_sizes(*output, *input, entry);
-    if (check_writers(*output, *input, entry) && fits) {
+    if (check_writers(*output, *input, number, entry) && fits) {
       plan_.connections.push_back({from, to, output, input, &entry, input->triggers(),
                                    entry.policy.one_cycle_delay, entry.max_age || entry.on_lost});
     }
@@ -63,7 +68,7 @@ class ConnectionPlanner {
   }
 
   bool is_backwards(Index from, Index to, const ConnectionEntry& entry) {
-    const InputPortBase* input = directory_.input(from, entry.from_port);
+    const InputPortBase* input = directory_.input(from, entry.from_port).port;
     const OutputPortBase* output = directory_.output(to, entry.to_port);
     if (input == nullptr || output == nullptr) return false;
     diagnostics_.error(entry.where,
@@ -75,7 +80,7 @@ class ConnectionPlanner {
   }
 
   void report_no_output(Index component, const ConnectionEntry& entry) {
-    const bool is_input = directory_.input(component, entry.from_port) != nullptr;
+    const bool is_input = directory_.input(component, entry.from_port).port != nullptr;
     diagnostics_.error(
         entry.where,
         is_input ? quoted(entry.from_component + "." + entry.from_port) +
@@ -157,11 +162,14 @@ class ConnectionPlanner {
     return false;
   }
 
-  bool check_writers(const OutputPortBase& output, const InputPortBase& input,
+  bool check_writers(const OutputPortBase& output, const InputPortBase& input, Index number,
                      const ConnectionEntry& entry) {
-    const auto [first, is_first] = writers_.emplace(&input, &output);
-    if (is_first) return true;
-    if (first->second == &output || !more_writers_.emplace(&input, &output).second) {
+    const OutputPortBase*& first = writers_[number];
+    if (first == nullptr) {
+      first = &output;
+      return true;
+    }
+    if (first == &output || !more_writers_.emplace(&input, &output).second) {
       diagnostics_.error(
           entry.where,
           quoted(path(output)) + " is connected to " + quoted(path(input)) + " already",
@@ -170,15 +178,18 @@ class ConnectionPlanner {
     }
     if (input.allows_fan_in()) return true;
     diagnostics_.error(entry.where,
-                       quoted(path(input)) + " has two writers: " + quoted(path(*first->second)) +
-                           " and " + quoted(path(output)),
+                       quoted(path(input)) + " has two writers: " + quoted(path(*first)) + " and " +
+                           quoted(path(output)),
                        "an input takes several writers only if its component declares fan_in");
     return false;
   }
 
-  void check_open_inputs(const ComponentEntry& entry) {
+  void check_open_inputs(Index component) {
+    const ComponentEntry& entry = blueprint_.components[component];
+    Index number = directory_.first_input(component);
     for (const InputPortBase* input : entry.component->interface().inputs) {
-      if (writers_.count(input) > 0 || input->stays_open() || attempted(*input)) continue;
+      const bool written = writers_[number++] != nullptr;
+      if (written || input->stays_open() || attempted(*input)) continue;
       diagnostics_.error(entry.where, "nobody writes the input " + quoted(path(*input)),
                          "connect it");
     }
@@ -199,7 +210,7 @@ class ConnectionPlanner {
   const Directory& directory_;
   Plan& plan_;
   base::Diagnostics& diagnostics_;
-  std::unordered_map<const InputPortBase*, const OutputPortBase*> writers_;  ///< the first of each
+  std::vector<const OutputPortBase*> writers_;  ///< the first of each input, by its number
   std::set<std::pair<const InputPortBase*, const OutputPortBase*>> more_writers_;
   std::unordered_map<std::string, bool> attempted_;
   std::unordered_set<const InputPortBase*> backwards_;  ///< that a connection begins at
