@@ -24,23 +24,7 @@ std::string_view name_of(CommandStage stage) {
 }
 
 void CommandTicket::request_cancel() {
-  if (cancel_.exchange(true, std::memory_order_acq_rel)) return;
-  share_once_more();
-  executor().post(cancellation_);
-}
-
-bool CommandTicket::try_claim() {
-  if (!try_share()) return false;
-  progress_.store(0.0, std::memory_order_relaxed);
-  cancel_.store(false, std::memory_order_relaxed);
-  stage_.store(CommandStage::kQueued, std::memory_order_relaxed);
-  return true;
-}
-
-void CommandTicket::end(CommandStage stage, std::string_view reason) {
-  reason_ = reason;
-  stage_.store(stage, std::memory_order_release);
-  release();
+  if (want_cancel()) executor().post(cancellation_);
 }
 
 void CommandTicket::Cancellation::deliver(rt::Message& message) {

@@ -4,14 +4,12 @@
 // What of events and their handlers is not in their header: nothing of this is needed when an event
 // is raised in the thread of its handlers.
 
-#include <algorithm>
-#include <atomic>
-#include <cstddef>
 #include <memory>
 #include <string_view>
 #include <tuple>
 
 #include "armature/component/event.hpp"
+#include "armature/rt/entry_pool.hpp"
 
 namespace armature::component {
 
@@ -53,7 +51,7 @@ struct EventHandler<Args...>::Queue {
       auto& entry = static_cast<Entry&>(message);
       EventHandler& handler = *entry.handler;
       const std::tuple<Args...> event = entry.event;
-      entry.waits.store(false, std::memory_order_release);
+      entry.in_use.give_back();
       Component& component = handler.owner();
       component.run_handler(component.context(), [&] {
         std::apply(
@@ -63,32 +61,14 @@ struct EventHandler<Args...>::Queue {
     }
     EventHandler* handler = nullptr;
     std::tuple<Args...> event{};
-    std::atomic<bool> waits{false};
+    rt::InUse in_use;
   };
 
-  Queue(EventHandler& handler, std::size_t size)
-      : capacity(std::max<std::size_t>(size, 1)), entries(std::make_unique<Entry[]>(capacity)) {
-    for (std::size_t i = 0; i < capacity; ++i) entries[i].handler = &handler;
+  Queue(EventHandler& handler, std::size_t size) : entries(size) {
+    for (Entry& entry : entries) entry.handler = &handler;
   }
-  /// A free entry, nullptr if all wait. The first is taken whenever it is free, so that an event
-  /// that is handled in time stays in one place; the others in turn: they are handled in their
-  /// order.
-  /// @thread the raiser's
-  Entry* claim() {
-    std::size_t free = 0;
-    if (waits(free)) {
-      free = next;
-      if (capacity == 1 || waits(free)) return nullptr;
-      if (++next == capacity) next = 1;
-    }
-    entries[free].waits.store(true, std::memory_order_relaxed);
-    return &entries[free];
-  }
-  bool waits(std::size_t i) const { return entries[i].waits.load(std::memory_order_acquire); }
 
-  std::size_t capacity;
-  std::unique_ptr<Entry[]> entries;
-  std::size_t next = 1;
+  rt::EntryPool<Entry> entries;
 };
 
 template <typename... Args>
@@ -130,7 +110,7 @@ void EventHandler<Args...>::unbind() {
 
 template <typename... Args>
 bool EventHandler<Args...>::enqueue(const Args&... arguments) {
-  auto* const entry = about().queue->claim();
+  auto* const entry = about().queue->entries.claim();
   if (entry == nullptr) {
     count_drop();
     return false;
