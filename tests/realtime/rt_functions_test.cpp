@@ -9,6 +9,7 @@
 #include "armature/base/fixed_text.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/futex.hpp"
+#include "armature/rt/entry_pool.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/latest.hpp"
 #include "armature/rt/log.hpp"
@@ -50,6 +51,21 @@ TEST(RealtimeFunctions, Clocks) {
   std::uint64_t ticks = 0;
   expect_realtime("platform::ticks", [&] { ticks = platform::ticks(); });
   EXPECT_GT(ticks, 0u);
+}
+
+TEST(RealtimeFunctions, EntryPool) {
+  struct Entry {
+    rt::InUse in_use;
+  };
+  rt::EntryPool<Entry> pool(1);
+  int claimed = 0;
+  expect_realtime("EntryPool::claim", [&] {
+    if (Entry* const entry = pool.claim()) {
+      claimed += pool.claim() == nullptr ? 1 : 2;
+      entry->in_use.give_back();
+    }
+  });
+  EXPECT_GT(claimed, 0);
 }
 
 TEST(RealtimeFunctions, FutexWake) {
