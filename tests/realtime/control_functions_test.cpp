@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real-time functions of control.
+#include "armature/control/dc_motor.hpp"
 #include "armature/control/pid.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -15,6 +16,20 @@ TEST(RealtimeFunctions, Pid) {
   EXPECT_EQ(pid.value().state().output, 2.0);
   expect_realtime("Pid::reset", [&] { pid.value().reset(); });
   EXPECT_EQ(pid.value().state().output, 0.0);
+}
+
+TEST(RealtimeFunctions, DcMotor) {
+  const auto made = control::DcMotor::make(
+      {.resistance_ohm = 2.0, .torque_constant = 0.035, .gear_ratio = 100.0});
+  const auto& motor = made.value();
+  double value = 0.0;
+  expect_realtime("DcMotor::voltage", [&] { value = motor.voltage(1.0, 0.0); });
+  expect_realtime("DcMotor::torque", [&] { value = motor.torque(value, 0.0); });
+  expect_realtime("DcMotor::current", [&] { value = motor.current(2.0, 0.0); });
+  EXPECT_EQ(value, 1.0);
+  expect_realtime("DcMotor::friction", [&] { value = motor.friction(1.0); });
+  expect_realtime("DcMotor::reflected_inertia", [&] { value = motor.reflected_inertia(); });
+  EXPECT_EQ(value, 0.0);
 }
 
 }  // namespace
