@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real-time functions of control.
+#include <array>
+#include <chrono>
+
 #include "armature/control/dc_motor.hpp"
+#include "armature/control/error_metrics.hpp"
 #include "armature/control/pid.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature {
 namespace {
+
+using namespace std::chrono_literals;
 
 TEST(RealtimeFunctions, Pid) {
   auto pid = control::Pid::make({.kp = 1.0, .ki = 0.1, .kd = 0.1, .u_min = -5.0, .u_max = 5.0});
@@ -16,6 +22,14 @@ TEST(RealtimeFunctions, Pid) {
   EXPECT_EQ(pid.value().state().output, 2.0);
   expect_realtime("Pid::reset", [&] { pid.value().reset(); });
   EXPECT_EQ(pid.value().state().output, 0.0);
+}
+
+TEST(RealtimeFunctions, ErrorMetrics) {
+  auto metrics = control::ErrorMetrics::make({2, 10ms});
+  expect_realtime("ErrorMetrics::step", [&] { metrics.value().step(std::array{0.1, -0.1}); });
+  EXPECT_EQ(metrics.value().samples(), 101u);
+  expect_realtime("ErrorMetrics::reset", [&] { metrics.value().reset(); });
+  EXPECT_EQ(metrics.value().samples(), 0u);
 }
 
 TEST(RealtimeFunctions, DcMotor) {
