@@ -2,10 +2,14 @@
 // The real-time functions of control.
 #include <array>
 #include <chrono>
+#include <string_view>
+#include <vector>
 
 #include "armature/control/dc_motor.hpp"
 #include "armature/control/error_metrics.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/control/trajectory.hpp"
+#include "armature/control/trapezoid.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature {
@@ -22,6 +26,44 @@ TEST(RealtimeFunctions, Pid) {
   EXPECT_EQ(pid.value().state().output, 2.0);
   expect_realtime("Pid::reset", [&] { pid.value().reset(); });
   EXPECT_EQ(pid.value().state().output, 0.0);
+}
+
+TEST(RealtimeFunctions, Trapezoid) {
+  const auto motion = control::Trapezoid::rest_to_rest(0.0, 1.0, 2.0, 0.25);
+  double time_s = 0.0;
+  control::MotionSample sample;
+  expect_realtime("Trapezoid::at", [&] { sample = motion.at(time_s += 0.1); });
+  EXPECT_EQ(sample.position, 1.0);
+}
+
+TEST(RealtimeFunctions, Trajectory) {
+  const control::Trajectory::Axis axis{.max_velocity = 1.0, .max_acceleration = 5.0};
+  auto made = control::Trajectory::make({std::vector(7, axis)});
+  auto& trajectory = made.value();
+  const std::vector<double> start(7, 0.0);
+  const std::vector<double> target(7, 1.0);
+  bool accepted = true;
+  std::string_view text;
+  expect_realtime("Trajectory::hold",
+                  [&] { accepted = accepted && trajectory.hold(start).accepted(); });
+  expect_realtime("Trajectory::move_to", [&] {
+    accepted = accepted && trajectory.hold(start).accepted();
+    accepted = accepted && trajectory.move_to(target, 2.0).accepted();
+    text = control::to_text(trajectory.move_to(target, 2.0).refusal);
+  });
+  expect_realtime("control::to_text",
+                  [&] { text = control::to_text(trajectory.move_to(target, 2.0).refusal); });
+  EXPECT_EQ(text, "a motion is under way");
+  expect_realtime("Trajectory::step", [&] { trajectory.step(10ms); });
+  EXPECT_GT(trajectory.velocities()[6], 0.0);
+  double position = 0.0;
+  expect_realtime("Trajectory::sample", [&] { position = trajectory.sample(6, 2.0).position; });
+  EXPECT_EQ(position, 1.0);
+  expect_realtime("Trajectory::stop", [&] { trajectory.stop(); });
+  EXPECT_LT(trajectory.accelerations()[6], 0.0);
+  expect_realtime("Trajectory::stop_from",
+                  [&] { accepted = accepted && trajectory.stop_from(start, target).accepted(); });
+  EXPECT_TRUE(accepted);
 }
 
 TEST(RealtimeFunctions, ErrorMetrics) {
