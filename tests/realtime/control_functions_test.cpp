@@ -7,6 +7,7 @@
 
 #include "armature/control/dc_motor.hpp"
 #include "armature/control/error_metrics.hpp"
+#include "armature/control/joint_limiter.hpp"
 #include "armature/control/pid.hpp"
 #include "armature/control/trajectory.hpp"
 #include "armature/control/trapezoid.hpp"
@@ -64,6 +65,34 @@ TEST(RealtimeFunctions, Trajectory) {
   expect_realtime("Trajectory::stop_from",
                   [&] { accepted = accepted && trajectory.stop_from(start, target).accepted(); });
   EXPECT_TRUE(accepted);
+}
+
+TEST(RealtimeFunctions, JointLimiter) {
+  auto made = control::JointLimiter::make({.lower = -1.0,
+                                           .upper = 1.0,
+                                           .max_velocity = 1.0,
+                                           .max_acceleration = 5.0,
+                                           .max_effort = 12.0,
+                                           .period = 10ms,
+                                           .arming_time = 1s,
+                                           .effort_rate = 12.0});
+  auto& limiter = made.value();
+  control::JointLimiter::Limited limited;
+  expect_realtime("JointLimiter::arm", [&] { limiter.arm({0.0, 0.0}); });
+  expect_realtime("JointLimiter::step_effort", [&] {
+    limited = limiter.step_effort({0.0, 0.0}, 20.0);
+  });
+  EXPECT_EQ(limited.value, 12.0);
+  expect_realtime("JointLimiter::step_velocity", [&] {
+    limited = limiter.step_velocity({0.0, 0.0}, 20.0);
+  });
+  EXPECT_EQ(limited.value, 1.0);
+  expect_realtime("JointLimiter::step_position", [&] {
+    limited = limiter.step_position({0.0, 0.0}, 20.0);
+  });
+  EXPECT_GT(limited.value, 0.5);
+  expect_realtime("JointLimiter::disarm", [&] { limiter.disarm(); });
+  EXPECT_FALSE(limiter.armed());
 }
 
 TEST(RealtimeFunctions, ErrorMetrics) {
