@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
+
+namespace armature::control {
+
+/// The last step before the hardware of one joint. A component uses the function of its kind of
+/// command, once a period.
+///
+/// Positions and velocities: with v the velocity during one period T, no step changes v by more
+/// than max_acceleration T, and |v| stays below max_velocity and below what can be brought to rest,
+/// by steps of max_acceleration T, before `lower` and `upper`; that is v^2 / (2 a) of the velocity
+/// at the sample, exactly. A command that keeps to this is passed unchanged; after one that does
+/// not, the output catches up as fast as it may, without overshooting one that rests or moves
+/// evenly.
+///
+/// Efforts: a limiter has no model of the robot, so it cannot promise a motion. It takes away what
+/// drives the joint on where the measured velocity could no more be stopped before the limit, or is
+/// above max_velocity; an effort that brakes is passed.
+///
+/// Nothing is passed before arm(). One thread uses it.
+class JointLimiter {
+ public:
+  /// Positions in the unit of the joint (rad or m) and seconds; efforts in that of the actuator.
+  struct Config {
+    double lower = -std::numeric_limits<double>::infinity();  ///< < upper
+    double upper = std::numeric_limits<double>::infinity();
+    double max_velocity = 0.0;      ///< > 0
+    double max_acceleration = 0.0;  ///< > 0; the joint must be able to brake with it
+    double max_effort = 0.0;        ///< > 0
+    base::Duration period{};        ///< between two steps; > 0
+    /// While the rate limit lasts, |effort| grows by at most `effort_rate` in a second. It lasts
+    /// for `arming_time` and then until the effort has caught up with the command, so it never
+    /// jumps.
+    base::Duration arming_time{};  ///< >= 0; 0: no rate limit
+    double effort_rate = 0.0;      ///< > 0 if there is an arming time
+  };
+
+  struct Measured {
+    double position = 0.0;
+    double velocity = 0.0;
+  };
+
+  enum class Status {
+    kPassed,     ///< the value is the command
+    kClipped,    ///< the value is the nearest one that is safe; counts() says why
+    kNotFinite,  ///< the command or what it was to be judged by is no number: brakes, or effort 0
+    kDisarmed,   ///< nothing is commanded: the measured position, velocity 0, effort 0
+  };
+
+  /// What may be sent; always finite.
+  struct Limited {
+    double value = 0.0;
+    Status status = Status::kPassed;
+  };
+
+  /// Steps whose command was clipped, for each limit that was the reason; one step may count for
+  /// several.
+  struct Counts {
+    std::uint64_t position = 0;  ///< `lower` or `upper`, with the stopping distance
+    std::uint64_t velocity = 0;
+    std::uint64_t acceleration = 0;
+    std::uint64_t effort = 0;
+    std::uint64_t effort_rate = 0;  ///< after arming
+    std::uint64_t not_finite = 0;
+  };
+
+  /// An error names every field that is wrong, and what it should be.
+  static base::Result<void> check(const Config& config);
+  static base::Result<JointLimiter> make(const Config& config);
+
+  /// From now on commands are passed. The reference begins at rest where the joint is, the effort
+  /// at 0, so that arming moves nothing, also outside the position limits.
+  /// @return false, and it stays disarmed, if `measured` is not finite
+  /// @rt nonblocking, no allocation
+  bool arm(const Measured& measured);
+
+  /// @rt nonblocking, no allocation
+  void disarm() { armed_ = false; }
+  bool armed() const { return armed_; }
+
+  /// Limits a position reference by what was sent before: to judge it by the measured position
+  /// would make it follow a joint that is pushed. What is not finite brakes to rest with
+  /// max_acceleration. A joint that was armed outside its limits may stay there or come back, but
+  /// not go further out.
+  /// @rt nonblocking, no allocation
+  Limited step_position(const Measured& measured, double command);
+
+  /// Limits a velocity reference by the measured position. What is not finite brakes to rest with
+  /// max_acceleration.
+  /// @rt nonblocking, no allocation
+  Limited step_velocity(const Measured& measured, double command);
+
+  /// Limits an effort, such as a torque or a voltage, by the measured state. What is not finite is
+  /// answered by effort 0. A positive effort has to drive the joint towards `upper`.
+  /// @rt nonblocking, no allocation
+  Limited step_effort(const Measured& measured, double command);
+
+  const Counts& counts() const { return counts_; }
+  const Config& config() const { return config_; }
+
+ private:
+  struct Range {
+    double low = 0.0;
+    double high = 0.0;
+  };
+
+  explicit JointLimiter(const Config& config);
+
+  double velocity_towards(double target) const;
+  double fastest_within(double room) const;
+  double within_motion(const Range& room, double velocity) const;
+  double within_acceleration(double velocity) const;
+  void count_reasons(const Range& room, double velocity);
+  Limited brake();
+  void move_to(double position);
+  double effort_within_rate(double effort);
+  double effort_within_motion(const Measured& measured, double effort);
+
+  Config config_;
+  double period_s_;
+  double velocity_step_;  ///< the largest change of velocity in one period
+  bool armed_ = false;
+  bool rate_limited_ = false;
+  base::Duration armed_for_{};
+  double position_ = 0.0;      ///< the last reference
+  double velocity_ = 0.0;      ///< during the last period
+  double last_command_ = 0.0;  ///< a position within the limits
+  double effort_ = 0.0;
+  Counts counts_;
+};
+
+}  // namespace armature::control

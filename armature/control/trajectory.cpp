@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/control/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "armature/control/internal/mistakes.hpp"
+
+namespace armature::control {
+
+std::string_view to_text(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kNone:
+      return "accepted";
+    case Refusal::kWrongNumber:
+      return "there has to be one number for each axis";
+    case Refusal::kNotFinite:
+      return "a number is not finite";
+    case Refusal::kOutsideLimits:
+      return "a target is outside the limits of its axis";
+    case Refusal::kNegativeTime:
+      return "the time is negative";
+    case Refusal::kTooLong:
+      return "the motion would take more than 1e9 s";
+    case Refusal::kUnderWay:
+      return "a motion is under way";
+    case Refusal::kNoPosition:
+      return "where the axes are is not known yet";
+  }
+  return "unknown";
+}
+
+base::Result<void> Trajectory::check(const Config& config) {
+  internal::Mistakes mistakes("Trajectory");
+  mistakes.expect(!config.axes.empty(), "the number of axes", 0.0, "at least 1");
+  for (std::size_t i = 0; i < config.axes.size(); ++i) {
+    const Axis& axis = config.axes[i];
+    const std::string name = "axes[" + std::to_string(i) + "].";
+    mistakes.expect_positive(name + "max_velocity", axis.max_velocity);
+    mistakes.expect_positive(name + "max_acceleration", axis.max_acceleration);
+    mistakes.expect(!std::isnan(axis.lower), name + "lower", axis.lower, "a number");
+    mistakes.expect(!std::isnan(axis.upper), name + "upper", axis.upper, "a number");
+    mistakes.expect(!(axis.upper <= axis.lower), name + "upper", axis.upper,
+                    "a number above lower");
+  }
+  return mistakes.result();
+}
+
+base::Result<Trajectory> Trajectory::make(const Config& config) {
+  if (const auto checked = check(config); !checked) return base::Error{checked.error()};
+  return Trajectory(config);
+}
+
+Trajectory::Trajectory(const Config& config)
+    : axes_(config.axes),
+      motions_(axes_.size()),
+      positions_(axes_.size()),
+      velocities_(axes_.size()),
+      accelerations_(axes_.size()) {}
+
+Trajectory::Answer Trajectory::hold(std::span<const double> positions) {
+  if (const Answer answer = check_finite(positions); !answer.accepted()) return answer;
+  for (std::size_t i = 0; i < axes_.size(); ++i) motions_[i] = Trapezoid::resting(positions[i]);
+  begin(0.0);
+  return {};
+}
+
+Trajectory::Answer Trajectory::move_to(std::span<const double> positions, double time_s) {
+  if (const Answer answer = check_target(positions); !answer.accepted()) return answer;
+  if (!std::isfinite(time_s)) return {Refusal::kNotFinite};
+  if (time_s < 0.0) return {Refusal::kNegativeTime};
+  if (!position_known_) return {Refusal::kNoPosition};
+  if (under_way()) return {Refusal::kUnderWay};
+  double slowest_s = time_s;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    slowest_s = std::max(slowest_s, shortest_s(i, positions[i] - positions_[i]));
+  }
+  if (slowest_s > kLongest_s) return {Refusal::kTooLong};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double share = ramp_share(i, positions[i] - positions_[i]);
+    motions_[i] = Trapezoid::rest_to_rest(positions_[i], positions[i], slowest_s, share);
+  }
+  begin(slowest_s);
+  return {};
+}
+
+void Trajectory::stop() {
+  if (stopping_ || !under_way()) return;
+  double together_s = 0.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    together_s = std::max(together_s, shortest_brake_s(i, velocities_[i]));
+  }
+  // No axis passes its target by this: what is left of the motion takes at least `together_s`, as
+  // it brings all axes to rest, and no velocity in it falls below a straight line down to its end.
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    motions_[i] = Trapezoid::braking(positions_[i], velocities_[i], together_s);
+  }
+  begin(together_s);
+  stopping_ = true;
+}
+
+Trajectory::Answer Trajectory::stop_from(std::span<const double> positions,
+                                         std::span<const double> velocities) {
+  if (const Answer answer = check_finite(positions); !answer.accepted()) return answer;
+  if (const Answer answer = check_finite(velocities); !answer.accepted()) return answer;
+  double together_s = 0.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    together_s = std::max(together_s, shortest_brake_s(i, velocities[i]));
+  }
+  if (together_s > kLongest_s) return {Refusal::kTooLong};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double room = room_to_limit(i, positions[i], velocities[i]);
+    const double own_s = brake_s(i, velocities[i], room, together_s);
+    motions_[i] = Trapezoid::braking(positions[i], velocities[i], own_s);
+  }
+  begin(together_s);
+  stopping_ = true;
+  return {};
+}
+
+void Trajectory::step(base::Duration period) {
+  if (under_way()) elapsed_ += period;
+  sample_all();
+}
+
+Trajectory::Answer Trajectory::check_finite(std::span<const double> numbers) const {
+  if (numbers.size() != axes_.size()) return {Refusal::kWrongNumber};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!std::isfinite(numbers[i])) return {Refusal::kNotFinite, i};
+  }
+  return {};
+}
+
+Trajectory::Answer Trajectory::check_target(std::span<const double> positions) const {
+  if (const Answer answer = check_finite(positions); !answer.accepted()) return answer;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const bool inside = positions[i] >= axes_[i].lower && positions[i] <= axes_[i].upper;
+    if (!inside) return {Refusal::kOutsideLimits, i};
+  }
+  return {};
+}
+
+double Trajectory::shortest_s(std::size_t axis, double distance) const {
+  const auto& limits = axes_[axis];
+  const double length = std::abs(distance);
+  const double ramp_s = limits.max_velocity / limits.max_acceleration;
+  const bool cruises = length > limits.max_velocity * ramp_s;
+  return cruises ? length / limits.max_velocity + ramp_s
+                 : 2.0 * std::sqrt(length / limits.max_acceleration);
+}
+
+/// Of the shortest motion, and so of any that is that one scaled in time.
+double Trajectory::ramp_share(std::size_t axis, double distance) const {
+  const auto& limits = axes_[axis];
+  const double ramp_s = limits.max_velocity / limits.max_acceleration;
+  const bool cruises = std::abs(distance) > limits.max_velocity * ramp_s;
+  return cruises ? ramp_s / shortest_s(axis, distance) : 0.5;
+}
+
+double Trajectory::shortest_brake_s(std::size_t axis, double velocity) const {
+  return std::abs(velocity) / axes_[axis].max_acceleration;
+}
+
+/// Together with the others if there is room for it.
+double Trajectory::brake_s(std::size_t axis, double velocity, double room,
+                           double together_s) const {
+  if (velocity == 0.0) return 0.0;
+  const double filling_the_room_s = 2.0 * room / std::abs(velocity);
+  return std::clamp(filling_the_room_s, shortest_brake_s(axis, velocity), together_s);
+}
+
+double Trajectory::room_to_limit(std::size_t axis, double position, double velocity) const {
+  return velocity > 0.0 ? axes_[axis].upper - position : position - axes_[axis].lower;
+}
+
+void Trajectory::begin(double duration_s) {
+  elapsed_ = {};
+  duration_s_ = duration_s;
+  position_known_ = true;
+  stopping_ = false;
+  sample_all();
+}
+
+void Trajectory::sample_all() {
+  const double time_s = elapsed_s();
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const MotionSample now = motions_[i].at(time_s);
+    positions_[i] = now.position;
+    velocities_[i] = now.velocity;
+    accelerations_[i] = now.acceleration;
+  }
+}
+
+}  // namespace armature::control

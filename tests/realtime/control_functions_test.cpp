@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real-time functions of control.
+#include <array>
+#include <chrono>
+#include <string_view>
+#include <vector>
+
+#include "armature/control/dc_motor.hpp"
+#include "armature/control/error_metrics.hpp"
+#include "armature/control/joint_limiter.hpp"
+#include "armature/control/pid.hpp"
+#include "armature/control/trajectory.hpp"
+#include "armature/control/trapezoid.hpp"
+#include "tests/realtime/expect_realtime.hpp"
+
+namespace armature {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(RealtimeFunctions, Pid) {
+  auto pid = control::Pid::make({.kp = 1.0, .ki = 0.1, .kd = 0.1, .u_min = -5.0, .u_max = 5.0});
+  double output = 0.0;
+  expect_realtime("Pid::step", [&] { output = pid.value().step(0.1); });
+  EXPECT_GT(output, 0.0);
+  expect_realtime("Pid::reset_to", [&] { pid.value().reset_to(2.0); });
+  EXPECT_EQ(pid.value().state().output, 2.0);
+  expect_realtime("Pid::reset", [&] { pid.value().reset(); });
+  EXPECT_EQ(pid.value().state().output, 0.0);
+}
+
+TEST(RealtimeFunctions, Trapezoid) {
+  const auto motion = control::Trapezoid::rest_to_rest(0.0, 1.0, 2.0, 0.25);
+  double time_s = 0.0;
+  control::MotionSample sample;
+  expect_realtime("Trapezoid::at", [&] { sample = motion.at(time_s += 0.1); });
+  EXPECT_EQ(sample.position, 1.0);
+}
+
+TEST(RealtimeFunctions, Trajectory) {
+  const control::Trajectory::Axis axis{.max_velocity = 1.0, .max_acceleration = 5.0};
+  auto made = control::Trajectory::make({std::vector(7, axis)});
+  auto& trajectory = made.value();
+  const std::vector<double> start(7, 0.0);
+  const std::vector<double> target(7, 1.0);
+  bool accepted = true;
+  std::string_view text;
+  expect_realtime("Trajectory::hold",
+                  [&] { accepted = accepted && trajectory.hold(start).accepted(); });
+  expect_realtime("Trajectory::move_to", [&] {
+    accepted = accepted && trajectory.hold(start).accepted();
+    accepted = accepted && trajectory.move_to(target, 2.0).accepted();
+    text = control::to_text(trajectory.move_to(target, 2.0).refusal);
+  });
+  expect_realtime("control::to_text",
+                  [&] { text = control::to_text(trajectory.move_to(target, 2.0).refusal); });
+  EXPECT_EQ(text, "a motion is under way");
+  expect_realtime("Trajectory::step", [&] { trajectory.step(10ms); });
+  EXPECT_GT(trajectory.velocities()[6], 0.0);
+  double position = 0.0;
+  expect_realtime("Trajectory::sample", [&] { position = trajectory.sample(6, 2.0).position; });
+  EXPECT_EQ(position, 1.0);
+  expect_realtime("Trajectory::stop", [&] { trajectory.stop(); });
+  EXPECT_LT(trajectory.accelerations()[6], 0.0);
+  expect_realtime("Trajectory::stop_from",
+                  [&] { accepted = accepted && trajectory.stop_from(start, target).accepted(); });
+  EXPECT_TRUE(accepted);
+}
+
+TEST(RealtimeFunctions, JointLimiter) {
+  auto made = control::JointLimiter::make({.lower = -1.0,
+                                           .upper = 1.0,
+                                           .max_velocity = 1.0,
+                                           .max_acceleration = 5.0,
+                                           .max_effort = 12.0,
+                                           .period = 10ms,
+                                           .arming_time = 1s,
+                                           .effort_rate = 12.0});
+  auto& limiter = made.value();
+  control::JointLimiter::Limited limited;
+  expect_realtime("JointLimiter::arm", [&] { limiter.arm({0.0, 0.0}); });
+  expect_realtime("JointLimiter::step_effort", [&] {
+    limited = limiter.step_effort({0.0, 0.0}, 20.0);
+  });
+  EXPECT_EQ(limited.value, 12.0);
+  expect_realtime("JointLimiter::step_velocity", [&] {
+    limited = limiter.step_velocity({0.0, 0.0}, 20.0);
+  });
+  EXPECT_EQ(limited.value, 1.0);
+  expect_realtime("JointLimiter::step_position", [&] {
+    limited = limiter.step_position({0.0, 0.0}, 20.0);
+  });
+  EXPECT_GT(limited.value, 0.5);
+  expect_realtime("JointLimiter::disarm", [&] { limiter.disarm(); });
+  EXPECT_FALSE(limiter.armed());
+}
+
+TEST(RealtimeFunctions, ErrorMetrics) {
+  auto metrics = control::ErrorMetrics::make({2, 10ms});
+  expect_realtime("ErrorMetrics::step", [&] { metrics.value().step(std::array{0.1, -0.1}); });
+  EXPECT_EQ(metrics.value().samples(), 101u);
+  expect_realtime("ErrorMetrics::reset", [&] { metrics.value().reset(); });
+  EXPECT_EQ(metrics.value().samples(), 0u);
+}
+
+TEST(RealtimeFunctions, DcMotor) {
+  const auto made = control::DcMotor::make(
+      {.resistance_ohm = 2.0, .torque_constant = 0.035, .gear_ratio = 100.0});
+  const auto& motor = made.value();
+  double value = 0.0;
+  expect_realtime("DcMotor::voltage", [&] { value = motor.voltage(1.0, 0.0); });
+  expect_realtime("DcMotor::torque", [&] { value = motor.torque(value, 0.0); });
+  expect_realtime("DcMotor::current", [&] { value = motor.current(2.0, 0.0); });
+  EXPECT_EQ(value, 1.0);
+  expect_realtime("DcMotor::friction", [&] { value = motor.friction(1.0); });
+  expect_realtime("DcMotor::reflected_inertia", [&] { value = motor.reflected_inertia(); });
+  EXPECT_EQ(value, 0.0);
+}
+
+}  // namespace
+}  // namespace armature
