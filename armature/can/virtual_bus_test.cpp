@@ -139,6 +139,14 @@ TEST(VirtualBus, ADeviceAnswersFromWithinTheNewsAtItsOwnTime) {
   EXPECT_THAT(scene.take_log(), ElementsAre("10000-10059 080#07", "11149-11200 300#"));
 }
 
+TEST(VirtualBus, WhatReachesTheBusLateBeginsWhenItIsThere) {
+  Stations scene;
+  scene.bus.advance_to(base::Time(1ms));
+  scene.host.send(kSync);  // by a clock that still shows 0
+  scene.advance_to(2ms);
+  EXPECT_THAT(scene.take_log(), ElementsAre("1000-1059 080#07"));
+}
+
 TEST(VirtualBus, KnowsWhenSomethingWillHappen) {
   Stations scene;
   EXPECT_EQ(scene.bus.next_event(), std::nullopt);

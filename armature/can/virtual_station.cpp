@@ -142,9 +142,9 @@ const VirtualStation::Outgoing* VirtualStation::find(std::uint64_t number) const
 }
 
 void VirtualStation::remove(std::uint64_t number) {
-  const auto removed = std::ranges::remove(queue_, number, &Outgoing::number);
-  waiting_.fetch_sub(removed.size(), std::memory_order_release);
-  queue_.erase(removed.begin(), removed.end());
+  const std::size_t removed =
+      std::erase_if(queue_, [number](const Outgoing& each) { return each.number == number; });
+  waiting_.fetch_sub(removed, std::memory_order_release);
 }
 
 void VirtualStation::discard_all() {
