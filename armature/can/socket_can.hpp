@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "armature/can/bus.hpp"
+#include "armature/can/internal/tally.hpp"
+#include "armature/platform/can_socket.hpp"
+#include "armature/platform/thread.hpp"
+
+namespace armature::can {
+
+/// A CAN interface of Linux, such as can0 or vcan0; times are the kernel's, on the monotonic clock.
+///
+/// States come with error frames, and so are those of the last `receive`. How many frames may wait
+/// to be sent depends on the interface, too (`ip link set can0 txqueuelen 64`); a frame that was
+/// taken may still be thrown away by the kernel when the bus goes off, and is not counted then.
+/// After bus-off the system restarts the interface if it was told to (`ip link set can0 type can
+/// restart-ms 100`); `restart` cannot.
+class SocketCan final : public Bus {
+ public:
+  /// @param interface  the bus's name
+  /// @param watcher    how the thread that calls `on_news` is to run; there is none without it
+  explicit SocketCan(std::string interface, platform::ThreadRequest watcher = {});
+  ~SocketCan() override;
+
+  bool open(const BusOptions& options, base::Diagnostics& diagnostics) override;
+  void close() override;
+  SendStatus send(const Frame& frame) override;
+  ReceiveStatus receive(Arrival& arrival) override;
+  BusState state() const override { return state_.load(std::memory_order_acquire); }
+  RestartStatus restart() override;
+  BusCounters counters() const override { return tally_.now(); }
+
+ private:
+  SendStatus try_send(const Frame& frame);
+  void count_lost();
+  void note_error(const Frame& frame);
+  void note_up();
+  void watch();
+
+  platform::ThreadRequest watcher_request_;
+  BusOptions options_;
+  internal::Tally tally_;
+  std::atomic<BusState> state_{BusState::kClosed};
+  std::unique_ptr<platform::CanSocket> socket_;
+  std::unique_ptr<platform::Thread> watcher_;
+  std::uint32_t lost_before_ = 0;
+};
+
+/// The state after an error frame in the coding of Linux, `before` if it says nothing of it.
+BusState state_after(BusState before, const Frame& error_frame);
+
+}  // namespace armature::can

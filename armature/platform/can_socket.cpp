@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/platform/can_socket.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "armature/platform/clock.hpp"
+
+namespace armature::platform {
+namespace {
+
+static_assert(CanSocketFrame::kExtended == CAN_EFF_FLAG &&
+              CanSocketFrame::kRemote == CAN_RTR_FLAG && CanSocketFrame::kError == CAN_ERR_FLAG);
+static_assert(sizeof(CanSocketFilter) == sizeof(can_filter));
+
+/// What one frame takes of a socket's buffer, a little more rather than less.
+constexpr int kBytesPerFrame = 1024;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+bool failed(const CanSocketRequest& request, const std::string& what, const std::string& hint,
+            base::Diagnostics& diagnostics) {
+  diagnostics.error({},
+                    "CAN interface '" + request.interface + "': " + what + ": " +
+                        std::generic_category().message(errno),
+                    hint);
+  return false;
+}
+
+template <typename Value>
+bool set_option(int socket, int level, int name, const Value& value) {
+  return ::setsockopt(socket, level, name, &value, sizeof value) == 0;
+}
+
+bool is_up(int socket, const std::string& interface) {
+  ifreq request{};
+  interface.copy(request.ifr_name, IFNAMSIZ - 1);
+  return ::ioctl(socket, SIOCGIFFLAGS, &request) == 0 && (request.ifr_flags & IFF_UP) != 0;
+}
+
+bool set_filters(int socket, const std::vector<CanSocketFilter>& filters) {
+  if (filters.empty()) return true;
+  return ::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
+                      static_cast<socklen_t>(filters.size() * sizeof(CanSocketFilter))) == 0;
+}
+
+/// Less room than asked for is no error: what does not fit is counted.
+void set_buffers(int socket, const CanSocketRequest& request) {
+  const auto bytes = [](std::size_t frames) {
+    return static_cast<int>(std::min<std::size_t>(frames, 1 << 20)) * kBytesPerFrame;
+  };
+  set_option(socket, SOL_SOCKET, SO_SNDBUF, bytes(request.send_capacity));
+  if (!set_option(socket, SOL_SOCKET, SO_RCVBUFFORCE, bytes(request.receive_capacity))) {
+    set_option(socket, SOL_SOCKET, SO_RCVBUF, bytes(request.receive_capacity));
+  }
+}
+
+bool configure(int socket, const CanSocketRequest& request, base::Diagnostics& diagnostics) {
+  constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
+  const int own_frames = request.own_frames ? 1 : 0;
+  if (!set_filters(socket, request.filters)) {
+    return failed(request, "the kernel refuses the filters", "use at most 512", diagnostics);
+  }
+  if (!set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors) ||
+      !set_option(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own_frames) ||
+      !set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, 1) ||
+      !set_option(socket, SOL_SOCKET, SO_RXQ_OVFL, 1)) {
+    return failed(request, "the kernel refuses an option of the socket",
+                  "Linux 3.0 or later is expected", diagnostics);
+  }
+  set_buffers(socket, request);
+  return true;
+}
+
+bool bind_to_interface(int socket, const CanSocketRequest& request,
+                       base::Diagnostics& diagnostics) {
+  const unsigned index = ::if_nametoindex(request.interface.c_str());
+  if (index == 0) {
+    return failed(request, "there is no such interface",
+                  "'ip link' lists them; a virtual one comes with 'ip link add vcan0 type vcan'",
+                  diagnostics);
+  }
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(index);
+  if (::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    return failed(request, "cannot be used as one", "expected is an interface of type can or vcan",
+                  diagnostics);
+  }
+  if (is_up(socket, request.interface)) return true;
+  errno = ENETDOWN;
+  return failed(
+      request, "cannot be used yet",
+      "'ip link set " + request.interface + " up', for hardware with 'type can bitrate 1000000'",
+      diagnostics);
+}
+
+bool add_event(int events, int fd, std::uint32_t kind) {
+  epoll_event event{};
+  event.events = kind;
+  event.data.fd = fd;
+  return ::epoll_ctl(events, EPOLL_CTL_ADD, fd, &event) == 0;
+}
+
+base::Time from_timespec(const timespec& time) {
+  return base::time_from_ns(std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec);
+}
+
+/// The kernel stamps with the wall clock, so what counts is how long ago that was. A step of the
+/// wall clock in between makes that nonsense; then the frame came just now.
+base::Time on_monotonic_clock(const timespec& stamp) {
+  constexpr base::Duration kOldest = std::chrono::seconds(10);
+  timespec wall{};
+  ::clock_gettime(CLOCK_REALTIME, &wall);
+  const base::Duration age = from_timespec(wall) - from_timespec(stamp);
+  const bool plausible = age >= base::Duration{} && age <= kOldest;
+  return monotonic_now() - (plausible ? age : base::Duration{});
+}
+
+}  // namespace
+
+std::unique_ptr<CanSocket> CanSocket::open(const CanSocketRequest& request,
+                                           base::Diagnostics& diagnostics) {
+  Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
+  if (socket.get() < 0) {
+    failed(request, "the kernel gives no CAN socket",
+           "'modprobe can-raw'; without the module, use a virtual bus", diagnostics);
+    return nullptr;
+  }
+  if (!configure(socket.get(), request, diagnostics) ||
+      !bind_to_interface(socket.get(), request, diagnostics)) {
+    return nullptr;
+  }
+  Descriptor events(::epoll_create1(EPOLL_CLOEXEC));
+  Descriptor interruption(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  // Edge-triggered: told once of what has come in, whether it is received at once or not.
+  if (!add_event(events.get(), socket.get(), EPOLLIN | EPOLLET) ||
+      !add_event(events.get(), interruption.get(), EPOLLIN)) {
+    failed(request, "cannot be waited for", "close other files", diagnostics);
+    return nullptr;
+  }
+  return std::unique_ptr<CanSocket>(
+      new CanSocket(socket.release(), events.release(), interruption.release()));
+}
+
+CanSocket::~CanSocket() {
+  ::close(socket_);
+  ::close(events_);
+  ::close(interruption_);
+}
+
+CanSocket::Sent CanSocket::send(const CanSocketFrame& frame) {
+  can_frame raw{};
+  raw.can_id = frame.id;
+  raw.can_dlc = frame.size;
+  std::ranges::copy(frame.data, raw.data);
+  if (::send(socket_, &raw, sizeof raw, MSG_DONTWAIT) == sizeof raw) return Sent::kYes;
+  const bool full = errno == EAGAIN || errno == ENOBUFS || errno == EINTR;
+  return full ? Sent::kQueueFull : Sent::kDown;
+}
+
+CanSocket::Received CanSocket::receive(Arrival& arrival) {
+  can_frame raw{};
+  iovec content{&raw, sizeof raw};
+  alignas(cmsghdr) char control[128];
+  msghdr message{};
+  message.msg_iov = &content;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  const ssize_t size = ::recvmsg(socket_, &message, MSG_DONTWAIT);
+  if (size < 0) return errno == EAGAIN || errno == EINTR ? Received::kNothing : Received::kDown;
+  if (size != sizeof raw) return Received::kNothing;
+
+  arrival.frame.id = raw.can_id;
+  arrival.frame.size = std::min<std::uint8_t>(raw.can_dlc, CAN_MAX_DLEN);
+  std::ranges::copy(raw.data, arrival.frame.data.begin());
+  arrival.own = (message.msg_flags & MSG_CONFIRM) != 0;
+  arrival.time = base::Time{};
+  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr;
+       part = CMSG_NXTHDR(&message, part)) {
+    if (part->cmsg_level != SOL_SOCKET) continue;
+    if (part->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost_, CMSG_DATA(part), sizeof lost_);
+    if (part->cmsg_type != SO_TIMESTAMPNS) continue;
+    timespec stamp{};
+    std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+    arrival.time = on_monotonic_clock(stamp);
+  }
+  if (arrival.time == base::Time{}) arrival.time = monotonic_now();
+  return Received::kYes;
+}
+
+bool CanSocket::wait() {
+  epoll_event happened[2];
+  int count = 0;
+  do {
+    count = ::epoll_wait(events_, happened, 2, -1);
+  } while (count < 0 && errno == EINTR);
+  return std::none_of(
+             happened, happened + std::max(count, 0),
+             [this](const epoll_event& event) { return event.data.fd == interruption_; }) &&
+         count > 0;
+}
+
+void CanSocket::interrupt() {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = ::write(interruption_, &one, sizeof one);
+}
+
+}  // namespace armature::platform

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/platform/can_socket.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace armature::platform {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+// True with and without CAN in the kernel: no interface has this name.
+TEST(CanSocket, OpeningFailsWithTheInterfaceTheReasonAndAWayOut) {
+  base::Diagnostics diagnostics;
+  CanSocketRequest request;
+  request.interface = "can_none";
+  EXPECT_EQ(CanSocket::open(request, diagnostics), nullptr);
+  ASSERT_EQ(diagnostics.error_count(), 1u);
+  const std::string text = diagnostics.to_text();
+  EXPECT_THAT(text, HasSubstr("CAN interface 'can_none': "));
+  EXPECT_THAT(text, AnyOf(HasSubstr("the kernel gives no CAN socket: "),
+                          HasSubstr("there is no such interface: ")));
+  EXPECT_THAT(text, AnyOf(HasSubstr("'modprobe can-raw'"), HasSubstr("'ip link'")));
+}
+
+}  // namespace
+}  // namespace armature::platform
