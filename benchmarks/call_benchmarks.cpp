@@ -9,6 +9,7 @@
 #include "armature/component/author.hpp"
 #include "armature/exec/application.hpp"
 #include "benchmarks/plain.hpp"
+#include "benchmarks/simulated.hpp"
 #include "benchmarks/suite.hpp"
 
 namespace armature::benchmarks {
@@ -70,11 +71,6 @@ class Neighbours {
   }
 
  private:
-  static exec::ApplicationOptions simulated() {
-    exec::ApplicationOptions options;
-    options.simulated = true;
-    return options;
-  }
   static exec::Blueprint make(int subscribers) {
     exec::Activity one_thread = exec::Activity::periodic(std::chrono::milliseconds(1));
     one_thread.thread = "one";

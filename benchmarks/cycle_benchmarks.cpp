@@ -6,6 +6,7 @@
 #include "benchmarks/control_cycle/comparison.hpp"
 #include "benchmarks/control_cycle/cycle.hpp"
 #include "benchmarks/control_cycle/monolithic.hpp"
+#include "benchmarks/simulated.hpp"
 #include "benchmarks/suite.hpp"
 
 namespace armature::benchmarks {
@@ -18,9 +19,7 @@ constexpr std::int64_t kRounds = 301;
 constexpr std::chrono::milliseconds kBatch{3};
 
 void run_cycle(benchmark::State& state, int joints) {
-  exec::ApplicationOptions options;
-  options.simulated = true;
-  exec::Application application(make_cycle(joints, one_thread()), options);
+  exec::Application application(make_cycle(joints, one_thread()), simulated());
   const base::Diagnostics started = application.start();
   if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
   MonolithicController loop(joints);

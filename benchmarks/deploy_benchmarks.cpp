@@ -14,6 +14,7 @@
 #include "armature/platform/clock.hpp"
 #include "benchmarks/allocations.hpp"
 #include "benchmarks/control_cycle/cycle.hpp"
+#include "benchmarks/simulated.hpp"
 #include "benchmarks/suite.hpp"
 
 namespace armature::benchmarks {
@@ -37,12 +38,6 @@ int joints_for(int components) { return (components - 5) / 3; }
 
 void demand(const base::Diagnostics& diagnostics) {
   if (!diagnostics.ok()) throw std::runtime_error(diagnostics.to_text());
-}
-
-exec::ApplicationOptions simulated() {
-  exec::ApplicationOptions options;
-  options.simulated = true;
-  return options;
 }
 
 /// Microseconds and allocations of `work` for each of so many components.

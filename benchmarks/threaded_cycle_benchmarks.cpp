@@ -3,6 +3,7 @@
 // beside these hops with the same components' work in one thread.
 #include <array>
 #include <atomic>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "benchmarks/control_cycle/cycle.hpp"
 #include "benchmarks/control_cycle/monolithic.hpp"
 #include "benchmarks/control_cycle/pacer.hpp"
+#include "benchmarks/simulated.hpp"
 #include "benchmarks/suite.hpp"
 
 namespace armature::benchmarks {
@@ -104,11 +106,6 @@ class OneThread {
   void run_cycles(std::int64_t count) { application_.run_for(std::chrono::milliseconds(count)); }
 
  private:
-  static exec::ApplicationOptions simulated() {
-    exec::ApplicationOptions options;
-    options.simulated = true;
-    return options;
-  }
   exec::Application application_;
 };
 
@@ -121,7 +118,8 @@ void run_cycle(benchmark::State& state, int joints, Beside beside) {
   if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
 
   BareHops hops;
-  OneThread work(joints);
+  std::optional<OneThread> work;
+  if (beside == Beside::kHopsAndWork) work.emplace(joints);
   std::int64_t cycles = 0;
   Result result = measure_in_turn(
       state,
@@ -131,7 +129,7 @@ void run_cycle(benchmark::State& state, int joints, Beside beside) {
       },
       [&](std::int64_t count) {
         hops.run_cycles(count);
-        if (beside == Beside::kHopsAndWork) work.run_cycles(count);
+        if (work) work->run_cycles(count);
       },
       kBatch);
   result.bound = ratio_at_most(kBound);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "armature/component/input_port.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/rt/ticks.hpp"

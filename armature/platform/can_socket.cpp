@@ -6,7 +6,6 @@
 #include <cstring>
 #include <ctime>
 #include <system_error>
-#include <utility>
 
 #include <linux/can.h>
 #include <linux/can/error.h>
@@ -19,9 +18,12 @@
 #include <unistd.h>
 
 #include "armature/platform/clock.hpp"
+#include "armature/platform/internal/descriptor.hpp"
 
 namespace armature::platform {
 namespace {
+
+using internal::Descriptor;
 
 static_assert(CanSocketFrame::kExtended == CAN_EFF_FLAG &&
               CanSocketFrame::kRemote == CAN_RTR_FLAG && CanSocketFrame::kError == CAN_ERR_FLAG);
@@ -29,21 +31,6 @@ static_assert(sizeof(CanSocketFilter) == sizeof(can_filter));
 
 /// What one frame takes of a socket's buffer, a little more rather than less.
 constexpr int kBytesPerFrame = 1024;
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 bool failed(const CanSocketRequest& request, const std::string& what, const std::string& hint,
             base::Diagnostics& diagnostics) {

@@ -11,26 +11,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "armature/platform/internal/descriptor.hpp"
+
 namespace armature::platform {
 namespace {
+
+using internal::Descriptor;
 
 base::Error failure(const std::string& what, const std::string& path, int error) {
   return base::Error{what + " '" + path + "': " + std::generic_category().message(error)};
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 bool write_all(int fd, std::string_view content) {
   while (!content.empty()) {
