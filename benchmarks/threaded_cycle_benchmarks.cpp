@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sampled-control cycle in four threads, beside the bare futex hops that its wiring needs, and
 // beside these hops with the same components' work in one thread.
-#include <array>
+#include <algorithm>
 #include <atomic>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "armature/exec/application.hpp"
+#include "armature/platform/thread.hpp"
 #include "benchmarks/baton.hpp"
 #include "benchmarks/control_cycle/comparison.hpp"
 #include "benchmarks/control_cycle/cycle.hpp"
@@ -24,18 +27,48 @@ constexpr double kBound = 1.3;
 constexpr std::int64_t kRounds = 101;
 constexpr std::chrono::milliseconds kBatch(10);
 
+// Threads as a robot has them, ours and the reference's alike: real-time, and on CPUs by turns, so
+// that each hop goes from one CPU to another. Where the kernel chooses, a hop on the same CPU takes
+// a third of one between two, and each side finds its own mixture.
+constexpr int kPriority = 50;
+
+int cpu_of(int thread) {
+  return thread % static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+exec::Activity activity_of(int thread) {
+  exec::Activity activity = exec::Activity::triggered(kPriority);
+  activity.cpus = {cpu_of(thread)};
+  return activity;
+}
+
+platform::ThreadRequest request_of(int thread) {
+  platform::ThreadRequest request;
+  request.name = "bare hop";
+  request.scheduler = platform::Scheduler::kFifo;
+  request.priority = kPriority;
+  request.cpus = {cpu_of(thread)};
+  return request;
+}
+
 /// Plain threads that wake each other as the cycle's do, and do nothing else. Five wake-ups: the
 /// sampler's thread, in which the joints live, tells the actuator of `Sample` and hands the samples
 /// to the sensor, this to the controller, this to the actuator, and this back to the joints.
 class BareHops {
  public:
-  BareHops() = default;
+  BareHops() {
+    const std::function<void()> bodies[] = {[this] { run_joints(); }, [this] { run_sensor(); },
+                                            [this] { run_controller(); },
+                                            [this] { run_actuator(); }};
+    for (const auto& body : bodies) {
+      threads_.emplace_back(request_of(static_cast<int>(threads_.size())), body);
+    }
+  }
   BareHops(const BareHops&) = delete;
   BareHops& operator=(const BareHops&) = delete;
   ~BareHops() {
     ending_ = true;
     for (Baton* baton : {&joints_, &sensor_, &controller_, &actuator_}) baton->pass();
-    for (std::thread& thread : threads_) thread.join();
   }
 
   void run_cycles(std::int64_t count) {
@@ -88,9 +121,7 @@ class BareHops {
   Baton finish_;
   std::atomic<bool> controlled_{false};
   std::atomic<bool> ending_{false};
-  std::array<std::thread, 4> threads_{
-      std::thread([this] { run_joints(); }), std::thread([this] { run_sensor(); }),
-      std::thread([this] { run_controller(); }), std::thread([this] { run_actuator(); })};
+  std::deque<platform::Thread> threads_;  ///< joined first
 };
 
 /// What the threaded cycle is measured against.
@@ -110,10 +141,12 @@ class OneThread {
 };
 
 void run_cycle(benchmark::State& state, int joints, Beside beside) {
-  const exec::Activity own_thread = exec::Activity::triggered();
-  exec::Blueprint blueprint = make_cycle(joints, {own_thread, own_thread, own_thread, own_thread});
+  exec::Blueprint blueprint =
+      make_cycle(joints, {activity_of(0), activity_of(1), activity_of(2), activity_of(3)});
   Pacer& pacer = add_pacer(blueprint, joints);
-  exec::Application application(std::move(blueprint));
+  exec::ApplicationOptions options;
+  options.realtime = exec::RealtimeMode::kPrefer;
+  exec::Application application(std::move(blueprint), std::move(options));
   const base::Diagnostics started = application.start();
   if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
 

@@ -155,11 +155,11 @@ class Component {
   /// @rt as the code is; itself a few nanoseconds
   template <typename Code>
   bool run(ExecutionContext& where, Code&& code) noexcept {
-    if (where.owed.any()) [[unlikely]]
-      where.owed.pay();  // a hook or operation may take its time: nobody waits for it
+    if (where.outbox.any()) [[unlikely]]
+      where.outbox.flush();  // a hook or operation may take its time: nobody waits for it
     return run_handler(where, code);
   }
-  /// The same for a handler, which is short: threads that others owe a wake-up wait for it.
+  /// The same for a handler, which is short: threads that are to be sent something wait for it.
   template <typename Code>
   bool run_handler(ExecutionContext& where, Code&& code) noexcept {
     if (where.measuring) [[unlikely]]

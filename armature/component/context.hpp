@@ -7,13 +7,14 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "armature/base/time.hpp"
 #include "armature/component/entrance.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/log.hpp"
-#include "armature/rt/owed_wakeups.hpp"
+#include "armature/rt/outbox.hpp"
 #include "armature/rt/wakeup.hpp"
 
 namespace armature::component {
@@ -33,6 +34,16 @@ class Supervisor {
 
 /// So deep hooks and operations may always nest in one thread.
 inline constexpr int kLeastDepthLimit = 64;
+
+struct ExecutionContext;
+
+/// The way of data to another thread.
+struct LaneTo {
+  LaneTo(rt::Outbox& writers_outbox, ExecutionContext& reading);
+  rt::Outbox& outbox;  ///< of the writer
+  ExecutionContext& reader;
+  rt::Lane lane;
+};
 
 /// The thread that runs a component, as far as the component needs to know it. The execution engine
 /// owns it; all components that share a thread share its context.
@@ -58,9 +69,14 @@ struct ExecutionContext {
   rt::Inbox inbox;       ///< empty when components of this context are disconnected or destroyed
   rt::Inbox next_cycle;  ///< to be delivered first in the next cycle
   rt::Wakeup wakeup;
-  rt::OwedWakeups owed;  ///< of other threads that were sent something by this one
+  rt::Outbox outbox;                           ///< for other threads
+  std::vector<std::unique_ptr<LaneTo>> lanes;  ///< by which data goes to them in batches
   rt::LogQueue* log = nullptr;
   Supervisor* supervisor = nullptr;
+
+  /// The way of data to `reader`, made when it is asked for first.
+  /// @thread configuration only
+  LaneTo& lane_to(ExecutionContext& reader);
 
   /// So many hooks and operations may nest: what the stack has room for.
   /// @thread configuration only
@@ -77,18 +93,22 @@ struct ExecutionContext {
   /// @rt nonblocking, no allocation
   /// @thread any
   void post(rt::Message& message) {
+    rt::send_gathered();
     inbox.push(message);
     wake();
   }
   void raise(rt::Signal& signal) {
+    rt::send_gathered();
     if (signal.raise(inbox)) wake();
   }
-  /// The same where more is to follow: the thread is woken when the calling one pays what it owes.
+  /// The same where more is to follow: the thread is woken when the calling one flushes its outbox.
   void post_soon(rt::Message& message) {
+    rt::send_gathered();
     inbox.push(message);
     wake_soon();
   }
   void raise_soon(rt::Signal& signal) {
+    rt::send_gathered();
     if (signal.raise(inbox)) wake_soon();
   }
 

@@ -158,10 +158,10 @@ class Event final : public EventBase {
     RaiseStatus status =
         subscribers_.empty() ? RaiseStatus::kNobodyListens : RaiseStatus::kDelivered;
     tell_listeners();
-    for (EventHandler<Args...>* handler : queued_) {
-      if (!handler->enqueue(arguments...)) status = RaiseStatus::kQueueFull;
+    for (const std::unique_ptr<Queue>& queue : queues_) {
+      if (!enqueue(*queue, arguments...)) status = RaiseStatus::kQueueFull;
     }
-    if (!queued_.empty()) rt::pay_owed_wakeups();  // who is told of an event is woken at once
+    if (!queues_.empty()) rt::flush_outbox();  // who is told of an event is woken at once
     for (EventHandler<Args...>* handler : direct_) {
       owner().call_out(handler->owner(), [&] { handler->handle(owner().context(), arguments...); });
     }
@@ -172,8 +172,13 @@ class Event final : public EventBase {
   void unsubscribe_all() override;
 
  private:
+  struct Queue;
+  /// The queue of `handler`'s thread.
+  Queue& queue_to(EventHandlerBase& handler);
+  bool enqueue(Queue& queue, const Args&... arguments);
+
   std::vector<EventHandler<Args...>*> direct_;
-  std::vector<EventHandler<Args...>*> queued_;
+  std::vector<std::unique_ptr<Queue>> queues_;
 };
 
 /// Runs a member function when a peer raises the event of the same name and arguments: at once if
@@ -209,13 +214,13 @@ class EventHandler final : public EventHandlerBase {
   ~EventHandler() override;
 
   // --- for the event that is subscribed to -----------------------------------------------------
-  void bind(Event<Args...>& event, bool queued);
-  void unbind();
+  void bind(Event<Args...>& event) { about().source = &event; }
+  void unbind() { about().source = nullptr; }
   /// For a component that calls out (see Component::call_out).
   void handle(ExecutionContext& where, const Args&... arguments) noexcept {
     handle_(*this, where, arguments...);
   }
-  bool enqueue(const Args&... arguments);
+  using EventHandlerBase::count_drop;
 
  private:
   using Handle = void (*)(EventHandler&, ExecutionContext&, const Args&...) noexcept;
@@ -224,13 +229,11 @@ class EventHandler final : public EventHandlerBase {
   EventHandler(Component& owner, std::string_view name, std::string_view doc,
                void (*function)(void* self, const Args&...), void* self) noexcept;
 
-  struct Queue;
   struct About final : EventHandlerBase::About {
     using EventHandlerBase::About::About;
     ~About() override;
     void (*function)(void* self, const Args&...) = nullptr;
     void* self = nullptr;
-    std::unique_ptr<Queue> queue;
   };
   About& about() const { return static_cast<About&>(EventHandlerBase::about()); }
 

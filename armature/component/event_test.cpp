@@ -116,6 +116,29 @@ TEST_F(Events, AFullQueueIsAnAnswerToTheRaiserAndCounted) {
   EXPECT_EQ(raiser_.happened.raise(4), RaiseStatus::kDelivered);
 }
 
+TEST_F(Events, HandlersOfOneThreadAreOneMessageInTheOrderOfTheirSubscription) {
+  std::vector<std::string> order;
+  Listener one("one");
+  Listener two("two");
+  Listener small("small", queue(1));
+  Listener last("last");
+  for (Listener* each : {&one, &two, &small, &last}) {
+    other_.add(*each);
+    raiser_.happened.subscribe(each->handler);
+    each->then = [&order, each] { order.push_back(each->name()); };
+    start(*each);
+  }
+  raiser_.happened.raise(1);
+  int messages = 0;
+  for (rt::Message* each = other_.context.inbox.take_all(); each != nullptr; ++messages) {
+    rt::Message* const next = rt::Inbox::next(*each);
+    each->deliver();
+    each = next;
+  }
+  EXPECT_EQ(messages, 3) << "those that declared another size have their own";
+  EXPECT_THAT(order, testing::ElementsAre("one", "two", "small", "last"));
+}
+
 TEST_F(Events, TheCapacityOfAQueueIsKnownBeforeTheStart) {
   Listener usual("usual");
   Listener declared("declared", queue(300));

@@ -261,6 +261,8 @@ class InputPort final : public InputPortBase {
   /// Zeros in the shape of `shape`: what is read before the first write.
   void set_shape(const T& shape);
   void drain(internal::ChannelBase& channel) override;
+  /// Runs the handler on a sample that came by `channel`.
+  void receive(internal::Channel<T>& channel, const Sample<T>& sample);
 
  private:
   struct About final : InputPortBase::About {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a component sends to another thread arrives there in the order in which it was sent.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,25 +41,40 @@ class Receiver : public Component {
   }
 };
 
-class MessageOrder : public testing::TestWithParam<ConnectionPolicy> {
+struct Way {
+  const char* name;
+  ConnectionPolicy policy;
+  bool in_batches;
+};
+
+class MessageOrder : public testing::TestWithParam<Way> {
  protected:
   MessageOrder() : here_(sender_), there_(receiver_) {
-    sender_.data.connect(receiver_.data, GetParam());
+    sender_.data.connect(receiver_.data, GetParam().policy);
     sender_.happened.subscribe(receiver_.handler);
     start(sender_, receiver_);
     there_.context.live = true;
+    here_.prepare_lanes();
+    if (GetParam().in_batches) sending_.emplace(here_.context.outbox);
+  }
+  void deliver() {
+    do {
+      here_.context.outbox.flush();
+      there_.deliver();
+    } while (here_.context.outbox.any());
   }
   Sender sender_{"sender"};
   Receiver receiver_{"receiver"};
   TestThread here_;
   TestThread there_;
+  std::optional<rt::Outbox::Scope> sending_;
 };
 
 TEST_P(MessageOrder, EventsKeepTheirPlaceAmongData) {
   sender_.happened.raise(1);
   sender_.data.write(10);
   sender_.happened.raise(2);
-  there_.deliver();
+  deliver();
   EXPECT_THAT(receiver_.order, ElementsAre("event 1", "data 10", "event 2"));
 }
 
@@ -68,7 +84,7 @@ TEST_P(MessageOrder, WhatIsWrittenDuringADeliveryDoesNotOvertakeAnEventBeforeIt)
     sender_.data.write(2);
   };
   sender_.data.write(1);
-  there_.deliver();
+  deliver();
   EXPECT_THAT(receiver_.order, ElementsAre("data 1", "event 1", "data 2"));
 }
 
@@ -78,15 +94,15 @@ TEST_P(MessageOrder, AnEventRaisedDuringADeliveryDoesNotOvertakeDataBeforeIt) {
     sender_.happened.raise(2);
   };
   sender_.happened.raise(1);
-  there_.deliver();
+  deliver();
   EXPECT_THAT(receiver_.order, ElementsAre("event 1", "data 1", "event 2"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Policies, MessageOrder, testing::Values(latest(), fifo(4)),
-                         [](const auto& policy) {
-                           return policy.param.kind == ConnectionPolicy::Kind::kFifo ? "Fifo"
-                                                                                     : "Latest";
-                         });
+INSTANTIATE_TEST_SUITE_P(Policies, MessageOrder,
+                         testing::Values(Way{"Latest", latest(), false},
+                                         Way{"InBatches", latest(), true},
+                                         Way{"Fifo", fifo(4), true}),
+                         [](const auto& way) { return way.param.name; });
 
 TEST(MessageOrderOfFifos, AllThatWasWrittenBeforeTheDeliveryComesWithIt) {
   Sender sender("sender");

@@ -50,7 +50,6 @@ class OutputPortBase : public PortBase {
     std::vector<InputPortBase*> readers;
     std::vector<InputPortBase*> triggered;  ///< readers in this thread whose handlers run now
     std::vector<internal::ChannelBase*> channels;
-    std::vector<internal::ChannelBase*> telling;  ///< channels whose readers are to be told
   };
   OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
@@ -65,8 +64,14 @@ class OutputPortBase : public PortBase {
   WriteStatus deliver(const void* sample) noexcept;
   void run_measured(InputPortBase& input) noexcept;
 
-  InputPortBase* only_handler_ = nullptr;  ///< all that a write has to run
-  bool delivers_ = false;                  ///< a write has something to do for its readers
+  /// What a write has to do for its readers.
+  enum class Delivery : std::uint8_t { kNothing, kHandler, kChannel, kSeveral };
+  union Only {
+    InputPortBase* handler = nullptr;
+    internal::ChannelBase* channel;
+  };
+  Only only_;
+  Delivery delivery_ = Delivery::kNothing;
   WriteStatus unread_ = WriteStatus::kNotConnected;  ///< what a write that has nothing to do says
 
  private:
@@ -134,12 +139,14 @@ class OutputPort final : public OutputPortBase {
     Component& writer = owner();
     sample_.time = writer.time();
     ++sample_.sequence;
-    if (only_handler_ == nullptr) return delivers_ ? deliver(&sample_) : unread_;
+    if (delivery_ != Delivery::kHandler) {
+      return delivery_ == Delivery::kNothing ? unread_ : deliver(&sample_);
+    }
     ExecutionContext& where = writer.context();
     if (where.measuring) [[unlikely]] {
-      run_measured(*only_handler_);
+      run_measured(*only_.handler);
     } else {
-      only_handler_->arrived(where);
+      only_.handler->arrived(where);
     }
     return WriteStatus::kWritten;
   }

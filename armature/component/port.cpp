@@ -110,9 +110,11 @@ void InputPortBase::forget_writer(OutputPortBase& writer) {
 }
 
 void InputPortBase::note_taken(internal::ChannelBase& channel, std::uint64_t sequence) {
-  About& mine = about();
-  mine.counters.missed += sequence - channel.last_sequence - (mine.unread ? 0 : 1);
-  mine.unread = !triggers_;
+  if (!triggers_ || sequence != channel.last_sequence + 1) {
+    About& mine = about();
+    mine.counters.missed += sequence - channel.last_sequence - (mine.unread ? 0 : 1);
+    mine.unread = !triggers_;
+  }
   channel.last_sequence = sequence;
   seen_ = sequence - 1;
   set(kZeroed, false);
@@ -133,7 +135,6 @@ void OutputPortBase::disconnect_all() {
   mine.readers.clear();
   mine.triggered.clear();
   mine.channels.clear();
-  mine.telling.clear();
   choose_delivery();
 }
 
@@ -143,7 +144,6 @@ void OutputPortBase::forget(InputPortBase& input) {
   std::erase(mine.readers, &input);
   std::erase(mine.triggered, &input);
   std::erase_if(mine.channels, leads_there);
-  std::erase_if(mine.telling, leads_there);
   choose_delivery();
 }
 
@@ -160,7 +160,9 @@ void OutputPortBase::add_reader(InputPortBase& input,
   about().readers.push_back(&input);
   input.connect_channel(*this, std::move(made_channel));
   channel.last_sequence = sequence;
-  (input.triggers() ? about().telling : about().channels).push_back(&channel);
+  // Those without a handler first: what handlers read is to be there when they run.
+  auto& channels = about().channels;
+  channels.insert(input.triggers() ? channels.end() : channels.begin(), &channel);
   // A value from before the connection was made is read as new, whatever the kind of connection.
   if (!input.triggers() && sequence != 0) {
     --channel.last_sequence;
@@ -169,23 +171,32 @@ void OutputPortBase::add_reader(InputPortBase& input,
   choose_delivery();
 }
 
-/// Most ports have one handler to run, or nothing to do but to keep the value.
+/// Most ports have one handler to run or one channel, or nothing to do but to keep the value.
 void OutputPortBase::choose_delivery() {
   const About& mine = about();
-  const bool by_channel = !mine.channels.empty() || !mine.telling.empty();
-  only_handler_ = !by_channel && mine.triggered.size() == 1 ? mine.triggered.front() : nullptr;
-  delivers_ = by_channel || !mine.triggered.empty();
+  only_ = {};
+  if (mine.channels.size() + mine.triggered.size() > 1) {
+    delivery_ = Delivery::kSeveral;
+  } else if (!mine.triggered.empty()) {
+    delivery_ = Delivery::kHandler;
+    only_.handler = mine.triggered.front();
+  } else if (!mine.channels.empty()) {
+    delivery_ = Delivery::kChannel;
+    only_.channel = mine.channels.front();
+  } else {
+    delivery_ = Delivery::kNothing;
+  }
   unread_ = mine.readers.empty() ? WriteStatus::kNotConnected : WriteStatus::kWritten;
 }
 
 WriteStatus OutputPortBase::deliver(const void* sample) noexcept {
-  const About& mine = about();
   WriteStatus status = WriteStatus::kWritten;
-  for (internal::ChannelBase* channel : mine.channels) note(channel->push(sample), status);
-  for (internal::ChannelBase* channel : mine.telling) {
-    note(channel->push(sample), status);
-    channel->tell_reader();
+  if (delivery_ == Delivery::kChannel) {
+    note(only_.channel->send(sample), status);
+    return status;
   }
+  const About& mine = about();
+  for (internal::ChannelBase* channel : mine.channels) note(channel->send(sample), status);
   for (InputPortBase* input : mine.triggered) run_measured(*input);
   return status;
 }

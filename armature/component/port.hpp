@@ -178,6 +178,11 @@ namespace internal {
 /// Every number 0, every text empty, sizes as they are.
 void set_to_zero(const types::Type& type, void* value);
 
+/// It can be copied as bytes, and is small.
+template <typename T>
+inline constexpr bool is_small = std::is_trivially_copyable_v<T> && sizeof(T) <= 256 &&
+                                 alignof(T) <= sizeof(void*);
+
 template <typename T>
 inline constexpr bool is_vector = false;
 template <typename E>

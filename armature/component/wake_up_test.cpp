@@ -59,33 +59,33 @@ TEST_F(WakeUp, ComesAtOnceFromAThreadThatRunsNoComponents) {
 }
 
 TEST_F(WakeUp, ComesOnceForAllDataThatAHookWrites) {
-  const rt::OwedWakeups::Account account(here_.context.owed);
+  const rt::Outbox::Scope sending(here_.context.outbox);
   sender_.run(here_.context, [this] {
     send_data();
     EXPECT_FALSE(woken());
   });
-  here_.context.owed.pay();
+  here_.context.outbox.flush();
   EXPECT_TRUE(woken());
-  here_.context.owed.pay();
+  here_.context.outbox.flush();
   EXPECT_FALSE(woken());
 }
 
 TEST_F(WakeUp, ComesOnceForAllDataThatSeveralHandlersWrite) {
-  const rt::OwedWakeups::Account account(here_.context.owed);
+  const rt::Outbox::Scope sending(here_.context.outbox);
   sender_.run_handler(here_.context, [this] { send_data(); });
   sender_.run_handler(here_.context, [this] { EXPECT_FALSE(woken()); });
-  here_.context.owed.pay();
+  here_.context.outbox.flush();
   EXPECT_TRUE(woken());
 }
 
 TEST_F(WakeUp, ComesBeforeTheNextHookOrSentOperation) {
-  const rt::OwedWakeups::Account account(here_.context.owed);
+  const rt::Outbox::Scope sending(here_.context.outbox);
   sender_.run(here_.context, [this] { send_data(); });
   sender_.run(here_.context, [this] { EXPECT_TRUE(woken()); });
 }
 
 TEST_F(WakeUp, OfAnEventComesWithinTheHook) {
-  const rt::OwedWakeups::Account account(here_.context.owed);
+  const rt::Outbox::Scope sending(here_.context.outbox);
   sender_.run(here_.context, [this] {
     sender_.happened.raise();
     EXPECT_TRUE(woken());
@@ -93,7 +93,7 @@ TEST_F(WakeUp, OfAnEventComesWithinTheHook) {
 }
 
 TEST_F(WakeUp, ComesAtOnceWhereTheWriterMayWait) {
-  const rt::OwedWakeups::Account account(here_.context.owed);
+  const rt::Outbox::Scope sending(here_.context.outbox);
   sender_.run(here_.context, [this] {
     const rt::PermitScope waiting;
     send_data();
@@ -102,7 +102,7 @@ TEST_F(WakeUp, ComesAtOnceWhereTheWriterMayWait) {
 }
 
 TEST_F(WakeUp, ComesBeforeTheWriterWaits) {
-  const rt::OwedWakeups::Account account(here_.context.owed);
+  const rt::Outbox::Scope sending(here_.context.outbox);
   sender_.run(here_.context, [this] {
     send_data();
     const rt::PermitScope waiting;

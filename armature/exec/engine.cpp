@@ -75,6 +75,7 @@ Engine::Engine(std::string name, Activity activity, std::vector<Component*> memb
 }
 
 void Engine::begin(base::Time start) {
+  for (const auto& lane : context_.lanes) lane->lane.prepare();
   context_.cycle_time = start;
   schedule_.begin(start);
   next_age_check_ = start;
@@ -85,7 +86,7 @@ void Engine::begin(base::Time start) {
 
 void Engine::serve() {
   const AtWork at_work(context_);
-  const rt::OwedWakeups::Account account(context_.owed);
+  const rt::Outbox::Scope sending(context_.outbox);
   while (!ending_.load(std::memory_order_acquire)) do_due(wait());
   deliver_messages();
   close_account();
@@ -118,6 +119,7 @@ base::Time Engine::wait() {
 
 void Engine::step(base::Time now) ARMATURE_NONBLOCKING {
   const AtWork at_work(context_);
+  const rt::Outbox::Scope sending(context_.outbox);
   do_due(now);
 }
 
@@ -195,7 +197,7 @@ void Engine::close_account() {
 
 void Engine::deliver_messages() {
   for (int round = 0; round < kMessageRounds; ++round) {
-    if (context_.owed.any()) context_.owed.pay();
+    if (context_.outbox.any()) context_.outbox.flush();
     if (context_.inbox.empty()) return;
     context_.inbox.deliver_all();
   }

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "armature/base/realtime.hpp"
-#include "armature/rt/owed_wakeups.hpp"
+#include "armature/rt/outbox.hpp"
 
 namespace armature::rt {
 
@@ -48,18 +48,20 @@ class RealtimeScope {
 
 /// Lets the code in its scope allocate and block although the thread is real-time: the framework's
 /// own sleeping, and the way out after an exception. A driver whose calls to its hardware never
-/// wait says so with it. Threads that were sent data are woken before it is entered.
+/// wait says so with it. What the thread has for others is sent before it is entered, and at once
+/// while it lasts.
 class PermitScope {
  public:
-  PermitScope() noexcept {
-    pay_owed_wakeups();
-    ++guard_state().permitted_depth;
-  }
+  PermitScope() noexcept : outbox_(Outbox::suspend()) { ++guard_state().permitted_depth; }
   PermitScope(const PermitScope&) = delete;
   PermitScope& operator=(const PermitScope&) = delete;
-  ~PermitScope() { --guard_state().permitted_depth; }
+  ~PermitScope() {
+    --guard_state().permitted_depth;
+    Outbox::resume(outbox_);
+  }
 
  private:
+  Outbox* const outbox_;
   base::SanitizerPermit sanitizer_;
 };
 

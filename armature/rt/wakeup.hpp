@@ -6,22 +6,22 @@
 #include "armature/base/time.hpp"
 #include "armature/platform/futex.hpp"
 #include "armature/rt/atomics.hpp"
-#include "armature/rt/owed_wakeups.hpp"
+#include "armature/rt/outbox.hpp"
 
 namespace armature::rt {
 
 /// Sleeping and waking by the kernel; the model checker has its own. A thread that is about to
-/// sleep first wakes those that it owes it.
+/// sleep first sends others what it has for them.
 struct FutexParker {
   using Atomics = StdAtomics;
   static void wait(std::atomic<std::uint32_t>& word, std::uint32_t expected) {
-    pay_owed_wakeups();
+    flush_outbox();
     platform::futex_wait(word, expected);
   }
   /// False once `deadline` has passed.
   static bool wait_until(std::atomic<std::uint32_t>& word, std::uint32_t expected,
                          base::Time deadline) {
-    pay_owed_wakeups();
+    flush_outbox();
     return platform::futex_wait_until(word, expected, deadline);
   }
   static void wake_one(std::atomic<std::uint32_t>& word) { platform::futex_wake_one(word); }

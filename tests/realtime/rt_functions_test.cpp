@@ -2,6 +2,8 @@
 // The real-time functions of base, platform, types and rt.
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -11,9 +13,12 @@
 #include "armature/platform/futex.hpp"
 #include "armature/rt/entry_pool.hpp"
 #include "armature/rt/inbox.hpp"
+#include "armature/rt/lane.hpp"
 #include "armature/rt/latest.hpp"
 #include "armature/rt/log.hpp"
-#include "armature/rt/owed_wakeups.hpp"
+#include "armature/rt/outbox.hpp"
+#include "armature/rt/passage.hpp"
+#include "armature/rt/quick_latest.hpp"
 #include "armature/rt/ring.hpp"
 #include "armature/rt/statistics.hpp"
 #include "armature/rt/wakeup.hpp"
@@ -214,26 +219,120 @@ TEST(RealtimeFunctions, WakeupThatIsTried) {
   EXPECT_TRUE(taken);
 }
 
-TEST(RealtimeFunctions, WakeupsThatAreOwed) {
-  rt::OwedWakeups owed;
-  const rt::OwedWakeups::Account account(owed);
+struct Numbered {
+  std::uint64_t sequence = 0;
+};
+
+TEST(RealtimeFunctions, QuickLatest) {
+  rt::QuickLatest<Numbered> latest(Numbered{});
+  std::uint64_t written = 0;
+  const Numbered* found = nullptr;
+  expect_realtime("QuickLatest::write", [&] { latest.write({++written}); });
+  expect_realtime("QuickLatest::fetch", [&] {
+    latest.write({++written});
+    found = latest.fetch();
+  });
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->sequence, written);
+}
+
+/// What is sent to it in batches, or by the other way.
+class Destination final : public rt::Recipient {
+ public:
+  std::size_t receive(const std::byte* data) override {
+    if (const Numbered* const value = passage.receive(data)) last = value->sequence;
+    return sizeof(Numbered);
+  }
+  rt::Passage<Numbered> passage{Numbered{}};
+  std::uint64_t last = 0;
+};
+
+TEST(RealtimeFunctions, LaneAndPassage) {
+  rt::Inbox inbox;
+  rt::Lane lane(inbox);
+  Destination destination;
+  lane.reserve(sizeof(Numbered));
+  lane.prepare();
+  std::uint64_t written = 0;
+  bool gathered = true;
+  expect_realtime("Lane::add", [&] {
+    std::byte* const place = lane.add(destination, sizeof(Numbered));
+    gathered = gathered && destination.passage.write({++written}, place);
+    lane.send();
+    inbox.deliver_all();
+  });
+  expect_realtime("Lane::send", [&] { lane.send(); });
+  expect_realtime("Passage::write",
+                  [&] { gathered = gathered && !destination.passage.write({++written}, nullptr); });
+  EXPECT_TRUE(gathered);
+  const Numbered* found = nullptr;
+  expect_realtime("Passage::fetch", [&] {
+    destination.passage.write({++written}, nullptr);
+    found = destination.passage.fetch();
+  });
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->sequence, written);
+  expect_realtime("Passage::receive", [&] {
+    const Numbered value{++written};
+    std::byte data[sizeof value];
+    std::memcpy(data, &value, sizeof value);
+    destination.receive(data);
+  });
+  EXPECT_EQ(destination.last, written);
+}
+
+TEST(RealtimeFunctions, WhatIsPutOff) {
+  rt::Outbox outbox;
+  const rt::Outbox::Scope sending(outbox);
   rt::Wakeup wakeup;
   bool woken = true;
   expect_realtime("rt::notify_soon", [&] {
     rt::notify_soon(wakeup);
     woken = woken && !wakeup.try_wait();
   });
-  expect_realtime("OwedWakeups::pay", [&] {
+  expect_realtime("Outbox::flush", [&] {
     rt::notify_soon(wakeup);
-    owed.pay();
+    outbox.flush();
     woken = woken && wakeup.try_wait();
   });
-  expect_realtime("rt::pay_owed_wakeups", [&] {
+  expect_realtime("rt::flush_outbox", [&] {
     rt::notify_soon(wakeup);
-    rt::pay_owed_wakeups();
+    rt::flush_outbox();
     woken = woken && wakeup.try_wait();
   });
   EXPECT_TRUE(woken);
+}
+
+TEST(RealtimeFunctions, WhatIsGathered) {
+  rt::Inbox inbox;
+  rt::Lane lane(inbox);
+  Destination destination;
+  lane.reserve(sizeof(Numbered));
+  lane.prepare();
+  rt::Outbox outbox;
+  const rt::Outbox::Scope sending(outbox);
+  rt::Wakeup wakeup;
+  std::uint64_t written = 0;
+  const auto gather = [&] {
+    std::byte* const place = outbox.add(lane, wakeup, destination, sizeof(Numbered));
+    destination.passage.write({++written}, place);
+  };
+  expect_realtime("Outbox::add", [&] {
+    gather();
+    outbox.flush();
+    inbox.deliver_all();
+  });
+  expect_realtime("Outbox::send_gathered", [&] {
+    gather();
+    outbox.send_gathered();
+    inbox.deliver_all();
+  });
+  expect_realtime("rt::send_gathered", [&] {
+    gather();
+    rt::send_gathered();
+    inbox.deliver_all();
+  });
+  EXPECT_EQ(destination.last, written);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -13,8 +14,11 @@
 #include <gtest/gtest.h>
 
 #include "armature/rt/inbox.hpp"
+#include "armature/rt/lane.hpp"
 #include "armature/rt/latest.hpp"
 #include "armature/rt/log.hpp"
+#include "armature/rt/passage.hpp"
+#include "armature/rt/quick_latest.hpp"
 #include "armature/rt/ring.hpp"
 #include "armature/rt/statistics.hpp"
 #include "armature/rt/wakeup.hpp"
@@ -55,6 +59,103 @@ TEST(LatestStress, ValuesAreWholeAndNeverGoBack) {
   EXPECT_TRUE(whole);
   EXPECT_TRUE(forward);
   EXPECT_FALSE(latest.fetch());
+}
+
+/// As Block, with the number that samples have.
+struct NumberedBlock : Block {
+  explicit NumberedBlock(std::uint64_t value) : Block(value), sequence(value) {}
+  std::uint64_t sequence;
+};
+
+TEST(QuickLatestStress, ValuesAreWholeAndNeverGoBack) {
+  QuickLatest<NumberedBlock> latest(NumberedBlock(0));
+  std::thread writer([&] {
+    for (std::uint64_t value = 1; value <= kRounds; ++value) latest.write(NumberedBlock(value));
+  });
+  std::uint64_t seen = 0;
+  bool whole = true;
+  bool forward = true;
+  while (seen < kRounds) {
+    if (const NumberedBlock* const found = latest.fetch()) {
+      whole = whole && found->whole();
+      forward = forward && found->value() > seen;
+      seen = found->value();
+    } else {
+      std::this_thread::yield();
+    }
+  }
+  writer.join();
+  EXPECT_TRUE(whole);
+  EXPECT_TRUE(forward);
+  EXPECT_EQ(latest.fetch(), nullptr);
+}
+
+/// A connection of which values come in batches or, while none is free, by a signal.
+class Connection final : public Recipient, public Signal {
+ public:
+  Connection(Lane& lane, Inbox& inbox) : Signal(&Connection::deliver), lane_(lane), inbox_(inbox) {}
+
+  void write(std::uint64_t value) {
+    const NumberedBlock block(value);
+    if (passage_.write(block, lane_.add(*this, sizeof block))) return;
+    lane_.send();
+    raise(inbox_);
+  }
+
+  std::uint64_t seen = 0;
+  bool whole = true;
+  bool forward = true;
+
+ private:
+  std::size_t receive(const std::byte* data) override {
+    take(passage_.receive(data));
+    return sizeof(NumberedBlock);
+  }
+  static void deliver(Message& message) {
+    auto& self = static_cast<Connection&>(message);
+    self.lower();
+    self.take(self.passage_.fetch());
+  }
+  void take(const NumberedBlock* block) {
+    if (block == nullptr) return;
+    whole = whole && block->whole();
+    forward = forward && block->value() > seen;
+    seen = block->value();
+  }
+
+  Lane& lane_;
+  Inbox& inbox_;
+  Passage<NumberedBlock> passage_{NumberedBlock(0)};
+};
+
+TEST(LaneStress, ValuesAreWholeNeverGoBackAndTheLastComes) {
+  Inbox inbox;
+  Lane lane(inbox);
+  Connection one(lane, inbox);
+  Connection two(lane, inbox);
+  for (int i = 0; i < 4; ++i) lane.reserve(sizeof(NumberedBlock));
+  lane.prepare();
+  Wakeup wakeup;
+  std::thread writer([&] {
+    for (std::uint64_t value = 1; value <= kRounds / 2; ++value) {
+      one.write(value);
+      if (value % 3 == 0) lane.send();
+      two.write(value);
+      if (value % 2 == 0) lane.send();
+      wakeup.notify();
+    }
+    lane.send();
+    wakeup.notify();
+  });
+  while (one.seen < kRounds / 2 || two.seen < kRounds / 2) {
+    wakeup.wait();
+    inbox.deliver_all();
+  }
+  writer.join();
+  for (const Connection* each : {&one, &two}) {
+    EXPECT_TRUE(each->whole);
+    EXPECT_TRUE(each->forward);
+  }
 }
 
 class RingStress : public ::testing::TestWithParam<std::size_t> {};

@@ -3,13 +3,19 @@
 
 // How samples travel where reader and writer do not simply share one place in memory.
 
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "armature/component/input_port.hpp"
 #include "armature/component/port.hpp"
 #include "armature/rt/inbox.hpp"
+#include "armature/rt/lane.hpp"
 #include "armature/rt/latest.hpp"
+#include "armature/rt/outbox.hpp"
+#include "armature/rt/passage.hpp"
+#include "armature/rt/quick_latest.hpp"
 #include "armature/rt/ring.hpp"
 
 namespace armature::component {
@@ -18,15 +24,18 @@ namespace internal {
 
 /// One connection from a writer to a reader. As a signal it tells the reader's thread that there is
 /// something to read.
-class alignas(rt::kCacheLine) ChannelBase : public rt::Signal {
+class alignas(rt::kCacheLine) ChannelBase : protected rt::Recipient, public rt::Signal {
  public:
   /// @param directly   reader and writer share a thread
   /// @param keeps_all  a FIFO: each value counts, not only the newest
-  ChannelBase(InputPortBase& reader, bool directly, bool keeps_all)
+  /// @param lane       for samples that travel in batches
+  ChannelBase(InputPortBase& reader, bool directly, bool keeps_all, LaneTo* lane = nullptr)
       : rt::Signal(&ChannelBase::deliver),
-        reader_(reader),
         directly_(directly),
-        keeps_all_(keeps_all) {}
+        tells_(reader.triggers()),
+        keeps_all_(keeps_all),
+        reader_(reader),
+        lane_(lane) {}
   virtual ~ChannelBase() = default;
 
   InputPortBase& reader() const { return reader_; }
@@ -42,18 +51,35 @@ class alignas(rt::kCacheLine) ChannelBase : public rt::Signal {
   /// There will be a sample to read in the next cycle.
   virtual bool ripens() const { return false; }
 
-  /// Has the reader's handler run: at once if the writer is in the same thread.
-  void tell_reader();
+  /// Pushes and has the reader's handler run, if it has one: at once if the writer is in the same
+  /// thread.
+  /// @thread the writer's
+  virtual rt::PushResult send(const void* sample) {
+    const rt::PushResult result = push(sample);
+    if (tells_) tell_reader();
+    return result;
+  }
 
-  const void* writer = nullptr;     ///< the port at the other end
-  std::uint64_t last_sequence = 0;  ///< that the reader took
+  const void* writer = nullptr;  ///< the port at the other end
+
+ protected:
+  LaneTo& lane() const { return *lane_; }
+  void tell_reader();
+  std::size_t receive(const std::byte*) override { return 0; }
 
  private:
   static void deliver(rt::Message& message);
 
-  InputPortBase& reader_;
   bool directly_;
+  bool tells_;
   bool keeps_all_;
+  InputPortBase& reader_;
+  LaneTo* lane_;
+
+ public:
+  /// That the reader took. From here on the reader writes; at what is above both only look, as long
+  /// as no signal is needed. On one cache line each would wait for the other at every sample.
+  alignas(rt::kCacheLine) std::uint64_t last_sequence = 0;
 };
 
 template <typename T>
@@ -84,6 +110,57 @@ class LatestChannel final : public Channel<T> {
 
  private:
   rt::Latest<Sample<T>> latest_;
+};
+
+/// To a handler in another thread: values travel in batches, many of them as one message.
+template <typename T>
+class BatchedChannel final : public Channel<T> {
+ public:
+  BatchedChannel(InputPort<T>& reader, LaneTo& lane, const Sample<T>& shape)
+      : Channel<T>(reader, false, false, &lane), passage_(shape) {
+    lane.lane.reserve(sizeof(Sample<T>));
+  }
+
+  rt::PushResult push(const void* sample) override {
+    static_cast<void>(passage_.write(this->as_sample(sample), nullptr));
+    return rt::PushResult::kTaken;
+  }
+  rt::PushResult send(const void* sample) override {
+    LaneTo& to = this->lane();
+    std::byte* place = nullptr;
+    if (rt::Outbox::current() == &to.outbox) [[likely]]
+      place = to.outbox.add(to.lane, to.reader.wakeup, *this, sizeof(Sample<T>));
+    if (!passage_.write(this->as_sample(sample), place)) this->tell_reader();
+    return rt::PushResult::kTaken;
+  }
+  const Sample<T>* pop() override { return passage_.fetch(); }
+
+ private:
+  std::size_t receive(const std::byte* data) override {
+    if (const Sample<T>* const sample = passage_.receive(data)) {
+      static_cast<InputPort<T>&>(this->reader()).receive(*this, *sample);
+    }
+    return sizeof(Sample<T>);
+  }
+
+  rt::Passage<Sample<T>> passage_;
+};
+
+/// To an input in another thread that looks for new values itself.
+template <typename T>
+class PolledChannel final : public Channel<T> {
+ public:
+  PolledChannel(InputPortBase& reader, const Sample<T>& shape)
+      : Channel<T>(reader, false, false), latest_(shape) {}
+
+  rt::PushResult push(const void* sample) override {
+    latest_.write(this->as_sample(sample));
+    return rt::PushResult::kTaken;
+  }
+  const Sample<T>* pop() override { return latest_.fetch(); }
+
+ private:
+  rt::QuickLatest<Sample<T>> latest_;
 };
 
 template <typename T, typename Atomics>

@@ -4,9 +4,12 @@
 // What of events and their handlers is not in their header: nothing of this is needed when an event
 // is raised in the thread of its handlers.
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "armature/component/event.hpp"
 #include "armature/rt/entry_pool.hpp"
@@ -21,14 +24,58 @@ Event<Args...>::Event(Component* owner, std::string_view name, std::string_view 
 template <typename... Args>
 Event<Args...>::~Event() = default;
 
+/// Events on their way to handlers of another thread. Each is one message, however many handlers
+/// the thread has, so that it has its place among all others that the raiser sent there.
+template <typename... Args>
+struct Event<Args...>::Queue {
+  struct Entry final : rt::Message {
+    Entry() : rt::Message(&Entry::deliver) {}
+    static void deliver(rt::Message& message) {
+      auto& entry = static_cast<Entry&>(message);
+      const Queue& queue = *entry.queue;
+      const std::tuple<Args...> event = entry.event;
+      entry.in_use.give_back();
+      for (EventHandler<Args...>* handler : queue.handlers) {
+        handler->owner().run_handler(queue.where, [&] {
+          std::apply([&](const Args&... arguments) { handler->handle(queue.where, arguments...); },
+                     event);
+        });
+      }
+    }
+    const Queue* queue = nullptr;
+    std::tuple<Args...> event{};
+    rt::InUse in_use;
+  };
+
+  Queue(ExecutionContext& thread, std::size_t size) : where(thread), capacity(size), entries(size) {
+    for (Entry& entry : entries) entry.queue = this;
+  }
+
+  ExecutionContext& where;
+  std::size_t capacity;
+  std::vector<EventHandler<Args...>*> handlers;
+  rt::EntryPool<Entry> entries;
+};
+
 template <typename... Args>
 void Event<Args...>::subscribe(EventHandlerBase& base) {
   auto& handler = static_cast<EventHandler<Args...>&>(base);
   subscribers_.push_back(&base);
+  handler.bind(*this);
   const bool same_thread = &owner().context() == &base.owner().context();
   const bool direct = same_thread || base.runs_in_raisers_thread();
-  (direct ? direct_ : queued_).push_back(&handler);
-  handler.bind(*this, !direct);
+  (direct ? direct_ : queue_to(base).handlers).push_back(&handler);
+}
+
+/// Handlers of one thread share a queue, but each has as many entries as it declared, and their
+/// order stays: so only with those before it that declared the same.
+template <typename... Args>
+typename Event<Args...>::Queue& Event<Args...>::queue_to(EventHandlerBase& handler) {
+  ExecutionContext& where = handler.owner().context();
+  const auto last = std::find_if(queues_.rbegin(), queues_.rend(),
+                                 [&](const auto& queue) { return &queue->where == &where; });
+  if (last != queues_.rend() && (*last)->capacity == handler.queue_capacity()) return **last;
+  return *queues_.emplace_back(std::make_unique<Queue>(where, handler.queue_capacity()));
 }
 
 template <typename... Args>
@@ -38,38 +85,20 @@ void Event<Args...>::unsubscribe_all() {
   }
   subscribers_.clear();
   direct_.clear();
-  queued_.clear();
+  queues_.clear();
 }
 
-/// Events on their way to another thread. Each is a message, so that it has its place among all
-/// others that the raiser sent there.
 template <typename... Args>
-struct EventHandler<Args...>::Queue {
-  struct Entry final : rt::Message {
-    Entry() : rt::Message(&Entry::deliver) {}
-    static void deliver(rt::Message& message) {
-      auto& entry = static_cast<Entry&>(message);
-      EventHandler& handler = *entry.handler;
-      const std::tuple<Args...> event = entry.event;
-      entry.in_use.give_back();
-      Component& component = handler.owner();
-      component.run_handler(component.context(), [&] {
-        std::apply(
-            [&](const Args&... arguments) { handler.handle(component.context(), arguments...); },
-            event);
-      });
-    }
-    EventHandler* handler = nullptr;
-    std::tuple<Args...> event{};
-    rt::InUse in_use;
-  };
-
-  Queue(EventHandler& handler, std::size_t size) : entries(size) {
-    for (Entry& entry : entries) entry.handler = &handler;
+bool Event<Args...>::enqueue(Queue& queue, const Args&... arguments) {
+  auto* const entry = queue.entries.claim();
+  if (entry == nullptr) {
+    for (EventHandler<Args...>* handler : queue.handlers) handler->count_drop();
+    return false;
   }
-
-  rt::EntryPool<Entry> entries;
-};
+  entry->event = std::tuple<Args...>(arguments...);
+  queue.where.post_soon(*entry);
+  return true;
+}
 
 template <typename... Args>
 EventHandler<Args...>::About::~About() = default;
@@ -96,28 +125,5 @@ EventHandler<Args...>::EventHandler(Component& owner, std::string_view name, std
 
 template <typename... Args>
 EventHandler<Args...>::~EventHandler() = default;
-
-template <typename... Args>
-void EventHandler<Args...>::bind(Event<Args...>& event, bool queued) {
-  about().source = &event;
-  if (queued) about().queue = std::make_unique<Queue>(*this, queue_capacity());
-}
-template <typename... Args>
-void EventHandler<Args...>::unbind() {
-  about().source = nullptr;
-  about().queue.reset();
-}
-
-template <typename... Args>
-bool EventHandler<Args...>::enqueue(const Args&... arguments) {
-  auto* const entry = about().queue->entries.claim();
-  if (entry == nullptr) {
-    count_drop();
-    return false;
-  }
-  entry->event = std::tuple<Args...>(arguments...);
-  owner().context().post_soon(*entry);
-  return true;
-}
 
 }  // namespace armature::component

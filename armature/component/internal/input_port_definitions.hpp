@@ -66,15 +66,19 @@ void InputPort<T>::set_shape(const T& shape) {
 template <typename T>
 void InputPort<T>::drain(internal::ChannelBase& base) {
   auto& channel = static_cast<internal::Channel<T>&>(base);
-  Component& component = owner();
-  ExecutionContext& where = component.context();
   // What is written from now on has its own message, behind those that are on their way already.
   const std::uint64_t last = channel.newest();
   while (const Sample<T>* sample = channel.pop()) {
-    take(channel, *sample);
-    component.run_handler(where, [this, &where] { arrived(where); });
+    receive(channel, *sample);
     if (channel.last_sequence >= last) return;
   }
+}
+
+template <typename T>
+void InputPort<T>::receive(internal::Channel<T>& channel, const Sample<T>& sample) {
+  take(channel, sample);
+  ExecutionContext& where = owner().context();
+  owner().run_handler(where, [this, &where] { arrived(where); });
 }
 
 template <typename T>

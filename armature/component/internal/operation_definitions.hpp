@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "armature/component/operation.hpp"
+#include "armature/rt/outbox.hpp"
 
 namespace armature::component {
 
@@ -85,11 +86,13 @@ struct OperationCaller<R(Args...)>::Record final : CallRecord<R> {
   static void deliver(rt::Message& message) {
     auto& record = static_cast<Record&>(message);
     if (!record.try_begin()) return;
-    record.finish(std::apply(
+    CallResult<R> result = std::apply(
         [&record](const std::decay_t<Args>&... given) {
           return record.operation.execute_by_message(given...);
         },
-        record.arguments));
+        record.arguments);
+    rt::send_gathered();  // what the operation wrote is on its way before its caller goes on
+    record.finish(std::move(result));
   }
   Operation<R(Args...)>& operation;
   std::tuple<std::decay_t<Args>...> arguments{};

@@ -74,6 +74,16 @@ std::unique_ptr<internal::ChannelBase> OutputPort<T>::make_channel(InputPortBase
     return std::make_unique<internal::DelayChannel<T>>(input, sample_);
   }
   if (policy.kind == ConnectionPolicy::Kind::kLatest) {
+    if constexpr (internal::is_small<T>) {
+      if (!same_thread && !input.triggers()) {
+        return std::make_unique<internal::PolledChannel<T>>(input, sample_);
+      }
+      if (!same_thread) {
+        LaneTo& lane = owner().context().lane_to(input.owner().context());
+        auto& reader = static_cast<InputPort<T>&>(input);
+        return std::make_unique<internal::BatchedChannel<T>>(reader, lane, sample_);
+      }
+    }
     return std::make_unique<internal::LatestChannel<T>>(input, same_thread, sample_);
   }
   if (same_thread) {

@@ -28,6 +28,11 @@ class TestThread {
     (components.assign_context(context), ...);
   }
 
+  /// Its connections are made: from now on data may leave it in batches.
+  void prepare_lanes() {
+    for (const auto& lane : context.lanes) lane->lane.prepare();
+  }
+
   /// Handles all messages, also those that their handling causes.
   void deliver() {
     while (!context.inbox.empty()) context.inbox.deliver_all();
