@@ -63,7 +63,7 @@ TEST(LatestStress, ValuesAreWholeAndNeverGoBack) {
 
 /// As Block, with the number that samples have.
 struct NumberedBlock : Block {
-  explicit NumberedBlock(std::uint64_t value) : Block(value), sequence(value) {}
+  explicit NumberedBlock(std::uint64_t value = 0) : Block(value), sequence(value) {}
   std::uint64_t sequence;
 };
 
