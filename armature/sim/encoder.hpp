@@ -12,7 +12,8 @@ class Encoder {
   /// @param gear_ratio       turns of the motor for one of the joint
   Encoder(double counts_per_turn, double gear_ratio);
 
-  /// The count where the joint is, 0 at position 0.
+  /// The count where the joint is. Position 0 is in the middle of count 0, so that a joint at rest
+  /// there does not flicker.
   /// @param position  [rad] of the joint
   /// @rt nonblocking, no allocation
   std::int64_t count(double position) const;

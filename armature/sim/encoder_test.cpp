@@ -15,17 +15,19 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 TEST(Encoder, CountsTheTurnsOfTheMotor) {
   const Encoder encoder(2000.0, 100.0);
   EXPECT_EQ(encoder.count(0.0), 0);
-  EXPECT_EQ(encoder.count(kTurn / 100.0 * 1.0001), 2000);
-  EXPECT_EQ(encoder.count(kTurn * 0.25 + 1e-9), 50'000);
+  EXPECT_EQ(encoder.count(kTurn / 100.0), 2000);
+  EXPECT_EQ(encoder.count(kTurn * 0.25), 50'000);
 }
 
 TEST(Encoder, ACountIsTheSameStepInBothDirections) {
   const Encoder encoder(2000.0, 100.0);
   const double count = kTurn / 200'000.0;
-  EXPECT_EQ(encoder.count(0.99 * count), 0);
-  EXPECT_EQ(encoder.count(1.01 * count), 1);
-  EXPECT_EQ(encoder.count(-0.01 * count), -1);
-  EXPECT_EQ(encoder.count(-1.01 * count), -2);
+  EXPECT_EQ(encoder.count(0.49 * count), 0);
+  EXPECT_EQ(encoder.count(0.51 * count), 1);
+  EXPECT_EQ(encoder.count(1.51 * count), 2);
+  EXPECT_EQ(encoder.count(-0.49 * count), 0);
+  EXPECT_EQ(encoder.count(-0.51 * count), -1);
+  EXPECT_EQ(encoder.count(-1.51 * count), -2);
 }
 
 TEST(Encoder, DisplacementsAddUpToThePositionHoweverManyThereAre) {
