@@ -32,6 +32,14 @@ TEST(AicFirmware, TellsThatItStartedAndThenEvery100MillisecondsThatItLives) {
   EXPECT_EQ(bench.take_answers().back(), "382#0000010100") << "uptime in seconds";
 }
 
+TEST(AicFirmware, UptimeStaysAtItsLargestNumber) {
+  Bench bench;
+  bench.bus.advance_to(base::Time(70'000s));
+  bench.card.run_timers();
+  bench.advance(1ms);
+  EXPECT_EQ(bench.take_answers().front(), "381#000001FFFF");
+}
+
 TEST(AicFirmware, AnswersARequest90MicrosecondsAfterItsEnd) {
   Bench bench;
   bench.joint.counts = 0x01020304;
