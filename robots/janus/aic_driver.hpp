@@ -110,7 +110,7 @@ class AicDriver {
 
   /// Asks for the sensors: of the first card, or of all at once. What came since the last reading
   /// is taken first. A reading that still waits is given up. Asks a bus that is off to come back.
-  /// @return kWaiting, or kNoBus
+  /// @return kWaiting; kNoBus; kIncomplete if the bus takes no frame now
   AicReading begin_reading(base::Time now);
   /// Takes what has come, asks the next card, gives up one that does not answer in time.
   AicReading poll(base::Time now);

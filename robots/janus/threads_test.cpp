@@ -7,17 +7,17 @@
 
 #include "armature/rt/wakeup.hpp"
 #include "robots/janus/aic_driver.hpp"
-#include "robots/janus/janus_simulation.hpp"
+#include "robots/janus/simulation.hpp"
 
 namespace armature::janus {
 namespace {
 
 using namespace std::chrono_literals;
 
-TEST(JanusThreads, AHostInAnotherThreadThanTheRobotGetsAllItsAnswers) {
+TEST(Threads, AHostInAnotherThreadThanTheRobotGetsAllItsAnswers) {
   std::atomic<base::Time> clock{base::Time{}};
-  auto simulation = JanusSimulation::make({.plant = {.urdf_file = ROBOT_FOLDER "/janus.urdf"},
-                                           .clock = [&clock] { return clock.load(); }})
+  auto simulation = Simulation::make({.head = {.urdf_file = ROBOT_FOLDER "/janus.urdf"},
+                                      .clock = [&clock] { return clock.load(); }})
                         .value();
   can::VirtualStation& host = simulation->bus().add_station("host");
   rt::Wakeup news;

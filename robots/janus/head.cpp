@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robots/janus/janus_plant.hpp"
+#include "robots/janus/head.hpp"
 
 #include <optional>
 #include <utility>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<const char*, kJoints> kJointNames{"joint1", "joint2"};
 constexpr std::size_t kJointWithBrake = 1;
 
-sim::Plant::Options options_for(const JanusPlant::Config& config) {
+sim::Plant::Options options_for(const Head::Config& config) {
   constexpr double kArmature = kMotor.rotor_inertia * kMotor.gear_ratio * kMotor.gear_ratio;
   sim::Plant::Options options;
   options.inner_step = config.inner_step;
@@ -34,9 +34,9 @@ base::Result<void> check_joints(const sim::Plant& plant, const std::string& file
 }  // namespace
 
 /// One joint, as its card has it.
-class JanusPlant::Wiring final : public AicWiring {
+class Head::Wiring final : public AicWiring {
  public:
-  Wiring(JanusPlant& head, std::size_t joint)
+  Wiring(Head& head, std::size_t joint)
       : head_(head),
         joint_(joint),
         motor_(sim::Motor::make({kMotor, kSupplyVoltage}).value()),
@@ -72,7 +72,7 @@ class JanusPlant::Wiring final : public AicWiring {
   double torque(double velocity) const { return motor_.torque(velocity); }
 
  private:
-  JanusPlant& head_;
+  Head& head_;
   std::size_t joint_;
   sim::Motor motor_;
   sim::Encoder encoder_;
@@ -80,38 +80,37 @@ class JanusPlant::Wiring final : public AicWiring {
   std::optional<sim::Brake> brake_;
 };
 
-base::Result<std::unique_ptr<JanusPlant>> JanusPlant::load(const Config& config) {
+base::Result<std::unique_ptr<Head>> Head::load(const Config& config) {
   auto plant = sim::Plant::load(config.urdf_file, options_for(config));
   return assemble(std::move(plant), config);
 }
 
-base::Result<std::unique_ptr<JanusPlant>> JanusPlant::parse(const std::string& urdf,
-                                                            const Config& config) {
+base::Result<std::unique_ptr<Head>> Head::parse(const std::string& urdf, const Config& config) {
   return assemble(sim::Plant::parse(urdf, config.urdf_file, options_for(config)), config);
 }
 
-base::Result<std::unique_ptr<JanusPlant>> JanusPlant::assemble(base::Result<sim::Plant> plant,
-                                                               const Config& config) {
+base::Result<std::unique_ptr<Head>> Head::assemble(base::Result<sim::Plant> plant,
+                                                   const Config& config) {
   if (!plant) return base::Error{plant.error()};
   if (const auto checked = check_joints(plant.value(), config.urdf_file); !checked) {
     return base::Error{checked.error()};
   }
-  return std::unique_ptr<JanusPlant>(new JanusPlant(std::move(plant).value(), config));
+  return std::unique_ptr<Head>(new Head(std::move(plant).value(), config));
 }
 
-JanusPlant::JanusPlant(sim::Plant plant, const Config& config) : plant_(std::move(plant)) {
+Head::Head(sim::Plant plant, const Config& config) : plant_(std::move(plant)) {
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     plant_.set_state(joint, config.initial_position[joint], 0.0);
     wirings_[joint] = std::make_unique<Wiring>(*this, joint);
   }
 }
 
-JanusPlant::~JanusPlant() = default;
+Head::~Head() = default;
 
-AicWiring& JanusPlant::wiring(std::size_t joint) { return *wirings_[joint]; }
+AicWiring& Head::wiring(std::size_t joint) { return *wirings_[joint]; }
 
 /// The back-EMF makes the torque a matter of each inner step.
-void JanusPlant::advance_to(base::Time now) {
+void Head::advance_to(base::Time now) {
   while (base::Time(plant_.time() + plant_.inner_step()) <= now) {
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
       plant_.set_effort(joint, wirings_[joint]->torque(plant_.velocity(joint)));
@@ -121,15 +120,16 @@ void JanusPlant::advance_to(base::Time now) {
 }
 
 /// Between two inner steps a joint moves on with its velocity.
-double JanusPlant::position(std::size_t joint, base::Time now) {
+double Head::position(std::size_t joint, base::Time now) {
   advance_to(now);
+  if (status() == sim::PlantStatus::kDiverged) return plant_.position(joint);
   const std::chrono::duration<double> since = now - base::Time(plant_.time());
   return plant_.position(joint) + plant_.velocity(joint) * since.count();
 }
 
-double JanusPlant::velocity(std::size_t joint, base::Time now) {
+double Head::velocity(std::size_t joint, base::Time now) {
   advance_to(now);
-  return plant_.velocity(joint);
+  return status() == sim::PlantStatus::kDiverged ? 0.0 : plant_.velocity(joint);
 }
 
 }  // namespace armature::janus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robots/janus/janus_simulation.hpp"
+#include "robots/janus/simulation.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -29,9 +29,9 @@ constexpr base::Duration kPeriod = 10ms;
 /// The robot with a host's station, and what was on the wire.
 struct Robot {
   explicit Robot(const can::VirtualBus::Clock& clock = {})
-      : simulation(JanusSimulation::make(
-                       {.plant = {.urdf_file = ROBOT_FOLDER "/janus.urdf"}, .clock = clock})
-                       .value()) {
+      : simulation(
+            Simulation::make({.head = {.urdf_file = ROBOT_FOLDER "/janus.urdf"}, .clock = clock})
+                .value()) {
     base::Diagnostics diagnostics;
     can::BusOptions options;
     options.on_news = [this] {
@@ -51,7 +51,7 @@ struct Robot {
     return sum;
   }
 
-  std::unique_ptr<JanusSimulation> simulation;
+  std::unique_ptr<Simulation> simulation;
   can::VirtualStation& host = simulation->bus().add_station("host");
   std::function<void()> on_news;
   std::vector<can::WireEvent> log;
@@ -114,7 +114,7 @@ struct Monolith : Robot {
 
 // ---- Times of a cycle
 
-TEST(JanusCycle, SequentiallyItIsTheTimeOfItsFramesAnd90MicrosecondsForEachCard) {
+TEST(Cycle, SequentiallyItIsTheTimeOfItsFramesAnd90MicrosecondsForEachCard) {
   Driven robot(AicMode::kSequential);
   for (int i = 1; i <= 100; ++i) {
     robot.cycle(i);
@@ -126,7 +126,7 @@ TEST(JanusCycle, SequentiallyItIsTheTimeOfItsFramesAnd90MicrosecondsForEachCard)
   RecordProperty("sequential_us", static_cast<int>(robot.cycle_time() / 1us));
 }
 
-TEST(JanusCycle, SynchronouslyItIsTheTimeOfItsFramesAnd90MicrosecondsOnce) {
+TEST(Cycle, SynchronouslyItIsTheTimeOfItsFramesAnd90MicrosecondsOnce) {
   Driven robot(AicMode::kSynchronous);
   for (int i = 1; i <= 100; ++i) {
     robot.cycle(i);
@@ -138,7 +138,7 @@ TEST(JanusCycle, SynchronouslyItIsTheTimeOfItsFramesAnd90MicrosecondsOnce) {
   RecordProperty("synchronous_us", static_cast<int>(robot.cycle_time() / 1us));
 }
 
-TEST(JanusCycle, SequentiallyItIsNoLongerThanThatOfAMonolithicLoop) {
+TEST(Cycle, SequentiallyItIsNoLongerThanThatOfAMonolithicLoop) {
   Driven robot(AicMode::kSequential);
   Monolith monolith;
   monolith.advance(1ms);
@@ -164,7 +164,7 @@ TEST(JanusCycle, SequentiallyItIsNoLongerThanThatOfAMonolithicLoop) {
 
 // ---- The robot as a whole
 
-TEST(JanusSimulation, TheDriversCountIsThatOfTheEncoderAtTheLatch) {
+TEST(Simulation, TheDriversCountIsThatOfTheEncoderAtTheLatch) {
   for (const AicMode mode : {AicMode::kSequential, AicMode::kSynchronous}) {
     Driven robot(mode);
     const can::Frame latch = mode == AicMode::kSequential ? request_frame(1) : sync_frame(0);
@@ -174,7 +174,7 @@ TEST(JanusSimulation, TheDriversCountIsThatOfTheEncoderAtTheLatch) {
     robot.simulation->bus().set_tap([&](const can::WireEvent& event) {
       robot.log.push_back(event);
       if (event.frame.id != latch.id) return;
-      last = encoder.count(robot.simulation->plant().position(kPan, event.end));
+      last = encoder.count(robot.simulation->head().position(kPan, event.end));
       if (!first) first = last;
     });
     for (int i = 1; i <= 200; ++i) {
@@ -187,30 +187,30 @@ TEST(JanusSimulation, TheDriversCountIsThatOfTheEncoderAtTheLatch) {
   }
 }
 
-TEST(JanusSimulation, TheWatchdogStopsAMovingJointWhenTheHostGoesSilent) {
+TEST(Simulation, TheWatchdogStopsAMovingJointWhenTheHostGoesSilent) {
   Driven robot(AicMode::kSynchronous);
   robot.driver.set_motor(kTilt, 0.4);
   for (int i = 0; i < 20; ++i) {
     robot.driver.send_motors();
     robot.advance(kPeriod);
   }
-  auto& plant = robot.simulation->plant();
+  auto& head = robot.simulation->head();
   const base::Time last = robot.log.back().end;
   robot.simulation->advance_to(last + 99ms);
-  EXPECT_GT(plant.velocity(kTilt, robot.now()), 0.5);
+  EXPECT_GT(head.velocity(kTilt, robot.now()), 0.5);
   EXPECT_EQ(robot.simulation->card(kTilt).state(), AicState::kOn);
   robot.simulation->advance_to(last + 100ms);
   EXPECT_EQ(robot.simulation->card(kTilt).state(), AicState::kWatchdog);
   robot.advance(50ms);
-  const double stopped = plant.position(kTilt, robot.now());
-  EXPECT_NEAR(plant.velocity(kTilt, robot.now()), 0.0, 1e-6);
+  const double stopped = head.position(kTilt, robot.now());
+  EXPECT_NEAR(head.velocity(kTilt, robot.now()), 0.0, 1e-6);
   ASSERT_TRUE(robot.driver.card(kTilt).emergency);
   EXPECT_EQ(robot.driver.card(kTilt).emergency->code, AicEmergency::kWatchdog);
   robot.advance(5s);
-  EXPECT_NEAR(plant.position(kTilt, robot.now()), stopped, 1e-6) << "held against its weight";
+  EXPECT_NEAR(head.position(kTilt, robot.now()), stopped, 1e-6) << "held against its weight";
 }
 
-TEST(JanusSimulation, AFailingSupplyStopsItsJointAndLeavesTheOtherAlone) {
+TEST(Simulation, AFailingSupplyStopsItsJointAndLeavesTheOtherAlone) {
   Driven robot(AicMode::kSynchronous);
   for (int i = 1; i <= 20; ++i) {
     robot.driver.set_motor(kPan, 0.2);
@@ -219,9 +219,9 @@ TEST(JanusSimulation, AFailingSupplyStopsItsJointAndLeavesTheOtherAlone) {
     if (i == 10) robot.simulation->card(kTilt).begin(AicFault::kSupply);
     robot.advance(kPeriod);
   }
-  auto& plant = robot.simulation->plant();
-  EXPECT_NEAR(plant.velocity(kTilt, robot.now()), 0.0, 1e-6);
-  EXPECT_GT(plant.velocity(kPan, robot.now()), 0.3);
+  auto& head = robot.simulation->head();
+  EXPECT_NEAR(head.velocity(kTilt, robot.now()), 0.0, 1e-6);
+  EXPECT_GT(head.velocity(kPan, robot.now()), 0.3);
   EXPECT_EQ(robot.driver.card(kTilt).emergency->code, AicEmergency::kSupply);
 }
 
@@ -244,26 +244,26 @@ std::string run_with_faults(base::Duration step) {
     if (i == 50) robot.simulation->card(kPan).end(AicFault::kSilent);
     if (i == 70) robot.simulation->card(kTilt).begin(AicFault::kOverCurrent);
   }
-  auto& plant = robot.simulation->plant();
+  auto& head = robot.simulation->head();
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     char position[64];
-    std::snprintf(position, sizeof(position), "%a\n", plant.position(joint, robot.now()));
+    std::snprintf(position, sizeof(position), "%a\n", head.position(joint, robot.now()));
     text += position;
   }
   return text;
 }
 
-TEST(JanusSimulation, TwoRunsAreEqualToTheBit) {
+TEST(Simulation, TwoRunsAreEqualToTheBit) {
   const std::string run = run_with_faults(kPeriod);
   EXPECT_GT(run.size(), 10'000u);
   EXPECT_EQ(run, run_with_faults(kPeriod));
 }
 
-TEST(JanusSimulation, HowOftenItIsAdvancedChangesNothing) {
+TEST(Simulation, HowOftenItIsAdvancedChangesNothing) {
   EXPECT_EQ(run_with_faults(kPeriod), run_with_faults(100us));
 }
 
-TEST(JanusSimulation, RunsOnAClockThatIsNotItsOwn) {
+TEST(Simulation, RunsOnAClockThatIsNotItsOwn) {
   // As in real time: the host sends by a clock that is ahead of what was simulated.
   base::Time clock{};
   Robot robot([&clock] { return clock; });
@@ -284,7 +284,7 @@ TEST(JanusSimulation, RunsOnAClockThatIsNotItsOwn) {
   EXPECT_EQ(driver.card(0).counters, AicCounters{});
 }
 
-TEST(JanusSimulation, AllocatesNothingWhileItRuns) {
+TEST(Simulation, AllocatesNothingWhileItRuns) {
   Driven robot(AicMode::kSynchronous);
   robot.keeps_log = false;
   testing::RealtimeGuard guard;

@@ -11,7 +11,7 @@
 #include "armature/base/time.hpp"
 #include "armature/can/virtual_bus.hpp"
 #include "robots/janus/aic_firmware.hpp"
-#include "robots/janus/janus_plant.hpp"
+#include "robots/janus/head.hpp"
 
 namespace armature::janus {
 
@@ -20,10 +20,10 @@ namespace armature::janus {
 ///
 /// Time passes in `advance_to` alone: in simulated time two equal runs are equal to the bit; in
 /// real time a thread calls it with the time that it is, often enough for the frames' times.
-class JanusSimulation {
+class Simulation {
  public:
   struct Config {
-    JanusPlant::Config plant;
+    Head::Config head;
     /// The time that it is, asked when a host sends; none: how far the simulation has come. In real
     /// time the application's clock, which any thread may ask.
     can::VirtualBus::Clock clock;
@@ -31,9 +31,9 @@ class JanusSimulation {
   };
 
   /// With both cards powered on at time 0.
-  static base::Result<std::unique_ptr<JanusSimulation>> make(const Config& config);
-  JanusSimulation(const JanusSimulation&) = delete;
-  JanusSimulation& operator=(const JanusSimulation&) = delete;
+  static base::Result<std::unique_ptr<Simulation>> make(const Config& config);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   /// Everything up to and including `until` happens: frames, the cards' timers, the head's motion.
   /// @rt nonblocking, no allocation
@@ -47,14 +47,14 @@ class JanusSimulation {
 
   can::VirtualBus& bus() { return bus_; }
   AicFirmware& card(std::size_t joint) { return *cards_[joint]; }
-  JanusPlant& plant() { return *plant_; }
+  Head& head() { return *head_; }
 
  private:
-  JanusSimulation(std::unique_ptr<JanusPlant> plant, const Config& config);
+  Simulation(std::unique_ptr<Head> head, const Config& config);
 
   base::Time next_event();
 
-  std::unique_ptr<JanusPlant> plant_;
+  std::unique_ptr<Head> head_;
   can::VirtualBus bus_;
   std::array<std::unique_ptr<AicFirmware>, kJoints> cards_;
 };

@@ -35,7 +35,7 @@ constexpr control::DcMotor::Config kMotor{.resistance_ohm = 2.0,
 /// has none, so there the brake output of its card leads nowhere.
 ///
 /// Time passes where it is asked for: each look at a joint brings the head to the time of the look.
-class JanusPlant {
+class Head {
  public:
   struct Config {
     std::string urdf_file;  ///< robots/janus/janus.urdf
@@ -43,13 +43,12 @@ class JanusPlant {
     std::array<double, kJoints> initial_position{};  ///< [rad]
   };
 
-  static base::Result<std::unique_ptr<JanusPlant>> load(const Config& config);
+  static base::Result<std::unique_ptr<Head>> load(const Config& config);
   /// @param urdf  the text of the URDF, instead of the file
-  static base::Result<std::unique_ptr<JanusPlant>> parse(const std::string& urdf,
-                                                         const Config& config);
-  JanusPlant(const JanusPlant&) = delete;
-  JanusPlant& operator=(const JanusPlant&) = delete;
-  ~JanusPlant();
+  static base::Result<std::unique_ptr<Head>> parse(const std::string& urdf, const Config& config);
+  Head(const Head&) = delete;
+  Head& operator=(const Head&) = delete;
+  ~Head();
 
   /// Lets time pass until `now`; a time in the past changes nothing.
   /// @rt nonblocking, no allocation
@@ -70,9 +69,9 @@ class JanusPlant {
  private:
   class Wiring;
 
-  JanusPlant(sim::Plant plant, const Config& config);
-  static base::Result<std::unique_ptr<JanusPlant>> assemble(base::Result<sim::Plant> plant,
-                                                            const Config& config);
+  Head(sim::Plant plant, const Config& config);
+  static base::Result<std::unique_ptr<Head>> assemble(base::Result<sim::Plant> plant,
+                                                      const Config& config);
 
   sim::Plant plant_;
   std::array<std::unique_ptr<Wiring>, kJoints> wirings_;

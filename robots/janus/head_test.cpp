@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robots/janus/janus_plant.hpp"
+#include "robots/janus/head.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -32,10 +32,8 @@ constexpr double kPanInertia = 0.004 + 0.003 + 1.1 * 0.08 * 0.08 + kRotor;  // w
 constexpr double kTorqueOfVolt = 0.035 * 100.0 / 2.0;                       // at rest
 constexpr double kBackEmf = 0.035 * 100.0;
 
-using Head = std::unique_ptr<JanusPlant>;
-
-Head make(const JanusPlant::Config& config = {.urdf_file = kUrdf}) {
-  auto made = JanusPlant::load(config);
+std::unique_ptr<Head> make(const Head::Config& config = {.urdf_file = kUrdf}) {
+  auto made = Head::load(config);
   EXPECT_TRUE(made.ok()) << made.error();
   return std::move(made).value();
 }
@@ -48,17 +46,17 @@ std::string without(std::string text, const std::string& what) {
 }
 
 /// The same head whose joints turn without friction.
-Head make_frictionless(const JanusPlant::Config& config = {.urdf_file = kUrdf}) {
+std::unique_ptr<Head> make_frictionless(const Head::Config& config = {.urdf_file = kUrdf}) {
   std::ostringstream urdf;
   urdf << std::ifstream(kUrdf).rdbuf();
-  auto made = JanusPlant::parse(
-      without(urdf.str(), R"(<dynamics damping="0.02" friction="0.08"/>)"), config);
+  auto made =
+      Head::parse(without(urdf.str(), R"(<dynamics damping="0.02" friction="0.08"/>)"), config);
   EXPECT_TRUE(made.ok()) << made.error();
   return std::move(made).value();
 }
 
-TEST(JanusPlant, TheFreeFallOfTheTiltJointTurnsHeightIntoSpeed) {
-  const Head head = make_frictionless({.urdf_file = kUrdf, .initial_position = {0.0, 3.0}});
+TEST(Head, TheFreeFallOfTheTiltJointTurnsHeightIntoSpeed) {
+  const auto head = make_frictionless({.urdf_file = kUrdf, .initial_position = {0.0, 3.0}});
   head->wiring(kTilt).release_brake(base::Time{});
   for (auto now = base::Time(10ms); head->position(kTilt, now) < 4.4; now += 10ms) {
     const double height = std::sin(head->position(kTilt, now)) - std::sin(3.0);
@@ -68,16 +66,16 @@ TEST(JanusPlant, TheFreeFallOfTheTiltJointTurnsHeightIntoSpeed) {
   }
 }
 
-TEST(JanusPlant, WithoutItsBrakeTheLevelTiltJointBeginsToFallAsItsInertiaLetsIt) {
-  const Head head = make();
+TEST(Head, WithoutItsBrakeTheLevelTiltJointBeginsToFallAsItsInertiaLetsIt) {
+  const auto head = make();
   head->wiring(kTilt).release_brake(base::Time{});
   const double acceleration = (kWeight - 0.08) / kTiltInertia;
   EXPECT_NEAR(head->velocity(kTilt, base::Time(10ms)), -acceleration * 0.01,
               0.01 * acceleration * 0.01);
 }
 
-TEST(JanusPlant, TheBrakeHoldsTheTiltJointUnderItsLoadAndAgainstTheFullMotor) {
-  const Head head = make();
+TEST(Head, TheBrakeHoldsTheTiltJointUnderItsLoadAndAgainstTheFullMotor) {
+  const auto head = make();
   EXPECT_NEAR(head->position(kTilt, base::Time(10s)), 0.0, 1e-7);
   head->wiring(kTilt).drive(1.0, base::Time(10s));
   EXPECT_NEAR(head->position(kTilt, base::Time(20s)), 0.0, 1e-6);
@@ -86,15 +84,15 @@ TEST(JanusPlant, TheBrakeHoldsTheTiltJointUnderItsLoadAndAgainstTheFullMotor) {
   EXPECT_EQ(head->wiring(kTilt).take_counts(base::Time(30s)), 0) << "not one count";
 }
 
-TEST(JanusPlant, TheJointWithoutBrakeDoesNotCareForItsCommands) {
-  const Head head = make();
+TEST(Head, TheJointWithoutBrakeDoesNotCareForItsCommands) {
+  const auto head = make();
   head->wiring(kPan).apply_brake(base::Time{});
   head->wiring(kPan).drive(1.0, base::Time{});
   EXPECT_GT(head->position(kPan, base::Time(500ms)), 0.5);
 }
 
-TEST(JanusPlant, AVoltageBelowStaticFrictionDoesNotMoveAJoint) {
-  const Head head = make();
+TEST(Head, AVoltageBelowStaticFrictionDoesNotMoveAJoint) {
+  const auto head = make();
   const double most = 0.08 / kTorqueOfVolt / kSupplyVoltage;
   head->wiring(kPan).drive(0.99 * most, base::Time{});
   EXPECT_NEAR(head->position(kPan, base::Time(10s)), 0.0, 1e-8);
@@ -102,22 +100,22 @@ TEST(JanusPlant, AVoltageBelowStaticFrictionDoesNotMoveAJoint) {
   EXPECT_GT(head->position(kPan, base::Time(20s)), 1e-4);
 }
 
-TEST(JanusPlant, AMotorReachesTheSteadySpeedOfItsVoltage) {
+TEST(Head, AMotorReachesTheSteadySpeedOfItsVoltage) {
   // Where the motor's torque is that of friction: k N (V - k N w) / R = 0.08 + 0.02 w.
   constexpr double kVoltage = 3.0;
   constexpr double kSpeed = (kTorqueOfVolt * kVoltage - 0.08) / (kTorqueOfVolt * kBackEmf + 0.02);
-  const Head head = make();
+  const auto head = make();
   head->wiring(kPan).drive(kVoltage / kSupplyVoltage, base::Time{});
   EXPECT_NEAR(head->velocity(kPan, base::Time(1s)), kSpeed, 1e-6);
   EXPECT_NEAR(head->wiring(kPan).motor_current(base::Time(1s)),
               (kVoltage - kBackEmf * kSpeed) / 2.0, 1e-6);
 }
 
-TEST(JanusPlant, AMotorComesToSpeedWithItsMechanicalTimeConstant) {
+TEST(Head, AMotorComesToSpeedWithItsMechanicalTimeConstant) {
   constexpr double kDamping = kTorqueOfVolt * kBackEmf + 0.02;
   constexpr double kVoltage = 3.0;
   constexpr double kSpeed = (kTorqueOfVolt * kVoltage - 0.08) / kDamping;
-  const Head head = make();
+  const auto head = make();
   head->wiring(kPan).drive(kVoltage / kSupplyVoltage, base::Time{});
   for (auto now = base::Time(5ms); now <= base::Time(100ms); now += 5ms) {
     const double t = std::chrono::duration<double>(now.time_since_epoch()).count();
@@ -126,9 +124,9 @@ TEST(JanusPlant, AMotorComesToSpeedWithItsMechanicalTimeConstant) {
   }
 }
 
-TEST(JanusPlant, AMotorThatIsOffDoesNotBrakeOneWithoutVoltageDoes) {
+TEST(Head, AMotorThatIsOffDoesNotBrakeOneWithoutVoltageDoes) {
   const auto speed_after = [](auto&& stop) {
-    const Head head = make();
+    const auto head = make();
     head->wiring(kPan).drive(0.25, base::Time{});
     head->advance_to(base::Time(500ms));
     stop(head->wiring(kPan));
@@ -141,8 +139,8 @@ TEST(JanusPlant, AMotorThatIsOffDoesNotBrakeOneWithoutVoltageDoes) {
   EXPECT_NEAR(shorted, 0.0, 0.01);
 }
 
-TEST(JanusPlant, TheEncodersCountTwoThousandPerTurnOfTheMotor) {
-  const Head head = make({.urdf_file = kUrdf, .initial_position = {1.0, 0.0}});
+TEST(Head, TheEncodersCountTwoThousandPerTurnOfTheMotor) {
+  const auto head = make({.urdf_file = kUrdf, .initial_position = {1.0, 0.0}});
   AicWiring& wiring = head->wiring(kPan);
   EXPECT_EQ(wiring.take_counts(base::Time{}), 0) << "they are incremental";
   wiring.drive(0.25, base::Time{});
@@ -154,9 +152,9 @@ TEST(JanusPlant, TheEncodersCountTwoThousandPerTurnOfTheMotor) {
   EXPECT_NEAR(static_cast<double>(counts), turned / (2.0 * std::numbers::pi) * 200'000.0, 1.0);
 }
 
-TEST(JanusPlant, TheIndexSwitchIsClosedAroundZero) {
+TEST(Head, TheIndexSwitchIsClosedAroundZero) {
   const auto closed_at = [](double position) {
-    const Head head = make({.urdf_file = kUrdf, .initial_position = {position, position}});
+    const auto head = make({.urdf_file = kUrdf, .initial_position = {position, position}});
     return head->wiring(kTilt).index_closed(base::Time{});
   };
   EXPECT_TRUE(closed_at(0.0));
@@ -166,26 +164,26 @@ TEST(JanusPlant, TheIndexSwitchIsClosedAroundZero) {
   EXPECT_FALSE(closed_at(0.0101));
 }
 
-TEST(JanusPlant, TheJointsStopAtTheEndsOfTheirRange) {
-  const Head head = make();
+TEST(Head, TheJointsStopAtTheEndsOfTheirRange) {
+  const auto head = make();
   head->wiring(kPan).drive(0.3, base::Time{});
   EXPECT_NEAR(head->position(kPan, base::Time(10s)), 4.5, 0.005);
   head->wiring(kPan).drive(-0.3, base::Time(10s));
   EXPECT_NEAR(head->position(kPan, base::Time(20s)), -0.5, 0.005);
 }
 
-TEST(JanusPlant, BetweenInnerStepsAJointMovesOn) {
-  const Head head = make();
+TEST(Head, BetweenInnerStepsAJointMovesOn) {
+  const auto head = make();
   head->wiring(kPan).drive(0.25, base::Time{});
   const double before = head->position(kPan, base::Time(500ms + 99us));
   const double after = head->position(kPan, base::Time(500ms + 100us));
   EXPECT_NEAR(after - before, head->velocity(kPan, base::Time(500ms)) * 1e-6, 1e-9);
 }
 
-TEST(JanusPlant, HowOftenItIsLookedAtChangesNothing) {
-  const Head often = make();
-  const Head once = make();
-  for (const Head* head : {&often, &once}) {
+TEST(Head, HowOftenItIsLookedAtChangesNothing) {
+  const auto often = make();
+  const auto once = make();
+  for (const auto* head : {&often, &once}) {
     (*head)->wiring(kPan).drive(0.5, base::Time{});
     (*head)->wiring(kTilt).release_brake(base::Time{});
   }
@@ -194,8 +192,19 @@ TEST(JanusPlant, HowOftenItIsLookedAtChangesNothing) {
   EXPECT_EQ(often->position(kTilt, base::Time(300ms)), once->position(kTilt, base::Time(300ms)));
 }
 
-TEST(JanusPlant, AllocatesNothingWhileItSteps) {
-  const Head head = make();
+TEST(Head, ItStandsStillAndSaysSoWhenItsNumbersHaveDiverged) {
+  const auto head = make();
+  head->wiring(kPan).drive(0.25, base::Time{});
+  const double before = head->position(kPan, base::Time(500ms));
+  EXPECT_EQ(head->status(), sim::PlantStatus::kGood);
+  head->wiring(kPan).drive(std::nan(""), base::Time(500ms));
+  EXPECT_EQ(head->position(kPan, base::Time(10s)), before);
+  EXPECT_EQ(head->velocity(kPan, base::Time(10s)), 0.0);
+  EXPECT_EQ(head->status(), sim::PlantStatus::kDiverged);
+}
+
+TEST(Head, AllocatesNothingWhileItSteps) {
+  const auto head = make();
   testing::RealtimeGuard guard;
   const auto violations = guard.watch([&] {
     for (int i = 1; i <= 100; ++i) {
@@ -213,14 +222,14 @@ TEST(JanusPlant, AllocatesNothingWhileItSteps) {
   EXPECT_EQ(violations, 0u) << guard.report();
 }
 
-TEST(JanusPlant, AnotherRobotsFileIsRefused) {
-  EXPECT_THAT(JanusPlant::load({.urdf_file = "/nowhere/janus.urdf"}).error(),
+TEST(Head, AnotherRobotsFileIsRefused) {
+  EXPECT_THAT(Head::load({.urdf_file = "/nowhere/janus.urdf"}).error(),
               HasSubstr("/nowhere/janus.urdf: cannot be read"));
   const std::string one_joint =
       "<robot name='r'><link name='base'/><joint name='joint1' type='continuous'>"
       "<parent link='base'/><child link='a'/></joint><link name='a'><inertial><mass value='1'/>"
       "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>";
-  EXPECT_THAT(JanusPlant::parse(one_joint, {.urdf_file = "one.urdf"}).error(),
+  EXPECT_THAT(Head::parse(one_joint, {.urdf_file = "one.urdf"}).error(),
               HasSubstr("one.urdf: no moving joint 'joint2'"));
 }
 
