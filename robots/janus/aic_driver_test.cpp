@@ -203,6 +203,14 @@ TEST(AicDriver, ACardThatIsNotHeardIsSilent) {
   EXPECT_FALSE(bench.driver.silent(1, bench.bus.now()));
 }
 
+TEST(AicDriver, SynchronouslyItWaitsForAnAnswerFromTheOneBeforeItOn) {
+  Driven bench(AicMode::kSynchronous);
+  bench.firmware(1).delay_answers(950us);
+  const base::Time begin = bench.bus.now();
+  EXPECT_EQ(bench.read(), AicReading::kComplete);
+  EXPECT_GT(bench.bus.now() - begin, 1ms);
+}
+
 // ---- What goes wrong: in both modes
 
 class AicDriverInBothModes : public ::testing::TestWithParam<AicMode> {};
@@ -384,6 +392,22 @@ TEST_P(AicDriverInBothModes, ARestartedCardIsSeenAndItsCountsAreDoubtful) {
   }
 }
 
+TEST_P(AicDriverInBothModes, TheFirstReportOfARestartedCardIsMissedToo) {
+  Driven bench(GetParam());
+  for (int i = 0; i < 10; ++i) bench.read();
+  bench.driver.command(0, AicCommand::kActuatorOn);
+  bench.advance(99ms);
+  bench.firmware(0).power_off();
+  base::Diagnostics diagnostics;
+  ASSERT_TRUE(bench.firmware(0).power_on(diagnostics));
+  bench.advance(1ms);
+  bench.lose_reports(1);
+  bench.read();
+  bench.read();
+  EXPECT_EQ(bench.first().counters,
+            (AicCounters{.lost_answers = 1, .lost_reports = 1, .restarts = 1}));
+}
+
 TEST_P(AicDriverInBothModes, AnotherHostIsSeen) {
   Driven bench(GetParam());
   can::VirtualStation& other = bench.bus.add_station("other");
@@ -431,6 +455,19 @@ TEST_P(AicDriverInBothModes, BusOffEndsTheReadingClearsTheMotorsAndComesBack) {
   EXPECT_THAT(bench.take_sent().front(), ::testing::AnyOf("201#0000", "280#0000000000000000"))
       << "what was to move before does not move now";
   EXPECT_EQ(bench.driver.bus_counters().bus_lost, 1u);
+}
+
+TEST_P(AicDriverInBothModes, MotorValuesThatTheBusDidNotTakeAreForgotten) {
+  Driven bench(GetParam());
+  bench.driver.set_motor(0, 0.5);
+  bench.host.force_bus_off();
+  EXPECT_EQ(bench.driver.send_motors(), can::SendStatus::kBusOff);
+  bench.host.restart();
+  bench.advance(5ms);
+  bench.log.clear();
+  EXPECT_EQ(bench.driver.send_motors(), can::SendStatus::kSent);
+  bench.advance(1ms);
+  EXPECT_THAT(bench.take_sent().front(), ::testing::AnyOf("201#0000", "280#0000000000000000"));
 }
 
 TEST_P(AicDriverInBothModes, ABusThatWasOffAndIsBackIsToldOnce) {
