@@ -21,7 +21,7 @@ enum class PlantStatus {
 
 /// The rigid bodies of a robot on a fixed base, from a URDF file: efforts in, motion out. Joints
 /// have the URDF's viscous and Coulomb friction, which holds at rest, and its position limits;
-/// bodies do not collide. Gravity is 9.81 m/s^2 along -z.
+/// bodies do not collide, so the file needs no collision shapes. Gravity is 9.81 m/s^2 along -z.
 ///
 /// Time passes in `step` alone, so two equal runs are equal to the bit.
 ///

@@ -95,4 +95,18 @@ class Bench {
   bool keeps_log = true;
 };
 
+/// A card that is on and whose brake is released, since `since`.
+struct Running : Bench {
+  Running() {
+    send(command_frame(1, AicCommand::kActuatorOn));
+    send(command_frame(1, AicCommand::kBrakeRelease));
+    send(motor_frame(1, 1000));
+    advance(std::chrono::milliseconds(1));
+    since = log.back().end;
+    log.clear();
+  }
+  void wait_until(base::Time time) { advance(time - bus.now()); }
+  base::Time since;
+};
+
 }  // namespace armature::janus
