@@ -79,12 +79,14 @@ base::Result<void> check_joints(const mjModel& model, const std::string& name) {
 
 base::Result<void> set_armature(mjModel& model, const std::string& name,
                                 const std::map<std::string, double>& armature) {
+  const auto mistake = [&name](const std::string& joint, const std::string& what) {
+    return base::Error{name + ": the armature of joint '" + joint + "' " + what};
+  };
   for (const auto& [joint, inertia] : armature) {
     const int id = mj_name2id(&model, mjOBJ_JOINT, joint.c_str());
-    if (id < 0) return base::Error{name + ": no moving joint '" + joint + "' for its armature"};
+    if (id < 0) return mistake(joint, "belongs to no joint that moves");
     if (!std::isfinite(inertia) || inertia < 0.0) {
-      return base::Error{name + ": the armature of joint '" + joint + "' is " +
-                         std::to_string(inertia) + ", expected a finite number of at least 0"};
+      return mistake(joint, "is expected to be a finite number of at least 0");
     }
     model.dof_armature[model.jnt_dofadr[id]] = inertia;
   }
