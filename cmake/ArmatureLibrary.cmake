@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# armature_library() for the folders of armature/, armature_test() for everything else.
+# armature_library() for the folders of armature/, armature_robot() for those of robots/, and
+# armature_test() for everything else.
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
 
 find_package(GTest REQUIRED)
@@ -70,6 +71,34 @@ function(armature_library)
     cmake_path(GET test STEM stem)
     armature_test(NAME ${arg_NAME}_${stem} SOURCES ${test} USES ${arg_NAME} ${arg_TEST_USES}
                   LINK ${arg_LINK} ${arg_TEST_LINK})
+  endforeach()
+endfunction()
+
+# armature_robot(NAME janus USES sim can SOURCES ... TESTS ...)
+#
+# What one robot is made of beside its components: drivers, firmware, plant. Target armature::janus,
+# static, since the robot's component library and its tests are all that use it; not installed.
+#   USES             libraries of armature/, as far as cmake/layers.cmake allows robots
+#   TESTS            each file becomes the executable and test <NAME>_<file>
+#   TEST_USES        what the tests need beyond that
+function(armature_robot)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "USES;SOURCES;TESTS;TEST_USES")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "armature_robot(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  armature_check_uses(robots ${arg_USES})
+  set(target armature_${arg_NAME})
+  list(TRANSFORM arg_USES PREPEND armature::)
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(armature::${arg_NAME} ALIAS ${target})
+  target_link_libraries(${target} PUBLIC ${arg_USES})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  armature_warnings(${target})
+  foreach(test IN LISTS arg_TESTS)
+    cmake_path(GET test STEM stem)
+    armature_test(NAME ${arg_NAME}_${stem} SOURCES ${test} USES ${arg_NAME} ${arg_TEST_USES})
+    target_compile_definitions(${arg_NAME}_${stem}
+                               PRIVATE ROBOT_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}")
   endforeach()
 endfunction()
 

@@ -6,6 +6,7 @@ usage: check_layers.py SOURCE_DIR
 
 - a library includes only libraries that layers.cmake allows, its tests also testing;
 - internal/ headers are included only by their own library;
+- one robot does not include another, and no library includes a robot;
 - public headers include the standard library, Eigen and Armature, nothing else;
 - headers of the operating system are included only by platform/, and by guard/, which stands in
   front of the C library.
@@ -73,6 +74,8 @@ class Tree:
     def check(self, path, bracket, name):
         if name.startswith("armature/"):
             return self.check_own(path, name)
+        if name.startswith("robots/"):
+            return self.check_robot(path, name)
         if path.startswith("armature/") and not is_test_code(path):
             return self.check_foreign(path, bracket, name)
         return None
@@ -92,6 +95,13 @@ class Tree:
             allowed = closure(self.layers, user) | {TEST_ONLY}
         if used not in allowed:
             return f"{user} may use only {', '.join(sorted(allowed)) or 'the standard library'}"
+        return None
+
+    def check_robot(self, path, name):
+        if path.startswith("armature/"):
+            return "a library does not know the robots"
+        if path.startswith("robots/") and path.split("/")[1] != name.split("/")[1]:
+            return "one robot does not use another; what they share goes to armature/"
         return None
 
     def check_foreign(self, path, bracket, name):

@@ -43,6 +43,17 @@ class CheckLayers(unittest.TestCase):
     def test_one_robot_does_not_reach_into_deploy(self):
         self.assert_refused("robots/janus/aic.cpp", '"armature/deploy/plan.hpp"', "robots may use")
 
+    def test_one_robot_does_not_include_another(self):
+        self.assert_refused("robots/janus/aic.cpp", '"robots/wam/puck.hpp"',
+                            "one robot does not use another")
+
+    def test_a_robot_includes_itself(self):
+        self.assert_accepted("robots/janus/aic.cpp", '"robots/janus/aic.hpp"')
+
+    def test_a_library_does_not_include_a_robot(self):
+        self.assert_refused("armature/sim/plant.cpp", '"robots/janus/aic.hpp"',
+                            "does not know the robots")
+
     def test_a_product_does_not_include_testing(self):
         self.assert_refused("armature/cli/run.cpp", '"armature/testing/guard.hpp"', "cli may use")
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails if docs/rules.md names a test that does not exist.
+"""Fails if docs/rules.md or a page of a robot names a test that does not exist.
 
 usage: rules_test.py SOURCE_DIR
 """
 
+import glob
 import os
 import re
 import sys
@@ -27,10 +28,8 @@ def existing_tests(source):
     return names
 
 
-def main():
-    source = os.path.abspath(sys.argv[1])
-    page = os.path.join(source, "docs", "rules.md")
-    known = existing_tests(source)
+def check(page, known):
+    """How many tests the page names, and an error for each that does not exist."""
     named = 0
     missing = []
     with open(page, encoding="utf-8") as file:
@@ -41,8 +40,18 @@ def main():
                 named += 1
                 if test not in known:
                     missing.append(f"{page}:{number}: error: there is no test {test}")
+    return named, missing
+
+
+def main():
+    source = os.path.abspath(sys.argv[1])
+    known = existing_tests(source)
+    rules = os.path.join(source, "docs", "rules.md")
+    named, missing = check(rules, known)
     if named < LEAST_RULES:
-        missing.append(f"{page}: error: only {named} tests are named")
+        missing.append(f"{rules}: error: only {named} tests are named")
+    for page in sorted(glob.glob(os.path.join(source, "robots", "*", "*.md"))):
+        missing += check(page, known)[1]
     sys.exit("\n".join(missing) if missing else 0)
 
 

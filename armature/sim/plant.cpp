@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/sim/plant.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <mujoco/mujoco.h>
+
+namespace armature::sim {
+namespace {
+
+struct DeleteModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using Model = std::unique_ptr<mjModel, DeleteModel>;
+using Data = std::unique_ptr<mjData, DeleteData>;
+
+/// MuJoCo reads files of its own file system, too: one that is in memory.
+class FilesInMemory {
+ public:
+  FilesInMemory() : files_(std::make_unique<mjVFS>()) { mj_defaultVFS(files_.get()); }
+  FilesInMemory(const FilesInMemory&) = delete;
+  FilesInMemory& operator=(const FilesInMemory&) = delete;
+  ~FilesInMemory() { mj_deleteVFS(files_.get()); }
+
+  void add(const char* name, const std::string& text) {
+    mj_makeEmptyFileVFS(files_.get(), name, static_cast<int>(text.size()));
+    const int index = mj_findFileVFS(files_.get(), name);
+    std::copy(text.begin(), text.end(), static_cast<char*>(files_->filedata[index]));
+  }
+  const mjVFS* get() const { return files_.get(); }
+
+ private:
+  std::unique_ptr<mjVFS> files_;
+};
+
+/// Without a handler MuJoCo writes warnings to a file, from the thread that steps.
+void ignore_warning(const char*) {}
+
+/// The text of a URDF as a model, or what is wrong with it.
+base::Result<Model> compile(const std::string& urdf, const std::string& name) {
+  mju_user_warning = ignore_warning;
+  // The name tells MuJoCo nothing: it knows a URDF by its root element.
+  constexpr const char* kName = "robot.urdf";
+  if (urdf.empty()) return base::Error{name + ": the file is empty, expected a URDF"};
+  FilesInMemory files;
+  files.add(kName, urdf);
+  std::array<char, 1000> error{};
+  Model model(mj_loadXML(kName, files.get(), error.data(), static_cast<int>(error.size())));
+  if (model == nullptr) return base::Error{name + ": " + error.data()};
+  return model;
+}
+
+std::string_view joint_name(const mjModel& model, int joint) {
+  const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
+  return name == nullptr ? std::string_view() : name;
+}
+
+base::Result<void> check_joints(const mjModel& model, const std::string& name) {
+  if (model.njnt == 0) return base::Error{name + ": no joint moves, expected at least one"};
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const int type = model.jnt_type[joint];
+    if (type == mjJNT_HINGE || type == mjJNT_SLIDE) continue;
+    return base::Error{name + ": joint '" + std::string(joint_name(model, joint)) +
+                       "' has several degrees of freedom, expected revolute, continuous, "
+                       "prismatic or fixed"};
+  }
+  return {};
+}
+
+base::Result<void> set_armature(mjModel& model, const std::string& name,
+                                const std::map<std::string, double>& armature) {
+  const auto mistake = [&name](const std::string& joint, const std::string& what) {
+    return base::Error{name + ": the armature of joint '" + joint + "' " + what};
+  };
+  for (const auto& [joint, inertia] : armature) {
+    const int id = mj_name2id(&model, mjOBJ_JOINT, joint.c_str());
+    if (id < 0) return mistake(joint, "belongs to no joint that moves");
+    if (!std::isfinite(inertia) || inertia < 0.0) {
+      return mistake(joint, "is expected to be a finite number of at least 0");
+    }
+    model.dof_armature[model.jnt_dofadr[id]] = inertia;
+  }
+  return {};
+}
+
+/// MuJoCo softens friction, so that a joint creeps under load at a speed proportional to the load.
+/// This makes it as hard as it can be: slip is gone within a step, and the creep is below a
+/// nanoradian per second.
+void harden_friction(mjModel& model, double step) {
+  for (int dof = 0; dof < model.nv; ++dof) {
+    mjtNum* const reference = model.dof_solref + dof * mjNREF;
+    reference[0] = -1.0;         // direct: stiffness, which friction has none of, ...
+    reference[1] = -1.0 / step;  // ... and damping
+    mjtNum* const impedance = model.dof_solimp + dof * mjNIMP;
+    impedance[0] = impedance[1] = mjMAXIMP;
+    model.dof_invweight0[dof] *= 1e-3;  // the softness is in proportion to it
+  }
+  model.opt.tolerance = 1e-12;
+}
+
+double seconds(base::Duration time) { return std::chrono::duration<double>(time).count(); }
+
+}  // namespace
+
+struct Plant::Impl {
+  Model model;
+  Data data;
+  base::Duration inner_step{};
+  base::Duration time{};
+  base::Duration owed{};  // less than an inner step
+  PlantStatus status = PlantStatus::kGood;
+  std::vector<double> friction;  // without the brakes
+
+  std::size_t joints() const { return static_cast<std::size_t>(model->njnt); }
+  int dof(std::size_t joint) const { return model->jnt_dofadr[joint]; }
+  int coordinate(std::size_t joint) const { return model->jnt_qposadr[joint]; }
+  bool sound() const;
+  void inner();
+};
+
+/// Whether MuJoCo had nothing to warn of and the joints are to be accelerated by numbers.
+bool Plant::Impl::sound() const {
+  const auto warned = [](const mjWarningStat& warning) { return warning.number > 0; };
+  const auto wild = [](mjtNum acceleration) { return !(std::abs(acceleration) <= mjMAXVAL); };
+  const mjtNum* const accelerations = data->qacc;
+  return std::none_of(std::begin(data->warning), std::end(data->warning), warned) &&
+         std::none_of(accelerations, accelerations + model->nv, wild);
+}
+
+/// The two halves of mj_step, which would begin anew on its own where a number is not finite.
+void Plant::Impl::inner() {
+  mj_forward(model.get(), data.get());
+  if (!sound()) {
+    status = PlantStatus::kDiverged;
+    return;
+  }
+  mj_Euler(model.get(), data.get());
+  time += inner_step;
+}
+
+Plant::Plant(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Plant::Plant(Plant&&) noexcept = default;
+Plant& Plant::operator=(Plant&&) noexcept = default;
+Plant::~Plant() = default;
+
+base::Result<Plant> Plant::load(const std::string& file, const Options& options) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) return base::Error{file + ": cannot be read, expected a URDF file"};
+  return parse(text.str(), file, options);
+}
+
+base::Result<Plant> Plant::parse(const std::string& urdf, const std::string& name,
+                                 const Options& options) {
+  if (options.inner_step <= base::Duration{}) {
+    return base::Error{name + ": inner_step is " + std::to_string(options.inner_step.count()) +
+                       " ns, expected more than 0"};
+  }
+  auto compiled = compile(urdf, name);
+  if (!compiled) return base::Error{compiled.error()};
+  auto impl = std::make_unique<Impl>();
+  impl->model = std::move(compiled).value();
+  impl->inner_step = options.inner_step;
+  mjModel& model = *impl->model;
+  if (const auto checked = check_joints(model, name); !checked) return base::Error{checked.error()};
+  if (const auto set = set_armature(model, name, options.armature); !set) {
+    return base::Error{set.error()};
+  }
+  model.opt.timestep = seconds(options.inner_step);
+  model.opt.disableflags |= mjDSBL_CONTACT;
+  impl->data.reset(mj_makeData(&model));
+  mj_setConst(&model, impl->data.get());
+  harden_friction(model, model.opt.timestep);
+  mj_resetData(&model, impl->data.get());
+  impl->friction.assign(model.dof_frictionloss, model.dof_frictionloss + model.nv);
+  return Plant(std::move(impl));
+}
+
+std::size_t Plant::joints() const { return impl_->joints(); }
+
+std::string_view Plant::name(std::size_t joint) const {
+  return joint_name(*impl_->model, static_cast<int>(joint));
+}
+
+std::optional<std::size_t> Plant::find(std::string_view name) const {
+  for (std::size_t joint = 0; joint < joints(); ++joint) {
+    if (this->name(joint) == name) return joint;
+  }
+  return std::nullopt;
+}
+
+double Plant::position(std::size_t joint) const {
+  return impl_->data->qpos[impl_->coordinate(joint)];
+}
+
+double Plant::velocity(std::size_t joint) const { return impl_->data->qvel[impl_->dof(joint)]; }
+
+void Plant::set_state(std::size_t joint, double position, double velocity) {
+  impl_->data->qpos[impl_->coordinate(joint)] = position;
+  impl_->data->qvel[impl_->dof(joint)] = velocity;
+}
+
+void Plant::set_effort(std::size_t joint, double effort) {
+  impl_->data->qfrc_applied[impl_->dof(joint)] = effort;
+}
+
+void Plant::set_brake(std::size_t joint, double holding_effort) {
+  const auto dof = static_cast<std::size_t>(impl_->dof(joint));
+  impl_->model->dof_frictionloss[dof] = impl_->friction[dof] + holding_effort;
+}
+
+PlantStatus Plant::step(base::Duration dt) {
+  impl_->owed += dt;
+  while (impl_->owed >= impl_->inner_step && impl_->status == PlantStatus::kGood) {
+    impl_->inner();
+    impl_->owed -= impl_->inner_step;
+  }
+  return impl_->status;
+}
+
+PlantStatus Plant::status() const { return impl_->status; }
+base::Duration Plant::time() const { return impl_->time; }
+base::Duration Plant::inner_step() const { return impl_->inner_step; }
+
+}  // namespace armature::sim
