@@ -40,14 +40,10 @@ class FakeJoint final : public component::Component {
   component::Property<std::vector<int>> silent_in_{this, "silent_in", {}, "samples, from 1"};
   component::EventHandler<> sample_{this, "Sample", component::serve<&FakeJoint::on_sample>,
                                     "measures", component::leads_to("Position", "Displacement")};
-  component::EventHandler<> act_{this,
-                                 "Act",
-                                 component::serve<&FakeJoint::on_act>,
-                                 "drives",
-                                 component::optional,
+  component::EventHandler<> act_{this, "Act", component::serve<&FakeJoint::on_act>, "drives",
+
                                  component::leads_to_nothing()};
-  component::InputPort<double> voltage_{this, "Voltage", "to apply at Act", "V",
-                                        component::may_stay_open};
+  component::InputPort<double> voltage_{this, "Voltage", "to apply at Act", "V"};
   component::OutputPort<double> displacement_{this, "Displacement", "since the sample before",
                                               "rad"};
   component::OutputPort<double> position_{this, "Position", "of the joint", "rad"};

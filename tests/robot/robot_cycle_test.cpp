@@ -261,13 +261,6 @@ TEST(CycleWithASilentJoint, StopsTheRobotAfterThreePeriodsInARowAndSaysWhy) {
   }
 }
 
-TEST(CycleOfASensorBehindItsJoints, IsRefusedSayingWhatToDeclareFirst) {
-  Robot robot("joints_first.yaml", 2);
-  EXPECT_THAT(robot.application().start().to_text(),
-              HasSubstr("Joint1 would answer a Sample before Sensor hears of it: declare Sensor "
-                        "before Joint1"));
-}
-
 TEST(CycleWithoutSamples, StopsTheRobotAsSoonAsTheDataIsTooOld) {
   Robot robot("cycle.yaml", 2);
   robot.start();

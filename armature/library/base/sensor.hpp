@@ -25,6 +25,7 @@ class Sensor : public component::Component {
       "measured [q1..qN, d1..dN]: positions, then displacements since the sample before", "rad",
       component::size_of(joints_, 2)};
 
+ private:
   component::EventHandler<> sample_{this, "Sample", component::serve<&Sensor::sample_now>,
                                     "a sampling period begins"};
 };

@@ -10,26 +10,13 @@ namespace armature::library {
 using component::Outcome;
 using control::Gathering;
 
-namespace {
-
-bool writes_to(const component::Component& writer, const component::Component& reader) {
-  for (const component::OutputPortBase* output : writer.interface().outputs) {
-    for (const component::InputPortBase* input : output->readers()) {
-      if (&input->owner() == &reader) return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
 Outcome SensorNMux::on_start() {
   if (changes_.take()) {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
   measured_->reset();
   missing_.reset();
-  return check_order();
+  return component::accepted();
 }
 
 Outcome SensorNMux::set_up() {
@@ -40,20 +27,6 @@ Outcome SensorNMux::set_up() {
   measured_ = std::move(made.value());
   missing_.resize(joints);
   changes_.take();
-  return component::accepted();
-}
-
-/// Refuses joints that would answer a Sample of which this component has not been told.
-Outcome SensorNMux::check_order() const {
-  if (sample_.source() == nullptr) return component::accepted();
-  for (const component::EventHandlerBase* handler : sample_.source()->subscribers()) {
-    if (handler == &sample_) break;
-    const component::Component& joint = handler->component();
-    if (&joint.context() != &context() || !writes_to(joint, *this)) continue;
-    component::Reason why(joint.name());
-    why.append(" would answer a Sample before ").append(name()).append(" hears of it: declare ");
-    return component::refused(why.append(name()).append(" before ").append(joint.name()));
-  }
   return component::accepted();
 }
 

@@ -22,9 +22,6 @@ namespace armature::library {
 /// `sensor` is written at the Sample. A joint that never answered is waited for: no zero
 /// counts as measured. After `max_missing` rounds in a row `Missing` is raised and the component
 /// faults, both naming the joint; so it does at once for a value that is no finite number.
-///
-/// A joint that answers Sample within the thread that raises it has to hear of it after this
-/// component, which has to be declared before it: else the start is refused.
 /// @rt nonblocking, no allocation; O(1) for a value, O(joints) for a Sample
 class SensorNMux final : public Sensor {
  public:
@@ -36,7 +33,6 @@ class SensorNMux final : public Sensor {
   void sample_now() override;
 
   component::Outcome set_up();
-  component::Outcome check_order() const;
   void on_position(std::size_t joint, double position) { take(joint, position, kPosition); }
   void on_displacement(std::size_t joint, double displacement) {
     take(joint, displacement, kDisplacement);
