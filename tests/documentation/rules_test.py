@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails if docs/rules.md names a test that does not exist.
+"""Fails if docs/rules.md or docs/robot.md names a test that does not exist.
 
 usage: rules_test.py SOURCE_DIR
 """
@@ -9,7 +9,7 @@ import os
 import re
 import sys
 
-LEAST_RULES = 30
+LEAST_RULES = {"rules.md": 30, "robot.md": 15}
 
 
 def existing_tests(source):
@@ -27,12 +27,9 @@ def existing_tests(source):
     return names
 
 
-def main():
-    source = os.path.abspath(sys.argv[1])
-    page = os.path.join(source, "docs", "rules.md")
-    known = existing_tests(source)
+def mistakes_of(page, least, known):
+    """What is wrong on a page, a line each."""
     named = 0
-    missing = []
     with open(page, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             for test in re.findall(r"`(\w+\.[A-Z]\w+)`", line):
@@ -40,10 +37,17 @@ def main():
                     continue
                 named += 1
                 if test not in known:
-                    missing.append(f"{page}:{number}: error: there is no test {test}")
-    if named < LEAST_RULES:
-        missing.append(f"{page}: error: only {named} tests are named")
-    sys.exit("\n".join(missing) if missing else 0)
+                    yield f"{page}:{number}: error: there is no test {test}"
+    if named < least:
+        yield f"{page}: error: only {named} tests are named"
+
+
+def main():
+    source = os.path.abspath(sys.argv[1])
+    known = existing_tests(source)
+    mistakes = [mistake for page, least in LEAST_RULES.items()
+                for mistake in mistakes_of(os.path.join(source, "docs", page), least, known)]
+    sys.exit("\n".join(mistakes) if mistakes else 0)
 
 
 if __name__ == "__main__":
