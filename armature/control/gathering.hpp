@@ -16,9 +16,11 @@ namespace armature::control {
 ///
 /// A round lasts from one begin() to the next. A member has answered when all its values came.
 /// Who has not by the end of a round is missing in it, and is not waited for in the next: there its
-/// place holds the last values that it answered completely, whatever comes from it meanwhile. So a
-/// late answer of round k never stands for the one of round k + 1. What came in that time counts as
-/// a sign of life, and from the round after the member is waited for again.
+/// place holds the last values that it answered completely, whatever comes from it meanwhile. So
+/// the late answer of round k never stands for that of round k + 1. What came in that time counts
+/// as a sign of life, and from the round after the member is waited for again. Who is late in
+/// every round, always by one, cannot be told from who is in time: answers that may be so late
+/// need a number, which whoever asks for them has to compare.
 ///
 /// Nothing is held for a member that never answered: it is waited for until it does. One thread
 /// uses it.

@@ -233,6 +233,15 @@ TEST_P(Cycle, WithFeedForwardIsThatOfALoopWrittenByHand) {
   expect_equal(robot, true);
 }
 
+TEST_P(Cycle, InTheThreadsOfPaperOneIsThatOfALoopWrittenByHand) {
+  Robot robot("cycle.yaml", GetParam(),
+              {"Sensor.activity={triggered: true, priority: 79}",
+               "Controller.activity={triggered: true, priority: 78}",
+               "Actuator.activity={triggered: true, priority: 78}",
+               "BridgeRef.activity={triggered: true, priority: 40}"});
+  expect_equal(robot, false);
+}
+
 INSTANTIATE_TEST_SUITE_P(Joints, Cycle, ::testing::Values(2, 7, 1000));
 
 TEST(CycleWithASilentJoint, GoesOnAndCountsTheJoint) {

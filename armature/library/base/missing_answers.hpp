@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -25,7 +24,7 @@ class MissingAnswers {
   explicit MissingAnswers(component::Component* owner);
 
   int max_missing() const { return max_missing_; }
-  const component::Property<int>& limit() const { return max_missing_; }
+  /// The property, for Changes.
   component::Property<int>& limit() { return max_missing_; }
 
   /// Makes room for the counts of `members`.

@@ -17,8 +17,8 @@ namespace armature::library {
 ///
 /// with the voltage of control::DcMotor, and qd, qdd as desired. In_model has the reference; the
 /// Model answers on Out_model. The model is one that has to answer in each round, like a PID; if it
-/// does not, its last torques stand for the new ones. Parameters of the motors are one number for
-/// each joint, or one for all.
+/// does not, its last torques stand for the new ones. UMin and UMax are limits of the PIDs; the sum
+/// is limited by the joint. Parameters of the motors are one number for each joint, or one for all.
 /// @rt nonblocking, no allocation, O(joints)
 class ControllerNPIDFF final : public ControllerOfPids {
  public:

@@ -18,10 +18,11 @@ namespace armature::library {
 /// A joint of which not both values came by the next Sample is missing in that round: it is counted
 /// and named, and the round that begins goes on in time without it, with its last position and
 /// displacement. What comes from it during that round, which may be the late answer, is not taken
-/// for this round's; it is waited for again from the round after. If all joints are missing,
-/// `sensor` is written at the Sample. A joint that never answered is waited for: no zero
-/// counts as measured. After `max_missing` rounds in a row `Missing` is raised and the component
-/// faults, both naming the joint; so it does at once for a value that is no finite number.
+/// for this round's; it is waited for again from the round after (control::Gathering). If all
+/// joints are missing, `sensor` is written at the Sample. A joint that never answered is waited
+/// for: no zero counts as measured. After `max_missing` rounds in a row `Missing` is raised and the
+/// component faults, both naming the joint; so it does at once for a value that is no finite
+/// number.
 /// @rt nonblocking, no allocation; O(1) for a value, O(joints) for a Sample
 class SensorNMux final : public Sensor {
  public:
