@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/library/actuator_demux/actuator_demux.hpp"
@@ -184,6 +185,42 @@ TEST(RealtimeComponents, AxesGeneratorPos) {
     EXPECT_TRUE(generator.call("resetPosition"));
   });
   EXPECT_EQ(motions, 100);
+}
+
+template <typename Model>
+void expect_realtime_restart(const char* model,
+                             const std::vector<std::pair<const char*, const char*>>& properties) {
+  testing::Harness bench(std::make_unique<Model>(model));
+  for (const auto& [name, value] : properties) bench.set(name, value);
+  start(bench);
+  testing::RealtimeGuard guard;
+  component::Outcome restarted = component::accepted();
+  guard.watch([&] {
+    bench.component().stop();
+    restarted = bench.component().start();
+  });
+  EXPECT_TRUE(restarted) << bench.reason();
+  EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();
+}
+
+TEST(RealtimeComponents, AStartAllocatesNothingIfNoPropertyChanged) {
+  expect_realtime_restart<Sampler>("Sampler", {});
+  expect_realtime_restart<SensorNMux>("SensorNMux", {{"joints", "7"}});
+  expect_realtime_restart<ActuatorNDemux>("ActuatorNDemux", {{"joints", "7"}});
+  expect_realtime_restart<Pid>("PID", {{"UMin", "-1"}, {"UMax", "1"}});
+  expect_realtime_restart<ControllerNPID>("ControllerNPID", {{"joints", "7"}});
+  expect_realtime_restart<ControllerNPIDFF>("ControllerNPIDFF", {{"joints", "7"},
+                                                                 {"motor_resistance", "[1]"},
+                                                                 {"motor_torque_constant", "[1]"},
+                                                                 {"motor_gear_ratio", "[1]"}});
+  expect_realtime_restart<Model>(
+      "Model", {{"joints", "2"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
+  expect_realtime_restart<BridgeRef>("BridgeRef", {{"joints", "7"}});
+  expect_realtime_restart<AxesGeneratorPos>("nAxesGeneratorPos", {{"num_axes", "7"},
+                                                                  {"max_vel", "[1]"},
+                                                                  {"max_acc", "[1]"},
+                                                                  {"lower", "[-1]"},
+                                                                  {"upper", "[1]"}});
 }
 
 TEST(RealtimeFunctions, AppendNumber) {

@@ -57,7 +57,7 @@ std::string_view ControllerOfPids::name_of(std::size_t member) {
 void ControllerOfPids::note_missing() {
   const bool news =
       missing_.note(*answers_, [this](std::size_t member) { return name_of(member); });
-  if (news) log_warning("no answer from {}: the last one is held", missing_.names());
+  if (news) log_warning("no answer from {} in the last round", missing_.names());
 }
 
 }  // namespace armature::library

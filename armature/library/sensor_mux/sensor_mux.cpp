@@ -55,7 +55,7 @@ void SensorNMux::refuse(std::size_t joint, double value, std::size_t place) {
 
 void SensorNMux::note_missing() {
   const bool news = missing_.note(*measured_, [this](std::size_t joint) { return name_of(joint); });
-  if (news) log_warning("no answer from {}: the last one is held", missing_.names());
+  if (news) log_warning("no answer from {} in the last round", missing_.names());
 }
 
 }  // namespace armature::library
