@@ -249,6 +249,29 @@ TEST(InverseDynamics, JointsThatItCannotComputeAreNamed) {
               HasSubstr("no joint moves between 'a' and the end of the robot"));
 }
 
+TEST(InverseDynamics, AnAxisWithoutADirectionIsNamed) {
+  EXPECT_THAT(mistakes_in(robot(link("a", 1.0, "0 0 0", kRound) +
+                                joint("j", "revolute", "base", "a", "0 0 0"))),
+              HasSubstr("error: joint 'j' has the axis 0 0 0 (expected a direction)"));
+}
+
+TEST(InverseDynamics, ALinkThatHangsOnTwoJointsIsNamed) {
+  EXPECT_THAT(mistakes_in(robot(link("a", 1.0, "0 0 0", kRound) + link("b", 1.0, "0 0 0", kRound) +
+                                joint("j", "revolute", "base", "a", "0 0 1") +
+                                joint("k", "fixed", "a", "b", "0 0 1") +
+                                joint("l", "fixed", "a", "b", "0 0 1"))),
+              HasSubstr("error: link 'b' is the child of two joints (expected a tree)"));
+}
+
+TEST(InverseDynamics, AJointThatFollowsAnotherIsNamed) {
+  std::string urdf = robot(link("a", 1.0, "0 0 0", kRound) + link("b", 1.0, "0 0 0", kRound) +
+                           joint("j", "revolute", "base", "a", "0 0 1") +
+                           joint("k", "revolute", "a", "b", "0 0 1"));
+  urdf.insert(urdf.rfind("</joint>"), "<mimic joint='j'/>");
+  EXPECT_THAT(mistakes_in(urdf), HasSubstr("error: joint 'k' mimics joint 'j' (expected joints "
+                                           "that move independently)"));
+}
+
 TEST(InverseDynamics, BodiesThatCannotBeAreNamed) {
   const std::string swing = joint("swing", "revolute", "base", "rod", "0 1 0");
   EXPECT_THAT(mistakes_in(robot(link("rod", -2.0, "0 0 0", kRound) + swing)),

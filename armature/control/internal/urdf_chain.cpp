@@ -154,6 +154,10 @@ class ChainReader {
   }
 
   void add(const urdf::Link& link, const KDL::Frame& where, Part& part) {
+    if (!seen_.insert(link.name).second) {
+      error("link " + quoted(link.name) + " is the child of two joints", "expected a tree");
+      return;
+    }
     if (link.inertial && is_body(*link.inertial)) {
       part.inertia = part.inertia + where * to_kdl(*link.inertial);
     } else if (link.inertial) {
@@ -192,15 +196,18 @@ class ChainReader {
   }
 
   bool is_usable(const urdf::Joint& joint) {
-    const bool known = turns(joint) || joint.type == urdf::Joint::PRISMATIC;
-    if (!known) {
-      error("joint " + quoted(joint.name) + " is floating or planar",
-            "expected revolute, continuous, prismatic or fixed");
+    const std::string name = "joint " + quoted(joint.name);
+    if (!turns(joint) && joint.type != urdf::Joint::PRISMATIC) {
+      error(name + " is floating or planar", "expected revolute, continuous, prismatic or fixed");
     } else if (joint.mimic) {
-      error("joint " + quoted(joint.name) + " mimics joint " + quoted(joint.mimic->joint_name),
+      error(name + " mimics joint " + quoted(joint.mimic->joint_name),
             "expected joints that move independently");
+    } else if (to_kdl(joint.axis).Norm() == 0.0) {
+      error(name + " has the axis 0 0 0", "expected a direction");
+    } else {
+      return true;
     }
-    return known && !joint.mimic;
+    return false;
   }
 
   void add_segment(const Next& next, const KDL::RigidBodyInertia& inertia) {
@@ -219,7 +226,8 @@ class ChainReader {
   const urdf::ModelInterface& model_;
   const UrdfQuery& query_;
   base::Diagnostics& diagnostics_;
-  std::set<std::string> way_;  ///< joints between base and tip
+  std::set<std::string> way_;   ///< joints between base and tip
+  std::set<std::string> seen_;  ///< links
   UrdfChain chain_;
 };
 
