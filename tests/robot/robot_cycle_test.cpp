@@ -5,7 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,10 +128,20 @@ class ByHand {
   bool feed_forward_;
 };
 
-/// The deployment of `file` with some parameters and properties set, in simulated time.
+std::string text_of(const std::string& file) {
+  std::ifstream stream(std::string(DEPLOYMENTS "/") + file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// The deployment of `file`, or of a text in its place, with some parameters and properties set, in
+/// simulated time.
 class Robot {
  public:
-  Robot(const std::string& file, int joints, std::vector<std::string> overrides = {}) {
+  Robot(const std::string& file, int joints, std::vector<std::string> overrides = {})
+      : Robot(file, text_of(file), joints, std::move(overrides)) {}
+
+  Robot(const std::string& file, const std::string& text, int joints,
+        std::vector<std::string> overrides = {}) {
     deploy::DeploymentOptions options;
     options.library_folders = {LIBRARIES};
     options.document.overrides = std::move(overrides);
@@ -137,7 +149,7 @@ class Robot {
     options.models = [](component::Registry& models) {
       models.add<FakeJoint>("FakeJoint", "a joint without hardware");
     };
-    deployment_ = deploy::load_deployment(std::string(DEPLOYMENTS "/") + file, options);
+    deployment_ = deploy::parse_deployment(text, std::string(DEPLOYMENTS "/") + file, options);
     EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
     deployment_.options.simulated = true;
     application_ =
@@ -281,6 +293,22 @@ TEST(CycleWithoutSamples, StopsTheRobotAsSoonAsTheDataIsTooOld) {
   for (const char* each : {"Controller", "Actuator", "Joint1", "Joint2"}) {
     EXPECT_EQ(robot.state(each), component::State::kStopped) << each;
   }
+}
+
+TEST(CycleWithoutSamples, MayLastAsLongAsTheConnectionsSay) {
+  const std::string text =
+      std::regex_replace(text_of("cycle.yaml"), std::regex("- (\\S+) -> (\\S+)"),
+                         "- {from: \"$1\", to: \"$2\", max_age: 1 s}");
+  Robot robot("cycle.yaml", text, 2);
+  robot.start();
+  robot.application().run_for(500ms);
+  ASSERT_TRUE(robot.application().stop_component("Sampler"));
+  robot.application().run_for(900ms);
+  EXPECT_EQ(robot.state("Controller"), component::State::kRunning);
+  EXPECT_EQ(robot.state("Joint1"), component::State::kRunning);
+  robot.application().run_for(200ms);
+  EXPECT_EQ(robot.state("Controller"), component::State::kStopped);
+  EXPECT_EQ(robot.state("Joint1"), component::State::kStopped);
 }
 
 }  // namespace
