@@ -42,6 +42,7 @@ Harness::~Harness() {
 
 component::Outcome Harness::start() {
   using component::State;
+  engine_.context().cycle_time = now_;  // as an application does before it starts anything
   if (state() == State::kPreOperational) {
     if (component::Outcome configured = component_->configure(); !configured) return configured;
     for (auto* output : component_->interface().outputs) output->prepare();
