@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "armature/control/per_joint.hpp"
+#include "armature/library/base/of_this_run.hpp"
 #include "armature/library/base/reason_text.hpp"
 
 namespace armature::library {
@@ -49,6 +50,7 @@ Outcome AxesGeneratorPos::set_up() {
 
 Outcome AxesGeneratorPos::on_start() {
   position_known_ = false;
+  started_ = time();
   return changes_.take() ? set_up() : component::accepted();
 }
 
@@ -66,7 +68,7 @@ void AxesGeneratorPos::on_update() {
 bool AxesGeneratorPos::knows_position() {
   if (position_known_) return true;
   const auto measured = measured_.read();
-  if (measured.status < component::ReadStatus::kOld) return false;
+  if (!is_of_this_run(measured, started_)) return false;
   const Trajectory::Answer answer = trajectory_->hold(measured.value);
   stepped_at_ = time();
   position_known_ = answer.accepted();

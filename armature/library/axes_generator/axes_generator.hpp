@@ -81,6 +81,7 @@ class AxesGeneratorPos final : public component::Component {
   Changes changes_{axes_, max_velocity_, max_acceleration_, lower_, upper_};
 
   std::optional<control::Trajectory> trajectory_;
+  base::Time started_{};
   base::Time stepped_at_{};
   bool position_known_ = false;
   Vector numbers_;

@@ -201,6 +201,20 @@ TEST_F(AxesGenerator, AfterAStopTheReferenceIsWhatIsMeasured) {
   EXPECT_THAT(desired(), ElementsAre(0.2, 0.3));
 }
 
+TEST_F(AxesGenerator, WhatWasMeasuredBeforeAStartIsNotTheReference) {
+  start_at({0.1, 0.2});
+  generator.stop();
+  generator.advance(10ms);
+  ASSERT_TRUE(generator.start()) << generator.reason();
+  const auto writes = generator.writes("nAxesDesiredPosition");
+  generator.run_cycles(2);
+  EXPECT_EQ(generator.writes("nAxesDesiredPosition"), writes);
+  EXPECT_EQ(refusal_of({1.0, 1.0}, 1.0), "where the axes are is not known yet");
+  measured = {0.3, 0.4};
+  cycle();
+  EXPECT_THAT(desired(), ElementsAre(0.3, 0.4));
+}
+
 TEST_F(AxesGenerator, FaultsIfTheMeasuredPositionIsNoNumber) {
   ASSERT_TRUE(generator.start()) << generator.reason();
   generator.write("nAxesSensorPosition", Vector{0.0, std::numeric_limits<double>::infinity()});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/library/base/controller_of_pids.hpp"
 
+#include "armature/library/base/of_this_run.hpp"
+
 namespace armature::library {
 
 using component::Outcome;
@@ -13,6 +15,7 @@ Outcome ControllerOfPids::on_start() {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
   answers_->reset();
+  started_ = time();
   missing_.reset();
   return Controller::on_start();
 }
@@ -30,7 +33,7 @@ Outcome ControllerOfPids::set_up() {
 
 void ControllerOfPids::controller_now(const std::vector<double>& measured) {
   const auto reference = reference_.read();
-  if (reference.status < component::ReadStatus::kOld) return;
+  if (!is_of_this_run(reference, started_)) return;
   const Gathering::Round round = answers_->begin();
   if (round.missing > 0) note_missing();
   if (round.overdue != Gathering::kNobody) {

@@ -18,7 +18,7 @@ namespace armature::library {
 ///
 /// A round lasts from one `sensor` to the next. Who did not answer in it is counted, named, held at
 /// its last value for the round after, and given up after `max_missing` rounds, as
-/// control::Gathering says. Nothing is asked before the first `reference`.
+/// control::Gathering says. Nothing is asked before the first `reference` since the start.
 class ControllerOfPids : public Controller {
  public:
   using Controller::Controller;
@@ -60,6 +60,7 @@ class ControllerOfPids : public Controller {
   MissingAnswers missing_{this};
   Changes changes_{joints_, missing_.limit()};
   std::optional<control::Gathering> answers_;
+  base::Time started_{};
 };
 
 }  // namespace armature::library

@@ -60,6 +60,20 @@ TEST_F(ControllerNpid, AsksNobodyBeforeTheFirstReference) {
   EXPECT_EQ(controller.get<int>("incomplete_rounds"), 0);
 }
 
+TEST_F(ControllerNpid, DoesNotUseAReferenceFromBeforeItsStart) {
+  start();
+  desire(1.0, 2.0);
+  measure(0.5, 0.6);
+  controller.stop();
+  controller.advance(10ms);
+  ASSERT_TRUE(controller.start()) << controller.reason();
+  measure(0.5, 0.6);
+  EXPECT_EQ(controller.writes("Ref1"), 1u);
+  desire(0.5, 0.6);
+  measure(0.5, 0.6);
+  EXPECT_EQ(output("Ref1"), 0.5);
+}
+
 TEST_F(ControllerNpid, HoldsAndNamesAPidThatDidNotAnswer) {
   start();
   desire(1.0, 2.0);

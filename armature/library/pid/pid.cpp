@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "armature/library/base/of_this_run.hpp"
 #include "armature/library/base/reason_text.hpp"
 
 namespace armature::library {
@@ -11,12 +12,13 @@ component::Outcome Pid::on_start() {
   auto made = control::Pid::make(config());
   if (!made) return component::refused(made.error());
   pid_ = made.value();
+  started_ = time();
   return component::accepted();
 }
 
 void Pid::step(double measured) {
   const auto reference = reference_.read();
-  if (reference.status < component::ReadStatus::kOld) return;
+  if (!is_of_this_run(reference, started_)) return;
   take_gains();
   const double output = pid_->step(reference.value - measured);
   if (std::isfinite(output)) {

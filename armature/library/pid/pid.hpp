@@ -10,7 +10,8 @@
 namespace armature::library {
 
 /// The PID controller of one joint with a saturated output, in velocity form (paper 1, equation 6):
-/// control::Pid. One step for each value of Sen; nothing before the first value of Ref. Neither a
+/// control::Pid. One step for each value of Sen; nothing before the first value of Ref since the
+/// start. Neither a
 /// start nor `reset` kicks. A difference that is no finite number is a fault, and nothing is
 /// written.
 /// @rt nonblocking, no allocation
@@ -66,6 +67,7 @@ class Pid final : public component::Component {
                                       component::in_own_thread};
 
   std::optional<control::Pid> pid_;
+  base::Time started_{};
 };
 
 }  // namespace armature::library

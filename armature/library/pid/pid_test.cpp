@@ -59,6 +59,18 @@ TEST_F(PidTest, SaysNothingBeforeTheFirstReference) {
   EXPECT_EQ(pid.writes("Out"), 0u);
 }
 
+TEST_F(PidTest, DoesNotUseAReferenceFromBeforeItsStart) {
+  ASSERT_TRUE(pid.start()) << pid.reason();
+  step(1.0, 0.0);
+  pid.stop();
+  pid.advance(10ms);
+  ASSERT_TRUE(pid.start()) << pid.reason();
+  pid.write("Sen", 0.0);
+  EXPECT_EQ(pid.writes("Out"), 1u);
+  step(2.0, 0.0);
+  EXPECT_EQ(pid.output<double>("Out"), 1.0);
+}
+
 TEST_F(PidTest, Saturates) {
   ASSERT_TRUE(pid.start()) << pid.reason();
   EXPECT_EQ(step(100.0, 0.0), 10.0);
