@@ -319,6 +319,25 @@ TEST(PlanOrder, WhoIsTriggeredByAnotherIsToldOfAnEventBeforeIt) {
       << "Sensor knows of the tick when Joint1's data comes; Display reads what Sensor wrote";
 }
 
+TEST(PlanOrder, ALoopBeyondThemDoesNotChangeWhoIsToldFirst) {
+  Blueprint blueprint;
+  blueprint.add<Raiser>("Clock", Activity::periodic(1ms));
+  for (const char* name : {"Joint", "Sensor"}) {
+    blueprint.add<Hearer>(name);
+    blueprint.add_peer(name, "Clock");
+  }
+  blueprint.add<Probe>("Controller");
+  blueprint.add<Probe>("Pid");
+  blueprint.connect("Joint.Out", "Sensor.In");
+  blueprint.connect("Sensor.Out", "Controller.In");
+  blueprint.connect("Controller.Out", "Pid.In");    // Pid before Controller
+  blueprint.connect("Controller.Out", "Pid.Look");  // and after it
+  const Plan plan = plan_of(blueprint);
+  ASSERT_EQ(plan.subscriptions.size(), 2u);
+  EXPECT_EQ(plan.subscriptions[0].handler->owner().name(), "Sensor");
+  EXPECT_EQ(plan.subscriptions[1].handler->owner().name(), "Joint");
+}
+
 TEST(PlanOrder, IsDescribedForPeople) {
   Blueprint blueprint;
   blueprint.add<Raiser>("Clock", Activity::periodic(10ms, 80));

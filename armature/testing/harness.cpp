@@ -42,6 +42,7 @@ Harness::~Harness() {
 
 component::Outcome Harness::start() {
   using component::State;
+  engine_.context().cycle_time = now_;  // as an application does before it starts anything
   if (state() == State::kPreOperational) {
     if (component::Outcome configured = component_->configure(); !configured) return configured;
     for (auto* output : component_->interface().outputs) output->prepare();
@@ -136,6 +137,12 @@ void Harness::check_signature(std::string_view item, const component::Signature&
   if (is.same_as(given)) return;
   throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(item) + " is " +
                               is.text() + ", not " + given.text());
+}
+
+void Harness::check_command(std::string_view item, const component::OperationBase* command) const {
+  if (command != nullptr) return;
+  throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(item) +
+                              " is no command that takes vectors and text as const references");
 }
 
 }  // namespace armature::testing

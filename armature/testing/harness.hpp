@@ -114,6 +114,7 @@ class Harness {
   void check_size(std::string_view input, bool fits) const;
   void check_signature(std::string_view item, const component::Signature& is,
                        const component::Signature& given) const;
+  void check_command(std::string_view item, const component::OperationBase* command) const;
 
   /// Does `work` in the component's thread.
   template <typename Work>
@@ -190,10 +191,14 @@ template <typename... Args>
 component::CommandHandle Harness::send(std::string_view name, const Args&... arguments) {
   component::OperationBase& operation = find_operation(name);
   check_signature(name, operation.signature(), component::Signature::of<void, Args...>({}));
+  check_command(name, dynamic_cast<component::Command<internal::Passed<Args>...>*>(&operation));
   auto& commander =
       fake<internal::Commander<Args...>>(name, [&](auto& made) { made.caller.connect(operation); });
   component::CommandHandle handle(component::CallStatus::kPending);
-  in_thread([&] { handle = commander.caller.send(arguments...); });
+  in_thread([&] {
+    const rt::PermitScope permit;  // the first vectors make room for all
+    handle = commander.caller.send(arguments...);
+  });
   return handle;
 }
 

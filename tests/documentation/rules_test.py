@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails if docs/rules.md or a page of a robot names a test that does not exist.
+"""Fails if docs/rules.md, docs/robot.md or a page of a robot names a test that does not exist.
 
 usage: rules_test.py SOURCE_DIR
 """
@@ -10,7 +10,7 @@ import os
 import re
 import sys
 
-LEAST_RULES = 30
+LEAST_RULES = {"docs/rules.md": 30, "docs/robot.md": 15}
 
 
 def existing_tests(source):
@@ -28,10 +28,9 @@ def existing_tests(source):
     return names
 
 
-def check(page, known):
-    """How many tests the page names, and an error for each that does not exist."""
+def mistakes_of(page, least, known):
+    """What is wrong on a page, a line each."""
     named = 0
-    missing = []
     with open(page, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             for test in re.findall(r"`(\w+\.[A-Z]\w+)`", line):
@@ -39,20 +38,19 @@ def check(page, known):
                     continue
                 named += 1
                 if test not in known:
-                    missing.append(f"{page}:{number}: error: there is no test {test}")
-    return named, missing
+                    yield f"{page}:{number}: error: there is no test {test}"
+    if named < least:
+        yield f"{page}: error: only {named} tests are named"
 
 
 def main():
     source = os.path.abspath(sys.argv[1])
     known = existing_tests(source)
-    rules = os.path.join(source, "docs", "rules.md")
-    named, missing = check(rules, known)
-    if named < LEAST_RULES:
-        missing.append(f"{rules}: error: only {named} tests are named")
-    for page in sorted(glob.glob(os.path.join(source, "robots", "*", "*.md"))):
-        missing += check(page, known)[1]
-    sys.exit("\n".join(missing) if missing else 0)
+    pages = {os.path.join(source, page): least for page, least in LEAST_RULES.items()}
+    pages.update({page: 0 for page in glob.glob(os.path.join(source, "robots", "*", "*.md"))})
+    mistakes = [mistake for page, least in sorted(pages.items())
+                for mistake in mistakes_of(page, least, known)]
+    sys.exit("\n".join(mistakes) if mistakes else 0)
 
 
 if __name__ == "__main__":

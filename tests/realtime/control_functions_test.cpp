@@ -7,6 +7,8 @@
 
 #include "armature/control/dc_motor.hpp"
 #include "armature/control/error_metrics.hpp"
+#include "armature/control/gathering.hpp"
+#include "armature/control/inverse_dynamics.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/pid.hpp"
 #include "armature/control/trajectory.hpp"
@@ -101,6 +103,40 @@ TEST(RealtimeFunctions, ErrorMetrics) {
   EXPECT_EQ(metrics.value().samples(), 101u);
   expect_realtime("ErrorMetrics::reset", [&] { metrics.value().reset(); });
   EXPECT_EQ(metrics.value().samples(), 0u);
+}
+
+TEST(RealtimeFunctions, Gathering) {
+  auto made = control::Gathering::make({.members = 3, .values_each = 2});
+  auto& gathering = made.value();
+  control::Gathering::Round round;
+  bool complete = false;
+  expect_realtime("Gathering::begin", [&] { round = gathering.begin(); });
+  EXPECT_EQ(round.overdue, 0u);
+  expect_realtime("Gathering::add", [&] {
+    gathering.begin();
+    for (const std::size_t member : {0u, 1u, 2u}) {
+      complete = gathering.add(member, 1.0);
+      complete = gathering.add(member, 2.0, 1);
+    }
+  });
+  EXPECT_TRUE(complete);
+  expect_realtime("Gathering::reset", [&] { gathering.reset(); });
+  EXPECT_EQ(gathering.values()[5], 0.0);
+}
+
+TEST(RealtimeFunctions, InverseDynamics) {
+  const char urdf[] =
+      "<robot name='r'><link name='base'/><link name='rod'><inertial><mass value='1'/><inertia "
+      "ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='j' "
+      "type='continuous'><parent link='base'/><child link='rod'/><axis xyz='0 1 0'/></joint>"
+      "</robot>";
+  base::Diagnostics diagnostics;
+  auto model = control::InverseDynamics::parse(urdf, "r.urdf", {}, diagnostics);
+  ASSERT_TRUE(model) << diagnostics.to_text();
+  const std::array<double, 3> motion{0.1, 0.2, 3.0};
+  std::array<double, 1> torque{};
+  expect_realtime("InverseDynamics::step", [&] { model->step(motion, torque); });
+  EXPECT_NEAR(torque[0], 3.0, 1e-12);
 }
 
 TEST(RealtimeFunctions, DcMotor) {

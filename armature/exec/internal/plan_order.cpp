@@ -13,7 +13,7 @@ namespace armature::exec::internal {
 namespace {
 
 /// Orders `count` nodes so that the first of each pair comes before the second; among equals, and
-/// where a cycle leaves no choice, the lower index comes first.
+/// in a cycle, which leaves no choice, the lower index comes first.
 class Sorter {
  public:
   explicit Sorter(std::size_t count) : after_(count), waiting_for_(count, 0) {}
@@ -38,9 +38,11 @@ class Sorter {
     while (order.size() < after_.groups()) {
       if (ready.empty()) {
         while (done[first_open]) ++first_open;
-        if (cycle != nullptr && cycle->empty()) *cycle = find_cycle(first_open, done);
-        waiting_for_[first_open] = 0;
-        ready.push(first_open);
+        // Not whoever is open: it may only wait for what is in the cycle.
+        const std::vector<Index> broken = find_cycle(first_open, done);
+        if (cycle != nullptr && cycle->empty()) *cycle = broken;
+        waiting_for_[broken.front()] = 0;
+        ready.push(broken.front());
       }
       const Index next = ready.top();
       ready.pop();
@@ -58,7 +60,7 @@ class Sorter {
 
  private:
   /// Every node that is not done waits for another such node: going back from one to the next ends
-  /// in a cycle.
+  /// in a cycle. It begins with its lowest index.
   std::vector<Index> find_cycle(Index start, const std::vector<bool>& done) const {
     std::vector<Index> before(after_.groups(), kNone);
     for (Index node = 0; node < after_.groups(); ++node) {

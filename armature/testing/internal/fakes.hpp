@@ -33,11 +33,15 @@ class Writer final : public component::Component {
   component::OutputPort<T> port{this, name(), "what the test writes"};
 };
 
+/// How a command takes an argument: what is not plain data by reference, so that it is not copied.
+template <typename T>
+using Passed = std::conditional_t<std::is_trivially_copyable_v<T>, T, const T&>;
+
 template <typename... Args>
 class Commander final : public component::Component {
  public:
   using Component::Component;
-  component::CommandCaller<std::decay_t<Args>...> caller{this, name(), "what the test sends"};
+  component::CommandCaller<Passed<Args>...> caller{this, name(), "what the test sends"};
 };
 
 template <typename... Args>

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/library/actuator_demux/actuator_demux.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "armature/library/base/reason_text.hpp"
+
+namespace armature::library {
+
+void ActuatorNDemux::actuate(const std::vector<double>& act) {
+  const auto wrong =
+      std::find_if_not(act.begin(), act.end(), [](double signal) { return std::isfinite(signal); });
+  if (wrong != act.end()) {
+    component::Reason why("the control signal of joint ");
+    append_number(why, static_cast<double>(wrong - act.begin() + 1)).append(" is ");
+    fault(append_number(why, *wrong).append(", expected a finite number"));
+    return;
+  }
+  for (std::size_t i = 0; i < act.size(); ++i) voltage_[i].write(act[i]);
+  if (take_sample()) act_.raise();
+}
+
+}  // namespace armature::library

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "armature/component/author.hpp"
+#include "armature/control/pid.hpp"
+#include "armature/library/base/max_age.hpp"
+
+namespace armature::library {
+
+/// The PID controller of one joint with a saturated output, in velocity form (paper 1, equation 6):
+/// control::Pid. One step for each value of Sen; nothing before the first value of Ref since the
+/// start. Neither a
+/// start nor `reset` kicks. A difference that is no finite number is a fault, and nothing is
+/// written.
+/// @rt nonblocking, no allocation
+class Pid final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_start() override;
+  void step(double measured);
+  void reset();
+  void take_gains();
+  control::Pid::Config config() const { return {kp_, ki_, kd_, u_min_, u_max_}; }
+
+  static constexpr double kLargestGain = 1e9;
+
+  component::Property<double> kp_{this,
+                                  "Kp",
+                                  0.0,
+                                  "proportional gain",
+                                  "V/rad",
+                                  component::range(0.0, kLargestGain),
+                                  component::changeable_while_running};
+  component::Property<double> ki_{this,
+                                  "Ki",
+                                  0.0,
+                                  "integral gain, of one sample: the period is part of it",
+                                  "V/rad",
+                                  component::range(0.0, kLargestGain),
+                                  component::changeable_while_running};
+  component::Property<double> kd_{this,
+                                  "Kd",
+                                  0.0,
+                                  "differential gain, of one sample: the period is part of it",
+                                  "V/rad",
+                                  component::range(0.0, kLargestGain),
+                                  component::changeable_while_running};
+  component::Property<double> u_min_{
+      this, "UMin", -1.0, "lower limit of the output", "V", component::mandatory};
+  component::Property<double> u_max_{
+      this, "UMax", 1.0, "upper limit of the output", "V", component::mandatory};
+  component::InputPort<double> reference_{this, "Ref", "desired position", "rad",
+                                          component::max_age(kMaxAge)};
+  component::InputPort<double> measured_{this,
+                                         "Sen",
+                                         "measured position",
+                                         "rad",
+                                         component::on_data<&Pid::step>,
+                                         component::max_age(kMaxAge)};
+  component::OutputPort<double> output_{this, "Out", "control signal", "V"};
+  component::Operation<void()> reset_{this, "reset", component::serve<&Pid::reset>,
+                                      "forgets the past: the next output is Ki e",
+                                      component::in_own_thread};
+
+  std::optional<control::Pid> pid_;
+  base::Time started_{};
+};
+
+}  // namespace armature::library

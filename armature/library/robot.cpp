@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component library `robot`: the models of which a deployment makes the controller of a robot.
+#include "armature/component/registry.hpp"
+#include "armature/library/actuator_demux/actuator_demux.hpp"
+#include "armature/library/axes_generator/axes_generator.hpp"
+#include "armature/library/bridge_ref/bridge_ref.hpp"
+#include "armature/library/controller_npid/controller_npid.hpp"
+#include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/library/model/model.hpp"
+#include "armature/library/pid/pid.hpp"
+#include "armature/library/sampler/sampler.hpp"
+#include "armature/library/sensor_mux/sensor_mux.hpp"
+
+using namespace armature::library;
+
+ARMATURE_COMPONENT_LIBRARY(robot, registry) {
+  registry.add<Sampler>("Sampler", "begins each sampling period");
+  registry.add<SensorNMux>("SensorNMux", "makes one vector of what N joints measured");
+  registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints");
+  registry.add<Pid>("PID", "the controller of one joint");
+  registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints");
+  registry.add<ControllerNPIDFF>("ControllerNPIDFF",
+                                 "N PIDs and feed-forward of the robot's dynamics");
+  registry.add<Model>("Model", "inverse dynamics, from the robot's description");
+  registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
+  registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest");
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component library `robot`: every hook and handler of its models.
+#include <cmath>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "armature/library/actuator_demux/actuator_demux.hpp"
+#include "armature/library/axes_generator/axes_generator.hpp"
+#include "armature/library/base/reason_text.hpp"
+#include "armature/library/bridge_ref/bridge_ref.hpp"
+#include "armature/library/controller_npid/controller_npid.hpp"
+#include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/library/model/model.hpp"
+#include "armature/library/pid/pid.hpp"
+#include "armature/library/sampler/sampler.hpp"
+#include "armature/library/sensor_mux/sensor_mux.hpp"
+#include "armature/testing/harness.hpp"
+#include "tests/realtime/expect_realtime.hpp"
+
+namespace armature::library {
+namespace {
+
+using Vector = std::vector<double>;
+
+/// The same for what a bench does in the thread of its component; the bench itself may allocate.
+template <typename Code>
+void expect_realtime_on_bench(const char* model, Code&& code) {
+  const testing::RealtimeGuard guard;
+  for (int i = 0; i < 100; ++i) code();
+  EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();
+}
+
+void start(testing::Harness& bench) { ASSERT_TRUE(bench.start()) << bench.reason(); }
+
+TEST(RealtimeComponents, Sampler) {
+  testing::Harness sampler(std::make_unique<Sampler>("Sampler"));
+  start(sampler);
+  const auto& samples = sampler.record<>("Sample");
+  expect_realtime_on_bench("Sampler", [&] {
+    sampler.run_cycles();
+    EXPECT_TRUE(sampler.call("trigger"));
+  });
+  EXPECT_EQ(samples.size(), 200u);
+}
+
+/// With a joint that is silent in every other round.
+TEST(RealtimeComponents, SensorNMux) {
+  testing::Harness sensor(std::make_unique<SensorNMux>("Sensor"));
+  sensor.set("joints", 2);
+  start(sensor);
+  int round = 0;
+  expect_realtime_on_bench("SensorNMux", [&] {
+    sensor.raise("Sample");
+    for (const char* port : {"Position1", "Displacement1"}) sensor.write(port, 1.0);
+    if (++round % 2 == 0) return;
+    for (const char* port : {"Position2", "Displacement2"}) sensor.write(port, 1.0);
+  });
+  EXPECT_EQ(sensor.get<int>("incomplete_rounds"), 49);
+  EXPECT_EQ(sensor.state(), component::State::kRunning);
+}
+
+/// The handling of those who do not answer, to its end: the fault.
+TEST(RealtimeComponents, MissingAnswers) {
+  testing::Harness sensor(std::make_unique<SensorNMux>("Sensor"));
+  sensor.set("joints", 2);
+  start(sensor);
+  expect_realtime_on_bench("MissingAnswers::note", [&] { sensor.raise("Sample"); });
+  expect_realtime_on_bench("MissingAnswers::give_up", [&] { sensor.raise("Sample"); });
+  EXPECT_EQ(sensor.state(), component::State::kException);
+}
+
+TEST(RealtimeComponents, ActuatorNDemux) {
+  testing::Harness actuator(std::make_unique<ActuatorNDemux>("Actuator"));
+  actuator.set("joints", 7);
+  start(actuator);
+  const auto& acts = actuator.record<>("Act");
+  const Vector signals(7, 1.0);
+  expect_realtime_on_bench("ActuatorNDemux", [&] {
+    actuator.raise("Sample");
+    actuator.write("act", signals);
+  });
+  EXPECT_EQ(acts.size(), 100u);
+  actuator.write("act", Vector(7, NAN));
+  expect_realtime_on_bench("ActuatorNDemux", [&] { actuator.write("act", signals); });
+  EXPECT_EQ(actuator.state(), component::State::kException);
+}
+
+TEST(RealtimeComponents, Pid) {
+  testing::Harness pid(std::make_unique<Pid>("PID"));
+  pid.set("UMin", -1.0);
+  pid.set("UMax", 1.0);
+  pid.set("Ki", 1.0);
+  start(pid);
+  double gain = 0.0;
+  expect_realtime_on_bench("Pid", [&] {
+    pid.set("Kp", gain += 0.1);
+    pid.write("Ref", 1.0);
+    pid.write("Sen", 0.0);
+    EXPECT_TRUE(pid.call("reset"));
+  });
+  EXPECT_EQ(pid.writes("Out"), 100u);
+}
+
+void write_reference_and_sensor(testing::Harness& controller) {
+  controller.write("reference", Vector(6, 1.0));
+  controller.write("sensor", Vector(4, 0.5));
+}
+
+TEST(RealtimeComponents, ControllerNPID) {
+  testing::Harness controller(std::make_unique<ControllerNPID>("Controller"));
+  controller.set("joints", 2);
+  start(controller);
+  int round = 0;
+  expect_realtime_on_bench("ControllerNPID", [&] {
+    controller.raise("Sample");
+    write_reference_and_sensor(controller);
+    controller.write("Out1", 1.0);
+    if (++round % 2 == 1) controller.write("Out2", 1.0);
+  });
+  EXPECT_EQ(controller.get<int>("incomplete_rounds"), 49);
+  EXPECT_EQ(controller.writes("act"), 50u);
+}
+
+TEST(RealtimeComponents, ControllerNPIDFF) {
+  testing::Harness controller(std::make_unique<ControllerNPIDFF>("Controller"));
+  controller.set("joints", 2);
+  for (const char* name : {"motor_resistance", "motor_torque_constant", "motor_gear_ratio"}) {
+    controller.set(name, "[1.0]");
+  }
+  start(controller);
+  expect_realtime_on_bench("ControllerNPIDFF", [&] {
+    write_reference_and_sensor(controller);
+    controller.write("Out_model", Vector(2, 0.1));
+    for (const char* port : {"Out1", "Out2"}) controller.write(port, 1.0);
+  });
+  EXPECT_EQ(controller.writes("act"), 100u);
+}
+
+TEST(RealtimeComponents, Model) {
+  testing::Harness model(std::make_unique<Model>("Model"));
+  model.set("joints", 2);
+  model.set("robot_description", std::string_view(TESTDATA "/pan_tilt.urdf"));
+  start(model);
+  expect_realtime_on_bench("Model", [&] { model.write("In", Vector(6, 0.1)); });
+  EXPECT_EQ(model.writes("Out"), 100u);
+  expect_realtime_on_bench("Model", [&] { model.write("In", Vector(6, NAN)); });
+  EXPECT_EQ(model.state(), component::State::kException);
+}
+
+TEST(RealtimeComponents, BridgeRef) {
+  testing::Harness bridge(std::make_unique<BridgeRef>("Bridge"));
+  bridge.set("joints", 2);
+  start(bridge);
+  expect_realtime_on_bench("BridgeRef", [&] {
+    bridge.write("sensor", Vector(4, 1.0));
+    for (const char* part : {"Position", "Velocity", "Acceleration"}) {
+      bridge.write("nAxesDesired" + std::string(part), Vector(2, 1.0));
+    }
+  });
+  EXPECT_EQ(bridge.writes("reference"), 100u);
+}
+
+TEST(RealtimeComponents, AxesGeneratorPos) {
+  testing::Harness generator(std::make_unique<AxesGeneratorPos>("Generator"));
+  generator.set("num_axes", 2);
+  for (const char* name : {"max_vel", "max_acc", "upper"}) generator.set(name, "[1.0]");
+  generator.set("lower", "[-1.0]");
+  start(generator);
+  const Vector zero(2, 0.0);
+  generator.write("nAxesSensorPosition", zero);
+  int motions = 0;
+  expect_realtime_on_bench("AxesGeneratorPos", [&] {
+    generator.write("nAxesSensorPosition", zero);
+    generator.run_cycles();
+    auto motion = generator.send("moveTo", Vector(2, 0.5), 0.0);
+    if (motion.stage() == component::CommandStage::kAccepted) ++motions;
+    EXPECT_FALSE(generator.call("moveTo", Vector(3, 0.5), 0.0));
+    EXPECT_FALSE(generator.call("moveTo", Vector(2, 5.0), 0.0));
+    generator.run_cycles(3);
+    motion.cancel();
+    generator.run_cycles(20);
+    EXPECT_TRUE(generator.call("resetPosition"));
+  });
+  EXPECT_EQ(motions, 100);
+}
+
+template <typename Model>
+void expect_realtime_restart(const char* model,
+                             const std::vector<std::pair<const char*, const char*>>& properties) {
+  testing::Harness bench(std::make_unique<Model>(model));
+  for (const auto& [name, value] : properties) bench.set(name, value);
+  start(bench);
+  testing::RealtimeGuard guard;
+  component::Outcome restarted = component::accepted();
+  guard.watch([&] {
+    bench.component().stop();
+    restarted = bench.component().start();
+  });
+  EXPECT_TRUE(restarted) << bench.reason();
+  EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();
+}
+
+TEST(RealtimeComponents, AStartAllocatesNothingIfNoPropertyChanged) {
+  expect_realtime_restart<Sampler>("Sampler", {});
+  expect_realtime_restart<SensorNMux>("SensorNMux", {{"joints", "7"}});
+  expect_realtime_restart<ActuatorNDemux>("ActuatorNDemux", {{"joints", "7"}});
+  expect_realtime_restart<Pid>("PID", {{"UMin", "-1"}, {"UMax", "1"}});
+  expect_realtime_restart<ControllerNPID>("ControllerNPID", {{"joints", "7"}});
+  expect_realtime_restart<ControllerNPIDFF>("ControllerNPIDFF", {{"joints", "7"},
+                                                                 {"motor_resistance", "[1]"},
+                                                                 {"motor_torque_constant", "[1]"},
+                                                                 {"motor_gear_ratio", "[1]"}});
+  expect_realtime_restart<Model>(
+      "Model", {{"joints", "2"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
+  expect_realtime_restart<BridgeRef>("BridgeRef", {{"joints", "7"}});
+  expect_realtime_restart<AxesGeneratorPos>("nAxesGeneratorPos", {{"num_axes", "7"},
+                                                                  {"max_vel", "[1]"},
+                                                                  {"max_acc", "[1]"},
+                                                                  {"lower", "[-1]"},
+                                                                  {"upper", "[1]"}});
+}
+
+TEST(RealtimeFunctions, AppendNumber) {
+  component::Reason reason;
+  expect_realtime("library::append_number", [&] { append_number(reason, 0.5); });
+  EXPECT_TRUE(reason.view().starts_with("0.50.5"));
+}
+
+class Owner final : public component::Component {
+ public:
+  using Component::Component;
+  MissingAnswers missing{this};
+};
+
+TEST(RealtimeFunctions, MissingAnswers) {
+  Owner owner("owner");
+  owner.missing.resize(2);
+  expect_realtime("MissingAnswers::reset", [&] { owner.missing.reset(); });
+  EXPECT_EQ(owner.missing.names(), "");
+}
+
+}  // namespace
+}  // namespace armature::library
