@@ -98,7 +98,7 @@ Outcome Component::activate() {
 Outcome Component::start() {
   if (state() != State::kStopped) return wrong_state("start");
   aging_ = false;
-  rest_->checked_at = time();
+  rest_->ages_hold_until = time();
   for (InputPortBase* input : rest_->interface.inputs) {
     input->begin();
     if (input->ages()) aging_ = true;
@@ -236,13 +236,17 @@ void Component::set_at_once(bool on) {
 }
 
 bool Component::admits_after_look() noexcept {
-  if (aging_ && rest_->checked_at != time()) check_ages();
+  if (aging_ && time() > rest_->ages_hold_until) check_ages();
   return state() == State::kRunning;
 }
 
 void Component::check_ages() {
-  rest_->checked_at = time();
-  for (InputPortBase* input : rest_->interface.inputs) input->check_age();
+  base::Time hold = base::Time::max();
+  for (InputPortBase* input : rest_->interface.inputs) {
+    input->check_age();
+    hold = std::min(hold, input->age_holds_until());
+  }
+  rest_->ages_hold_until = std::max(hold, time());
 }
 
 base::Time Component::next_expiry() const {

@@ -288,7 +288,7 @@ class Component {
 
     std::string name;
     bool configured = false;
-    base::Time checked_at{};  ///< when the ages of its inputs were looked at
+    base::Time ages_hold_until{};  ///< no input needs a look at its age before
     Interface interface;
     std::vector<Step*> steps_before;
     std::vector<Step*> steps_after;

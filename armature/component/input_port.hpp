@@ -79,6 +79,10 @@ class InputPortBase : public PortBase {
   /// @thread the component's own
   base::Time expiry() const;
 
+  /// Until then its data is not too old, whatever comes; any past time if that is not known.
+  /// @thread the component's own
+  base::Time age_holds_until() const;
+
   /// A writer faulted: the reader's thread reacts as declared.
   /// @thread the writer's
   void tell_lost() { owner().context().raise(about().lost); }

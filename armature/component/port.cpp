@@ -246,6 +246,13 @@ base::Time InputPortBase::expiry() const {
   return base::later(base::later(written(), about().max_age), base::Duration(1));
 }
 
+base::Time InputPortBase::age_holds_until() const {
+  if (!has(kAges) || !connected()) return base::Time::max();
+  // What comes after old data, or from several writers, may change at any time how old it is.
+  if (about().late || about().fan_in) return base::Time{};
+  return base::later(written(), about().max_age);
+}
+
 void InputPortBase::Lost::deliver(rt::Message& message) {
   auto& lost = static_cast<Lost&>(message);
   lost.lower();

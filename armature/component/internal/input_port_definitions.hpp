@@ -98,7 +98,7 @@ Reading<T> InputPort<T>::read_special() noexcept {
 template <typename T>
 void InputPort<T>::arrived_with_care(ExecutionContext& where, Handle handle) noexcept {
   set(kZeroed, false);
-  if (has(kAges)) check_age();
+  if (has(kAges) && (about().late || is_stale(source_->time))) check_age();
   if (!owner().admits()) return;
   pass(where, [this, handle] {
     const bool zero = reads_zero(is_stale(source_->time));
