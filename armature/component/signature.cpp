@@ -10,7 +10,10 @@ bool Signature::same_as(const Signature& other) const {
                            (result == nullptr || types::same_type(*result, *other.result));
   if (!same_result || arguments.size() != other.arguments.size()) return false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (!types::same_type(*arguments[i].type, *other.arguments[i].type)) return false;
+    const Argument& mine = arguments[i];
+    const Argument& given = other.arguments[i];
+    if (mine.by_reference != given.by_reference) return false;
+    if (!types::same_type(*mine.type, *given.type)) return false;
   }
   return true;
 }
@@ -19,8 +22,9 @@ std::string Signature::text() const {
   std::string text = (result == nullptr ? "void" : result->name) + "(";
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (i > 0) text += ", ";
-    text += arguments[i].type->name;
-    if (!arguments[i].name.empty()) text += " " + std::string(arguments[i].name);
+    const Argument& argument = arguments[i];
+    text += argument.by_reference ? "const " + argument.type->name + "&" : argument.type->name;
+    if (!argument.name.empty()) text += " " + std::string(argument.name);
   }
   return text + ")";
 }

@@ -16,15 +16,19 @@ struct Signature {
   struct Argument {
     std::string_view name;  ///< with the unit in brackets: `position [rad]`; may be empty
     const types::Type* type;
+    /// `const T&`. Who calls and who serves take it alike: they are compiled apart.
+    bool by_reference = false;
   };
   const types::Type* result = nullptr;  ///< nullptr: nothing
   std::vector<Argument> arguments;
 
   template <typename R, typename... Args>
-  static Signature of(std::initializer_list<std::string_view> names) {
+  requires(!std::is_reference_v<R>) static Signature
+      of(std::initializer_list<std::string_view> names) {
     Signature signature;
     if constexpr (!std::is_void_v<R>) signature.result = &types::type_of<std::decay_t<R>>();
-    signature.arguments = {Argument{{}, &types::type_of<std::decay_t<Args>>()}...};
+    signature.arguments = {
+        Argument{{}, &types::type_of<std::decay_t<Args>>(), std::is_reference_v<Args>}...};
     auto argument = signature.arguments.begin();
     for (const std::string_view name : names) {
       if (argument == signature.arguments.end()) break;
@@ -33,9 +37,9 @@ struct Signature {
     return signature;
   }
 
-  /// Same result and argument types; names do not count.
+  /// Same result and arguments, taken in the same way; names do not count.
   bool same_as(const Signature& other) const;
-  /// `double(double position [rad], int)`.
+  /// `double(double position [rad], const vector<double>&)`.
   std::string text() const;
 };
 

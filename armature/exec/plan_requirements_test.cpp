@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +82,32 @@ TEST(PlanRequirements, TheOnePeerThatHasItServes) {
   ASSERT_EQ(plan.subscriptions.size(), 1u);
   EXPECT_EQ(plan.subscriptions[0].from, 2u);
   EXPECT_EQ(plan.subscriptions[0].to, 0u);
+}
+
+class Follower final : public Component {
+ public:
+  using Component::Component;
+  Operation<void(const std::vector<double>&)> follow{this, "follow", serve<&Follower::do_follow>,
+                                                     "follows", args("path [rad]")};
+
+ private:
+  void do_follow(const std::vector<double>&) {}
+};
+
+class LeaderByValue final : public Component {
+ public:
+  using Component::Component;
+  OperationCaller<void(std::vector<double>)> follow{this, "follow", "leads"};
+};
+
+TEST(PlanRequirements, WhoCallsTakesTheArgumentsAsWhoServesDoes) {
+  Blueprint blueprint;
+  blueprint.add<LeaderByValue>("Leader");
+  blueprint.add<Follower>("Follower");
+  blueprint.add_peer("Leader", "Follower");
+  EXPECT_EQ(problems_of(std::move(blueprint)),
+            "error: 'Leader' uses 'follow' as void(vector<double>), but 'Follower.follow' is "
+            "void(const vector<double>& path [rad])\n");
 }
 
 TEST(PlanRequirements, WithoutAPeerItSaysWhoCouldServe) {

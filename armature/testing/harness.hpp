@@ -190,7 +190,8 @@ base::Result<R> Harness::call(std::string_view name, const Args&... arguments) {
 template <typename... Args>
 component::CommandHandle Harness::send(std::string_view name, const Args&... arguments) {
   component::OperationBase& operation = find_operation(name);
-  check_signature(name, operation.signature(), component::Signature::of<void, Args...>({}));
+  check_signature(name, operation.signature(),
+                  component::Signature::of<void, internal::Passed<Args>...>({}));
   check_command(name, dynamic_cast<component::Command<internal::Passed<Args>...>*>(&operation));
   auto& commander =
       fake<internal::Commander<Args...>>(name, [&](auto& made) { made.caller.connect(operation); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <string>
 #include <utility>
@@ -61,18 +62,13 @@ class Sorter {
  private:
   /// Every node that is not done waits for another such node: going back from one to the next ends
   /// in a cycle. It begins with its lowest index.
-  std::vector<Index> find_cycle(Index start, const std::vector<bool>& done) const {
-    std::vector<Index> before(after_.groups(), kNone);
-    for (Index node = 0; node < after_.groups(); ++node) {
-      for (const Index later : after_[node]) {
-        if (!done[node]) before[later] = node;
-      }
-    }
+  std::vector<Index> find_cycle(Index start, const std::vector<bool>& done) {
+    if (!before_) look_back();
+    ++walks_;
     std::vector<Index> way;
-    std::vector<bool> seen(after_.groups(), false);
     Index node = start;
-    for (; !seen[node]; node = before[node]) {
-      seen[node] = true;
+    for (; seen_in_walk_[node] != walks_; node = open_one_before(node, done)) {
+      seen_in_walk_[node] = walks_;
       way.push_back(node);
     }
     way.erase(way.begin(), std::find(way.begin(), way.end(), node));
@@ -81,8 +77,27 @@ class Sorter {
     return way;
   }
 
+  Index open_one_before(Index node, const std::vector<bool>& done) const {
+    const auto candidates = (*before_)[node];
+    return *std::find_if(candidates.rbegin(), candidates.rend(),
+                         [&done](Index each) { return !done[each]; });
+  }
+
+  /// Once, since a robot has a cycle for each joint.
+  void look_back() {
+    before_.emplace(after_.groups());
+    for (Index node = 0; node < after_.groups(); ++node) {
+      for (const Index later : after_[node]) before_->add(later, node);
+    }
+    before_->close();
+    seen_in_walk_.assign(after_.groups(), 0);
+  }
+
   Grouped<Index> after_;
   std::vector<std::size_t> waiting_for_;
+  std::optional<Grouped<Index>> before_;
+  std::vector<std::size_t> seen_in_walk_;  ///< the last walk that came by each node
+  std::size_t walks_ = 0;
 };
 
 void order_start(const Blueprint& blueprint, Plan& plan) {
