@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every writer does when the disk is full.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
