@@ -111,13 +111,13 @@ base::Result<void> CsvWriter::check_usable() const {
 }
 
 base::Result<ChannelId> CsvWriter::add_channel(Channel channel) {
-  const auto usable = check_usable();
+  auto usable = check_usable();
   if (!usable) return base::Error{usable.error()};
   if (names_.empty()) {
     return base::Error{"'" + file_.path() + "': channel '" + channel.name +
                        "' is expected before the first sample, but comes after it"};
   }
-  const auto id = channels_.add(std::move(channel));
+  auto id = channels_.add(std::move(channel));
   if (!id) return id;
   const Channel& added = channels_[id.value()];
   Columns columns;
@@ -151,7 +151,7 @@ void CsvWriter::add_column(const std::string& full_name, const std::string& unit
 }
 
 base::Result<void> CsvWriter::write(const Sample& sample) {
-  const auto usable = check_usable();
+  auto usable = check_usable();
   if (!usable) return usable;
   const auto value = channels_.decode(sample);
   if (!value) return base::Error{value.error()};
@@ -173,7 +173,9 @@ base::Result<void> CsvWriter::write(const Sample& sample) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     row_[columns.first + i] = std::move(leaves[i].text);
   }
-  return text_.size() < kBlock ? base::Result<void>{} : write_text();
+  if (text_.size() >= kBlock) return write_text();
+  ++unsaved_;
+  return {};
 }
 
 void CsvWriter::begin_row(base::Time time) {
@@ -196,7 +198,7 @@ void CsvWriter::end_row() {
 }
 
 base::Result<void> CsvWriter::flush() {
-  const auto usable = check_usable();
+  auto usable = check_usable();
   return usable ? write_text() : usable;
 }
 
@@ -205,16 +207,20 @@ base::Result<void> CsvWriter::close() {
   end_row();
   if (!failure_) static_cast<void>(write_text().ok());
   closed_ = true;
-  const auto file_closed = file_.close();
+  auto file_closed = file_.close();
   if (failure_) return *failure_;
   return file_closed;
 }
 
 /// After a failure the file may end amid a row, so nothing more is written.
 base::Result<void> CsvWriter::write_text() {
-  const auto written = file_.write(text_);
-  if (!written) failure_ = base::Error{written.error()};
+  auto written = file_.write(text_);
+  if (!written) {
+    failure_ = base::Error{written.error()};
+    return written;
+  }
   text_.clear();
+  unsaved_ = static_cast<std::uint64_t>(std::ranges::count_if(columns_, &Columns::in_row));
   return written;
 }
 

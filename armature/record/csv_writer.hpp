@@ -40,6 +40,7 @@ class CsvWriter final : public Writer {
   /// All rows but the last, to which samples may still come.
   base::Result<void> flush() override;
   base::Result<void> close() override;
+  std::uint64_t unsaved() const override { return unsaved_; }
 
   std::uint64_t replaced() const { return replaced_; }
 
@@ -69,6 +70,7 @@ class CsvWriter final : public Writer {
   std::optional<base::Time> time_;  // of the row to which samples still come
   std::vector<std::string> row_;
   std::string text_;  // not yet in the file
+  std::uint64_t unsaved_ = 0;
   std::uint64_t replaced_ = 0;
   std::optional<base::Error> failure_;
   bool closed_ = false;

@@ -151,7 +151,9 @@ TEST_F(Csv, FlushHandsOverAllRowsButTheLast) {
   ASSERT_TRUE(writer_->add_channel(channel_of("A", 0)));
   ASSERT_TRUE(write(*writer_, 0, 0, 1));
   ASSERT_TRUE(write(*writer_, 0, 1, 2));
+  EXPECT_EQ(writer_->unsaved(), 2u);
   ASSERT_TRUE(writer_->flush());
+  EXPECT_EQ(writer_->unsaved(), 1u);
   EXPECT_THAT(content(), testing::EndsWith("\n0.000000000,1\n"));
   EXPECT_THAT(closed_content(), testing::EndsWith("\n0.000000000,1\n0.000000001,2\n"));
 }

@@ -21,6 +21,7 @@ TEST(FullDisk, TheCsvWriterSaysSoAtEachCallFromThenOn) {
   while (write(writer, 0, written, 0.5)) ASSERT_LT(++written, 100'000);
   EXPECT_GT(written, 1000);  // what fits into the memory in between
   EXPECT_EQ(write(writer, 0, written, 0.5).error(), kFull);
+  EXPECT_EQ(writer.unsaved(), static_cast<std::uint64_t>(written));
   EXPECT_EQ(writer.flush().error(), kFull);
   EXPECT_EQ(writer.add_channel(channel_of("B", 0.0)).error(), kFull);
   EXPECT_EQ(writer.close().error(), kFull);

@@ -253,7 +253,7 @@ base::Result<void> McapRecording::read(const RecordedSample& sample, const types
     return base::Error{where + "is expected to be " + types::layout_text(type) + ", but is " +
                        channel.layout};
   }
-  const auto done = from_json(type, sample.json, value);
+  auto done = from_json(type, sample.json, value);
   if (done) return done;
   return base::Error{where + "at " + std::to_string(base::to_ns(sample.time)) +
                      " ns: " + done.error()};

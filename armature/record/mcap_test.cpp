@@ -141,7 +141,9 @@ TEST(Mcap, FlushHandsOverTheMessagesSoFar) {
   const auto writer = make_writer(path);
   ASSERT_TRUE(writer->add_channel(channel_of("A", 0)));
   ASSERT_TRUE(write(*writer, 0, 1, 12345));
+  EXPECT_EQ(writer->unsaved(), 1u);
   ASSERT_TRUE(writer->flush());
+  EXPECT_EQ(writer->unsaved(), 0u);
   EXPECT_THAT(platform::read_file(path).value(), HasSubstr(R"({"value":12345})"));
 }
 

@@ -102,9 +102,9 @@ base::Result<void> McapWriter::check_usable() const {
 }
 
 base::Result<ChannelId> McapWriter::add_channel(Channel channel) {
-  const auto usable = check_usable();
+  auto usable = check_usable();
   if (!usable) return base::Error{usable.error()};
-  const auto id = channels_.add(std::move(channel));
+  auto id = channels_.add(std::move(channel));
   if (!id) return id;
   const Channel& added = channels_[id.value()];
   const std::string record = channel_record(id.value(), schema_id(added.shape.type()), added);
@@ -132,12 +132,14 @@ std::uint16_t McapWriter::schema_id(const types::Type& type) {
 }
 
 base::Result<void> McapWriter::write(const Sample& sample) {
-  const auto usable = check_usable();
+  auto usable = check_usable();
   if (!usable) return usable;
   const auto value = channels_.decode(sample);
   if (!value) return base::Error{value.error()};
   append_message(sample, *value.value());
-  return chunk_.records.size() < options_.chunk_size ? base::Result<void>{} : write_chunk();
+  if (chunk_.records.size() >= options_.chunk_size) return write_chunk();
+  ++unsaved_;
+  return {};
 }
 
 void McapWriter::append_message(const Sample& sample, const types::Value& value) {
@@ -205,7 +207,9 @@ base::Result<void> McapWriter::write_chunk() {
   put_record(Op::kChunkIndex, content, chunk_indexes_);
   ++chunk_count_;
   chunk_ = {};
-  return emit(record + indexes);
+  auto written = emit(record + indexes);
+  if (written) unsaved_ = 0;
+  return written;
 }
 
 std::string McapWriter::statistics() const {
@@ -259,7 +263,7 @@ base::Result<void> McapWriter::write_end() {
 }
 
 base::Result<void> McapWriter::flush() {
-  const auto usable = check_usable();
+  auto usable = check_usable();
   return usable ? write_chunk() : usable;
 }
 
@@ -267,14 +271,14 @@ base::Result<void> McapWriter::close() {
   if (closed_) return {};
   if (!failure_ && write_chunk()) static_cast<void>(write_end().ok());
   closed_ = true;
-  const auto file_closed = file_.close();
+  auto file_closed = file_.close();
   if (failure_) return *failure_;
   return file_closed;
 }
 
 /// After a failure the file may end amid a record, so nothing more is written.
 base::Result<void> McapWriter::emit(const std::string& bytes) {
-  const auto written = file_.write(bytes);
+  auto written = file_.write(bytes);
   if (!written) {
     failure_ = base::Error{written.error()};
     return written;

@@ -38,6 +38,7 @@ class McapWriter final : public Writer {
   base::Result<void> write(const Sample& sample) override;
   base::Result<void> flush() override;
   base::Result<void> close() override;
+  std::uint64_t unsaved() const override { return unsaved_; }
 
  private:
   /// Of the messages of a chunk or of the file; 0 without any.
@@ -86,6 +87,7 @@ class McapWriter final : public Writer {
   std::vector<std::uint64_t> message_counts_;
   TimeSpan times_;
 
+  std::uint64_t unsaved_ = 0;
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0;
   std::optional<base::Error> failure_;

@@ -49,6 +49,10 @@ class Writer {
   /// Hands over to the system what is complete, so that it survives this process.
   virtual base::Result<void> flush() = 0;
 
+  /// Samples that were accepted and are not yet handed over; once the file is given up, no reader
+  /// may count on them.
+  virtual std::uint64_t unsaved() const = 0;
+
   /// Completes the file; without it, destruction does so and nobody hears of errors.
   virtual base::Result<void> close() = 0;
 };

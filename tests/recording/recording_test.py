@@ -9,6 +9,7 @@ import collections
 import json
 import math
 import os
+import re
 import resource
 import signal
 import struct
@@ -28,6 +29,7 @@ MAGIC = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = 1, 2, 3, 4, 5, 6
 MESSAGE_INDEX, CHUNK_INDEX, STATISTICS, SUMMARY_OFFSET, DATA_END = 7, 8, 11, 14, 15
 TIMES = 200
+AMID_A_CHUNK = 8000  # of those, the second
 
 
 class Fields:
@@ -67,6 +69,19 @@ def records(data, begin, end):
         assert begin + 9 + size <= end
         yield begin, op, data[begin + 9 : begin + 9 + size]
         begin += 9 + size
+
+
+def messages_in_whole_chunks(data):
+    count, place = 0, len(MAGIC)
+    while place + 9 <= len(data):
+        op, size = struct.unpack("<BQ", data[place : place + 9])
+        if op == CHUNK and place + 9 + size <= len(data):
+            inner = Fields(data[place + 9 + 28 : place + 9 + size])
+            inner.text()
+            inner = inner.counted("Q")
+            count += sum(op == MESSAGE for _, op, _ in records(inner, 0, len(inner)))
+        place += 9 + size
+    return count
 
 
 def u16(fields):
@@ -324,14 +339,20 @@ class FullDisk(unittest.TestCase):
     def test_what_is_lost_is_counted_and_the_file_holds_what_came_before(self):
         def limit_files():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (AMID_A_CHUNK, AMID_A_CHUNK))
 
         with tempfile.TemporaryDirectory() as folder:
             done, mcap, csv = run(folder, preexec_fn=limit_files)
+        total = len(list(expected_samples()))
         mcap_says, csv_says = done.stdout.splitlines()
-        self.assertRegex(mcap_says, r"^cannot write '.*/a\.mcap': File too large; lost [1-9]\d\d$")
-        self.assertRegex(csv_says, r"^cannot write '.*/a\.csv': File too large; lost 1$")
-        self.assertEqual((len(mcap), len(csv)), (10000, 10000))
+        pattern = r"^cannot write '.*/a\.%s': File too large; (\d+) failed, (\d+) lost$"
+        failed, lost = map(int, re.match(pattern % "mcap", mcap_says).groups())
+        # One failure is that of the end.
+        self.assertEqual(failed - 1 + lost + messages_in_whole_chunks(mcap), total)
+        self.assertGreater(messages_in_whole_chunks(mcap), 0)
+        failed, lost = map(int, re.match(pattern % "csv", csv_says).groups())
+        self.assertEqual((failed, lost), (1, total))
+        self.assertEqual((len(mcap), len(csv)), (AMID_A_CHUNK, AMID_A_CHUNK))
         self.assertTrue(mcap.startswith(MAGIC) and csv.startswith(b"time_s,"))
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: write_recording MCAP CSV
-// Writes what recording_test.py knows; says the first error of each file and how much it lost.
+// Writes what recording_test.py knows; says the first error of each file and how many calls failed,
+// and how many samples were accepted and lost nevertheless.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -46,19 +47,20 @@ class Recorder {
 
   void close() {
     note(writer_.close());
-    if (lost_ > 0) std::cout << first_error_ << "; lost " << lost_ << "\n";
+    if (failed_ == 0) return;
+    std::cout << first_error_ << "; " << failed_ << " failed, " << writer_.unsaved() << " lost\n";
   }
 
  private:
   template <typename T>
   void note(const armature::base::Result<T>& result) {
     if (result) return;
-    if (lost_++ == 0) first_error_ = result.error();
+    if (failed_++ == 0) first_error_ = result.error();
   }
 
   record::Writer& writer_;
   std::string first_error_;
-  int lost_ = 0;
+  int failed_ = 0;
 };
 
 void write_all(record::Writer& writer) {
