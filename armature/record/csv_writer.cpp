@@ -62,8 +62,6 @@ std::string seconds(base::Time time) {
 struct Leaf {
   std::string path;
   std::string text;
-
-  friend bool operator==(const Leaf&, const Leaf&) = default;
 };
 
 /// All but texts, which numpy takes for missing numbers.
