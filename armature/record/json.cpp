@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/record/json.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "armature/record/internal/json_text.hpp"
+#include "armature/record/internal/utf8.hpp"
+
+namespace armature::record {
+namespace {
+
+using types::Field;
+using types::Kind;
+using types::Type;
+
+template <typename T>
+void append_number(const void* value, std::string& to) {
+  T number;
+  std::memcpy(&number, value, sizeof number);
+  std::array<char, 32> digits;
+  to.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+
+template <typename T>
+void append_float(const void* value, std::string& to) {
+  T number;
+  std::memcpy(&number, value, sizeof number);
+  if (std::isfinite(number)) return append_number<T>(value, to);
+  if (std::isnan(number)) {
+    to += "null";
+  } else {
+    if (number < 0) to += '-';
+    to += internal::kInfinity;
+  }
+}
+
+void append_scalar(const Type& type, const void* value, std::string& to) {
+  switch (type.kind) {
+    case Kind::kBool:
+      to += *static_cast<const bool*>(value) ? "true" : "false";
+      return;
+    case Kind::kInt8:
+      return append_number<std::int8_t>(value, to);
+    case Kind::kUint8:
+      return append_number<std::uint8_t>(value, to);
+    case Kind::kInt16:
+      return append_number<std::int16_t>(value, to);
+    case Kind::kUint16:
+      return append_number<std::uint16_t>(value, to);
+    case Kind::kInt32:
+      return append_number<std::int32_t>(value, to);
+    case Kind::kUint32:
+      return append_number<std::uint32_t>(value, to);
+    case Kind::kInt64:
+      return append_number<std::int64_t>(value, to);
+    case Kind::kUint64:
+      return append_number<std::uint64_t>(value, to);
+    case Kind::kFloat:
+      return append_float<float>(value, to);
+    case Kind::kDouble:
+      return append_float<double>(value, to);
+    default:
+      return;
+  }
+}
+
+void append_value(const Type& type, const void* value, std::string& to);
+
+void append_list(const Type& list, const void* value, std::string& to) {
+  const bool is_vector = list.kind == Kind::kVector;
+  const std::size_t count = is_vector ? list.vector_size(value) : list.count;
+  const void* const first = is_vector ? list.vector_data(const_cast<void*>(value)) : value;
+  to += '[';
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) to += ',';
+    append_value(*list.element, static_cast<const std::byte*>(first) + i * list.element->size, to);
+  }
+  to += ']';
+}
+
+void append_struct(const Type& type, const void* value, std::string& to) {
+  to += '{';
+  for (const Field& field : type.fields) {
+    if (&field != &type.fields.front()) to += ',';
+    internal::append_json_string(field.name, to);
+    to += ':';
+    append_value(*field.type, static_cast<const std::byte*>(value) + field.offset, to);
+  }
+  to += '}';
+}
+
+void append_value(const Type& type, const void* value, std::string& to) {
+  if (internal::is_text(type)) return internal::append_json_string(type.text(value), to);
+  if (internal::is_list(type)) return append_list(type, value, to);
+  if (type.kind == Kind::kStruct) return append_struct(type, value, to);
+  append_scalar(type, value, to);
+}
+
+}  // namespace
+
+namespace internal {
+
+void append_json_string(std::string_view text, std::string& to) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  to += '"';
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto byte = static_cast<unsigned char>(text.front());
+    if (length == 0) {
+      to += '?';
+    } else if (byte == '"' || byte == '\\') {
+      to += '\\';
+      to += text.front();
+    } else if (byte < 0x20) {
+      to += "\\u00";
+      to += kHex[byte >> 4];
+      to += kHex[byte & 15];
+    } else {
+      to += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  to += '"';
+}
+
+}  // namespace internal
+
+std::string to_json(const Type& type, const void* value) {
+  std::string json;
+  if (type.kind == Kind::kStruct) {
+    append_value(type, value, json);
+  } else {
+    json += '{';
+    internal::append_json_string(internal::kValueMember, json);
+    json += ':';
+    append_value(type, value, json);
+    json += '}';
+  }
+  return json;
+}
+
+}  // namespace armature::record

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
+#include "armature/record/recording.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::record {
+
+/// A channel as the file has it; whoever reads its samples knows the type.
+struct RecordedChannel {
+  std::string name;
+  std::string type;    ///< types::Type::name
+  std::string layout;  ///< types::layout_text
+  std::string unit;
+  std::string doc;
+
+  friend bool operator==(const RecordedChannel&, const RecordedChannel&) = default;
+};
+
+struct RecordedSample {
+  ChannelId channel = 0;  ///< index into the channels
+  base::Time time{};
+  std::uint32_t sequence = 0;
+  std::string json;
+
+  friend bool operator==(const RecordedSample&, const RecordedSample&) = default;
+};
+
+/// What McapWriter wrote; samples are in the order of writing.
+struct McapRecording {
+  std::string file;  ///< for errors
+  std::vector<RecordedChannel> channels;
+  std::vector<RecordedSample> samples;
+
+  /// Reads a sample's value. An error names file and channel, and says which type was expected or
+  /// where the sample is wrong; it leaves `value` as it was.
+  base::Result<void> read(const RecordedSample& sample, const types::Type& type, void* value) const;
+};
+
+/// Reads a file of McapWriter, or of another program that writes JSON, uncompressed, with a
+/// summary. Every CRC is checked; a file that is damaged, cut off or not closed is refused as a
+/// whole, and the error says at which byte what was expected.
+/// @param file  the name for errors
+base::Result<McapRecording> parse_mcap(std::string_view content, const std::string& file);
+
+/// The same for a file, of which all has to fit into memory.
+base::Result<McapRecording> load_mcap(const std::string& path);
+
+}  // namespace armature::record
