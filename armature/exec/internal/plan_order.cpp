@@ -40,7 +40,7 @@ class Sorter {
       if (ready.empty()) {
         while (done[first_open]) ++first_open;
         // Not whoever is open: it may only wait for what is in the cycle.
-        const std::vector<Index> broken = find_cycle(first_open, done);
+        const std::vector<Index>& broken = find_cycle(first_open, done);
         if (cycle != nullptr && cycle->empty()) *cycle = broken;
         waiting_for_[broken.front()] = 0;
         ready.push(broken.front());
@@ -62,10 +62,11 @@ class Sorter {
  private:
   /// Every node that is not done waits for another such node: going back from one to the next ends
   /// in a cycle. It begins with its lowest index.
-  std::vector<Index> find_cycle(Index start, const std::vector<bool>& done) {
+  const std::vector<Index>& find_cycle(Index start, const std::vector<bool>& done) {
     if (!before_) look_back();
     ++walks_;
-    std::vector<Index> way;
+    std::vector<Index>& way = way_;
+    way.clear();
     Index node = start;
     for (; seen_in_walk_[node] != walks_; node = open_one_before(node, done)) {
       seen_in_walk_[node] = walks_;
@@ -77,10 +78,11 @@ class Sorter {
     return way;
   }
 
-  Index open_one_before(Index node, const std::vector<bool>& done) const {
+  Index open_one_before(Index node, const std::vector<bool>& done) {
     const auto candidates = (*before_)[node];
-    return *std::find_if(candidates.rbegin(), candidates.rend(),
-                         [&done](Index each) { return !done[each]; });
+    std::size_t& passed = passed_[node];  // those are done, and stay so
+    while (done[candidates[passed]]) ++passed;
+    return candidates[passed];
   }
 
   /// Once, since a robot has a cycle for each joint.
@@ -91,12 +93,15 @@ class Sorter {
     }
     before_->close();
     seen_in_walk_.assign(after_.groups(), 0);
+    passed_.assign(after_.groups(), 0);
   }
 
   Grouped<Index> after_;
   std::vector<std::size_t> waiting_for_;
   std::optional<Grouped<Index>> before_;
   std::vector<std::size_t> seen_in_walk_;  ///< the last walk that came by each node
+  std::vector<std::size_t> passed_;        ///< how many of those before each node are done
+  std::vector<Index> way_;
   std::size_t walks_ = 0;
 };
 
