@@ -27,27 +27,25 @@ constexpr double kBound = 1.3;
 constexpr std::int64_t kRounds = 101;
 constexpr std::chrono::milliseconds kBatch(10);
 
-// Threads as a robot has them, ours and the reference's alike: real-time, and on CPUs by turns, so
-// that each hop goes from one CPU to another. Where the kernel chooses, a hop on the same CPU takes
-// a third of one between two, and each side finds its own mixture.
+// Threads as a robot has them, ours and the reference's alike: real-time, and on one CPU, since one
+// waits for the other. Where the kernel chooses, a hop on the same CPU takes a third of one between
+// two, and each side finds its own mixture.
 constexpr int kPriority = 50;
 
-int cpu_of(int thread) {
-  return thread % static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
+int last_cpu() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) - 1; }
 
-exec::Activity activity_of(int thread) {
+exec::Activity own_thread() {
   exec::Activity activity = exec::Activity::triggered(kPriority);
-  activity.cpus = {cpu_of(thread)};
+  activity.cpus = {last_cpu()};
   return activity;
 }
 
-platform::ThreadRequest request_of(int thread) {
+platform::ThreadRequest bare_thread() {
   platform::ThreadRequest request;
   request.name = "bare hop";
   request.scheduler = platform::Scheduler::kFifo;
   request.priority = kPriority;
-  request.cpus = {cpu_of(thread)};
+  request.cpus = {last_cpu()};
   return request;
 }
 
@@ -61,7 +59,7 @@ class BareHops {
                                             [this] { run_controller(); },
                                             [this] { run_actuator(); }};
     for (const auto& body : bodies) {
-      threads_.emplace_back(request_of(static_cast<int>(threads_.size())), body);
+      threads_.emplace_back(bare_thread(), body);
     }
   }
   BareHops(const BareHops&) = delete;
@@ -142,7 +140,7 @@ class OneThread {
 
 void run_cycle(benchmark::State& state, int joints, Beside beside) {
   exec::Blueprint blueprint =
-      make_cycle(joints, {activity_of(0), activity_of(1), activity_of(2), activity_of(3)});
+      make_cycle(joints, {own_thread(), own_thread(), own_thread(), own_thread()});
   Pacer& pacer = add_pacer(blueprint, joints);
   exec::ApplicationOptions options;
   options.realtime = exec::RealtimeMode::kPrefer;
