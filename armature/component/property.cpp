@@ -2,36 +2,22 @@
 #include "armature/component/property.hpp"
 
 #include <charconv>
-#include <cstdint>
+#include <type_traits>
+
+#include "armature/types/elements.hpp"
 
 namespace armature::component {
 namespace {
 
 std::optional<double> as_number(const types::Type& type, const void* data) {
-  switch (type.kind) {
-    case types::Kind::kInt8:
-      return *static_cast<const std::int8_t*>(data);
-    case types::Kind::kUint8:
-      return *static_cast<const std::uint8_t*>(data);
-    case types::Kind::kInt16:
-      return *static_cast<const std::int16_t*>(data);
-    case types::Kind::kUint16:
-      return *static_cast<const std::uint16_t*>(data);
-    case types::Kind::kInt32:
-      return *static_cast<const std::int32_t*>(data);
-    case types::Kind::kUint32:
-      return *static_cast<const std::uint32_t*>(data);
-    case types::Kind::kInt64:
-      return static_cast<double>(*static_cast<const std::int64_t*>(data));
-    case types::Kind::kUint64:
-      return static_cast<double>(*static_cast<const std::uint64_t*>(data));
-    case types::Kind::kFloat:
-      return static_cast<double>(*static_cast<const float*>(data));
-    case types::Kind::kDouble:
-      return *static_cast<const double*>(data);
-    default:
+  return types::with_scalar(type.kind, [data](auto of) -> std::optional<double> {
+    using T = typename decltype(of)::type;
+    if constexpr (std::is_same_v<T, bool>) {
       return std::nullopt;
-  }
+    } else {
+      return static_cast<double>(*static_cast<const T*>(data));
+    }
+  });
 }
 
 std::string number_text(double value) {

@@ -69,7 +69,7 @@ std::vector<Leaf> number_leaves(const types::Value& value) {
   std::vector<Leaf> leaves;
   types::visit_leaves(value.type(), value.data(),
                       [&](const std::string& path, const Type& type, const void* leaf) {
-                        if (!internal::is_text(type)) leaves.push_back({path, cell(type, leaf)});
+                        if (!types::is_text(type)) leaves.push_back({path, cell(type, leaf)});
                       });
   return leaves;
 }

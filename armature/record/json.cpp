@@ -38,45 +38,27 @@ void append_float(const void* value, std::string& to) {
 }
 
 void append_scalar(const Type& type, const void* value, std::string& to) {
-  switch (type.kind) {
-    case Kind::kBool:
+  types::with_scalar(type.kind, [&](auto of) {
+    using T = typename decltype(of)::type;
+    if constexpr (std::is_same_v<T, bool>) {
       to += *static_cast<const bool*>(value) ? "true" : "false";
-      return;
-    case Kind::kInt8:
-      return append_number<std::int8_t>(value, to);
-    case Kind::kUint8:
-      return append_number<std::uint8_t>(value, to);
-    case Kind::kInt16:
-      return append_number<std::int16_t>(value, to);
-    case Kind::kUint16:
-      return append_number<std::uint16_t>(value, to);
-    case Kind::kInt32:
-      return append_number<std::int32_t>(value, to);
-    case Kind::kUint32:
-      return append_number<std::uint32_t>(value, to);
-    case Kind::kInt64:
-      return append_number<std::int64_t>(value, to);
-    case Kind::kUint64:
-      return append_number<std::uint64_t>(value, to);
-    case Kind::kFloat:
-      return append_float<float>(value, to);
-    case Kind::kDouble:
-      return append_float<double>(value, to);
-    default:
-      return;
-  }
+    } else if constexpr (std::is_floating_point_v<T>) {
+      append_float<T>(value, to);
+    } else {
+      append_number<T>(value, to);
+    }
+  });
 }
 
 void append_value(const Type& type, const void* value, std::string& to);
 
 void append_list(const Type& list, const void* value, std::string& to) {
-  const bool is_vector = list.kind == Kind::kVector;
-  const std::size_t count = is_vector ? list.vector_size(value) : list.count;
-  const void* const first = is_vector ? list.vector_data(const_cast<void*>(value)) : value;
+  const std::size_t count = types::element_count(list, value);
+  const std::byte* const first = types::elements(list, value);
   to += '[';
   for (std::size_t i = 0; i < count; ++i) {
     if (i > 0) to += ',';
-    append_value(*list.element, static_cast<const std::byte*>(first) + i * list.element->size, to);
+    append_value(*list.element, first + i * list.element->size, to);
   }
   to += ']';
 }
@@ -87,14 +69,14 @@ void append_struct(const Type& type, const void* value, std::string& to) {
     if (&field != &type.fields.front()) to += ',';
     internal::append_json_string(field.name, to);
     to += ':';
-    append_value(*field.type, static_cast<const std::byte*>(value) + field.offset, to);
+    append_value(*field.type, types::at_offset(value, field.offset), to);
   }
   to += '}';
 }
 
 void append_value(const Type& type, const void* value, std::string& to) {
-  if (internal::is_text(type)) return internal::append_json_string(type.text(value), to);
-  if (internal::is_list(type)) return append_list(type, value, to);
+  if (types::is_text(type)) return internal::append_json_string(type.text(value), to);
+  if (types::is_list(type)) return append_list(type, value, to);
   if (type.kind == Kind::kStruct) return append_struct(type, value, to);
   append_scalar(type, value, to);
 }

@@ -29,7 +29,7 @@ class JsonReader {
 
  private:
   bool read(const Type& type, void* value) {
-    if (internal::is_text(type)) return read_text(type, value);
+    if (types::is_text(type)) return read_text(type, value);
     if (type.kind == Kind::kArray) return read_array(type, value);
     if (type.kind == Kind::kVector) return read_vector(type, value);
     if (type.kind == Kind::kStruct) return read_struct(type, value);
@@ -44,8 +44,8 @@ class JsonReader {
     if (!expect("{")) return false;
     for (const Field& field : type.fields) {
       if (&field != &type.fields.front() && !expect(",")) return false;
-      void* const at = static_cast<std::byte*>(value) + field.offset;
-      if (!read_name(field.name) || !read(*field.type, at)) return false;
+      if (!read_name(field.name)) return false;
+      if (!read(*field.type, types::at_offset(value, field.offset))) return false;
     }
     return expect("}");
   }
@@ -118,32 +118,16 @@ class JsonReader {
   }
 
   bool read_scalar(const Type& type, void* value) {
-    switch (type.kind) {
-      case Kind::kBool:
+    return types::with_scalar(type.kind, [&](auto of) {
+      using T = typename decltype(of)::type;
+      if constexpr (std::is_same_v<T, bool>) {
         return read_bool(value);
-      case Kind::kInt8:
-        return read_number<std::int8_t>(type, value);
-      case Kind::kUint8:
-        return read_number<std::uint8_t>(type, value);
-      case Kind::kInt16:
-        return read_number<std::int16_t>(type, value);
-      case Kind::kUint16:
-        return read_number<std::uint16_t>(type, value);
-      case Kind::kInt32:
-        return read_number<std::int32_t>(type, value);
-      case Kind::kUint32:
-        return read_number<std::uint32_t>(type, value);
-      case Kind::kInt64:
-        return read_number<std::int64_t>(type, value);
-      case Kind::kUint64:
-        return read_number<std::uint64_t>(type, value);
-      case Kind::kFloat:
-        return read_float<float>(type, value);
-      case Kind::kDouble:
-        return read_float<double>(type, value);
-      default:
-        return false;
-    }
+      } else if constexpr (std::is_floating_point_v<T>) {
+        return read_float<T>(type, value);
+      } else {
+        return read_number<T>(type, value);
+      }
+    });
   }
 
   bool read_bool(void* value) {

@@ -21,8 +21,8 @@ std::string description(const Field& field) {
 }
 
 std::string_view json_name(const Type& type) {
-  if (internal::is_text(type)) return "string";
-  if (internal::is_list(type)) return "array";
+  if (types::is_text(type)) return "string";
+  if (types::is_list(type)) return "array";
   if (internal::is_float(type)) return "number";
   if (type.kind == Kind::kStruct) return "object";
   return type.kind == Kind::kBool ? "boolean" : "integer";
@@ -66,7 +66,7 @@ void append_schema(const Type& type, const std::string& about, std::string& to) 
     append_json_string(about, to);
   }
   if (type.kind == Kind::kStruct) append_members(type.fields, to);
-  if (internal::is_list(type)) append_elements(type, to);
+  if (types::is_list(type)) append_elements(type, to);
   to += '}';
 }
 

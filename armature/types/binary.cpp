@@ -2,17 +2,10 @@
 #include <bit>
 #include <cstring>
 
-#include "armature/types/internal/elements.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::types {
 namespace {
-
-using internal::at_offset;
-using internal::element_count;
-using internal::elements;
-using internal::is_list;
-using internal::is_scalar;
-using internal::is_text;
 
 static_assert(std::endian::native == std::endian::little, "the binary form is little-endian");
 

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "armature/types/internal/elements.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::types {
 namespace {
-
-using internal::at_offset;
-using internal::element_count;
-using internal::elements;
 
 bool same_list_shape(const Type& list, const void* a, const void* b) {
   const std::size_t count = element_count(list, a);
@@ -27,8 +23,8 @@ bool same_list_shape(const Type& list, const void* a, const void* b) {
 
 bool same_shape(const Type& type, const void* a, const void* b) {
   if (type.fixed_size()) return true;
-  if (internal::is_text(type)) return type.text(a).size() == type.text(b).size();
-  if (internal::is_list(type)) return same_list_shape(type, a, b);
+  if (is_text(type)) return type.text(a).size() == type.text(b).size();
+  if (is_list(type)) return same_list_shape(type, a, b);
   return std::all_of(type.fields.begin(), type.fields.end(), [&](const Field& field) {
     return same_shape(*field.type, at_offset(a, field.offset), at_offset(b, field.offset));
   });

@@ -4,17 +4,11 @@
 #include <cstring>
 #include <limits>
 
-#include "armature/types/internal/elements.hpp"
+#include "armature/types/elements.hpp"
 #include "armature/types/internal/text_reader.hpp"
 
 namespace armature::types {
 namespace {
-
-using internal::at_offset;
-using internal::element_count;
-using internal::elements;
-using internal::is_list;
-using internal::is_text;
 
 template <typename T>
 void append_number(const void* value, std::string& to) {
@@ -29,33 +23,14 @@ void append_number(const void* value, std::string& to) {
 }
 
 void append_scalar(const Type& type, const void* value, std::string& to) {
-  switch (type.kind) {
-    case Kind::kBool:
+  with_scalar(type.kind, [&](auto of) {
+    using T = typename decltype(of)::type;
+    if constexpr (std::is_same_v<T, bool>) {
       to += *static_cast<const bool*>(value) ? "true" : "false";
-      return;
-    case Kind::kInt8:
-      return append_number<std::int8_t>(value, to);
-    case Kind::kUint8:
-      return append_number<std::uint8_t>(value, to);
-    case Kind::kInt16:
-      return append_number<std::int16_t>(value, to);
-    case Kind::kUint16:
-      return append_number<std::uint16_t>(value, to);
-    case Kind::kInt32:
-      return append_number<std::int32_t>(value, to);
-    case Kind::kUint32:
-      return append_number<std::uint32_t>(value, to);
-    case Kind::kInt64:
-      return append_number<std::int64_t>(value, to);
-    case Kind::kUint64:
-      return append_number<std::uint64_t>(value, to);
-    case Kind::kFloat:
-      return append_number<float>(value, to);
-    case Kind::kDouble:
-      return append_number<double>(value, to);
-    default:
-      return;
-  }
+    } else {
+      append_number<T>(value, to);
+    }
+  });
 }
 
 void append_quoted(std::string_view text, std::string& to) {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "armature/base/near_name.hpp"
-#include "armature/types/internal/elements.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::types::internal {
 namespace {
@@ -41,32 +41,14 @@ bool TextReader::read(const Type& type, void* value) {
 }
 
 bool TextReader::read_scalar(const Type& type, void* value) {
-  switch (type.kind) {
-    case Kind::kBool:
+  return with_scalar(type.kind, [&](auto of) {
+    using T = typename decltype(of)::type;
+    if constexpr (std::is_same_v<T, bool>) {
       return read_bool(value);
-    case Kind::kInt8:
-      return read_number<std::int8_t>(type, value);
-    case Kind::kUint8:
-      return read_number<std::uint8_t>(type, value);
-    case Kind::kInt16:
-      return read_number<std::int16_t>(type, value);
-    case Kind::kUint16:
-      return read_number<std::uint16_t>(type, value);
-    case Kind::kInt32:
-      return read_number<std::int32_t>(type, value);
-    case Kind::kUint32:
-      return read_number<std::uint32_t>(type, value);
-    case Kind::kInt64:
-      return read_number<std::int64_t>(type, value);
-    case Kind::kUint64:
-      return read_number<std::uint64_t>(type, value);
-    case Kind::kFloat:
-      return read_number<float>(type, value);
-    case Kind::kDouble:
-      return read_number<double>(type, value);
-    default:
-      return false;
-  }
+    } else {
+      return read_number<T>(type, value);
+    }
+  });
 }
 
 bool TextReader::read_bool(void* value) {

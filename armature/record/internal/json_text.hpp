@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "armature/types/type.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::record::internal {
 
@@ -16,8 +16,6 @@ inline constexpr std::string_view kInfinity = "1e999";
 /// Appends `text` as a JSON string.
 void append_json_string(std::string_view text, std::string& to);
 
-inline bool is_text(const types::Type& type) { return type.text != nullptr; }
-inline bool is_list(const types::Type& type) { return type.element != nullptr; }
 inline bool is_float(const types::Type& type) {
   return type.kind == types::Kind::kFloat || type.kind == types::Kind::kDouble;
 }

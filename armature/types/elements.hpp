@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What walks through values needs: of which sort a type is, and where the parts of a value lie.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "armature/types/type.hpp"
+
+namespace armature::types {
+
+inline bool is_list(const Type& type) { return type.element != nullptr; }
+
+inline bool is_text(const Type& type) { return type.text != nullptr; }
+
+inline bool is_scalar(const Type& type) {
+  return !is_list(type) && !is_text(type) && type.kind != Kind::kStruct;
+}
+
+inline std::size_t element_count(const Type& list, const void* value) {
+  return list.kind == Kind::kVector ? list.vector_size(value) : list.count;
+}
+
+inline std::byte* elements(const Type& list, void* value) {
+  return static_cast<std::byte*>(list.kind == Kind::kVector ? list.vector_data(value) : value);
+}
+
+inline const std::byte* elements(const Type& list, const void* value) {
+  return elements(list, const_cast<void*>(value));
+}
+
+inline const void* at_offset(const void* value, std::size_t offset) {
+  return static_cast<const std::byte*>(value) + offset;
+}
+
+/// No value stays no value: readers check their input with it before they write.
+inline void* at_offset(void* value, std::size_t offset) {
+  return value == nullptr ? nullptr : static_cast<std::byte*>(value) + offset;
+}
+
+/// Calls `code` with `std::type_identity` of the C++ type of a scalar, and returns what it returns;
+/// a default value if `kind` is no scalar.
+template <typename Code>
+auto with_scalar(Kind kind, Code&& code) {
+  switch (kind) {
+    case Kind::kBool:
+      return code(std::type_identity<bool>{});
+    case Kind::kInt8:
+      return code(std::type_identity<std::int8_t>{});
+    case Kind::kUint8:
+      return code(std::type_identity<std::uint8_t>{});
+    case Kind::kInt16:
+      return code(std::type_identity<std::int16_t>{});
+    case Kind::kUint16:
+      return code(std::type_identity<std::uint16_t>{});
+    case Kind::kInt32:
+      return code(std::type_identity<std::int32_t>{});
+    case Kind::kUint32:
+      return code(std::type_identity<std::uint32_t>{});
+    case Kind::kInt64:
+      return code(std::type_identity<std::int64_t>{});
+    case Kind::kUint64:
+      return code(std::type_identity<std::uint64_t>{});
+    case Kind::kFloat:
+      return code(std::type_identity<float>{});
+    case Kind::kDouble:
+      return code(std::type_identity<double>{});
+    default:
+      return decltype(code(std::type_identity<bool>{}))();
+  }
+}
+
+}  // namespace armature::types
