@@ -62,15 +62,6 @@ class Batches : public testing::Test {
     here_.prepare_lanes();
   }
   void flush() { here_.context.outbox.flush(); }
-  int messages() {
-    int count = 0;
-    for (rt::Message* each = there_.context.inbox.take_all(); each != nullptr; ++count) {
-      rt::Message* const next = rt::Inbox::next(*each);
-      each->deliver();
-      each = next;
-    }
-    return count;
-  }
 
   Sender sender_{"sender"};
   Receiver receiver_{"receiver"};
@@ -84,7 +75,7 @@ TEST_F(Batches, WhatAHookWritesIsOneMessage) {
   sender_.second.write(2.0);
   EXPECT_TRUE(there_.context.inbox.empty());
   flush();
-  EXPECT_EQ(messages(), 1);
+  EXPECT_EQ(there_.deliver_and_count(), 1);
   EXPECT_THAT(receiver_.numbers, ElementsAre(1, 2));
 }
 

@@ -129,13 +129,7 @@ TEST_F(Events, HandlersOfOneThreadAreOneMessageInTheOrderOfTheirSubscription) {
     start(*each);
   }
   raiser_.happened.raise(1);
-  int messages = 0;
-  for (rt::Message* each = other_.context.inbox.take_all(); each != nullptr; ++messages) {
-    rt::Message* const next = rt::Inbox::next(*each);
-    each->deliver();
-    each = next;
-  }
-  EXPECT_EQ(messages, 3) << "those that declared another size have their own";
+  EXPECT_EQ(other_.deliver_and_count(), 3) << "those that declared another size have their own";
   EXPECT_THAT(order, testing::ElementsAre("one", "two", "small", "last"));
 }
 

@@ -130,7 +130,8 @@ class BatchedChannel final : public Channel<T> {
     std::byte* place = nullptr;
     if (rt::Outbox::current() == &to.outbox) [[likely]]
       place = to.outbox.add(to.lane, to.reader.wakeup, *this, sizeof(Sample<T>));
-    if (!passage_.write(this->as_sample(sample), place)) this->tell_reader();
+    if (place == nullptr) return ChannelBase::send(sample);
+    static_cast<void>(passage_.write(this->as_sample(sample), place));
     return rt::PushResult::kTaken;
   }
   const Sample<T>* pop() override { return passage_.fetch(); }

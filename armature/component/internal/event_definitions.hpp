@@ -47,12 +47,11 @@ struct Event<Args...>::Queue {
     rt::InUse in_use;
   };
 
-  Queue(ExecutionContext& thread, std::size_t size) : where(thread), capacity(size), entries(size) {
+  Queue(ExecutionContext& thread, std::size_t size) : where(thread), entries(size) {
     for (Entry& entry : entries) entry.queue = this;
   }
 
   ExecutionContext& where;
-  std::size_t capacity;
   std::vector<EventHandler<Args...>*> handlers;
   rt::EntryPool<Entry> entries;
 };
@@ -74,7 +73,9 @@ typename Event<Args...>::Queue& Event<Args...>::queue_to(EventHandlerBase& handl
   ExecutionContext& where = handler.owner().context();
   const auto last = std::find_if(queues_.rbegin(), queues_.rend(),
                                  [&](const auto& queue) { return &queue->where == &where; });
-  if (last != queues_.rend() && (*last)->capacity == handler.queue_capacity()) return **last;
+  const bool alike = last != queues_.rend() &&
+                     (*last)->handlers.front()->queue_capacity() == handler.queue_capacity();
+  if (alike) return **last;
   return *queues_.emplace_back(std::make_unique<Queue>(where, handler.queue_capacity()));
 }
 

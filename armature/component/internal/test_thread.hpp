@@ -37,6 +37,16 @@ class TestThread {
   void deliver() {
     while (!context.inbox.empty()) context.inbox.deliver_all();
   }
+  /// Handles the messages that are here now, and says how many they are.
+  int deliver_and_count() {
+    int count = 0;
+    for (rt::Message* each = context.inbox.take_all(); each != nullptr; ++count) {
+      rt::Message* const next = rt::Inbox::next(*each);
+      each->deliver();
+      each = next;
+    }
+    return count;
+  }
   /// Begins the next cycle, `duration` later.
   void cycle(base::Duration duration = std::chrono::milliseconds(1)) {
     context.cycle_time = context.cycle_time.load() + duration;
