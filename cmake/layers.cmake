@@ -19,7 +19,7 @@ set(ARMATURE_LAYERS
     "remote: base ride deploy component types"
     "library: base component control record"
     "sim: base exec component can control"
-    "robots: base library component can control sim"
+    "robots: base platform rt library component can control sim"
     "studio: base remote record"
     "cli: base platform types rt control component can ride exec record deploy script remote library sim studio"
     "testing: base platform types rt guard control component can ride exec record deploy script remote library sim studio")

@@ -123,9 +123,12 @@ class Component {
   /// @thread its own
   bool admits() noexcept { return admits_at_once_ || admits_after_look(); }
   bool has_aging_inputs() const { return aging_; }
-  /// One of its inputs has an age from now on.
+  /// One of its inputs has an age from now on, or a writer.
   /// @thread configuration only
-  void note_aging_input() { aging_ = true; }
+  void note_aging_input() {
+    aging_ = true;
+    rest_->ages_hold_until = {};
+  }
   /// When the reaction to old data of an input is due if nothing new comes; the end of time if none
   /// is.
   /// @rt nonblocking, no allocation, O(inputs)

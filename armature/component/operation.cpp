@@ -71,13 +71,22 @@ std::string OperationBase::mismatch(const std::vector<types::Value>& arguments) 
   for (std::size_t i = 0; fits && i < arguments.size(); ++i) {
     fits = types::same_type(arguments[i].type(), *about_->signature.arguments[i].type);
   }
-  if (fits) return {};
+  if (fits) return refusal_of_sealed();
   std::string given;
   for (const types::Value& argument : arguments) {
     given += (given.empty() ? "" : ", ") + argument.type().name;
   }
   return "'" + owner_.name() + "." + std::string(name()) + "' is " + about_->signature.text() +
          "; it was called with (" + given + ")";
+}
+
+std::string OperationBase::refusal_of_sealed() const {
+  for (const Signature::Argument& argument : about_->signature.arguments) {
+    if (!argument.type->sealed) continue;
+    return "'" + owner_.name() + "." + std::string(name()) + "' takes a " + argument.type->name +
+           ", which only components make: a tool cannot call it";
+  }
+  return {};
 }
 
 }  // namespace armature::component

@@ -74,6 +74,7 @@ class OperationBase {
   void apply(const ArgumentNames& given) noexcept;
   /// What is wrong with `arguments`, empty if nothing.
   std::string mismatch(const std::vector<types::Value>& arguments) const;
+  std::string refusal_of_sealed() const;
   /// What `invoke` says of a call that did not succeed.
   base::Error failure(CallStatus status) const;
 

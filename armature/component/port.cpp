@@ -97,6 +97,7 @@ void InputPortBase::connect_channel(OutputPortBase& writer,
   about().writers.push_back(&writer);
   about().channels.push_back(std::move(channel));
   set(kPulls, !triggers_);
+  if (ages()) owner().note_aging_input();
 }
 
 void InputPortBase::forget_writer(OutputPortBase& writer) {

@@ -241,6 +241,24 @@ TEST(AgeOfOpenPorts, APortThatMayStayOpenAndDoesHasNoAge) {
   EXPECT_EQ(reader.state(), State::kRunning);
 }
 
+TEST(AgeOfOpenPorts, ThatAreConnectedWhileTheComponentRunsIsLookedAtFromThenOn) {
+  TestThread thread;
+  Writer<double> writer("writer");
+  Follower follower("follower", max_age(milliseconds(10)), may_stay_open);
+  thread.add(writer);
+  thread.add(follower);
+  start(writer, follower);
+  thread.cycle(milliseconds(100));
+  follower.update();
+  ASSERT_EQ(follower.state(), State::kRunning);
+  writer.out.connect(follower.in, latest());
+  writer.out.write(1.0);
+  follower.update();
+  thread.cycle(milliseconds(11));
+  follower.update();
+  EXPECT_EQ(follower.state(), State::kStopped);
+}
+
 TEST(AgeFromOutside, ADeploymentMayDeclareTheAgeOfAConnection) {
   Writer<int> writer("writer");
   Reader<int> reader("reader");

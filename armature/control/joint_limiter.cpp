@@ -102,17 +102,17 @@ JointLimiter::Limited JointLimiter::step_velocity(const Measured& measured, doub
   return {velocity_, passed ? Status::kPassed : Status::kClipped};
 }
 
-JointLimiter::Limited JointLimiter::step_effort(const Measured& measured, double command) {
-  if (!armed_) return {0.0, Status::kDisarmed};
+JointLimiter::LimitedStep JointLimiter::step_effort(const Measured& measured, double command) {
+  if (!armed_) return {LimitedEffort(), Status::kDisarmed};
   if (!finite(measured) || !std::isfinite(command)) {
     ++counts_.not_finite;
     effort_ = 0.0;
-    return {0.0, Status::kNotFinite};
+    return {LimitedEffort(), Status::kNotFinite};
   }
   const double affordable = std::clamp(command, -config_.max_effort, config_.max_effort);
   if (affordable != command) ++counts_.effort;
   effort_ = effort_within_motion(measured, effort_within_rate(affordable));
-  return {effort_, effort_ == command ? Status::kPassed : Status::kClipped};
+  return {LimitedEffort(effort_), effort_ == command ? Status::kPassed : Status::kClipped};
 }
 
 /// Follows a command that moves, and closes the gap that earlier clipping left: in the frame of the

@@ -9,6 +9,22 @@
 
 namespace armature::control {
 
+/// An effort that a JointLimiter has let through: the kind that hardware takes. Nothing else makes
+/// one that is not 0, so no way to the hardware leads around a limiter.
+class LimitedEffort {
+ public:
+  constexpr LimitedEffort() = default;
+  constexpr operator double() const { return value_; }  // NOLINT: reads like the number it is
+  /// For hardware that counts the other way.
+  constexpr LimitedEffort operator-() const { return LimitedEffort(-value_); }
+
+ private:
+  friend class JointLimiter;
+  constexpr explicit LimitedEffort(double value) : value_(value) {}
+
+  double value_ = 0.0;
+};
+
 /// The last step before the hardware of one joint. A component uses the function of its kind of
 /// command, once a period.
 ///
@@ -59,6 +75,11 @@ class JointLimiter {
     Status status = Status::kPassed;
   };
 
+  struct LimitedStep {
+    LimitedEffort value;
+    Status status = Status::kPassed;
+  };
+
   /// Steps whose command was clipped, for each limit that was the reason; one step may count for
   /// several.
   struct Counts {
@@ -99,7 +120,7 @@ class JointLimiter {
   /// Limits an effort, such as a torque or a voltage, by the measured state. What is not finite is
   /// answered by effort 0. A positive effort has to drive the joint towards `upper`.
   /// @rt nonblocking, no allocation
-  Limited step_effort(const Measured& measured, double command);
+  LimitedStep step_effort(const Measured& measured, double command);
 
   const Counts& counts() const { return counts_; }
   const Config& config() const { return config_; }

@@ -2,10 +2,12 @@
 // The component library `robot`: the models of which a deployment makes the controller of a robot.
 #include "armature/component/registry.hpp"
 #include "armature/library/actuator_demux/actuator_demux.hpp"
+#include "armature/library/arming/arming.hpp"
 #include "armature/library/axes_generator/axes_generator.hpp"
 #include "armature/library/bridge_ref/bridge_ref.hpp"
 #include "armature/library/controller_npid/controller_npid.hpp"
 #include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/library/joint/joint.hpp"
 #include "armature/library/model/model.hpp"
 #include "armature/library/pid/pid.hpp"
 #include "armature/library/sampler/sampler.hpp"
@@ -15,6 +17,8 @@ using namespace armature::library;
 
 ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<Sampler>("Sampler", "begins each sampling period");
+  registry.add<Arming>("Arming", "lets the joints move, at the operator's word");
+  registry.add<Joint>("Joint", "a joint, with the limiter before its hardware");
   registry.add<SensorNMux>("SensorNMux", "makes one vector of what N joints measured");
   registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints");
   registry.add<Pid>("PID", "the controller of one joint");

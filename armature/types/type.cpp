@@ -55,6 +55,7 @@ std::string name_of_list(const Type& type, const std::string& inner) {
 bool same_type(const Type& a, const Type& b) {
   if (&a == &b) return true;
   if (a.hash != b.hash || a.name != b.name || a.size != b.size || a.kind != b.kind) return false;
+  if (a.sealed != b.sealed) return false;
   if (a.element != nullptr) return same_type(*a.element, *b.element);
   return std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(),
                     [](const Field& x, const Field& y) {
@@ -115,6 +116,7 @@ const Type& make_array(const Type& element, std::size_t count, Footprint footpri
   type.element = &element;
   type.count = count;
   type.grows = element.grows;
+  type.sealed = element.sealed;
   type.name = name_of_list(type, element.name);
   return keep(std::move(type));
 }
@@ -124,6 +126,7 @@ const Type& make_vector(const Type& element, Footprint footprint, Lifetime lifet
   Type type = blank({}, Kind::kVector, footprint, lifetime);
   type.element = &element;
   type.grows = true;
+  type.sealed = element.sealed;
   type.vector_size = access.size;
   type.vector_resize = access.resize;
   type.vector_data = access.data;
@@ -137,6 +140,15 @@ const Type& make_struct(std::string_view name, Footprint footprint, Lifetime lif
   type.fields = fields;
   type.grows = std::any_of(fields.begin(), fields.end(),
                            [](const Field& field) { return field.type->grows; });
+  type.sealed = std::any_of(fields.begin(), fields.end(),
+                            [](const Field& field) { return field.type->sealed; });
+  return keep(std::move(type));
+}
+
+const Type& make_sealed(std::string_view name, Footprint footprint, Lifetime lifetime, Field only) {
+  Type type = blank(std::string(name), Kind::kStruct, footprint, lifetime);
+  type.fields = {only};
+  type.sealed = true;
   return keep(std::move(type));
 }
 

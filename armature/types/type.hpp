@@ -55,6 +55,7 @@ struct Type {
   std::size_t count;          ///< elements of an array, capacity of a fixed text, else 0
   std::vector<Field> fields;  ///< of a struct
   bool grows;                 ///< a vector or text is inside, so copying may allocate
+  bool sealed;                ///< only its own class makes values: no property, tool or peer does
 
   void (*construct)(void* at);
   void (*destroy)(void* at);

@@ -44,6 +44,9 @@ class Simulation {
   /// @rt nonblocking, no allocation
   void advance_to_next_event(base::Time until);
   base::Time now() const { return bus_.now(); }
+  /// When that will be, as far as is known now.
+  /// @rt nonblocking, no allocation
+  base::Time next_event();
 
   can::VirtualBus& bus() { return bus_; }
   AicFirmware& card(std::size_t joint) { return *cards_[joint]; }
@@ -51,8 +54,6 @@ class Simulation {
 
  private:
   Simulation(std::unique_ptr<Head> head, const Config& config);
-
-  base::Time next_event();
 
   std::unique_ptr<Head> head_;
   can::VirtualBus bus_;

@@ -46,6 +46,7 @@ void InputPort<T>::connect_source(OutputPortBase& writer, const Sample<T>& sourc
   source_ = &source;
   seen_ = source.sequence == 0 ? 0 : source.sequence - 1;
   about().writers.push_back(&writer);
+  if (ages()) owner().note_aging_input();
 }
 
 template <typename T>

@@ -93,6 +93,19 @@ void AxesGeneratorPos::reset_position() {
   if (!answer.accepted()) refuse_measured(answer.axis);
 }
 
+void AxesGeneratorPos::settle() {
+  if (!knows_position()) return;
+  const Trajectory::Answer answer = trajectory_->hold(measured_.read().value);
+  stepped_at_ = time();
+  if (move_to_.active()) move_to_.fail("the robot was disarmed or armed");
+  if (!answer.accepted()) refuse_measured(answer.axis);
+}
+
+void AxesGeneratorPos::stop() {
+  trajectory_->stop();
+  if (move_to_.active()) move_to_.fail("stopped");
+}
+
 void AxesGeneratorPos::refuse_measured(std::size_t axis) {
   Reason why("nAxesSensorPosition of axis ");
   append_number(why, static_cast<double>(axis + 1)).append(" is ");

@@ -20,7 +20,8 @@ namespace armature::library {
 /// moves before `moveTo`. Refused with the reason, and nothing changes: another number of
 /// positions, a target outside the limits, a number that is not finite, a negative time, a motion
 /// or stop under way, and a moveTo before anything was measured. Cancelling a motion is a smooth
-/// deceleration to rest, where it then holds. Limits are one number for each axis, or one for all.
+/// deceleration to rest, where it then holds. So is Stop; Settle and Disarm make the measured
+/// position the desired one (see Arming). Limits are one number for each axis, or one for all.
 /// @rt nonblocking, no allocation, O(axes)
 class AxesGeneratorPos final : public component::Component {
  public:
@@ -37,6 +38,8 @@ class AxesGeneratorPos final : public component::Component {
   bool arrived() { return !trajectory_->under_way(); }
   void brake() { trajectory_->stop(); }
   void reset_position();
+  void settle();
+  void stop();
   component::Reason refusal_of(const control::Trajectory::Answer& answer,
                                const std::vector<double>& positions, double time) const;
   void refuse_measured(std::size_t axis);
@@ -78,6 +81,24 @@ class AxesGeneratorPos final : public component::Component {
       this, "resetPosition", component::serve<&AxesGeneratorPos::reset_position>,
       "desired := measured; a motion is braked smoothly from there, and its moveTo fails",
       component::in_own_thread};
+  component::EventHandler<> settle_{this,
+                                    "Settle",
+                                    component::serve<&AxesGeneratorPos::settle>,
+                                    "desired := measured, at rest",
+                                    component::optional,
+                                    component::leads_to_nothing()};
+  component::EventHandler<> disarm_{this,
+                                    "Disarm",
+                                    component::serve<&AxesGeneratorPos::settle>,
+                                    "desired := measured, at rest",
+                                    component::optional,
+                                    component::leads_to_nothing()};
+  component::EventHandler<> stop_{this,
+                                  "Stop",
+                                  component::serve<&AxesGeneratorPos::stop>,
+                                  "brakes smoothly, and holds where it comes to rest",
+                                  component::optional,
+                                  component::leads_to_nothing()};
   Changes changes_{axes_, max_velocity_, max_acceleration_, lower_, upper_};
 
   std::optional<control::Trajectory> trajectory_;

@@ -11,8 +11,8 @@ namespace armature::library {
 
 /// The PID controller of one joint with a saturated output, in velocity form (paper 1, equation 6):
 /// control::Pid. One step for each value of Sen; nothing before the first value of Ref since the
-/// start. Neither a
-/// start nor `reset` kicks. A difference that is no finite number is a fault, and nothing is
+/// start. Neither a start nor `reset` kicks, and so it is when a
+/// robot is armed (see Arming). A difference that is no finite number is a fault, and nothing is
 /// written.
 /// @rt nonblocking, no allocation
 class Pid final : public component::Component {
@@ -65,6 +65,12 @@ class Pid final : public component::Component {
   component::Operation<void()> reset_{this, "reset", component::serve<&Pid::reset>,
                                       "forgets the past: the next output is Ki e",
                                       component::in_own_thread};
+  component::EventHandler<> arm_{this,
+                                 "Arm",
+                                 component::serve<&Pid::reset>,
+                                 "forgets the past: the next output is Ki e",
+                                 component::optional,
+                                 component::leads_to_nothing()};
 
   std::optional<control::Pid> pid_;
   base::Time started_{};

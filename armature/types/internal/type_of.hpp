@@ -39,6 +39,8 @@ const Type& make_fixed_text(std::size_t capacity, Footprint, Lifetime, TextAcces
 const Type& make_array(const Type& element, std::size_t count, Footprint, Lifetime);
 const Type& make_vector(const Type& element, Footprint, Lifetime, VectorAccess);
 const Type& make_struct(std::string_view name, Footprint, Lifetime, std::initializer_list<Field>);
+/// A class of one private number, of which only the class itself makes values.
+const Type& make_sealed(std::string_view name, Footprint, Lifetime, Field only);
 
 inline Field make_field(std::string_view name, std::size_t offset, const Type& type,
                         std::string_view unit = {}, std::string_view doc = {}) {

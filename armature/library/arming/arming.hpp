@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/library/base/max_age.hpp"
+
+namespace armature::library {
+
+/// What stands between a robot that is switched on and one that moves: nothing is driven before the
+/// operator's `arm`, after a start, a fault or a stop. For a periodic activity.
+///
+/// `arm` raises Settle, at which generators make the measured position the desired one and PIDs
+/// forget the past; waits until `reference` says so for every joint; then raises Arm, and is done
+/// when all joints say `Armed`. It fails with the reason, and nobody stays armed, if that takes
+/// longer than `patience`. `stop` raises Stop, which is a motion: generators brake smoothly and
+/// hold where they come to rest. `disarm` raises Disarm at once: effort 0, brakes applied. If one
+/// joint is disarmed, all are.
+/// @rt nonblocking, no allocation, O(joints)
+class Arming final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_start() override;
+  void on_stop() override;
+  void on_update() override;
+
+  component::Outcome begin_to_arm();
+  void wait_for_reference();
+  void wait_for_joints();
+  void watch();
+  void give_up(std::string_view why);
+  void disarm();
+  void stop_moving() { stop_event_.raise(); }
+
+  std::size_t joints() const { return static_cast<std::size_t>(joints_.get()); }
+  bool out_of_patience() const;
+  /// The first joint that does not say `Armed`; joints() if all do.
+  std::size_t first_disarmed();
+  /// The first whose desired position is not the measured one; joints() if there is none.
+  std::size_t first_apart(const std::vector<double>& measured,
+                          const std::vector<double>& desired) const;
+
+  enum class Phase { kDisarmed, kSettling, kArming, kArmed };
+
+  component::Property<int> joints_{
+      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+  component::Property<double> tolerance_{
+      this,  "tolerance",
+      0.01,  "largest difference of desired and measured position when it arms",
+      "rad", component::range(0.0, 1.0)};
+  component::Property<double> patience_{this, "patience",
+                                        1.0,  "how long to wait for references, and for joints",
+                                        "s",  component::range(0.0, 60.0)};
+  component::InputPort<std::vector<double>> sensor_{
+      this, "sensor",
+      "measured [q1..qN, d1..dN]: positions, then displacements since the sample before", "rad",
+      component::size_of(joints_, 2)};
+  component::InputPort<std::vector<double>> reference_{
+      this, "reference", "desired [q1..qN, qd1..qdN, qdd1..qddN]: rad, rad/s, rad/s^2", "",
+      component::size_of(joints_, 3)};
+  component::InputPorts<bool> joint_armed_{this, "Armed", joints_, "each joint is armed"};
+
+  component::Event<> settle_event_{this, "Settle", "desired := measured; the past is forgotten"};
+  component::Event<> arm_event_{this, "Arm", "efforts are passed from now on"};
+  component::Event<> stop_event_{this, "Stop", "smooth deceleration to rest"};
+  component::Event<> disarm_event_{this, "Disarm", "effort 0, brakes applied"};
+
+  component::Command<> arm_{this, "arm", component::serve<&Arming::begin_to_arm>,
+                            "lets the joints move from now on",
+                            component::cancelled_by<&Arming::disarm>};
+  component::Operation<void()> stop_{this, "stop", component::serve<&Arming::stop_moving>,
+                                     "brakes every motion smoothly; joints stay armed",
+                                     component::in_own_thread};
+  component::Operation<void()> disarm_{this, "disarm", component::serve<&Arming::disarm>,
+                                       "emergency stop: effort 0, brakes applied",
+                                       component::in_own_thread};
+  component::Attribute<bool> armed_{this, "armed", false, "all joints are armed"};
+
+  Phase phase_ = Phase::kDisarmed;
+  base::Time started_{};
+  base::Time since_{};
+};
+
+}  // namespace armature::library

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <type_traits>
+
+#include "armature/control/joint_limiter.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::control {
+
+/// So that ports and operations carry it. It is sealed: what tools, files and scripts make is no
+/// LimitedEffort, and no port of another type can be connected to one of this.
+inline const types::Type& armature_describe(const LimitedEffort*) {
+  static_assert(std::is_standard_layout_v<LimitedEffort> && sizeof(LimitedEffort) == sizeof(double),
+                "the number is all that there is");
+  static const types::Type& type = types::internal::make_sealed(
+      "LimitedEffort", types::internal::kFootprint<LimitedEffort>,
+      types::internal::kLifetime<LimitedEffort>,
+      types::internal::make_field("value", 0, types::type_of<double>()));
+  return type;
+}
+
+}  // namespace armature::control

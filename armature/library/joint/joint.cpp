@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/library/joint/joint.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "armature/library/base/of_this_run.hpp"
+#include "armature/library/base/reason_text.hpp"
+
+namespace armature::library {
+
+using component::Outcome;
+using control::JointLimiter;
+
+namespace {
+
+double seconds(base::Duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+base::Duration duration(double seconds) {
+  return std::chrono::duration_cast<base::Duration>(std::chrono::duration<double>(seconds));
+}
+
+bool is_sign(double number) { return number == 1.0 || number == -1.0; }
+
+}  // namespace
+
+Outcome Joint::on_start() {
+  if (changes_.take()) {
+    if (Outcome outcome = set_up(); !outcome) return outcome;
+  }
+  started_ = time();
+  measured_since_start_ = false;
+  disarm();
+  return component::accepted();
+}
+
+Outcome Joint::set_up() {
+  if (!is_sign(actuator_sign_) || !is_sign(sensor_sign_)) {
+    return component::refused("ActuatorSign and SensorSign are 1 or -1");
+  }
+  if (!std::isfinite(gear_ratio_) || gear_ratio_ <= 0.0) {
+    return component::refused("GearRatio is a number above 0; directions are SensorSign's");
+  }
+  auto limiter = JointLimiter::make(limits());
+  if (!limiter) return component::refused(limiter.error());
+  limiter_ = limiter.value();
+  sensor_ratio_ = sensor_sign_ * gear_ratio_;
+  measured_ = {.position = initial_position_, .velocity = 0.0};
+  clipped_.assign(0);
+  changes_.take();
+  return component::accepted();
+}
+
+JointLimiter::Config Joint::limits() const {
+  return {.lower = lower_,
+          .upper = upper_,
+          .max_velocity = max_velocity_,
+          .max_acceleration = max_acceleration_,
+          .max_effort = max_effort_,
+          .period = duration(period_),
+          .arming_time = duration(arming_time_),
+          .effort_rate = arming_time_ > 0.0 ? max_effort_ / arming_time_ : 0.0};
+}
+
+// --- measuring -------------------------------------------------------------------------------
+
+void Joint::on_sample() { sensor_read(); }
+
+bool Joint::sensor_read() { return succeeds(read_hardware_); }
+
+void Joint::on_displacement(double of_motor) {
+  const double displacement = sensor_ratio_ * of_motor;
+  const double since = seconds(time() - measured_at_);
+  const bool known = measured_since_start_ && since > 0.0;
+  measured_.velocity = known ? displacement / since : 0.0;
+  measured_.position += displacement;
+  measured_at_ = time();
+  measured_since_start_ = true;
+  displacement_.write(displacement);
+  position_.write(measured_.position);
+}
+
+/// In this sampling period or the one before.
+bool Joint::measured_lately() const {
+  return measured_since_start_ && seconds(time() - measured_at_) < 1.5 * period_;
+}
+
+// --- driving ---------------------------------------------------------------------------------
+
+void Joint::on_act() {
+  const auto voltage = voltage_.read();
+  if (is_of_this_run(voltage, started_)) apply(voltage.value);
+}
+
+bool Joint::motor_set(double voltage) { return apply(voltage); }
+
+/// True if it was passed unchanged.
+bool Joint::apply(double voltage) {
+  const JointLimiter::LimitedStep step = limiter_->step_effort(measured_, voltage);
+  voltage_actuator_.write(actuator_sign_ > 0.0 ? step.value : -step.value);
+  if (step.status == JointLimiter::Status::kPassed) return true;
+  if (step.status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
+  if (step.status != JointLimiter::Status::kNotFinite) return false;
+  disarm();
+  component::Reason why("Voltage is ");
+  append_number(why, voltage).append(" at the position ");
+  fault(append_number(why, measured_.position).append(", expected finite numbers"));
+  return false;
+}
+
+// --- arming ----------------------------------------------------------------------------------
+
+void Joint::on_arm() {
+  if (limiter_->armed()) return;
+  if (!measured_lately()) return refuse_to_arm("it was not measured in this sampling period");
+  if (!limiter_->arm(measured_)) return refuse_to_arm("its position is no finite number");
+  const bool ready = succeeds(actuator_on_) && (!brake_ || succeeds(release_brake_));
+  if (!ready) {
+    disarm();
+    return refuse_to_arm("its hardware does not switch on");
+  }
+  armed_.write(true);
+  log_info("armed");
+}
+
+void Joint::refuse_to_arm(std::string_view why) {
+  log_error("not armed: {}", why);
+  armed_.write(false);
+}
+
+/// The brake first, so that nothing falls between the two.
+void Joint::disarm() {
+  const bool was_armed = limiter_->armed();
+  limiter_->disarm();
+  voltage_actuator_.write({});
+  const bool braked = !brake_ || succeeds(apply_brake_);
+  const bool off = succeeds(actuator_off_);
+  armed_.write(false);
+  if (was_armed) log_info("disarmed");
+  if (was_armed && !(braked && off)) log_error("the hardware did not confirm that it is off");
+}
+
+bool Joint::motor_off() {
+  disarm();
+  return succeeds(actuator_off_);
+}
+
+bool Joint::brake_apply() {
+  disarm();
+  return brake_ && succeeds(apply_brake_);
+}
+
+bool Joint::brake_release() { return limiter_->armed() && brake_ && succeeds(release_brake_); }
+
+bool Joint::succeeds(component::OperationCaller<bool()>& call) {
+  const component::CallResult<bool> answer = call();
+  return answer.status == component::CallStatus::kDone && answer.value;
+}
+
+}  // namespace armature::library

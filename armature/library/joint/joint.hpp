@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "armature/component/author.hpp"
+#include "armature/control/joint_limiter.hpp"
+#include "armature/library/base/changes.hpp"
+#include "armature/library/base/limited_effort.hpp"
+#include "armature/library/base/max_age.hpp"
+
+namespace armature::library {
+
+/// A joint, independent of its hardware, which a peer represents (paper 1, section 3.1; what the
+/// peer offers is in JointHardware). Signs, ratio and offset are here, and so is the last step
+/// before the hardware: every effort passes a control::JointLimiter, and the hardware takes nothing
+/// else.
+///
+/// After a start, also one behind a fault, the joint is disarmed: motor off, brake applied, effort
+/// 0. Only Arm, an event of the component Arming, changes that, and only if the joint was measured
+/// just before. Disarm, a stop, a fault, data that is too old, motorOff and brakeApply disarm it.
+/// @rt nonblocking but for the hardware's answers, no allocation
+class Joint final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_start() override;
+  void on_stop() override { disarm(); }
+
+  component::Outcome set_up();
+  control::JointLimiter::Config limits() const;
+
+  // Measuring.
+  void on_sample();
+  void on_displacement(double of_motor);
+  void on_index(bool closed) { index_.write(closed); }
+  bool sensor_read();
+  bool measured_lately() const;
+
+  // Driving.
+  void on_act();
+  bool motor_set(double voltage);
+  bool apply(double voltage);
+
+  // Arming.
+  void on_arm();
+  void refuse_to_arm(std::string_view why);
+  void disarm();
+  bool motor_on() { return succeeds(actuator_on_); }
+  bool motor_off();
+  bool brake_apply();
+  bool brake_release();
+  static bool succeeds(component::OperationCaller<bool()>& call);
+
+  // Of the hardware; paper 1, section 3.1.
+  component::Property<std::string> peer_name_{
+      this, "PeerName", "", "the component of the joint's hardware", "", component::mandatory};
+  component::Property<bool> brake_{this, "Brake", false, "the joint has a brake"};
+  component::Property<double> actuator_sign_{this, "ActuatorSign", 1.0,
+                                             "-1 if a positive voltage moves the joint backwards"};
+  component::Property<double> sensor_sign_{this, "SensorSign", 1.0,
+                                           "-1 if the sensor counts backwards"};
+  component::Property<double> gear_ratio_{this, "GearRatio",
+                                          1.0,  "motion of the joint per motion of its sensor",
+                                          "",   component::mandatory};
+  component::Property<double> initial_position_{this, "InitialPos", 0.0,
+                                                "where the joint is at the first start", "rad"};
+  component::Property<bool> sampler_{this, "Sampler", true, "follows the events Sample and Act"};
+
+  // Of the limiter.
+  component::Property<double> lower_{
+      this, "PositionMin", 0.0, "nothing drives the joint beyond", "rad", component::mandatory};
+  component::Property<double> upper_{
+      this, "PositionMax", 0.0, "nothing drives the joint beyond", "rad", component::mandatory};
+  component::Property<double> max_velocity_{
+      this, "MaxVelocity", 0.0, "nothing drives it on at more", "rad/s", component::mandatory};
+  component::Property<double> max_acceleration_{
+      this,      "MaxAcceleration",   0.0, "with which it can brake, before its limits, too",
+      "rad/s^2", component::mandatory};
+  component::Property<double> max_effort_{
+      this, "MaxVoltage", 0.0, "the most that is applied", "V", component::mandatory};
+  component::Property<double> period_{
+      this, "Period", 0.01, "between two samples", "s", component::mandatory};
+  component::Property<double> arming_time_{
+      this, "ArmingTime",
+      1.0,  "for which the voltage may only grow slowly after arming",
+      "s",  component::range(0.0, 60.0)};
+
+  component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
+                                                    component::from(peer_name_)};
+  component::OperationCaller<bool()> actuator_on_{this, "actuatorOn", "switches the actuator on",
+                                                  component::from(peer_name_)};
+  component::OperationCaller<bool()> actuator_off_{this, "actuatorOff", "switches the actuator off",
+                                                   component::from(peer_name_)};
+  component::OperationCaller<bool()> apply_brake_{this, "brakeApply", "applies the brake",
+                                                  component::from(peer_name_),
+                                                  component::only_if(brake_)};
+  component::OperationCaller<bool()> release_brake_{this, "brakeRelease", "releases the brake",
+                                                    component::from(peer_name_),
+                                                    component::only_if(brake_)};
+  component::EventHandler<> sample_handler_{
+      this,
+      "Sample",
+      component::serve<&Joint::on_sample>,
+      "reads the sensors",
+      component::only_if(sampler_),
+      component::leads_to("Displacement", "Position", "Index")};
+  component::EventHandler<> act_handler_{this,
+                                         "Act",
+                                         component::serve<&Joint::on_act>,
+                                         "applies Voltage",
+                                         component::only_if(sampler_),
+                                         component::leads_to("VoltageActuator")};
+  component::EventHandler<> arm_handler_{this, "Arm", component::serve<&Joint::on_arm>,
+                                         "motor on, brake released",
+                                         component::leads_to("Armed", "VoltageActuator")};
+  component::EventHandler<> disarm_handler_{this, "Disarm", component::serve<&Joint::disarm>,
+                                            "effort 0, brake applied, motor off",
+                                            component::leads_to("Armed", "VoltageActuator")};
+
+  component::InputPort<double> displacement_sensor_{
+      this,
+      "DisplacementSensor",
+      "of the motor's axis",
+      "rad",
+      component::on_data<&Joint::on_displacement>,
+      component::leads_to("Displacement", "Position")};
+  component::InputPort<bool> index_sensor_{this,
+                                           "IndexSensor",
+                                           "the index switch is closed",
+                                           "",
+                                           component::on_data<&Joint::on_index>,
+                                           component::leads_to("Index")};
+  component::InputPort<double> voltage_{this, "Voltage", "to apply at Act", "V",
+                                        component::max_age(kMaxAge)};
+  component::OutputPort<control::LimitedEffort> voltage_actuator_{this, "VoltageActuator",
+                                                                  "for the hardware", "V"};
+  component::OutputPort<double> displacement_{this, "Displacement", "since the sample before",
+                                              "rad"};
+  component::OutputPort<double> position_{this, "Position", "of the joint", "rad"};
+  component::OutputPort<bool> index_{this, "Index", "the index switch is closed"};
+  component::OutputPort<bool> armed_{this, "Armed", "efforts are passed"};
+
+  component::Operation<bool()> motor_on_{this, "motorOn", component::serve<&Joint::motor_on>,
+                                         "switches the motor on; effort 0 as long as disarmed",
+                                         component::in_own_thread};
+  component::Operation<bool()> motor_off_{this, "motorOff", component::serve<&Joint::motor_off>,
+                                          "disarms, and switches the motor off",
+                                          component::in_own_thread};
+  component::Operation<bool(double)> motor_set_{
+      this,
+      "motorSet",
+      component::serve<&Joint::motor_set>,
+      "applies a voltage until the next; false if the limiter did not pass it as it is",
+      component::args("voltage [V]"),
+      component::in_own_thread};
+  component::Operation<bool()> read_sensor_{this, "sensorRead",
+                                            component::serve<&Joint::sensor_read>,
+                                            "has the sensors read", component::in_own_thread};
+  component::Operation<bool()> brake_apply_{
+      this, "brakeApply", component::serve<&Joint::brake_apply>,
+      "disarms, and applies the brake; false without one", component::in_own_thread};
+  component::Operation<bool()> brake_release_{
+      this, "brakeRelease", component::serve<&Joint::brake_release>,
+      "releases the brake; false without one, or while disarmed", component::in_own_thread};
+
+  component::Attribute<int> clipped_{this, "clipped", 0,
+                                     "efforts since the configuration that the limiter changed"};
+
+  Changes changes_{actuator_sign_, sensor_sign_, gear_ratio_,   initial_position_,
+                   lower_,         upper_,       max_velocity_, max_acceleration_,
+                   max_effort_,    period_,      arming_time_};
+  std::optional<control::JointLimiter> limiter_;
+  control::JointLimiter::Measured measured_;
+  base::Time started_{};
+  base::Time measured_at_{};
+  bool measured_since_start_ = false;
+  double sensor_ratio_ = 1.0;
+};
+
+}  // namespace armature::library

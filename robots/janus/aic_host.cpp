@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robots/janus/aic_host.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace armature::janus {
+
+using component::Outcome;
+
+Outcome AicHost::on_configure() {
+  AicDriver::Config config;
+  if (Outcome outcome = make_config(config); !outcome) return outcome;
+  auto link = make_link();
+  if (!link) return component::refused(link.error());
+  link_ = std::move(link).value();
+  base::Diagnostics diagnostics;
+  if (!link_->open(AicDriver::bus_options(config), diagnostics)) {
+    return component::refused(diagnostics.to_text());
+  }
+  auto driver = AicDriver::make(link_->bus(), config);
+  if (!driver) return component::refused(driver.error());
+  driver_.emplace(std::move(driver).value());
+  taken_.assign(driver_->cards(), {});
+  motor_set_.assign(driver_->cards(), false);
+  index_of_.assign(kMostCards + 1, std::nullopt);
+  for (std::size_t i = 0; i < driver_->cards(); ++i) {
+    index_of_[static_cast<std::size_t>(driver_->card(i).number)] = i;
+  }
+  return component::accepted();
+}
+
+Outcome AicHost::make_config(AicDriver::Config& config) const {
+  if (mode_.get() != "synchronous" && mode_.get() != "sequential") {
+    return component::refused("mode is '" + mode_.get() +
+                              "', expected 'synchronous' or 'sequential'");
+  }
+  config.cards = numbers_.get();
+  config.mode = mode_.get() == "sequential" ? AicMode::kSequential : AicMode::kSynchronous;
+  config.answer_timeout = std::chrono::duration_cast<base::Duration>(
+      std::chrono::duration<double>(answer_timeout_.get()));
+  return component::accepted();
+}
+
+Outcome AicHost::on_start() {
+  link_->begin_cycle(time());
+  driver_->start(link_->now());
+  read_at_ = base::Time::min();
+  lost_answers_.assign(0);
+  bus_lost_.assign(0);
+  make_safe();
+  return component::accepted();
+}
+
+void AicHost::on_cleanup() {
+  driver_.reset();
+  link_.reset();
+}
+
+AicSample AicHost::read_card(int number) {
+  const auto index = index_of(number);
+  if (!index || state() != component::State::kRunning) return {.no_bus = true};
+  if (read_at_ != time()) read_all();
+  return take(*index);
+}
+
+void AicHost::read_all() {
+  read_at_ = time();
+  link_->begin_cycle(time());
+  if (motors_set_ > 0) send_motors();
+  driver_->begin_reading(link_->now());
+  while (driver_->poll(link_->now()) == AicReading::kWaiting) {
+    link_->wait_for_news(driver_->deadline());
+  }
+  for (Taken& taken : taken_) taken.in_cycle = false;
+  if (driver_->reading() != AicReading::kComplete) note_losses();
+}
+
+void AicHost::note_losses() {
+  if (driver_->reading() == AicReading::kNoBus) {
+    bus_lost_.assign(bus_lost_() + 1);
+    if (bus_lost_() == 1)
+      log_error("the bus '{}' is {}", link_->bus().name(), can::to_text(driver_->bus_state()));
+    return;
+  }
+  int lost = 0;
+  for (std::size_t i = 0; i < driver_->cards(); ++i) lost += driver_->card(i).fresh ? 0 : 1;
+  lost_answers_.assign(lost_answers_() + lost);
+}
+
+/// Each answer once.
+AicSample AicHost::take(std::size_t index) {
+  const AicCard& card = driver_->card(index);
+  Taken& taken = taken_[index];
+  AicSample sample{.no_bus = driver_->reading() == AicReading::kNoBus};
+  if (!card.fresh || taken.in_cycle) return sample;
+  sample.fresh = true;
+  sample.counts = card.counts - taken.counts;
+  sample.index = card.report.index;
+  sample.actuator_on = card.report.actuator_on;
+  sample.restarted = card.counters.restarts != taken.restarts;
+  sample.counts_lost = card.counters.lost_reports != taken.lost_reports;
+  taken = {card.counts, card.counters.restarts, card.counters.lost_reports, true};
+  return sample;
+}
+
+bool AicHost::set_motor(int number, control::LimitedEffort effort) {
+  const auto index = index_of(number);
+  if (!index) return false;
+  driver_->set_motor(*index, effort / supply_);
+  if (!motor_set_[*index]) {
+    motor_set_[*index] = true;
+    ++motors_set_;
+  }
+  return motors_set_ < driver_->cards() || send_motors();
+}
+
+bool AicHost::send_motors() {
+  std::fill(motor_set_.begin(), motor_set_.end(), false);
+  motors_set_ = 0;
+  return driver_->send_motors() == can::SendStatus::kSent;
+}
+
+bool AicHost::command_card(int number, int command) {
+  const auto index = index_of(number);
+  const bool known = command >= static_cast<int>(AicCommand::kActuatorOn) &&
+                     command <= static_cast<int>(AicCommand::kBrakeRelease);
+  if (!index || !known) return false;
+  return driver_->command(*index, static_cast<AicCommand>(command)) == can::SendStatus::kSent;
+}
+
+void AicHost::make_safe() {
+  for (std::size_t i = 0; i < driver_->cards(); ++i) driver_->set_motor(i, 0.0);
+  send_motors();
+  for (std::size_t i = 0; i < driver_->cards(); ++i) {
+    driver_->command(i, AicCommand::kBrakeApply);
+    driver_->command(i, AicCommand::kActuatorOff);
+  }
+}
+
+std::optional<std::size_t> AicHost::index_of(int number) const {
+  const bool known = number >= 1 && number <= kMostCards && driver_;
+  return known ? index_of_[static_cast<std::size_t>(number)] : std::nullopt;
+}
+
+}  // namespace armature::janus

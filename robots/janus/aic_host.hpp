@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/library/base/limited_effort.hpp"
+#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic_link.hpp"
+
+namespace armature::janus {
+
+/// What a card said when its host read it.
+struct AicSample {
+  std::int64_t counts = 0;  ///< of the encoder, since the sample before
+  bool fresh = false;       ///< it answered in this cycle
+  bool no_bus = false;      ///< the bus is off or down
+  bool index = false;       ///< the index switch is closed
+  bool actuator_on = false;
+  bool restarted = false;    ///< since the sample before: what moved meanwhile is not known
+  bool counts_lost = false;  ///< since the sample before: a report did not arrive
+};
+ARMATURE_STRUCT(AicSample, counts, fresh, no_bus, index, actuator_on, restarted, counts_lost);
+
+/// The host of AIC cards on one bus, which the components AIC use as their peer: to be extended by
+/// what the bus is. The first card that is read in a cycle has all of them read.
+///
+/// Motor values are sent when all cards have theirs; those of a cycle in which one was missing are
+/// sent at the beginning of the next. Whenever the host stops: motor values 0, brakes applied,
+/// actuators off.
+/// @rt no allocation; waits for the cards' answers, `answer_timeout` for each at most
+class AicHost : public component::Component {
+ public:
+  using Component::Component;
+
+ protected:
+  /// Not opened yet.
+  virtual base::Result<std::unique_ptr<AicLink>> make_link() = 0;
+
+  component::Outcome on_configure() override;
+  component::Outcome on_start() override;
+  void on_stop() override { make_safe(); }
+  void on_cleanup() override;
+
+ private:
+  AicSample read_card(int number);
+  bool set_motor(int number, control::LimitedEffort effort);
+  bool command_card(int number, int command);
+
+  component::Outcome make_config(AicDriver::Config& config) const;
+  void read_all();
+  void note_losses();
+  AicSample take(std::size_t index);
+  bool send_motors();
+  void make_safe();
+  std::optional<std::size_t> index_of(int number) const;
+
+  component::Property<std::vector<int>> numbers_{
+      this, "cards", {}, "numbers of the cards, 1 to 127", "", component::mandatory};
+  component::Property<std::string> mode_{this, "mode", "synchronous",
+                                         "synchronous: one SYNC, a motor frame for four cards; or "
+                                         "sequential: a request and a motor frame for each"};
+  component::Property<double> supply_{
+      this, "supply", 12.0, "voltage of the cards' supply", "V", component::range(0.1, 1000.0)};
+  component::Property<double> answer_timeout_{this,  "answer_timeout",
+                                              0.001, "how long to wait for a card",
+                                              "s",   component::range(0.0002, 1.0)};
+  component::Operation<AicSample(int)> read_card_{
+      this, "readCard", component::serve<&AicHost::read_card>, "what a card says in this cycle",
+      component::args("number")};
+  component::Operation<bool(int, control::LimitedEffort)> set_motor_{
+      this, "setMotor", component::serve<&AicHost::set_motor>,
+      "the voltage of a card's motor, in this cycle and until the next",
+      component::args("number", "effort [V]")};
+  component::Operation<bool(int, int)> command_card_{
+      this, "commandCard", component::serve<&AicHost::command_card>,
+      "sends a command of PROTOCOL.md: 1 and 2 actuator on and off, 3 and 4 brake apply and "
+      "release",
+      component::args("number", "command")};
+  component::Attribute<int> lost_answers_{this, "lost_answers", 0,
+                                          "readings since the start without a card's answer"};
+  component::Attribute<int> bus_lost_{this, "bus_lost", 0,
+                                      "how often since the start the bus was found to be off"};
+
+  /// What a card's component has taken of its counts.
+  struct Taken {
+    std::int64_t counts = 0;
+    std::uint64_t restarts = 0;
+    std::uint64_t lost_reports = 0;
+    bool in_cycle = false;
+  };
+  std::unique_ptr<AicLink> link_;
+  std::optional<AicDriver> driver_;
+  std::vector<Taken> taken_;
+  std::vector<std::optional<std::size_t>> index_of_;  ///< by the card's number
+  std::vector<bool> motor_set_;
+  std::size_t motors_set_ = 0;
+  base::Time read_at_ = base::Time::min();
+};
+
+}  // namespace armature::janus

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robots/janus/can_link.hpp"
+
+#include <utility>
+
+#include "armature/platform/clock.hpp"
+#include "armature/rt/guard.hpp"
+
+namespace armature::janus {
+
+CanLink::CanLink(const std::string& interface) : bus_(interface) {}
+
+bool CanLink::open(can::BusOptions options, base::Diagnostics& diagnostics) {
+  options.on_news = [this] { news_.notify(); };
+  return bus_.open(std::move(options), diagnostics);
+}
+
+base::Time CanLink::now() { return platform::monotonic_now(); }
+
+/// The card's answer is what the cycle waits for.
+void CanLink::wait_for_news(base::Time deadline) {
+  const rt::PermitScope waiting;
+  news_.wait_until(deadline);
+}
+
+}  // namespace armature::janus

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component library `janus`: the head's hardware, real and simulated.
+#include "armature/component/registry.hpp"
+#include "robots/janus/aic.hpp"
+#include "robots/janus/aic_bus.hpp"
+#include "robots/janus/simulated_janus.hpp"
+
+using namespace armature::janus;
+
+ARMATURE_COMPONENT_LIBRARY(janus, registry) {
+  registry.add<Aic>("AIC", "an AIC card: the hardware of a joint");
+  registry.add<AicBus>("AICBus", "the host of AIC cards on a CAN interface");
+  registry.add<SimulatedJanus>("SimulatedJanus",
+                               "the simulated head with its cards, and their host");
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "robots/janus/aic_host.hpp"
+#include "robots/janus/simulated_link.hpp"
+
+namespace armature::janus {
+
+/// The host on the bus of a simulated Janus: head, motors, encoders, brake and both cards with
+/// their firmware, in this process and in simulated or real time, as the application is run.
+class SimulatedJanus final : public AicHost {
+ public:
+  using AicHost::AicHost;
+
+  /// Where a joint really is [rad], without an encoder's steps.
+  /// @thread the component's own, or any while it does not run
+  double position(std::size_t joint);
+  /// For tests that break something.
+  Simulation& simulation() { return link_->simulation(); }
+
+ private:
+  base::Result<std::unique_ptr<AicLink>> make_link() override;
+
+  component::Property<std::string> urdf_{this, "robot_description", "", "file with the head's URDF",
+                                         "",   component::mandatory};
+  component::Property<double> inner_step_{
+      this, "inner_step", 1e-4, "of the simulated motion", "s", component::range(1e-6, 1e-3)};
+
+  SimulatedLink* link_ = nullptr;
+};
+
+}  // namespace armature::janus

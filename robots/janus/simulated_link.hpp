@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "robots/janus/aic_link.hpp"
+#include "robots/janus/simulation.hpp"
+
+namespace armature::janus {
+
+/// The simulated robot in the host's own thread, which lets time pass there whenever it looks.
+class SimulatedLink final : public AicLink {
+ public:
+  enum class Time {
+    kSimulated,  ///< waiting takes no time: the simulation runs ahead of the application's clock
+    kReal,       ///< on the monotonic clock
+  };
+
+  static base::Result<std::unique_ptr<SimulatedLink>> make(const Head::Config& head, Time time);
+
+  can::Bus& bus() override { return *host_; }
+  bool open(can::BusOptions options, base::Diagnostics& diagnostics) override;
+  void begin_cycle(base::Time time) override;
+  base::Time now() override;
+  void wait_for_news(base::Time deadline) override;
+
+  Simulation& simulation() { return *simulation_; }
+
+ private:
+  explicit SimulatedLink(Time time) : time_(time) {}
+  void advance_to(base::Time now);
+  base::Time in_simulation(base::Time time) const { return base::Time{} + (time - epoch_); }
+  base::Time of_application(base::Time time) const { return epoch_ + (time - base::Time{}); }
+
+  const Time time_;
+  base::Time epoch_{};  ///< of the application's clock, where the simulation's begins
+  std::unique_ptr<Simulation> simulation_;
+  can::VirtualStation* host_ = nullptr;
+};
+
+}  // namespace armature::janus
