@@ -65,6 +65,31 @@ TEST(Include, OtherPathsAreRelativeToTheFileThatNamesThem) {
   EXPECT_EQ(path_from(document, document.scripts.at(0).path), "robots/parts/eye.lua");
 }
 
+TEST(Include, HereIsTheFolderOfTheFileInWhichItStands) {
+  const Loaded loaded = load_files(
+      "robots/head.yaml",
+      {{"robots/head.yaml",
+        "include: parts/eye.yaml\nparameters: {own: \"${here}\"}\n"
+        "components: {H: {model: M, properties: {x: \"${own}/a\", y: \"${here}\"}}}\n"},
+       {"robots/parts/eye.yaml",
+        "parameters: {lens: \"${here}/lens\"}\n"
+        "components: {E: {model: M, properties: {x: \"${lens}\", y: \"${here}/e\"}}}\n"}});
+  EXPECT_EQ(loaded.messages(), "");
+  const auto value = [&](std::size_t component, std::size_t property) {
+    return to_text(loaded.document.components.at(component).properties.at(property).value);
+  };
+  EXPECT_EQ(value(0, 0), "robots/parts/lens");
+  EXPECT_EQ(value(0, 1), "robots/parts/e");
+  EXPECT_EQ(value(1, 0), "robots/a");
+  EXPECT_EQ(value(1, 1), "robots");
+}
+
+TEST(Include, HereCannotBeDeclared) {
+  const Loaded loaded = load_files("a.yaml", {{"a.yaml", "parameters: {here: x}\n"}});
+  EXPECT_NE(loaded.messages().find("parameter 'here' is always the file's folder"),
+            std::string::npos);
+}
+
 TEST(Include, OwnValuesReplaceIncludedOnes) {
   const Loaded loaded =
       load_files("a.yaml", {{"a.yaml", "include: b.yaml\napplication: a\nparameters: {n: 3}\n"},

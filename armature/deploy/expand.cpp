@@ -13,6 +13,13 @@ namespace {
 
 constexpr std::size_t kLongestText = 1u << 20;
 constexpr int kDeepestParameter = 100;
+/// What `${here}` stands for everywhere: the folder of the file in which it is written.
+constexpr std::string_view kHere = "here";
+
+std::string folder_of(const base::Location& where) {
+  const std::size_t slash = where.file.rfind('/');
+  return slash == std::string::npos ? "." : where.file.substr(0, std::max<std::size_t>(slash, 1));
+}
 
 /// `${name}` in a text, from `begin` to `end`.
 struct Use {
@@ -142,6 +149,10 @@ std::string Expander::replace_parameters(std::string_view text, const Scope& sco
   for (auto use = next_use(text, 0); use; use = next_use(text, use->end)) {
     result += text.substr(copied, use->begin - copied);
     copied = use->end;
+    if (use->name == kHere) {
+      result += folder_of(where);
+      continue;
+    }
     const Value* value = find_parameter(use->name, scope, where, diagnostics);
     if (value == nullptr) {
       result += text.substr(use->begin, use->end - use->begin);
@@ -173,7 +184,7 @@ std::string Expander::expand_text(const Value& text, const Scope& scope,
 Value Expander::expand_whole_text(const Value& value, const Scope& scope,
                                   base::Diagnostics& diagnostics) {
   const std::optional<Use> use = value.literal ? std::nullopt : next_use(value.text, 0);
-  const bool alone = use && use->begin == 0 && use->end == value.text.size();
+  const bool alone = use && use->begin == 0 && use->end == value.text.size() && use->name != kHere;
   const Property* parameter = alone ? find(scope.parameters, use->name) : nullptr;
   const bool unknown =
       alone && (parameter == nullptr || parameter->value.kind == Value::Kind::kNone);
@@ -266,6 +277,10 @@ std::vector<Property> Expander::resolve_parameters(const std::vector<Property>& 
                                                    base::Diagnostics& diagnostics) {
   std::vector<Property> all = declared;
   for (Property& parameter : all) {
+    if (parameter.name == kHere) {
+      diagnostics.error(parameter.where, owner + ": parameter 'here' is always the file's folder",
+                        "choose another name");
+    }
     if (const Property* other = find(given, parameter.name)) {
       parameter.value = other->value;
       parameter.value.literal = true;

@@ -25,6 +25,7 @@ class SimulatedLink final : public AicLink {
   void wait_for_news(base::Time deadline) override;
 
   Simulation& simulation() { return *simulation_; }
+  can::VirtualStation& station() { return *host_; }
 
  private:
   explicit SimulatedLink(Time time) : time_(time) {}
