@@ -98,7 +98,8 @@ base::Result<std::unique_ptr<Head>> Head::assemble(base::Result<sim::Plant> plan
   return std::unique_ptr<Head>(new Head(std::move(plant).value(), config));
 }
 
-Head::Head(sim::Plant plant, const Config& config) : plant_(std::move(plant)) {
+Head::Head(sim::Plant plant, const Config& config)
+    : begin_(config.begin), plant_(std::move(plant)) {
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     plant_.set_state(joint, config.initial_position[joint], 0.0);
     wirings_[joint] = std::make_unique<Wiring>(*this, joint);
@@ -111,7 +112,7 @@ AicWiring& Head::wiring(std::size_t joint) { return *wirings_[joint]; }
 
 /// The back-EMF makes the torque a matter of each inner step.
 void Head::advance_to(base::Time now) {
-  while (base::Time(plant_.time() + plant_.inner_step()) <= now) {
+  while (reached() + plant_.inner_step() <= now) {
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
       plant_.set_effort(joint, wirings_[joint]->torque(plant_.velocity(joint)));
     }
@@ -123,7 +124,7 @@ void Head::advance_to(base::Time now) {
 double Head::position(std::size_t joint, base::Time now) {
   advance_to(now);
   if (status() == sim::PlantStatus::kDiverged) return plant_.position(joint);
-  const std::chrono::duration<double> since = now - base::Time(plant_.time());
+  const std::chrono::duration<double> since = now - reached();
   return plant_.position(joint) + plant_.velocity(joint) * since.count();
 }
 

@@ -41,6 +41,7 @@ class Head {
     std::string urdf_file;  ///< robots/janus/janus.urdf
     base::Duration inner_step = std::chrono::microseconds(100);
     std::array<double, kJoints> initial_position{};  ///< [rad]
+    base::Time begin{};                              ///< when it is there, at rest
   };
 
   static base::Result<std::unique_ptr<Head>> load(const Config& config);
@@ -70,9 +71,11 @@ class Head {
   class Wiring;
 
   Head(sim::Plant plant, const Config& config);
+  base::Time reached() const { return begin_ + plant_.time(); }
   static base::Result<std::unique_ptr<Head>> assemble(base::Result<sim::Plant> plant,
                                                       const Config& config);
 
+  const base::Time begin_;
   sim::Plant plant_;
   std::array<std::unique_ptr<Wiring>, kJoints> wirings_;
 };

@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+#include "armature/platform/clock.hpp"
+
 namespace armature::janus {
 
 double SimulatedJanus::position(std::size_t joint) {
@@ -14,8 +16,10 @@ base::Result<std::unique_ptr<AicLink>> SimulatedJanus::make_link() {
   const Head::Config head{.urdf_file = urdf_,
                           .inner_step = std::chrono::duration_cast<base::Duration>(
                               std::chrono::duration<double>(inner_step_.get()))};
+  const bool simulated = context().simulated;
   auto made = SimulatedLink::make(
-      head, context().simulated ? SimulatedLink::Time::kSimulated : SimulatedLink::Time::kReal);
+      head, simulated ? SimulatedLink::Time::kSimulated : SimulatedLink::Time::kReal,
+      simulated ? time() : platform::monotonic_now());
   if (!made) return base::Error{made.error()};
   link_ = made.value().get();
   return std::unique_ptr<AicLink>(std::move(made).value());

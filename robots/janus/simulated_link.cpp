@@ -10,13 +10,11 @@
 namespace armature::janus {
 
 base::Result<std::unique_ptr<SimulatedLink>> SimulatedLink::make(const Head::Config& head,
-                                                                 Time time) {
+                                                                 Time time, base::Time now) {
   std::unique_ptr<SimulatedLink> link(new SimulatedLink(time));
-  if (time == Time::kReal) link->epoch_ = platform::monotonic_now();
   Simulation::Config config{.head = head, .clock = {}};
-  if (time == Time::kReal) {
-    config.clock = [raw = link.get()] { return raw->in_simulation(platform::monotonic_now()); };
-  }
+  config.head.begin = now;
+  if (time == Time::kReal) config.clock = platform::monotonic_now;
   auto simulation = Simulation::make(config);
   if (!simulation) return base::Error{simulation.error()};
   link->simulation_ = std::move(simulation).value();
@@ -33,15 +31,15 @@ void SimulatedLink::begin_cycle(base::Time time) {
 }
 
 base::Time SimulatedLink::now() {
-  return time_ == Time::kReal ? platform::monotonic_now() : of_application(simulation_->now());
+  return time_ == Time::kReal ? platform::monotonic_now() : simulation_->now();
 }
 
 void SimulatedLink::wait_for_news(base::Time deadline) {
   if (time_ == Time::kSimulated) {
-    simulation_->advance_to_next_event(in_simulation(deadline));
+    simulation_->advance_to_next_event(deadline);
     return;
   }
-  const base::Time next = of_application(simulation_->next_event());
+  const base::Time next = simulation_->next_event();
   {
     const rt::PermitScope waiting;
     platform::sleep_until(std::min(next, deadline));
@@ -50,8 +48,7 @@ void SimulatedLink::wait_for_news(base::Time deadline) {
 }
 
 void SimulatedLink::advance_to(base::Time now) {
-  const base::Time until = in_simulation(now);
-  if (until > simulation_->now()) simulation_->advance_to(until);
+  if (now > simulation_->now()) simulation_->advance_to(now);
 }
 
 }  // namespace armature::janus

@@ -16,7 +16,10 @@ class SimulatedLink final : public AicLink {
     kReal,       ///< on the monotonic clock
   };
 
-  static base::Result<std::unique_ptr<SimulatedLink>> make(const Head::Config& head, Time time);
+  /// The robot is switched on now.
+  /// @param now  on the application's clock, which is the simulation's, too
+  static base::Result<std::unique_ptr<SimulatedLink>> make(const Head::Config& head, Time time,
+                                                           base::Time now);
 
   can::Bus& bus() override { return *host_; }
   bool open(can::BusOptions options, base::Diagnostics& diagnostics) override;
@@ -30,11 +33,8 @@ class SimulatedLink final : public AicLink {
  private:
   explicit SimulatedLink(Time time) : time_(time) {}
   void advance_to(base::Time now);
-  base::Time in_simulation(base::Time time) const { return base::Time{} + (time - epoch_); }
-  base::Time of_application(base::Time time) const { return epoch_ + (time - base::Time{}); }
 
   const Time time_;
-  base::Time epoch_{};  ///< of the application's clock, where the simulation's begins
   std::unique_ptr<Simulation> simulation_;
   can::VirtualStation* host_ = nullptr;
 };

@@ -23,6 +23,7 @@ Simulation::Simulation(std::unique_ptr<Head> head, const Config& config)
     : head_(std::move(head)),
       bus_(
           config.bus_name, kBitRate, config.clock ? config.clock : [this] { return bus_.now(); }) {
+  bus_.advance_to(config.head.begin);
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const int number = static_cast<int>(joint) + 1;
     cards_[joint] = std::make_unique<AicFirmware>(number, bus_, head_->wiring(joint));

@@ -30,7 +30,7 @@ class Simulation {
     std::string bus_name = "can0";
   };
 
-  /// With both cards powered on at time 0.
+  /// With both cards powered on when the head begins.
   static base::Result<std::unique_ptr<Simulation>> make(const Config& config);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
