@@ -266,7 +266,7 @@ TEST_F(LifeCycle, StoppingByADeclaredReactionTellsTheApplicationWhy) {
 
 TEST_F(LifeCycle, TooLongAReasonIsCutNotLost) {
   component_.refusals["configure"] = std::string(1000, 'x');
-  EXPECT_EQ(component_.configure().reason(), std::string(159, 'x'));
+  EXPECT_EQ(component_.configure().reason(), std::string(255, 'x'));
 }
 
 TEST(LifeCycleNames, AreThoseOfTheDocumentation) {

@@ -4,6 +4,7 @@
 #include "armature/library/actuator_demux/actuator_demux.hpp"
 #include "armature/library/arming/arming.hpp"
 #include "armature/library/axes_generator/axes_generator.hpp"
+#include "armature/library/bridge/bridge.hpp"
 #include "armature/library/bridge_ref/bridge_ref.hpp"
 #include "armature/library/controller_npid/controller_npid.hpp"
 #include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
@@ -26,6 +27,7 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<ControllerNPIDFF>("ControllerNPIDFF",
                                  "N PIDs and feed-forward of the robot's dynamics");
   registry.add<Model>("Model", "inverse dynamics, from the robot's description");
+  registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
   registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest");
 }

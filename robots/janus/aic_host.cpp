@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "armature/library/base/max_age.hpp"
+
 namespace armature::janus {
 
 using component::Outcome;
@@ -24,6 +26,7 @@ Outcome AicHost::on_configure() {
   driver_.emplace(std::move(driver).value());
   taken_.assign(driver_->cards(), {});
   motor_set_.assign(driver_->cards(), false);
+  motor_set_at_.assign(driver_->cards(), base::Time{});
   index_of_.assign(kMostCards + 1, std::nullopt);
   for (std::size_t i = 0; i < driver_->cards(); ++i) {
     index_of_[static_cast<std::size_t>(driver_->card(i).number)] = i;
@@ -109,6 +112,7 @@ bool AicHost::set_motor(int number, control::LimitedEffort effort) {
   const auto index = index_of(number);
   if (!index) return false;
   driver_->set_motor(*index, effort / supply_);
+  motor_set_at_[*index] = time();
   if (!motor_set_[*index]) {
     motor_set_[*index] = true;
     ++motors_set_;
@@ -119,7 +123,14 @@ bool AicHost::set_motor(int number, control::LimitedEffort effort) {
 bool AicHost::send_motors() {
   std::fill(motor_set_.begin(), motor_set_.end(), false);
   motors_set_ = 0;
+  drop_old_motor_values();
   return driver_->send_motors() == can::SendStatus::kSent;
+}
+
+void AicHost::drop_old_motor_values() {
+  for (std::size_t i = 0; i < driver_->cards(); ++i) {
+    if (time() - motor_set_at_[i] > library::kMaxAge) driver_->set_motor(i, 0.0);
+  }
 }
 
 bool AicHost::command_card(int number, int command) {

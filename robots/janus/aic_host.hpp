@@ -31,8 +31,9 @@ ARMATURE_STRUCT(AicSample, counts, fresh, no_bus, index, actuator_on, restarted,
 /// what the bus is. The first card that is read in a cycle has all of them read.
 ///
 /// Motor values are sent when all cards have theirs; those of a cycle in which one was missing are
-/// sent at the beginning of the next. Whenever the host stops: motor values 0, brakes applied,
-/// actuators off.
+/// sent at the beginning of the next. A value that was not set anew for 100 ms is 0: who set it is
+/// gone, and the card's watchdog looks at the host only. Whenever the host stops: motor values 0,
+/// brakes applied, actuators off.
 /// @rt no allocation; waits for the cards' answers, `answer_timeout` for each at most
 class AicHost : public component::Component {
  public:
@@ -57,6 +58,7 @@ class AicHost : public component::Component {
   void note_losses();
   AicSample take(std::size_t index);
   bool send_motors();
+  void drop_old_motor_values();
   void make_safe();
   std::optional<std::size_t> index_of(int number) const;
 
@@ -70,18 +72,27 @@ class AicHost : public component::Component {
   component::Property<double> answer_timeout_{this,  "answer_timeout",
                                               0.001, "how long to wait for a card",
                                               "s",   component::range(0.0002, 1.0)};
-  component::Operation<AicSample(int)> read_card_{
-      this, "readCard", component::serve<&AicHost::read_card>, "what a card says in this cycle",
-      component::args("number")};
+  component::Operation<AicSample(int)> read_card_{this,
+                                                  "readCard",
+                                                  component::serve<&AicHost::read_card>,
+                                                  "what a card says in this cycle",
+                                                  component::args("number"),
+                                                  component::in_own_thread};
   component::Operation<bool(int, control::LimitedEffort)> set_motor_{
-      this, "setMotor", component::serve<&AicHost::set_motor>,
+      this,
+      "setMotor",
+      component::serve<&AicHost::set_motor>,
       "the voltage of a card's motor, in this cycle and until the next",
-      component::args("number", "effort [V]")};
+      component::args("number", "effort [V]"),
+      component::in_own_thread};
   component::Operation<bool(int, int)> command_card_{
-      this, "commandCard", component::serve<&AicHost::command_card>,
+      this,
+      "commandCard",
+      component::serve<&AicHost::command_card>,
       "sends a command of PROTOCOL.md: 1 and 2 actuator on and off, 3 and 4 brake apply and "
       "release",
-      component::args("number", "command")};
+      component::args("number", "command"),
+      component::in_own_thread};
   component::Attribute<int> lost_answers_{this, "lost_answers", 0,
                                           "readings since the start without a card's answer"};
   component::Attribute<int> bus_lost_{this, "bus_lost", 0,
@@ -99,6 +110,7 @@ class AicHost : public component::Component {
   std::vector<Taken> taken_;
   std::vector<std::optional<std::size_t>> index_of_;  ///< by the card's number
   std::vector<bool> motor_set_;
+  std::vector<base::Time> motor_set_at_;
   std::size_t motors_set_ = 0;
   base::Time read_at_ = base::Time::min();
 };

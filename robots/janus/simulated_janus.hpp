@@ -30,9 +30,12 @@ class SimulatedJanus final : public AicHost {
   component::Property<double> inner_step_{
       this, "inner_step", 1e-4, "of the simulated motion", "s", component::range(1e-6, 1e-3)};
 
-  component::EventHandler<> sample_{this, "Sample",
+  component::EventHandler<> sample_{this,
+                                    "Sample",
                                     component::serve<&SimulatedJanus::let_time_pass>,
-                                    "time passes for it", component::leads_to_nothing()};
+                                    "time passes for it",
+                                    component::optional,
+                                    component::leads_to_nothing()};
 
   SimulatedLink* link_ = nullptr;
 };

@@ -36,7 +36,7 @@ void Arming::on_update() {
 
 Outcome Arming::begin_to_arm() {
   if (phase_ == Phase::kArmed) return component::refused("the joints are armed already");
-  if (!is_of_this_run(sensor_.read(), started_)) {
+  if (!is_of_this_run(measured_.read(), started_)) {
     return component::refused("nothing was measured yet");
   }
   phase_ = Phase::kSettling;
@@ -47,10 +47,12 @@ Outcome Arming::begin_to_arm() {
 
 /// What was desired before Settle says nothing.
 void Arming::wait_for_reference() {
-  const auto& measured = sensor_.read();
-  const auto& desired = reference_.read();
-  if (is_of_this_run(desired, since_) && desired.time > since_ && measured) {
-    const std::size_t apart = first_apart(measured.value, desired.value);
+  const auto& measured = measured_.read();
+  const auto& desired = desired_.read();
+  const auto& velocity = desired_velocity_.read();
+  const bool fresh = desired && desired.time > since_ && velocity && velocity.time > since_;
+  if (fresh && measured) {
+    const std::size_t apart = first_apart(measured.value, desired.value, velocity.value);
     if (apart == joints()) {
       phase_ = Phase::kArming;
       since_ = time();
@@ -112,10 +114,11 @@ std::size_t Arming::first_disarmed() {
 }
 
 std::size_t Arming::first_apart(const std::vector<double>& measured,
-                                const std::vector<double>& desired) const {
+                                const std::vector<double>& desired,
+                                const std::vector<double>& velocity) const {
   std::size_t joint = 0;
   while (joint < joints() && std::abs(desired[joint] - measured[joint]) <= tolerance_ &&
-         desired[joints() + joint] == 0.0) {
+         velocity[joint] == 0.0) {
     ++joint;
   }
   return joint;

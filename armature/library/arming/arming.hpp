@@ -13,7 +13,7 @@ namespace armature::library {
 /// operator's `arm`, after a start, a fault or a stop. For a periodic activity.
 ///
 /// `arm` raises Settle, at which generators make the measured position the desired one and PIDs
-/// forget the past; waits until `reference` says so for every joint; then raises Arm, and is done
+/// forget the past; waits until that is so for every joint; then raises Arm, and is done
 /// when all joints say `Armed`. It fails with the reason, and nobody stays armed, if that takes
 /// longer than `patience`. `stop` raises Stop, which is a motion: generators brake smoothly and
 /// hold where they come to rest. `disarm` raises Disarm at once: effort 0, brakes applied. If one
@@ -40,9 +40,9 @@ class Arming final : public component::Component {
   bool out_of_patience() const;
   /// The first joint that does not say `Armed`; joints() if all do.
   std::size_t first_disarmed();
-  /// The first whose desired position is not the measured one; joints() if there is none.
-  std::size_t first_apart(const std::vector<double>& measured,
-                          const std::vector<double>& desired) const;
+  /// The first that is not desired to rest where it is; joints() if there is none.
+  std::size_t first_apart(const std::vector<double>& measured, const std::vector<double>& desired,
+                          const std::vector<double>& velocity) const;
 
   enum class Phase { kDisarmed, kSettling, kArming, kArmed };
 
@@ -55,13 +55,15 @@ class Arming final : public component::Component {
   component::Property<double> patience_{this, "patience",
                                         1.0,  "how long to wait for references, and for joints",
                                         "s",  component::range(0.0, 60.0)};
-  component::InputPort<std::vector<double>> sensor_{
-      this, "sensor",
-      "measured [q1..qN, d1..dN]: positions, then displacements since the sample before", "rad",
-      component::size_of(joints_, 2)};
-  component::InputPort<std::vector<double>> reference_{
-      this, "reference", "desired [q1..qN, qd1..qdN, qdd1..qddN]: rad, rad/s, rad/s^2", "",
-      component::size_of(joints_, 3)};
+  component::InputPort<std::vector<double>> measured_{this, "nAxesSensorPosition",
+                                                      "measured position of each joint", "rad",
+                                                      component::size_of(joints_)};
+  component::InputPort<std::vector<double>> desired_{this, "nAxesDesiredPosition",
+                                                     "desired position of each joint", "rad",
+                                                     component::size_of(joints_)};
+  component::InputPort<std::vector<double>> desired_velocity_{this, "nAxesDesiredVelocity",
+                                                              "desired velocity of each joint",
+                                                              "rad/s", component::size_of(joints_)};
   component::InputPorts<bool> joint_armed_{this, "Armed", joints_, "each joint is armed"};
 
   component::Event<> settle_event_{this, "Settle", "desired := measured; the past is forgotten"};

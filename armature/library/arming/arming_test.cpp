@@ -34,10 +34,11 @@ class ArmingTest : public ::testing::Test {
     measure(1.0, 2.0);
   }
   void measure(double q1, double q2) {
-    arming.write("sensor", std::vector<double>{q1, q2, 0.0, 0.0});
+    arming.write("nAxesSensorPosition", std::vector<double>{q1, q2});
   }
   void desire(double q1, double q2, double velocity2 = 0.0) {
-    arming.write("reference", std::vector<double>{q1, q2, 0.0, velocity2, 0.0, 0.0});
+    arming.write("nAxesDesiredPosition", std::vector<double>{q1, q2});
+    arming.write("nAxesDesiredVelocity", std::vector<double>{0.0, velocity2});
   }
   void say_armed(bool first, bool second) {
     arming.write("Armed1", first);

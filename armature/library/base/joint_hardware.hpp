@@ -49,20 +49,26 @@ class JointHardware : public component::Component {
       component::leads_to_nothing()};
   component::Operation<bool()> actuator_on_{this, "actuatorOn",
                                             component::serve<&JointHardware::actuator_on>,
-                                            "switches the actuator on"};
+                                            "switches the actuator on", component::in_own_thread};
   component::Operation<bool()> actuator_off_{this, "actuatorOff",
                                              component::serve<&JointHardware::actuator_off>,
-                                             "switches the actuator off"};
+                                             "switches the actuator off", component::in_own_thread};
   component::Operation<bool(control::LimitedEffort)> actuator_set_{
-      this, "actuatorSet", component::serve<&JointHardware::actuator_set>,
-      "applies an effort that a limiter let through", component::args("effort [V]")};
-  component::Operation<bool()> sensor_read_{this, "sensorRead",
-                                            component::serve<&JointHardware::sensor_read>,
-                                            "reads the sensors and writes what they measured"};
-  component::Operation<bool()> brake_apply_{
-      this, "brakeApply", component::serve<&JointHardware::brake_apply>, "applies the brake"};
-  component::Operation<bool()> brake_release_{
-      this, "brakeRelease", component::serve<&JointHardware::brake_release>, "releases the brake"};
+      this,
+      "actuatorSet",
+      component::serve<&JointHardware::actuator_set>,
+      "applies an effort that a limiter let through",
+      component::args("effort [V]"),
+      component::in_own_thread};
+  component::Operation<bool()> sensor_read_{
+      this, "sensorRead", component::serve<&JointHardware::sensor_read>,
+      "reads the sensors and writes what they measured", component::in_own_thread};
+  component::Operation<bool()> brake_apply_{this, "brakeApply",
+                                            component::serve<&JointHardware::brake_apply>,
+                                            "applies the brake", component::in_own_thread};
+  component::Operation<bool()> brake_release_{this, "brakeRelease",
+                                              component::serve<&JointHardware::brake_release>,
+                                              "releases the brake", component::in_own_thread};
 };
 
 }  // namespace armature::library

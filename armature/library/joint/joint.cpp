@@ -29,6 +29,9 @@ Outcome Joint::on_start() {
   if (changes_.take()) {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
+  if (sampler_ && !voltage_.connected()) {
+    return component::refused("nobody writes the input Voltage (connect it, or Sampler: false)");
+  }
   started_ = time();
   measured_since_start_ = false;
   disarm();

@@ -135,8 +135,12 @@ class Joint final : public component::Component {
                                            "",
                                            component::on_data<&Joint::on_index>,
                                            component::leads_to("Index")};
-  component::InputPort<double> voltage_{this, "Voltage", "to apply at Act", "V",
-                                        component::max_age(kMaxAge)};
+  component::InputPort<double> voltage_{this,
+                                        "Voltage",
+                                        "to apply at Act; may stay open without Sampler",
+                                        "V",
+                                        component::max_age(kMaxAge),
+                                        component::may_stay_open};
   component::OutputPort<control::LimitedEffort> voltage_actuator_{this, "VoltageActuator",
                                                                   "for the hardware", "V"};
   component::OutputPort<double> displacement_{this, "Displacement", "since the sample before",

@@ -43,6 +43,7 @@ class JointTest : public ::testing::Test {
         return calls.back() != broken;
       });
     }
+    joint.write("Voltage", 0.0);  // connects it; before the start, so that it does not count
     joint.serve<bool()>("sensorRead", [this] {
       calls.emplace_back("sensorRead");
       return true;
@@ -269,6 +270,18 @@ TEST_F(JointTest, RefusesToStartWithWhatCannotBe) {
   joint.set("GearRatio", 0.01);
   joint.set("PositionMax", -1.0);
   EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("upper"));
+}
+
+TEST(UnconnectedJoint, IsRefusedAtStartUnlessItFollowsNoSampler) {
+  testing::Harness joint{std::make_unique<Joint>("Joint1")};
+  joint.set("PeerName", "Card");
+  joint.set("PositionMax", 1.0);
+  joint.set("MaxVelocity", 1.0);
+  joint.set("MaxAcceleration", 5.0);
+  joint.set("MaxVoltage", 12.0);
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("nobody writes the input Voltage"));
+  joint.set("Sampler", false);
+  EXPECT_TRUE(joint.start()) << joint.reason();
 }
 
 TEST_F(JointTest, NoToolCanMakeWhatItsHardwareTakes) {

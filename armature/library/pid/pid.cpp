@@ -16,6 +16,16 @@ component::Outcome Pid::on_start() {
   return component::accepted();
 }
 
+void Pid::on_update() {
+  if (read_sensor_.bound()) expect_done(read_sensor_().status, "sensorRead");
+}
+
+void Pid::expect_done(component::CallStatus status, std::string_view operation) {
+  if (status == component::CallStatus::kDone) return;
+  component::Reason why(peer_name_.get());
+  fault(why.append(".").append(operation).append(": ").append(component::name_of(status)));
+}
+
 void Pid::step(double measured) {
   const auto reference = reference_.read();
   if (!is_of_this_run(reference, started_)) return;
@@ -23,6 +33,7 @@ void Pid::step(double measured) {
   const double output = pid_->step(reference.value - measured);
   if (std::isfinite(output)) {
     output_.write(output);
+    if (motor_set_.bound()) expect_done(motor_set_(output).status, "motorSet");
     return;
   }
   component::Reason why("Ref - Sen is ");

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "armature/component/author.hpp"
 #include "armature/control/pid.hpp"
@@ -14,14 +16,19 @@ namespace armature::library {
 /// start. Neither a start nor `reset` kicks, and so it is when a
 /// robot is armed (see Arming). A difference that is no finite number is a fault, and nothing is
 /// written.
-/// @rt nonblocking, no allocation
+///
+/// With `PeerName` it has a joint of its own (paper 2, section 5.2): each update has that joint
+/// read its sensor, and each output is set there.
+/// @rt nonblocking, no allocation; with a joint in another thread it waits for that
 class Pid final : public component::Component {
  public:
   using Component::Component;
 
  private:
   component::Outcome on_start() override;
+  void on_update() override;
   void step(double measured);
+  void expect_done(component::CallStatus status, std::string_view operation);
   void reset();
   void take_gains();
   control::Pid::Config config() const { return {kp_, ki_, kd_, u_min_, u_max_}; }
@@ -53,6 +60,8 @@ class Pid final : public component::Component {
       this, "UMin", -1.0, "lower limit of the output", "V", component::mandatory};
   component::Property<double> u_max_{
       this, "UMax", 1.0, "upper limit of the output", "V", component::mandatory};
+  component::Property<std::string> peer_name_{
+      this, "PeerName", "", "the joint that it reads and drives itself; none: others do"};
   component::InputPort<double> reference_{this, "Ref", "desired position", "rad",
                                           component::max_age(kMaxAge)};
   component::InputPort<double> measured_{this,
@@ -71,6 +80,11 @@ class Pid final : public component::Component {
                                  "forgets the past: the next output is Ki e",
                                  component::optional,
                                  component::leads_to_nothing()};
+
+  component::OperationCaller<bool()> read_sensor_{this, "sensorRead", "has the joint measure",
+                                                  component::from(peer_name_), component::optional};
+  component::OperationCaller<bool(double)> motor_set_{
+      this, "motorSet", "drives the joint", component::from(peer_name_), component::optional};
 
   std::optional<control::Pid> pid_;
   base::Time started_{};

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/library/bridge/bridge.hpp"
+
+#include <algorithm>
+
+namespace armature::library {
+
+component::Outcome Bridge::on_configure() {
+  measured_.assign(position_.size(), 0.0);
+  came_.assign(position_.size(), false);
+  return component::accepted();
+}
+
+component::Outcome Bridge::on_start() {
+  std::fill(came_.begin(), came_.end(), false);
+  missing_ = came_.size();
+  return component::accepted();
+}
+
+void Bridge::on_position(std::size_t joint, double position) {
+  measured_[joint] = position;
+  if (!came_[joint]) {
+    came_[joint] = true;
+    --missing_;
+  }
+  if (missing_ == 0) positions_.write(measured_);
+}
+
+void Bridge::on_desired(const Vector& desired) {
+  for (std::size_t i = 0; i < desired.size(); ++i) ref_[i].write(desired[i]);
+}
+
+}  // namespace armature::library
