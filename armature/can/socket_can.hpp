@@ -36,7 +36,9 @@ class SocketCan final : public Bus {
   BusCounters counters() const override { return tally_.now(); }
 
  private:
+  void start_watcher(base::Diagnostics& diagnostics);
   SendStatus try_send(const Frame& frame);
+  ReceiveStatus nothing_came();
   void count_lost();
   void note_error(const Frame& frame);
   void note_up();
