@@ -68,16 +68,11 @@ class SerialInterface {
 class SerialBus {
  public:
   SerialBus() : firmware_([this] { run(); }) {
-    std::string settings;
-    for (const Adapter& each : adapters_) {
-      const std::string link = "link set " + each.interface.name();
-      settings += link + " type can bitrate 1000000\n" + link + " txqueuelen 64 up\n";
-    }
-    shell("echo '" + settings + "' | ip -batch -");
+    set_links(" type can bitrate 1000000");
+    set_links(" txqueuelen 64 up");
   }
   ~SerialBus() {
-    // While the firmware listens: the kernel says good-bye to it, and waits for a second otherwise.
-    for (Adapter& each : adapters_) each.interface.unplug();
+    set_links(" down");  // else the kernel waits a second for the adapter to take its leave
     done_ = true;
     firmware_.join();
   }
@@ -86,7 +81,10 @@ class SerialBus {
   void tell(int which, const std::string& line) { adapters_[which].interface.tell(line); }
   /// The adapter does not listen to the kernel for a while, as if the bus were busy.
   void set_busy(int which, bool busy) { adapters_[which].busy = busy; }
-  void unplug(int which) { adapters_[which].interface.unplug(); }
+  void unplug(int which) {
+    adapters_[which].interface.unplug();
+    adapters_[which].plugged = false;
+  }
   void go_bus_off(int which) {
     adapters_[which].on_bus = false;
     tell(which, "sb000256");
@@ -103,7 +101,16 @@ class SerialBus {
     std::string heard;
     std::atomic<bool> on_bus{false};
     std::atomic<bool> busy{false};
+    bool plugged = true;
   };
+
+  void set_links(const std::string& what) {
+    std::string commands;
+    for (const Adapter& each : adapters_) {
+      if (each.plugged) commands += "link set " + each.interface.name() + what + "\n";
+    }
+    shell("echo '" + commands + "' | ip -batch -");
+  }
 
   void run() {
     constexpr int kPatienceMs = 1;
