@@ -21,12 +21,12 @@ class VirtualInterfaceRig final : public SocketRig {
 };
 
 /// Two controllers SJA1000 as qemu emulates them: every frame is acknowledged at once, at any bit
-/// rate, and no error ever happens. Of a remote frame that asks for data the emulation keeps as
-/// many bytes in its memory, out of step from then on.
+/// rate and with nobody there, and no error ever happens. Of a remote frame that asks for data the
+/// emulation keeps as many bytes in its memory, out of step from then on.
 class EmulatedControllerRig final : public SocketRig {
  public:
   EmulatedControllerRig() : SocketRig("can0", "can1") {}
-  bool remote_frames_may_ask_for_data() const override { return false; }
+  bool receives_remote_frames_for_data() const override { return false; }
 };
 
 template <typename Rig>
@@ -105,6 +105,7 @@ TEST_F(SocketCanOnControllers, AnOwnFrameComesBackWhenItWasOnTheBus) {
   EXPECT_TRUE(arrival_.own);
   EXPECT_EQ(arrival_.frame, data_frame(1, {7}));
   EXPECT_GE(arrival_.time, before);
+  EXPECT_LE(arrival_.time, platform::monotonic_now());
 }
 
 TEST_F(SocketCanOnControllers, TimesAreOnTheMonotonicClockWhateverTheWallClockDoes) {

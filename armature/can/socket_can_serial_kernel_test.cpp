@@ -273,6 +273,42 @@ TEST_F(SocketCanErrors, WhatWaitsWhenTheBusGoesOffNeverComesOut) {
   EXPECT_EQ(first_.counters().bus_offs, 1u);
 }
 
+TEST_F(SocketCanErrors, TheInterfacesOwnQueueMayBeShorter) {
+  constexpr std::uint32_t kShort = 4;
+  shell("ip link set " + bus_.name(0) + " txqueuelen 4");
+  bus_.set_busy(0, true);
+  std::uint32_t taken = 0;
+  while (taken < kCapacity && first_.send(data_frame(taken, {})) == SendStatus::kSent) ++taken;
+  EXPECT_GE(taken, kShort);
+  EXPECT_LE(taken, kShort + 3) << "some are on their way already";
+  EXPECT_EQ(first_.send(data_frame(taken, {})), SendStatus::kQueueFull);
+}
+
+TEST_F(SocketCanErrors, ABusOffIsKnownWhenItReceives) {
+  SocketCan other(bus_.name(0));
+  open(other);
+  bus_.go_bus_off(0);
+  EXPECT_TRUE(comes_true([&] {
+    received(other);
+    return other.state() == BusState::kBusOff;
+  }));
+  EXPECT_EQ(first_.send(data_frame(1, {})), SendStatus::kSent) << "for all it knows";
+  received(first_);
+  EXPECT_EQ(first_.send(data_frame(1, {})), SendStatus::kBusOff);
+}
+
+// Not what a bus should do, but nobody can take it back from the kernel.
+TEST_F(SocketCanErrors, WhatWaitsWhenItIsClosedStillGoesOut) {
+  bus_.set_busy(0, true);
+  for (std::uint32_t i = 0; i < 3; ++i)
+    ASSERT_EQ(first_.send(data_frame(i, {})), SendStatus::kSent);
+  first_.close();
+  bus_.set_busy(0, false);
+  std::size_t arrived = 0;
+  EXPECT_TRUE(comes_true([&] { return (arrived += received(second_).size()) == 3; }));
+  EXPECT_EQ(first_.counters().discarded, 0u);
+}
+
 TEST_F(SocketCanErrors, OpenedWhileBusOffItKnows) {
   bus_.go_bus_off(0);
   EXPECT_TRUE(state_becomes(BusState::kBusOff));

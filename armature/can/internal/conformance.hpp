@@ -34,8 +34,8 @@ class BusRig {
   virtual bool force_bus_off() { return false; }
   /// Brings it back, by `Bus::restart` if that can.
   virtual void restart() { EXPECT_EQ(first().restart(), RestartStatus::kRestarting); }
-  /// False for hardware that does not bear it.
-  virtual bool remote_frames_may_ask_for_data() const { return true; }
+  /// False for a controller that cannot receive a remote frame that asks for data.
+  virtual bool receives_remote_frames_for_data() const { return true; }
 };
 
 struct BusImplementation {
@@ -111,7 +111,7 @@ TEST_P(BusConformance, EveryKindOfFrameArrivesAsItWasSent) {
 }
 
 TEST_P(BusConformance, ARemoteFrameTellsHowMuchItAsksFor) {
-  if (!rig_->remote_frames_may_ask_for_data()) GTEST_SKIP() << "its remote frames ask for nothing";
+  if (!rig_->receives_remote_frames_for_data()) GTEST_SKIP() << "cannot receive it";
   open_both();
   send(first(), remote_frame(0x123, 4));
   EXPECT_THAT(received(second()), ElementsAre("123#R4"));
