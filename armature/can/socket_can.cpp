@@ -41,6 +41,18 @@ CanSocketFilter to_socket(const Filter& filter) {
   return {filter.id | kind, filter.mask | CanSocketFrame::kExtended};
 }
 
+BusState to_state(CanSocket::Controller controller) {
+  switch (controller) {
+    case CanSocket::Controller::kPassive:
+      return BusState::kPassive;
+    case CanSocket::Controller::kBusOff:
+      return BusState::kBusOff;
+    case CanSocket::Controller::kActive:
+      break;
+  }
+  return BusState::kActive;
+}
+
 }  // namespace
 
 BusState state_after(BusState before, const Frame& error_frame) {
@@ -81,7 +93,7 @@ bool SocketCan::open(const BusOptions& options, base::Diagnostics& diagnostics) 
   if (socket_ == nullptr) return false;
   options_ = options;
   lost_before_ = 0;
-  state_ = socket_->bus_off_at_first() ? BusState::kBusOff : BusState::kActive;
+  state_ = to_state(socket_->at_first());
   if (options_.on_news) start_watcher(diagnostics);
   return true;
 }

@@ -72,7 +72,9 @@ class SerialBus {
     set_links(" txqueuelen 64 up");
   }
   ~SerialBus() {
-    set_links(" down");  // else the kernel waits a second for the adapter to take its leave
+    // Else the kernel waits a second for each adapter to take its leave.
+    for (Adapter& each : adapters_) each.busy = false;
+    set_links(" down");
     done_ = true;
     firmware_.join();
   }
@@ -309,10 +311,15 @@ TEST_F(SocketCanErrors, WhatWaitsWhenItIsClosedStillGoesOut) {
   EXPECT_EQ(first_.counters().discarded, 0u);
 }
 
-TEST_F(SocketCanErrors, OpenedWhileBusOffItKnows) {
+TEST_F(SocketCanErrors, TheStateIsKnownWhenItIsOpened) {
+  bus_.tell(0, "sp000130");
+  EXPECT_TRUE(state_becomes(BusState::kPassive));
+  SocketCan late(bus_.name(0));
+  open(late);
+  EXPECT_EQ(late.state(), BusState::kPassive);
+  late.close();
   bus_.go_bus_off(0);
   EXPECT_TRUE(state_becomes(BusState::kBusOff));
-  SocketCan late(bus_.name(0));
   open(late);
   EXPECT_EQ(late.state(), BusState::kBusOff);
   EXPECT_EQ(late.send(data_frame(1, {})), SendStatus::kBusOff);

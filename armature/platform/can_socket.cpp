@@ -9,6 +9,7 @@
 
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <linux/can/netlink.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <sys/epoll.h>
@@ -18,7 +19,7 @@
 #include <unistd.h>
 
 #include "armature/platform/clock.hpp"
-#include "armature/platform/file.hpp"
+#include "armature/platform/internal/can_state.hpp"
 #include "armature/platform/internal/descriptor.hpp"
 
 namespace armature::platform {
@@ -111,10 +112,17 @@ bool bind_to_interface(int socket, const CanSocketRequest& request,
       diagnostics);
 }
 
-/// Without one a controller that is bus-off would pass for one that is quiet.
-bool has_carrier(const std::string& interface) {
-  const auto carrier = read_file("/sys/class/net/" + interface + "/carrier");
-  return !carrier.ok() || carrier.value() != "0\n";
+/// Error frames tell only of changes.
+CanSocket::Controller controller_now(const std::string& interface) {
+  switch (
+      internal::can_state(::if_nametoindex(interface.c_str())).value_or(CAN_STATE_ERROR_ACTIVE)) {
+    case CAN_STATE_ERROR_PASSIVE:
+      return CanSocket::Controller::kPassive;
+    case CAN_STATE_BUS_OFF:
+      return CanSocket::Controller::kBusOff;
+    default:
+      return CanSocket::Controller::kActive;
+  }
 }
 
 bool add_event(int events, int fd, std::uint32_t kind) {
@@ -180,7 +188,7 @@ std::unique_ptr<CanSocket> CanSocket::open(const CanSocketRequest& request,
   }
   std::unique_ptr<CanSocket> made(
       new CanSocket(request.interface, socket.release(), events.release(), interruption.release()));
-  made->bus_off_at_first_ = !has_carrier(request.interface);
+  made->at_first_ = controller_now(request.interface);
   return made;
 }
 

@@ -45,6 +45,7 @@ class CanSocket {
  public:
   enum class Sent { kYes, kQueueFull, kDown };
   enum class Received { kYes, kNothing, kDown };
+  enum class Controller { kActive, kPassive, kBusOff };
 
   struct Arrival {
     CanSocketFrame frame;
@@ -67,8 +68,8 @@ class CanSocket {
   /// Whether the interface is, and is still the one that was opened.
   /// Two system calls that do not wait.
   bool is_up() const;
-  /// Whether the controller was bus-off when the socket was opened, as far as the driver tells.
-  bool bus_off_at_first() const { return bus_off_at_first_; }
+  /// How the controller was when the socket was opened; kActive if the kernel does not tell.
+  Controller at_first() const { return at_first_; }
 
   /// Frames that the kernel had no room for until the last one that was received.
   std::uint32_t lost() const { return lost_; }
@@ -89,7 +90,7 @@ class CanSocket {
   const int socket_;
   const int events_;
   const int interruption_;
-  bool bus_off_at_first_ = false;
+  Controller at_first_ = Controller::kActive;
   std::uint32_t lost_ = 0;
   base::Time latest_{};
 };
