@@ -68,13 +68,12 @@ class SerialInterface {
 class SerialBus {
  public:
   SerialBus() : firmware_([this] { run(); }) {
-    set_links(" type can bitrate 1000000");
-    set_links(" txqueuelen 64 up");
+    set_links({" type can bitrate 1000000", " txqueuelen 64 up"});
   }
   ~SerialBus() {
     // Else the kernel waits a second for each adapter to take its leave.
     for (Adapter& each : adapters_) each.busy = false;
-    set_links(" down");
+    set_links({" down"});
     done_ = true;
     firmware_.join();
   }
@@ -106,10 +105,14 @@ class SerialBus {
     bool plugged = true;
   };
 
-  void set_links(const std::string& what) {
+  /// In one call of `ip`, which takes its time in emulation.
+  void set_links(std::initializer_list<const char*> settings) {
     std::string commands;
     for (const Adapter& each : adapters_) {
-      if (each.plugged) commands += "link set " + each.interface.name() + what + "\n";
+      if (!each.plugged) continue;
+      for (const char* const setting : settings) {
+        commands += "link set " + each.interface.name() + setting + "\n";
+      }
     }
     shell("echo '" + commands + "' | ip -batch -");
   }
