@@ -143,6 +143,13 @@ endfunction()
 # A GoogleTest executable and the test of that name. A test that would take minutes under a
 # sanitizer gets the label `slow`: set_tests_properties(<name> PROPERTIES LABELS slow).
 function(armature_test)
+  armature_test_program(${ARGV})
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "")
+  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
+endfunction()
+
+# The executable alone, for a test that does not run on this machine's own kernel.
+function(armature_test_program)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "armature_test(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
@@ -154,7 +161,6 @@ function(armature_test)
   # Tests are compiled far more often than a debugger sees them: this takes a third off.
   target_compile_options(${arg_NAME} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1;-g1>)
   set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
 endfunction()
 
 # armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)

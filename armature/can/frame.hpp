@@ -59,6 +59,8 @@ constexpr std::uint32_t kRestarted = 0x100;
 
 namespace controller_problem {
 constexpr std::uint8_t kReceiveOverflow = 0x01;
+constexpr std::uint8_t kReceiveWarning = 0x04;  ///< many errors, but still active
+constexpr std::uint8_t kSendWarning = 0x08;
 constexpr std::uint8_t kReceivePassive = 0x10;
 constexpr std::uint8_t kSendPassive = 0x20;
 constexpr std::uint8_t kActiveAgain = 0x40;

@@ -41,16 +41,31 @@ CanSocketFilter to_socket(const Filter& filter) {
   return {filter.id | kind, filter.mask | CanSocketFrame::kExtended};
 }
 
+BusState to_state(CanSocket::Controller controller) {
+  switch (controller) {
+    case CanSocket::Controller::kPassive:
+      return BusState::kPassive;
+    case CanSocket::Controller::kBusOff:
+      return BusState::kBusOff;
+    case CanSocket::Controller::kActive:
+      break;
+  }
+  return BusState::kActive;
+}
+
 }  // namespace
 
 BusState state_after(BusState before, const Frame& error_frame) {
   constexpr std::uint8_t kPassive =
       controller_problem::kReceivePassive | controller_problem::kSendPassive;
+  constexpr std::uint8_t kActive = controller_problem::kReceiveWarning |
+                                   controller_problem::kSendWarning |
+                                   controller_problem::kActiveAgain;
   if ((error_frame.id & error_class::kBusOff) != 0) return BusState::kBusOff;
   if ((error_frame.id & error_class::kRestarted) != 0) return BusState::kActive;
   if ((error_frame.id & error_class::kController) == 0) return before;
   if ((error_frame.data[1] & kPassive) != 0) return BusState::kPassive;
-  if ((error_frame.data[1] & controller_problem::kActiveAgain) != 0) return BusState::kActive;
+  if ((error_frame.data[1] & kActive) != 0) return BusState::kActive;
   return before;
 }
 
@@ -78,11 +93,16 @@ bool SocketCan::open(const BusOptions& options, base::Diagnostics& diagnostics) 
   if (socket_ == nullptr) return false;
   options_ = options;
   lost_before_ = 0;
-  state_ = BusState::kActive;
-  if (options_.on_news) {
-    watcher_ = std::make_unique<platform::Thread>(watcher_request_, [this] { watch(); });
-  }
+  state_ = to_state(socket_->at_first());
+  if (options_.on_news) start_watcher(diagnostics);
   return true;
+}
+
+void SocketCan::start_watcher(base::Diagnostics& diagnostics) {
+  watcher_ = std::make_unique<platform::Thread>(watcher_request_, [this] { watch(); });
+  for (const std::string& refusal : watcher_->grant().refusals) {
+    diagnostics.warning({}, "bus '" + name() + "': the thread that announces news: " + refusal);
+  }
 }
 
 void SocketCan::close() {
@@ -132,7 +152,7 @@ ReceiveStatus SocketCan::receive(Arrival& arrival) {
       state_ = BusState::kDown;
       return ReceiveStatus::kDown;
     }
-    if (received == CanSocket::Received::kNothing) return ReceiveStatus::kNothing;
+    if (received == CanSocket::Received::kNothing) return nothing_came();
     note_up();
     count_lost();
     const Frame frame = from_socket(raw.frame);
@@ -142,6 +162,14 @@ ReceiveStatus SocketCan::receive(Arrival& arrival) {
     arrival = {frame, raw.time, raw.own};
     return ReceiveStatus::kReceived;
   }
+}
+
+/// The kernel says once that the interface went down, and never that it is up again.
+ReceiveStatus SocketCan::nothing_came() {
+  if (state() != BusState::kDown) return ReceiveStatus::kNothing;
+  if (!socket_->is_up()) return ReceiveStatus::kDown;
+  note_up();
+  return ReceiveStatus::kNothing;
 }
 
 void SocketCan::note_up() {

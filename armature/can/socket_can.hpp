@@ -15,11 +15,14 @@ namespace armature::can {
 
 /// A CAN interface of Linux, such as can0 or vcan0; times are the kernel's, on the monotonic clock.
 ///
-/// States come with error frames, and so are those of the last `receive`. How many frames may wait
-/// to be sent depends on the interface, too (`ip link set can0 txqueuelen 64`); a frame that was
-/// taken may still be thrown away by the kernel when the bus goes off, and is not counted then.
-/// After bus-off the system restarts the interface if it was told to (`ip link set can0 type can
-/// restart-ms 100`); `restart` cannot.
+/// The state is that of the last `receive`, or of `open`: it comes with error frames. Lost frames
+/// are counted with the next one that is received. More may wait to be sent than `send_capacity`,
+/// by half and by a handful at least, but not more than the interface allows (its txqueuelen).
+/// What waits in the kernel when the bus goes off or the interface down is thrown away and not
+/// counted; when the bus is closed it still goes out. After bus-off the system restarts the
+/// interface if it was told to (`ip link set can0 type can restart-ms 1000`); `restart` cannot. An
+/// interface that is up again is used again; one that was removed has to be opened again. See
+/// docs/can.md.
 class SocketCan final : public Bus {
  public:
   /// @param interface  the bus's name
@@ -36,7 +39,9 @@ class SocketCan final : public Bus {
   BusCounters counters() const override { return tally_.now(); }
 
  private:
+  void start_watcher(base::Diagnostics& diagnostics);
   SendStatus try_send(const Frame& frame);
+  ReceiveStatus nothing_came();
   void count_lost();
   void note_error(const Frame& frame);
   void note_up();

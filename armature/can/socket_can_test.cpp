@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/can/socket_can.hpp"
 
-#include <chrono>
-#include <cstdlib>
-#include <memory>
-#include <string>
-#include <vector>
+#include <cstdint>
 
-#include "armature/can/internal/conformance.hpp"
-#include "armature/platform/clock.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
-namespace armature::can::internal {
+namespace armature::can {
 namespace {
+
+using testing::HasSubstr;
 
 Frame error_frame(std::uint32_t classes, std::uint8_t problem = 0) {
   Frame frame;
@@ -46,39 +44,15 @@ TEST(SocketCan, ErrorFramesTellTheState) {
        {controller_problem::kReceivePassive, controller_problem::kSendPassive}) {
     EXPECT_EQ(state_after(kActive, error_frame(error_class::kController, passive)), kPassive);
   }
-  EXPECT_EQ(state_after(kPassive,
-                        error_frame(error_class::kController, controller_problem::kActiveAgain)),
-            kActive);
+  for (const std::uint8_t active :
+       {controller_problem::kActiveAgain, controller_problem::kReceiveWarning,
+        controller_problem::kSendWarning}) {
+    EXPECT_EQ(state_after(kPassive, error_frame(error_class::kController, active)), kActive);
+  }
   EXPECT_EQ(state_after(kActive, error_frame(error_class::kController,
                                              controller_problem::kReceiveOverflow)),
             kActive);
 }
 
-/// Two sockets on the interface that ARMATURE_CAN_INTERFACE names, such as vcan0.
-class SocketRig final : public BusRig {
- public:
-  explicit SocketRig(const char* interface) : first_(interface), second_(interface) {}
-  Bus& first() override { return first_; }
-  Bus& second() override { return second_; }
-  // On a virtual interface a frame has come in when it was sent; what is announced comes a little
-  // later, from another thread.
-  void settle() override { platform::sleep_until(platform::monotonic_now() + kPatience); }
-
- private:
-  static constexpr base::Duration kPatience = std::chrono::milliseconds(20);
-  SocketCan first_;
-  SocketCan second_;
-};
-
-std::vector<BusImplementation> implementations() {
-  const char* const interface = std::getenv("ARMATURE_CAN_INTERFACE");
-  if (interface == nullptr) return {};
-  return {{"socket", [interface] { return std::make_unique<SocketRig>(interface); }}};
-}
-
-// Nowhere without such an interface.
-INSTANTIATE_TEST_SUITE_P(SocketCan, BusConformance, testing::ValuesIn(implementations()),
-                         [](const auto& test) { return test.param.name; });
-
 }  // namespace
-}  // namespace armature::can::internal
+}  // namespace armature::can

@@ -9,6 +9,7 @@
 
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <linux/can/netlink.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <sys/epoll.h>
@@ -18,6 +19,7 @@
 #include <unistd.h>
 
 #include "armature/platform/clock.hpp"
+#include "armature/platform/internal/can_state.hpp"
 #include "armature/platform/internal/descriptor.hpp"
 
 namespace armature::platform {
@@ -29,8 +31,9 @@ static_assert(CanSocketFrame::kExtended == CAN_EFF_FLAG &&
               CanSocketFrame::kRemote == CAN_RTR_FLAG && CanSocketFrame::kError == CAN_ERR_FLAG);
 static_assert(sizeof(CanSocketFilter) == sizeof(can_filter));
 
-/// What one frame takes of a socket's buffer, a little more rather than less.
-constexpr int kBytesPerFrame = 1024;
+/// Half of what one frame takes of a socket's buffer, a little more rather than less: the kernel
+/// doubles what it is told.
+constexpr int kBytesPerFrame = 512;
 
 bool failed(const CanSocketRequest& request, const std::string& what, const std::string& hint,
             base::Diagnostics& diagnostics) {
@@ -109,6 +112,19 @@ bool bind_to_interface(int socket, const CanSocketRequest& request,
       diagnostics);
 }
 
+/// Error frames tell only of changes.
+CanSocket::Controller controller_now(const std::string& interface) {
+  switch (
+      internal::can_state(::if_nametoindex(interface.c_str())).value_or(CAN_STATE_ERROR_ACTIVE)) {
+    case CAN_STATE_ERROR_PASSIVE:
+      return CanSocket::Controller::kPassive;
+    case CAN_STATE_BUS_OFF:
+      return CanSocket::Controller::kBusOff;
+    default:
+      return CanSocket::Controller::kActive;
+  }
+}
+
 bool add_event(int events, int fd, std::uint32_t kind) {
   epoll_event event{};
   event.events = kind;
@@ -120,15 +136,32 @@ base::Time from_timespec(const timespec& time) {
   return base::time_from_ns(std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec);
 }
 
-/// The kernel stamps with the wall clock, so what counts is how long ago that was. A step of the
-/// wall clock in between makes that nonsense; then the frame came just now.
+/// What to add to the wall clock for the monotonic one. A thread that is interrupted while it reads
+/// them reads them again: the interruption would pass for a difference.
+base::Duration wall_to_monotonic() {
+  constexpr base::Duration kUninterrupted = std::chrono::microseconds(2);
+  constexpr int kMostTries = 4;
+  base::Duration narrowest = base::Duration::max();
+  base::Duration result{};
+  for (int i = 0; i < kMostTries && narrowest > kUninterrupted; ++i) {
+    const base::Time before = monotonic_now();
+    timespec wall{};
+    ::clock_gettime(CLOCK_REALTIME, &wall);
+    const base::Duration width = monotonic_now() - before;
+    if (width >= narrowest) continue;
+    narrowest = width;
+    result = before - from_timespec(wall);
+  }
+  return result;
+}
+
+/// The kernel stamps with the wall clock. A step of that since the frame came in makes nonsense of
+/// the stamp; then the frame came just now.
 base::Time on_monotonic_clock(const timespec& stamp) {
   constexpr base::Duration kOldest = std::chrono::seconds(10);
-  timespec wall{};
-  ::clock_gettime(CLOCK_REALTIME, &wall);
-  const base::Duration age = from_timespec(wall) - from_timespec(stamp);
-  const bool plausible = age >= base::Duration{} && age <= kOldest;
-  return monotonic_now() - (plausible ? age : base::Duration{});
+  const base::Time time = from_timespec(stamp) + wall_to_monotonic();
+  const base::Time now = monotonic_now();
+  return time <= now && time >= now - kOldest ? time : now;
 }
 
 }  // namespace
@@ -153,8 +186,10 @@ std::unique_ptr<CanSocket> CanSocket::open(const CanSocketRequest& request,
     failed(request, "cannot be waited for", "close other files", diagnostics);
     return nullptr;
   }
-  return std::unique_ptr<CanSocket>(
-      new CanSocket(socket.release(), events.release(), interruption.release()));
+  std::unique_ptr<CanSocket> made(
+      new CanSocket(request.interface, socket.release(), events.release(), interruption.release()));
+  made->at_first_ = controller_now(request.interface);
+  return made;
 }
 
 CanSocket::~CanSocket() {
@@ -190,7 +225,7 @@ CanSocket::Received CanSocket::receive(Arrival& arrival) {
   arrival.frame.size = std::min<std::uint8_t>(raw.can_dlc, CAN_MAX_DLEN);
   std::ranges::copy(raw.data, arrival.frame.data.begin());
   arrival.own = (message.msg_flags & MSG_CONFIRM) != 0;
-  arrival.time = base::Time{};
+  base::Time time = monotonic_now();
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr;
        part = CMSG_NXTHDR(&message, part)) {
     if (part->cmsg_level != SOL_SOCKET) continue;
@@ -198,10 +233,18 @@ CanSocket::Received CanSocket::receive(Arrival& arrival) {
     if (part->cmsg_type != SO_TIMESTAMPNS) continue;
     timespec stamp{};
     std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
-    arrival.time = on_monotonic_clock(stamp);
+    time = on_monotonic_clock(stamp);
   }
-  if (arrival.time == base::Time{}) arrival.time = monotonic_now();
+  arrival.time = latest_ = std::max(time, latest_);
   return Received::kYes;
+}
+
+bool CanSocket::is_up() const {
+  sockaddr_can address{};
+  socklen_t size = sizeof address;
+  // The kernel unbinds a socket whose interface was removed, also if another gets its name.
+  return ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
+         address.can_ifindex != 0 && platform::is_up(socket_, interface_);
 }
 
 bool CanSocket::wait() {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
@@ -44,10 +45,11 @@ class CanSocket {
  public:
   enum class Sent { kYes, kQueueFull, kDown };
   enum class Received { kYes, kNothing, kDown };
+  enum class Controller { kActive, kPassive, kBusOff };
 
   struct Arrival {
     CanSocketFrame frame;
-    base::Time time{};  ///< on the monotonic clock
+    base::Time time{};  ///< on the monotonic clock; never before that of the frame before
     bool own = false;
   };
 
@@ -63,6 +65,12 @@ class CanSocket {
   /// A few system calls that do not wait.
   Received receive(Arrival& arrival);
 
+  /// Whether the interface is, and is still the one that was opened.
+  /// Two system calls that do not wait.
+  bool is_up() const;
+  /// How the controller was when the socket was opened; kActive if the kernel does not tell.
+  Controller at_first() const { return at_first_; }
+
   /// Frames that the kernel had no room for until the last one that was received.
   std::uint32_t lost() const { return lost_; }
 
@@ -72,13 +80,19 @@ class CanSocket {
   void interrupt();
 
  private:
-  CanSocket(int socket, int events, int interruption)
-      : socket_(socket), events_(events), interruption_(interruption) {}
+  CanSocket(std::string interface, int socket, int events, int interruption)
+      : interface_(std::move(interface)),
+        socket_(socket),
+        events_(events),
+        interruption_(interruption) {}
 
+  const std::string interface_;
   const int socket_;
   const int events_;
   const int interruption_;
+  Controller at_first_ = Controller::kActive;
   std::uint32_t lost_ = 0;
+  base::Time latest_{};
 };
 
 }  // namespace armature::platform

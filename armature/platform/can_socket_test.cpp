@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/platform/can_socket.hpp"
 
+#include <optional>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <net/if.h>
+
+#include "armature/platform/internal/can_state.hpp"
 
 namespace armature::platform {
 namespace {
@@ -22,6 +27,11 @@ TEST(CanSocket, OpeningFailsWithTheInterfaceTheReasonAndAWayOut) {
   EXPECT_THAT(text, AnyOf(HasSubstr("the kernel gives no CAN socket: "),
                           HasSubstr("there is no such interface: ")));
   EXPECT_THAT(text, AnyOf(HasSubstr("'modprobe can-raw'"), HasSubstr("'ip link'")));
+}
+
+TEST(CanState, IsNothingForWhatIsNoController) {
+  EXPECT_EQ(internal::can_state(::if_nametoindex("lo")), std::nullopt);
+  EXPECT_EQ(internal::can_state(99'999), std::nullopt) << "no interface at all";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fails if docs/rules.md, docs/robot.md or a page of a robot names a test that does not exist.
+"""Fails if docs/can.md, docs/rules.md, docs/robot.md or a page of a robot names a test that does not exist.
 
 usage: rules_test.py SOURCE_DIR
 """
@@ -10,7 +10,7 @@ import os
 import re
 import sys
 
-LEAST_RULES = {"docs/rules.md": 30, "docs/robot.md": 15}
+LEAST_RULES = {"docs/can.md": 15, "docs/rules.md": 30, "docs/robot.md": 15}
 
 
 def existing_tests(source):
