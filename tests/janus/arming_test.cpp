@@ -97,9 +97,16 @@ TEST_F(Head, EmergencyStopIsEffortZeroAndBrakeAtOnceAndNothingGoesOnAfterArmingA
   ASSERT_EQ(robot.move_to({4.0, 4.0}, 5.0), "");
   robot.run_for(2s);
   ASSERT_EQ(robot.call("Arming", "disarm"), "");
+  const double speed = robot.value<double>("Joint1", "Displacement") / 0.01;
+  ASSERT_GT(speed, 0.5) << "[rad/s]";
+  const double there = position(0);
   robot.run_for(10ms);
+  EXPECT_EQ(effort("Joint1"), 0.0);
+  EXPECT_EQ(effort("Joint2"), 0.0);
+  EXPECT_FALSE(robot.value<bool>("Arming", "armed"));
+  robot.run_for(500ms);
   expect_off();
-  robot.run_for(4s);  // joint 1 has no brake
+  EXPECT_NEAR(position(0), there, 0.1) << "the motor brakes itself, as it has no brake";
   const Vector rest{position(0), position(1)};
   robot.run_for(5s);
   EXPECT_NEAR(position(0), rest[0], 1e-6);

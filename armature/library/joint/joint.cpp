@@ -21,6 +21,12 @@ base::Duration duration(double seconds) {
   return std::chrono::duration_cast<base::Duration>(std::chrono::duration<double>(seconds));
 }
 
+/// How long a motor that is to be switched off may brake itself first.
+constexpr base::Duration kLongestBraking = std::chrono::seconds(1);
+
+/// Faster than noise [rad/s].
+bool moves(double velocity) { return std::abs(velocity) > 0.02; }
+
 bool is_sign(double number) { return number == 1.0 || number == -1.0; }
 
 }  // namespace
@@ -34,8 +40,14 @@ Outcome Joint::on_start() {
   }
   started_ = time();
   measured_since_start_ = false;
-  disarm();
+  let_go();
+  switch_off();
   return component::accepted();
+}
+
+void Joint::on_stop() {
+  let_go();
+  switch_off();
 }
 
 Outcome Joint::set_up() {
@@ -82,6 +94,7 @@ void Joint::on_displacement(double of_motor) {
   measured_since_start_ = true;
   displacement_.write(displacement);
   position_.write(measured_.position);
+  if (off_at_rest_) switch_off_at_rest();
 }
 
 /// In this sampling period or the one before.
@@ -105,7 +118,8 @@ bool Joint::apply(double voltage) {
   if (step.status == JointLimiter::Status::kPassed) return true;
   if (step.status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
   if (step.status != JointLimiter::Status::kNotFinite) return false;
-  disarm();
+  let_go();
+  switch_off();
   component::Reason why("Voltage is ");
   append_number(why, voltage).append(" at the position ");
   fault(append_number(why, measured_.position).append(", expected finite numbers"));
@@ -118,9 +132,11 @@ void Joint::on_arm() {
   if (limiter_->armed()) return;
   if (!measured_lately()) return refuse_to_arm("it was not measured in this sampling period");
   if (!limiter_->arm(measured_)) return refuse_to_arm("its position is no finite number");
+  off_at_rest_ = false;
   const bool ready = succeeds(actuator_on_) && (!brake_ || succeeds(release_brake_));
   if (!ready) {
-    disarm();
+    let_go();
+    switch_off();
     return refuse_to_arm("its hardware does not switch on");
   }
   armed_.write(true);
@@ -132,21 +148,38 @@ void Joint::refuse_to_arm(std::string_view why) {
   armed_.write(false);
 }
 
-/// The brake first, so that nothing falls between the two.
 void Joint::disarm() {
+  const bool turns = limiter_->armed() && measured_lately() && moves(measured_.velocity);
+  let_go();
+  off_at_rest_ = turns;
+  disarmed_at_ = time();
+  if (!turns) switch_off();
+}
+
+/// Effort 0 and brake, at once.
+void Joint::let_go() {
   const bool was_armed = limiter_->armed();
   limiter_->disarm();
   voltage_actuator_.write({});
   const bool braked = !brake_ || succeeds(apply_brake_);
-  const bool off = succeeds(actuator_off_);
   armed_.write(false);
   if (was_armed) log_info("disarmed");
-  if (was_armed && !(braked && off)) log_error("the hardware did not confirm that it is off");
+  if (was_armed && !braked) log_error("the hardware did not confirm that it brakes");
+}
+
+bool Joint::switch_off() {
+  off_at_rest_ = false;
+  return succeeds(actuator_off_);
+}
+
+void Joint::switch_off_at_rest() {
+  const bool waited = time() - disarmed_at_ > kLongestBraking;
+  if (waited || !moves(measured_.velocity)) switch_off();
 }
 
 bool Joint::motor_off() {
-  disarm();
-  return succeeds(actuator_off_);
+  let_go();
+  return switch_off();
 }
 
 bool Joint::brake_apply() {

@@ -21,6 +21,8 @@ namespace armature::library {
 /// After a start, also one behind a fault, the joint is disarmed: motor off, brake applied, effort
 /// 0. Only Arm, an event of the component Arming, changes that, and only if the joint was measured
 /// just before. Disarm, a stop, a fault, data that is too old, motorOff and brakeApply disarm it.
+/// At Disarm a motor that turns is switched off when it has come to rest, after a second at the
+/// latest: with effort 0 it brakes itself, switched off it would coast.
 /// @rt nonblocking but for the hardware's answers, no allocation
 class Joint final : public component::Component {
  public:
@@ -29,7 +31,7 @@ class Joint final : public component::Component {
  private:
   component::Outcome on_configure() override { return set_up(); }
   component::Outcome on_start() override;
-  void on_stop() override { disarm(); }
+  void on_stop() override;
 
   component::Outcome set_up();
   control::JointLimiter::Config limits() const;
@@ -50,6 +52,9 @@ class Joint final : public component::Component {
   void on_arm();
   void refuse_to_arm(std::string_view why);
   void disarm();
+  void let_go();
+  bool switch_off();
+  void switch_off_at_rest();
   bool motor_on() { return succeeds(actuator_on_); }
   bool motor_off();
   bool brake_apply();
@@ -183,6 +188,8 @@ class Joint final : public component::Component {
   base::Time started_{};
   base::Time measured_at_{};
   bool measured_since_start_ = false;
+  bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
+  base::Time disarmed_at_{};
   double sensor_ratio_ = 1.0;
 };
 

@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 class JointTest : public ::testing::Test {
  protected:
   JointTest() {
-    calls.reserve(100);  // the hardware is called in real time
+    calls.reserve(1000);  // the hardware is called in real time
     joint.set("PeerName", "Card");
     joint.set("Brake", true);
     joint.set("GearRatio", 0.01);
@@ -208,6 +208,38 @@ TEST_F(JointTest, WhateverDisarmsItDoesSoWithTheBrakeFirst) {
     EXPECT_EQ(effort(), 0.0) << operation;
     EXPECT_FALSE(armed()) << operation;
   }
+}
+
+TEST_F(JointTest, AMotorThatTurnsIsSwitchedOffWhenItRests) {
+  start_armed();
+  sample(1.0);  // 1 rad/s
+  calls.clear();
+  joint.raise("Disarm");
+  EXPECT_EQ(effort(), 0.0);
+  EXPECT_FALSE(armed());
+  EXPECT_THAT(calls, ElementsAre("brakeApply"));
+  EXPECT_EQ(act(5.0), 0.0);
+  calls.clear();
+  sample(0.5);
+  EXPECT_THAT(calls, ElementsAre("sensorRead"));
+  calls.clear();
+  sample(0.01);
+  EXPECT_THAT(calls, ElementsAre("sensorRead", "actuatorOff"));
+}
+
+TEST_F(JointTest, AMotorThatGoesOnTurningIsSwitchedOffAfterASecond) {
+  start_armed();
+  sample(1.0);
+  joint.raise("Disarm");
+  calls.clear();
+  for (int k = 0; k < 100; ++k) {
+    act(0.0);
+    sample(1.0);
+  }
+  EXPECT_THAT(calls, ::testing::Not(Contains("actuatorOff")));
+  act(0.0);
+  sample(1.0);
+  EXPECT_EQ(calls.back(), "actuatorOff");
 }
 
 TEST_F(JointTest, AStopDisarmsIt) {
