@@ -193,6 +193,8 @@ void Reporter::on_cleanup() {
   table_ = nullptr;
   sinks_.clear();
   pending_.clear();
+  tracks_.clear();  // the taps end with this run
+  channels_.clear();
 }
 
 void Reporter::collect() {
