@@ -17,7 +17,7 @@ set(ARMATURE_LAYERS
     "deploy: base exec component types platform"
     "script: base deploy component"
     "remote: base ride deploy component types"
-    "library: base component control record"
+    "library: base component control record rt types"
     "sim: base exec component can control"
     "robots: base platform rt library component can control sim"
     "studio: base remote record"

@@ -37,6 +37,7 @@ struct RunArguments {
   std::optional<rt::GuardMode> guard;
   std::vector<std::string> command_line;  ///< to start again behind the guard
   std::string write_times;
+  std::string output_folder;  ///< of recordings; empty: the working directory
   bool statistics = false;
 };
 

@@ -115,6 +115,8 @@ class CommandLine {
                    "the first")
         ->check(CLI::IsMember({"report", "abort"}).description(""));
     command->add_option("--write-times", run_.write_times, "writes measured execution times");
+    command->add_option("--out", run_.output_folder, "the folder for recordings; made if need be")
+        ->type_name("FOLDER");
     command->add_flag("--statistics", run_.statistics, "prints cycles and latencies at the end");
     command->callback([this] {
       if (guard_ == "report") run_.guard = rt::GuardMode::kReport;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "armature/cli/commands.hpp"
@@ -118,6 +120,15 @@ bool passed_guard(const RunArguments& arguments, const Console& console) {
   return violations == 0;
 }
 
+bool make_output_folder(const std::string& folder, const Console& console) {
+  if (folder.empty()) return true;
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (!failure) return true;
+  console.say(LogLevel::kError, "cannot make the folder '" + folder + "': " + failure.message());
+  return false;
+}
+
 int exit_code(exec::RunEnd end, const exec::Application& application) {
   if (end == exec::RunEnd::kFaulted || application.faults() > 0) return kFailed;
   const bool by_reaction = end == exec::RunEnd::kStoppedByReaction || application.reactions() > 0;
@@ -140,11 +151,12 @@ int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
   deploy::Deployment deployment = load(arguments.load);
   console.show(deployment.diagnostics);
-  if (!deployment.ok()) return kFailed;
+  if (!deployment.ok() || !make_output_folder(arguments.output_folder, console)) return kFailed;
 
   exec::ApplicationOptions options = std::move(deployment.options);
   options.simulated = arguments.simulated;
   options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
+  options.output_folder = arguments.output_folder;
   options.log = [&console](const rt::LogRecord& record) { console.log(record); };
   options.ready = release_what_loads;
   if (!arguments.simulated) console.set_begin(platform::monotonic_now());

@@ -31,6 +31,7 @@ class OperationCallerBase;
 class EventBase;
 class EventHandlerBase;
 class StateMachine;
+class Observer;
 
 /// Where a component is in its life (component-model: life cycle). Ordered so that everything from
 /// kStopped on serves operations.
@@ -62,6 +63,7 @@ struct Interface {
   std::vector<EventBase*> events;
   std::vector<EventHandlerBase*> handlers;
   std::vector<StateMachine*> machines;
+  std::vector<Observer*> observers;
 };
 
 /// The base of every component. Its interface consists of members (Property, InputPort, OutputPort,

@@ -12,8 +12,13 @@
 
 #include "armature/component/input_port.hpp"
 #include "armature/component/port.hpp"
+#include "armature/component/tap.hpp"
 
 namespace armature::component {
+
+namespace internal {
+class PortTapBase;
+}  // namespace internal
 
 /// What losses an output saw.
 struct OutputCounters {
@@ -37,6 +42,13 @@ class OutputPortBase : public PortBase {
   /// `input` is no reader any more.
   void forget(InputPortBase& input);
 
+  /// Has every n-th sample from the first on go to a tap as well, which lives until
+  /// `disconnect_all`. It is no reader: a write says what it would say without.
+  /// @param capacity  samples that it holds
+  /// @thread configuration only, once the port has its shape
+  Tap& tap(std::size_t capacity, std::uint64_t every = 1);
+  bool is_tapped() const { return !about().taps.empty(); }
+
   /// Gives vectors their declared size; the number of elements of the current value otherwise.
   virtual void prepare() = 0;
   /// True if `input` expects vectors of the size that this port writes.
@@ -50,6 +62,7 @@ class OutputPortBase : public PortBase {
     std::vector<InputPortBase*> readers;
     std::vector<InputPortBase*> triggered;  ///< readers in this thread whose handlers run now
     std::vector<internal::ChannelBase*> channels;
+    std::vector<std::unique_ptr<internal::PortTapBase>> taps;
   };
   OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
@@ -75,6 +88,8 @@ class OutputPortBase : public PortBase {
   WriteStatus unread_ = WriteStatus::kNotConnected;  ///< what a write that has nothing to do says
 
  private:
+  virtual std::unique_ptr<internal::PortTapBase> make_tap(std::size_t capacity,
+                                                          std::uint64_t every) = 0;
   void choose_delivery();
   void note(rt::PushResult result, WriteStatus& status);
 };
@@ -133,6 +148,8 @@ class OutputPort final : public OutputPortBase {
   std::unique_ptr<internal::ChannelBase> make_channel(InputPortBase& input,
                                                       const ConnectionPolicy& policy,
                                                       bool same_thread);
+  std::unique_ptr<internal::PortTapBase> make_tap(std::size_t capacity,
+                                                  std::uint64_t every) override;
   [[gnu::noinline]] WriteStatus write_shaped(const T& value) noexcept;
 
   [[gnu::always_inline]] WriteStatus tell() noexcept {

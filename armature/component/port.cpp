@@ -7,6 +7,7 @@
 
 #include "armature/component/input_port.hpp"
 #include "armature/component/internal/channel.hpp"
+#include "armature/component/internal/port_tap.hpp"
 #include "armature/component/output_port.hpp"
 
 namespace armature::component {
@@ -136,7 +137,15 @@ void OutputPortBase::disconnect_all() {
   mine.readers.clear();
   mine.triggered.clear();
   mine.channels.clear();
+  mine.taps.clear();
   choose_delivery();
+}
+
+Tap& OutputPortBase::tap(std::size_t capacity, std::uint64_t every) {
+  auto& taps = about().taps;
+  taps.push_back(make_tap(capacity, every));
+  choose_delivery();
+  return *taps.back();
 }
 
 void OutputPortBase::forget(InputPortBase& input) {
@@ -176,7 +185,7 @@ void OutputPortBase::add_reader(InputPortBase& input,
 void OutputPortBase::choose_delivery() {
   const About& mine = about();
   only_ = {};
-  if (mine.channels.size() + mine.triggered.size() > 1) {
+  if (!mine.taps.empty() || mine.channels.size() + mine.triggered.size() > 1) {
     delivery_ = Delivery::kSeveral;
   } else if (!mine.triggered.empty()) {
     delivery_ = Delivery::kHandler;
@@ -191,12 +200,14 @@ void OutputPortBase::choose_delivery() {
 }
 
 WriteStatus OutputPortBase::deliver(const void* sample) noexcept {
-  WriteStatus status = WriteStatus::kWritten;
+  WriteStatus status = unread_;
   if (delivery_ == Delivery::kChannel) {
     note(only_.channel->send(sample), status);
     return status;
   }
   const About& mine = about();
+  // First, since a handler may have this port written again.
+  for (const auto& tap : mine.taps) tap->push(sample);
   for (internal::ChannelBase* channel : mine.channels) note(channel->send(sample), status);
   for (InputPortBase* input : mine.triggered) run_measured(*input);
   return status;

@@ -38,7 +38,9 @@ class PortArrayBase : public PropertyFollower {
   const void* options() const { return options_.get(); }
 
   static bool connected(const InputPortBase& port) { return port.connected(); }
-  static bool connected(const OutputPortBase& port) { return !port.readers().empty(); }
+  static bool connected(const OutputPortBase& port) {
+    return !port.readers().empty() || port.is_tapped();
+  }
   static void forget(InputPortBase& port);
   static void forget(OutputPortBase& port);
 

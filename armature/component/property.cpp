@@ -4,6 +4,7 @@
 #include <charconv>
 #include <type_traits>
 
+#include "armature/component/internal/property_tap.hpp"
 #include "armature/types/elements.hpp"
 
 namespace armature::component {
@@ -91,6 +92,17 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
 void PropertyBase::apply(Mandatory) noexcept {
   about_->mandatory = true;
   owner().declare().mandatory.push_back(this);
+}
+
+Tap& PropertyBase::tap(std::size_t capacity) {
+  about_->taps.push_back(std::make_unique<internal::PropertyTap>(*this, capacity));
+  about_->followers.push_back(about_->taps.back().get());
+  return *about_->taps.back();
+}
+
+void PropertyBase::untap() {
+  for (const auto& tap : about_->taps) std::erase(about_->followers, tap.get());
+  about_->taps.clear();
 }
 
 void PropertyBase::tell_followers() {

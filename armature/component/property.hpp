@@ -11,6 +11,7 @@
 
 #include "armature/base/result.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/tap.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component {
@@ -28,6 +29,10 @@ inline constexpr ChangeableWhileRunning changeable_while_running{};
 struct Mandatory {};
 /// The property has no useful default: a deployment must give it.
 inline constexpr Mandatory mandatory{};
+
+namespace internal {
+class PropertyTap;
+}  // namespace internal
 
 /// Something whose form follows from a property: ports whose number is the property's value.
 class PropertyFollower {
@@ -77,6 +82,14 @@ class PropertyBase {
   /// `follower` lives as long as the component.
   void add_follower(PropertyFollower& follower) { about_->followers.push_back(&follower); }
 
+  /// Has the present value and every other that follows go to a tap, which lives until `untap`. Of
+  /// a text or list it takes values of up to 256 bytes, or twice the present size; those that are
+  /// longer count as dropped.
+  /// @param capacity  values that it holds; of more the newest stay
+  /// @thread configuration only
+  Tap& tap(std::size_t capacity);
+  void untap();
+
  protected:
   PropertyBase(Component& owner, std::string_view name, std::string_view doc, std::string_view unit,
                const types::Type& type, bool persistent) noexcept;
@@ -102,6 +115,7 @@ class PropertyBase {
     bool set = false;
     std::optional<Range> limits{};
     std::vector<PropertyFollower*> followers{};
+    std::vector<std::unique_ptr<internal::PropertyTap>> taps{};
   };
   std::unique_ptr<About> about_;
 };

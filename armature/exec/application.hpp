@@ -54,6 +54,8 @@ struct ApplicationOptions {
   /// Execution times of components are taken in every n-th cycle; 0: about four times a second,
   /// which is nearly free at any rate and number of components.
   std::uint64_t measure_every = 0;
+  /// Where the files of recorders go that are named without a folder; empty: the working directory.
+  std::string output_folder;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
   /// Called by `start` when all is in place, before the first cycle; if it throws, nothing starts.
   std::function<void()> ready;
@@ -159,6 +161,7 @@ class Application final {
   // application_life_cycle.cpp
   bool configure_all(base::Diagnostics& diagnostics);
   bool connect_all(base::Diagnostics& diagnostics);
+  void let_observers_look();
   bool start_all(base::Diagnostics& diagnostics);
   bool run_stage(const Stage& stage, std::vector<component::Component*> components,
                  base::Diagnostics& diagnostics);

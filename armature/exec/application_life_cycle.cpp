@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/component/author.hpp"
+#include "armature/component/observer.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
 
@@ -71,11 +72,25 @@ bool Application::connect_all(base::Diagnostics& diagnostics) {
     subscription.event->subscribe(*subscription.handler);
   }
   for (const CallPlan& call : plan_.calls) call.requirement->connect(*call.operation);
+  if (!plan_.observers.empty()) let_observers_look();
   return diagnostics.ok();
 }
 
+void Application::let_observers_look() {
+  component::Surroundings surroundings{{}, options_.output_folder};
+  for (const ComponentEntry& entry : blueprint_.components) {
+    surroundings.components.push_back(entry.component.get());
+  }
+  for (const Index index : plan_.observers) {
+    for (auto* observer : blueprint_.components[index].component->interface().observers) {
+      observer->observe(surroundings);
+    }
+  }
+}
+
 bool Application::start_all(base::Diagnostics& diagnostics) {
-  for (auto& engine : engines_) engine->context().cycle_time = now();
+  const base::Time begin = now();
+  for (auto& engine : engines_) engine->context().cycle_time = begin;
   std::vector<Component*> components;
   for (const Index index : plan_.start_order) {
     const ComponentEntry& entry = blueprint_.components[index];
@@ -264,6 +279,8 @@ void Application::disconnect_all() {
     for (auto* output : interface.outputs) output->disconnect_all();
     for (auto* event : interface.events) event->unsubscribe_all();
     for (auto* caller : interface.callers) caller->disconnect();
+    if (plan_.observers.empty()) continue;
+    for (auto* property : interface.properties) property->untap();
   }
 }
 

@@ -63,7 +63,8 @@ struct Plan {
   std::vector<CallPlan> calls;
   std::vector<ThreadPlan> threads;
   std::vector<Index> thread_of;    ///< for each component
-  std::vector<Index> start_order;  ///< writers before readers
+  std::vector<Index> observers;    ///< components that look at others
+  std::vector<Index> start_order;  ///< observers, then writers before readers
 
   std::size_t service_thread() const { return threads.size() - 1; }
 };

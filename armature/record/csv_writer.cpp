@@ -2,12 +2,11 @@
 #include "armature/record/csv_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "armature/record/internal/json_text.hpp"
+#include "armature/record/internal/seconds_text.hpp"
 
 namespace armature::record {
 namespace {
@@ -47,16 +46,6 @@ std::string one_line(std::string text) {
 std::string cell(const Type& type, const void* value) {
   if (type.kind == Kind::kBool) return *static_cast<const bool*>(value) ? "1" : "0";
   return types::to_text(type, value);
-}
-
-/// Exact, and the same length for all up to 31 years.
-std::string seconds(base::Time time) {
-  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-  const std::int64_t ns = base::to_ns(time);
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%lld.%09lld", static_cast<long long>(ns / kNsPerSecond),
-                static_cast<long long>(ns % kNsPerSecond));
-  return text.data();
 }
 
 struct Leaf {
@@ -154,9 +143,9 @@ base::Result<void> CsvWriter::write(const Sample& sample) {
   const auto value = channels_.decode(sample);
   if (!value) return base::Error{value.error()};
   if (time_ && sample.time < *time_) {
-    return channels_.refusal(sample.channel, "is expected to have samples from " + seconds(*time_) +
-                                                 " s on, but one is of " + seconds(sample.time) +
-                                                 " s");
+    return channels_.refusal(
+        sample.channel, "is expected to have samples from " + internal::seconds_text(*time_) +
+                            " s on, but one is of " + internal::seconds_text(sample.time) + " s");
   }
   std::vector<Leaf> leaves = number_leaves(*value.value());
   Columns& columns = columns_[sample.channel];
@@ -179,7 +168,7 @@ base::Result<void> CsvWriter::write(const Sample& sample) {
 void CsvWriter::begin_row(base::Time time) {
   end_row();
   time_ = time;
-  row_[0] = seconds(time);
+  row_[0] = internal::seconds_text(time);
 }
 
 /// The first row comes after the names, of which there are no more then.

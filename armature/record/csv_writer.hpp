@@ -40,6 +40,7 @@ class CsvWriter final : public Writer {
   /// All rows but the last, to which samples may still come.
   base::Result<void> flush() override;
   base::Result<void> close() override;
+  bool given_up() const override { return failure_.has_value(); }
   std::uint64_t unsaved() const override { return unsaved_; }
 
   std::uint64_t replaced() const { return replaced_; }

@@ -19,8 +19,9 @@ TEST(FullDisk, TheCsvWriterSaysSoAtEachCallFromThenOn) {
   ASSERT_TRUE(writer.add_channel(channel_of("A", 0.0)));
   int written = 0;
   while (write(writer, 0, written, 0.5)) ASSERT_LT(++written, 100'000);
-  EXPECT_GT(written, 1000);  // what fits into the memory in between
+  ASSERT_GT(written, 1000);  // what fits into the memory in between
   EXPECT_EQ(write(writer, 0, written, 0.5).error(), kFull);
+  EXPECT_TRUE(writer.given_up());
   EXPECT_EQ(writer.unsaved(), static_cast<std::uint64_t>(written));
   EXPECT_EQ(writer.flush().error(), kFull);
   EXPECT_EQ(writer.add_channel(channel_of("B", 0.0)).error(), kFull);

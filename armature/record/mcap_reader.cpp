@@ -28,6 +28,23 @@ class Reader {
     return read_ends() && read_footer() && check_summary() && read_data() && check_statistics();
   }
 
+  /// The same of a file that may have no end.
+  bool read_whole_records() {
+    if (is_closed()) return read();
+    recording_.closed = false;
+    if (!whole_.starts_with(kMagic)) return fail(whole_, "the magic bytes of an MCAP file");
+    Cursor cursor(whole_.substr(kMagic.size()));
+    Op op{};
+    std::string_view content;
+    for (bool first = true; op != Op::kDataEnd; first = false) {
+      const std::string_view here = cursor.rest();
+      if (!cursor.take_record(op, content)) return !first || fail(here, "a whole header");
+      if (first && op != Op::kHeader) return fail(here, "the header");
+      if (!read_record(op, content)) return false;
+    }
+    return true;
+  }
+
   McapRecording take_recording() { return std::move(recording_); }
 
   base::Error problem() const {
@@ -38,12 +55,14 @@ class Reader {
  private:
   bool read_ends() {
     if (!whole_.starts_with(kMagic)) return fail(whole_, "the magic bytes of an MCAP file");
-    if (whole_.size() >= 2 * kMagic.size() + internal::mcap::kFooterRecord &&
-        whole_.ends_with(kMagic)) {
-      return true;
-    }
+    if (is_closed()) return true;
     return fail(whole_.substr(whole_.size()),
                 "a footer and the magic bytes before it: the file was cut off or never closed");
+  }
+
+  bool is_closed() const {
+    return whole_.size() >= 2 * kMagic.size() + internal::mcap::kFooterRecord &&
+           whole_.ends_with(kMagic);
   }
 
   bool read_footer() {
@@ -259,16 +278,18 @@ base::Result<void> McapRecording::read(const RecordedSample& sample, const types
                      " ns: " + done.error()};
 }
 
-base::Result<McapRecording> parse_mcap(std::string_view content, const std::string& file) {
+base::Result<McapRecording> parse_mcap(std::string_view content, const std::string& file,
+                                       Unclosed unclosed) {
   Reader reader(content, file);
-  if (!reader.read()) return reader.problem();
+  const bool done = unclosed == Unclosed::kRefused ? reader.read() : reader.read_whole_records();
+  if (!done) return reader.problem();
   return reader.take_recording();
 }
 
-base::Result<McapRecording> load_mcap(const std::string& path) {
+base::Result<McapRecording> load_mcap(const std::string& path, Unclosed unclosed) {
   const auto content = platform::read_file(path, kLargestFile);
   if (!content) return base::Error{content.error()};
-  return parse_mcap(content.value(), path);
+  return parse_mcap(content.value(), path, unclosed);
 }
 
 }  // namespace armature::record

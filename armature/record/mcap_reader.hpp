@@ -38,19 +38,28 @@ struct McapRecording {
   std::string file;  ///< for errors
   std::vector<RecordedChannel> channels;
   std::vector<RecordedSample> samples;
+  bool closed = true;  ///< false: it was cut off, and these are the samples of its whole chunks
 
   /// Reads a sample's value. An error names file and channel, and says which type was expected or
   /// where the sample is wrong; it leaves `value` as it was.
   base::Result<void> read(const RecordedSample& sample, const types::Type& type, void* value) const;
 };
 
+/// What to do with a file that was never closed, since its writer was killed or the disk was full.
+enum class Unclosed : std::uint8_t {
+  kRefused,
+  kReadToLastChunk,  ///< all that is whole is read; also of one that was cut off later
+};
+
 /// Reads a file of McapWriter, or of another program that writes JSON, uncompressed, with a
-/// summary. Every CRC is checked; a file that is damaged, cut off or not closed is refused as a
-/// whole, and the error says at which byte what was expected.
+/// summary. Every CRC is checked; a file that is damaged, or not closed unless that is allowed, is
+/// refused as a whole, and the error says at which byte what was expected.
 /// @param file  the name for errors
-base::Result<McapRecording> parse_mcap(std::string_view content, const std::string& file);
+base::Result<McapRecording> parse_mcap(std::string_view content, const std::string& file,
+                                       Unclosed unclosed = Unclosed::kRefused);
 
 /// The same for a file, of which all has to fit into memory.
-base::Result<McapRecording> load_mcap(const std::string& path);
+base::Result<McapRecording> load_mcap(const std::string& path,
+                                      Unclosed unclosed = Unclosed::kRefused);
 
 }  // namespace armature::record

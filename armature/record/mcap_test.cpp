@@ -159,6 +159,40 @@ TEST(Mcap, AFileThatWasCutOffIsRefusedWhereverItWasCut) {
   EXPECT_THAT(problem(""), HasSubstr("at byte 0 expected the magic bytes of an MCAP file"));
 }
 
+TEST(Mcap, AFileThatWasCutOffIsReadToItsLastWholeChunkIfAskedFor) {
+  const std::string whole = small_file();
+  const McapRecording all = parse_mcap(whole, "a.mcap", Unclosed::kReadToLastChunk).value();
+  EXPECT_TRUE(all.closed);
+  ASSERT_EQ(all.samples.size(), 4u);
+  std::size_t least = 0;
+  std::size_t refused = 0;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const auto cut = parse_mcap(whole.substr(0, size), "a.mcap", Unclosed::kReadToLastChunk);
+    if (!cut) {
+      ++refused;
+      EXPECT_EQ(refused, size + 1);  // only within the magic bytes and the header
+      continue;
+    }
+    const McapRecording& recording = cut.value();
+    EXPECT_FALSE(recording.closed);
+    ASSERT_GE(recording.samples.size(), least) << size;
+    least = recording.samples.size();
+    EXPECT_TRUE(std::equal(recording.samples.begin(), recording.samples.end(), all.samples.begin()))
+        << size;
+  }
+  EXPECT_EQ(least, 4u);
+  EXPECT_LT(refused, 40u);
+}
+
+TEST(Mcap, DamageInAFileThatWasCutOffIsFound) {
+  std::string cut = small_file();
+  cut.resize(cut.size() - 1);
+  cut[cut.find("0.5")] = '7';
+  const auto recording = parse_mcap(cut, "a.mcap", Unclosed::kReadToLastChunk);
+  ASSERT_FALSE(recording);
+  EXPECT_THAT(recording.error(), HasSubstr("the chunk to have its CRC: the file is damaged"));
+}
+
 TEST(Mcap, EveryDamagedByteIsFound) {
   const std::string whole = small_file();
   for (std::size_t place = 0; place < whole.size(); ++place) {

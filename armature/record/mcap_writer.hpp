@@ -38,6 +38,7 @@ class McapWriter final : public Writer {
   base::Result<void> write(const Sample& sample) override;
   base::Result<void> flush() override;
   base::Result<void> close() override;
+  bool given_up() const override { return failure_.has_value(); }
   std::uint64_t unsaved() const override { return unsaved_; }
 
  private:

@@ -49,6 +49,9 @@ class Writer {
   /// Hands over to the system what is complete, so that it survives this process.
   virtual base::Result<void> flush() = 0;
 
+  /// The file could not be written and was given up.
+  virtual bool given_up() const = 0;
+
   /// Samples that were accepted and are not yet handed over; once the file is given up, no reader
   /// may count on them.
   virtual std::uint64_t unsaved() const = 0;

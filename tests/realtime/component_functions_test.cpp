@@ -175,6 +175,15 @@ TEST_P(ComponentFunctions, Properties) {
   EXPECT_EQ(server_.gains.get().size(), 3u);
 }
 
+TEST_P(ComponentFunctions, AChangeOfATappedProperty) {
+  Tap& tap = server_.gains.tap(50);
+  const std::vector<double> gains[] = {{1.0, 5.0}, {2.0, 5.0}};
+  int changes = 0;
+  expect_realtime("Property::assign", [&] { server_.gains.assign(gains[++changes % 2]); });
+  EXPECT_EQ(tap.dropped(), 52u);  // of 101 changes and the value before
+  server_.gains.untap();
+}
+
 TEST_P(ComponentFunctions, AnOperationInTheCallersThread) {
   double sum = 0.0;
   expect_realtime("OperationCaller::operator()", [&] { sum += client_.add(1.0, vector_).value; });

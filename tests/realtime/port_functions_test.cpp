@@ -122,6 +122,20 @@ TEST_P(PortFunctions, AWriteRunsTheHandler) {
   EXPECT_GE(sink_.handled, 100);
 }
 
+TEST_P(PortFunctions, ATappedWriteHasTheSameMeans) {
+  connect(source_.number, sink_.number);
+  Tap& numbers = source_.number.tap(50);  // of which it becomes full
+  Tap& vectors = source_.vector.tap(50, 2);
+  const std::vector<double> vector(7, 1.0);
+  expect_realtime("OutputPort::write", [&] {
+    source_.number.write(1.0);
+    source_.vector.write(vector);
+  });
+  EXPECT_EQ(numbers.dropped(), 51u);
+  TappedSample sample;
+  EXPECT_TRUE(vectors.take(sample));
+}
+
 INSTANTIATE_TEST_SUITE_P(Connections, PortFunctions, ::testing::ValuesIn(connections()),
                          [](const auto& each) { return each.param.name; });
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/component/internal/channel.hpp"
+#include "armature/component/internal/port_tap.hpp"
 #include "armature/component/output_port.hpp"
 
 namespace armature::component {
@@ -91,6 +92,12 @@ std::unique_ptr<internal::ChannelBase> OutputPort<T>::make_channel(InputPortBase
                                                                         sample_);
   }
   return std::make_unique<internal::FifoChannel<T, rt::StdAtomics>>(input, false, policy, sample_);
+}
+
+template <typename T>
+std::unique_ptr<internal::PortTapBase> OutputPort<T>::make_tap(std::size_t capacity,
+                                                               std::uint64_t every) {
+  return std::make_unique<internal::PortTap<T>>(capacity, every, sample_);
 }
 
 namespace internal {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <queue>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -111,6 +112,10 @@ void order_start(const Blueprint& blueprint, Plan& plan) {
     if (!connection.delayed) sorter.before(connection.from, connection.to);
   }
   plan.start_order = sorter.sort();
+  if (plan.observers.empty()) return;
+  const std::unordered_set<Index> observers(plan.observers.begin(), plan.observers.end());
+  std::stable_partition(plan.start_order.begin(), plan.start_order.end(),
+                        [&observers](Index each) { return observers.contains(each); });
 }
 
 /// Who is told of an event first: a component that another's data is going to trigger must know of

@@ -24,6 +24,9 @@ void plan_order(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagn
 /// others nest.
 void plan_triggers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
 
+/// Has observers say what is wrong with what they are to look at, and gives them their place.
+void plan_observers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
+
 /// Refuses a triggered consumer that is more urgent than its producer.
 void check_priorities(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 

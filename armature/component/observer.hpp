@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "armature/component/component.hpp"
+
+namespace armature::component {
+
+/// What an observer sees of its application.
+struct Surroundings {
+  std::vector<Component*> components;  ///< all of them, as declared
+  std::string folder;                  ///< where its files go; empty: the working directory
+};
+
+/// Part of a component that looks at others which it is not connected to, such as a recorder. It
+/// needs a period of its own; it starts before all others and stops after them.
+class Observer {
+ public:
+  struct Objection {
+    std::string message;  ///< what it was to look at and what is wrong with that
+    std::string hint;
+  };
+
+  explicit Observer(Component* owner) { owner->declare().observers.push_back(this); }
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+
+  /// Why it cannot look at what its properties say; changes nothing.
+  virtual std::vector<Objection> check_view(const std::vector<Component*>& components) const = 0;
+
+  /// Taps what it looks at. All are configured and connected, and nobody runs. The taps end when
+  /// the application has cleaned up.
+  virtual void observe(const Surroundings& surroundings) = 0;
+
+ protected:
+  ~Observer() = default;
+};
+
+}  // namespace armature::component
