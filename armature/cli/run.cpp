@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "armature/platform/memory.hpp"
 #include "armature/platform/process.hpp"
 #include "armature/platform/stop_signal.hpp"
+#include "armature/script/script.hpp"
 
 namespace armature::cli {
 namespace {
@@ -118,6 +120,20 @@ bool passed_guard(const RunArguments& arguments, const Console& console) {
   return violations == 0;
 }
 
+/// What a script prints is what the program was asked for, so it goes to standard output.
+void print_line(std::string_view line) {
+  std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
+  std::fflush(stdout);
+}
+
+std::optional<script::Script> load_script(const RunArguments& arguments,
+                                          base::Diagnostics& diagnostics) {
+  if (arguments.script.empty()) return std::nullopt;
+  script::Options options;
+  options.print = print_line;
+  return script::load_script(arguments.script, std::move(options), diagnostics);
+}
+
 int exit_code(exec::RunEnd end, const exec::Application& application) {
   if (end == exec::RunEnd::kFaulted || application.faults() > 0) return kFailed;
   const bool by_reaction = end == exec::RunEnd::kStoppedByReaction || application.reactions() > 0;
@@ -142,6 +158,11 @@ int run(const RunArguments& arguments, Console& console) {
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
 
+  base::Diagnostics mistakes;
+  std::optional<script::Script> script = load_script(arguments, mistakes);
+  console.show(mistakes);
+  if (!mistakes.ok()) return kFailed;
+
   exec::ApplicationOptions options = std::move(deployment.options);
   options.simulated = arguments.simulated;
   options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
@@ -155,14 +176,17 @@ int run(const RunArguments& arguments, Console& console) {
     if (application.hangs()) platform::exit_now(failed);
     return failed;
   }
-  const exec::RunEnd end = application.run_for(arguments.duration.value_or(kUntilStopped), &stop);
+  const base::Duration duration = arguments.duration.value_or(kUntilStopped);
+  const exec::RunEnd end = script ? script->run(application, duration, &stop, mistakes)
+                                  : application.run_for(duration, &stop);
+  console.show(mistakes);
   tell_casualties(application, console);
   base::Diagnostics ended = application.stop();
   deploy::save_properties(deployment.document, application.blueprint(), ended);
   console.show(ended);
   tell_statistics(application, arguments.statistics, console);
   int code = exit_code(end, application);
-  if (!ended.ok() || !passed_guard(arguments, console)) code = kFailed;
+  if (!mistakes.ok() || !ended.ok() || !passed_guard(arguments, console)) code = kFailed;
   if (!arguments.write_times.empty() &&
       !write_times_file(arguments.write_times, application, console)) {
     code = kFailed;

@@ -165,9 +165,9 @@ TEST(SimulatedTime, StopsAtTheInstantAtWhichTheConditionBecameTrue) {
   ASSERT_TRUE(begun) << begun.error();
   const auto done = [&] { return begun.value().ended(); };
   EXPECT_EQ(application.run_until(begin + 1s, done), RunEnd::kConditionMet);
-  EXPECT_EQ(application.now() - begin, 20ms) << "cycles at 0, 10 and 20 ms";
-  EXPECT_EQ(application.run_until(begin + 25ms, [] { return false; }), RunEnd::kTimeUp);
-  EXPECT_EQ(application.now() - begin, 25ms);
+  EXPECT_EQ(application.now() - begin, 30ms) << "cycles at 10, 20 and 30 ms";
+  EXPECT_EQ(application.run_until(begin + 35ms, [] { return false; }), RunEnd::kTimeUp);
+  EXPECT_EQ(application.now() - begin, 35ms);
 }
 
 }  // namespace
