@@ -15,7 +15,7 @@ set(ARMATURE_LAYERS
     "exec: base component rt platform"
     "record: base exec component types rt platform"
     "deploy: base exec component types platform"
-    "script: base deploy component"
+    "script: base deploy exec component types platform"
     "remote: base ride deploy component types"
     "library: base component control record rt types"
     "sim: base exec component can control"

@@ -36,6 +36,7 @@ struct RunArguments {
   exec::RealtimeMode realtime = exec::RealtimeMode::kPrefer;
   std::optional<rt::GuardMode> guard;
   std::vector<std::string> command_line;  ///< to start again behind the guard
+  std::string script;
   std::string write_times;
   std::string output_folder;  ///< of recordings; empty: the working directory
   bool statistics = false;

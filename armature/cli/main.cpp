@@ -102,6 +102,8 @@ class CommandLine {
             },
             "how long, for example 10s or 500ms")
         ->type_name("TIME");
+    command->add_option("--script", run_.script, "commands it by a script in Lua")
+        ->type_name("FILE");
     static const std::map<std::string, exec::RealtimeMode> kModes{
         {"off", exec::RealtimeMode::kOff},
         {"prefer", exec::RealtimeMode::kPrefer},

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -17,6 +18,7 @@
 #include "armature/platform/memory.hpp"
 #include "armature/platform/process.hpp"
 #include "armature/platform/stop_signal.hpp"
+#include "armature/script/script.hpp"
 
 namespace armature::cli {
 namespace {
@@ -129,6 +131,20 @@ bool make_output_folder(const std::string& folder, const Console& console) {
   return false;
 }
 
+/// What a script prints is what the program was asked for, so it goes to standard output.
+void print_line(std::string_view line) {
+  std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
+  std::fflush(stdout);
+}
+
+std::optional<script::Script> load_script(const RunArguments& arguments,
+                                          base::Diagnostics& diagnostics) {
+  if (arguments.script.empty()) return std::nullopt;
+  script::Options options;
+  options.print = print_line;
+  return script::load_script(arguments.script, std::move(options), diagnostics);
+}
+
 int exit_code(exec::RunEnd end, const exec::Application& application) {
   if (end == exec::RunEnd::kFaulted || application.faults() > 0) return kFailed;
   const bool by_reaction = end == exec::RunEnd::kStoppedByReaction || application.reactions() > 0;
@@ -151,7 +167,12 @@ int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
   deploy::Deployment deployment = load(arguments.load);
   console.show(deployment.diagnostics);
-  if (!deployment.ok() || !make_output_folder(arguments.output_folder, console)) return kFailed;
+  if (!deployment.ok()) return kFailed;
+
+  base::Diagnostics mistakes;
+  std::optional<script::Script> script = load_script(arguments, mistakes);
+  console.show(mistakes);
+  if (!mistakes.ok() || !make_output_folder(arguments.output_folder, console)) return kFailed;
 
   exec::ApplicationOptions options = std::move(deployment.options);
   options.simulated = arguments.simulated;
@@ -167,14 +188,17 @@ int run(const RunArguments& arguments, Console& console) {
     if (application.hangs()) platform::exit_now(failed);
     return failed;
   }
-  const exec::RunEnd end = application.run_for(arguments.duration.value_or(kUntilStopped), &stop);
+  const base::Duration duration = arguments.duration.value_or(kUntilStopped);
+  const exec::RunEnd end = script ? script->run(application, duration, &stop, mistakes)
+                                  : application.run_for(duration, &stop);
+  console.show(mistakes);
   tell_casualties(application, console);
   base::Diagnostics ended = application.stop();
   deploy::save_properties(deployment.document, application.blueprint(), ended);
   console.show(ended);
   tell_statistics(application, arguments.statistics, console);
   int code = exit_code(end, application);
-  if (!ended.ok() || !passed_guard(arguments, console)) code = kFailed;
+  if (!mistakes.ok() || !ended.ok() || !passed_guard(arguments, console)) code = kFailed;
   if (!arguments.write_times.empty() &&
       !write_times_file(arguments.write_times, application, console)) {
     code = kFailed;

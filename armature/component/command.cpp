@@ -24,7 +24,7 @@ std::string_view name_of(CommandStage stage) {
 }
 
 void CommandTicket::request_cancel() {
-  if (want_cancel()) executor().post(cancellation_);
+  if (!ended() && want_cancel()) executor().post(cancellation_);
 }
 
 void CommandTicket::Cancellation::deliver(rt::Message& message) {
@@ -40,6 +40,13 @@ CommandBase::CommandBase(Component& owner, std::unique_ptr<About> about) noexcep
 
 /// Components that are stopped have no command under way; of one that was not, nobody hears again.
 CommandBase::~CommandBase() { end(CommandStage::kCancelled, "its component is gone"); }
+
+base::Result<std::optional<types::Value>> CommandBase::invoke(
+    const std::vector<types::Value>& arguments) {
+  const base::Result<void> begun = begin_with(nullptr, arguments);
+  if (!begun) return base::Error{begun.error()};
+  return std::optional<types::Value>();
+}
 
 void CommandBase::report(double progress) {
   if (ticket_ != nullptr) ticket_->report(progress);

@@ -123,6 +123,14 @@ class CommandBase : public OperationBase, public Step {
   bool is_command() const final { return true; }
   bool active() const { return phase_ != Phase::kIdle; }
 
+  base::Result<std::optional<types::Value>> invoke(
+      const std::vector<types::Value>& arguments) final;
+  /// The same for a tool that follows the command: `ticket` is told how it fares, also of a
+  /// refusal.
+  /// @thread the component's own
+  virtual base::Result<void> begin_with(CommandTicket* ticket,
+                                        const std::vector<types::Value>& arguments) = 0;
+
   /// For the component: how far it is (0..1), and its end.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
@@ -182,7 +190,7 @@ template <typename... Args>
 class Command final : public CommandBase {
  public:
   /// `Function` is `Outcome f(Args...)`: accepts, or refuses with a reason and changes nothing.
-  /// Options: done_when<&X::f>, cancelled_by<&X::f>, args(names...).
+  /// Options: done_when<&X::f>, cancelled_by<&X::f>, by_operator, args(names...).
   template <auto Function, typename... Options>
   Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
           Options... options) noexcept
@@ -199,8 +207,8 @@ class Command final : public CommandBase {
   /// Begins the command; `ticket` is told how it fares, if there is one.
   Outcome begin(CommandTicket* ticket, Args... arguments);
 
-  base::Result<std::optional<types::Value>> invoke(
-      const std::vector<types::Value>& arguments) override;
+  base::Result<void> begin_with(CommandTicket* ticket,
+                                const std::vector<types::Value>& arguments) override;
 
  private:
   using Function = Outcome (*)(Component&, Args...);
@@ -208,7 +216,8 @@ class Command final : public CommandBase {
   Command(Component& owner, std::string_view name, std::string_view doc,
           Function function) noexcept;
   template <std::size_t... I>
-  Outcome begin_with(const std::vector<types::Value>& arguments, std::index_sequence<I...>);
+  Outcome begin_with(CommandTicket* ticket, const std::vector<types::Value>& arguments,
+                     std::index_sequence<I...>);
 
   Function function_;
 };

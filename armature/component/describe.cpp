@@ -70,8 +70,9 @@ OutputDescription describe_output(const OutputPortBase& port, Values values) {
 }
 
 OperationDescription describe_operation(const OperationBase& operation) {
-  return {std::string(operation.name()), std::string(operation.doc()), operation.signature().text(),
-          operation.runs_in_own_thread(), operation.is_command()};
+  return {std::string(operation.name()), std::string(operation.doc()),
+          operation.signature().text(),  operation.runs_in_own_thread(),
+          operation.is_command(),        operation.is_by_operator()};
 }
 
 EventDescription describe_event(const EventBase& event) {

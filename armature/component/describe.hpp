@@ -67,6 +67,7 @@ struct OperationDescription {
   std::string signature;  ///< `double(double position [rad])`
   bool own_thread = false;
   bool command = false;  ///< goes on after it was accepted
+  bool by_operator = false;
 };
 
 struct EventDescription {

@@ -26,6 +26,11 @@ namespace armature::component {
 struct InOwnThread {};
 inline constexpr InOwnThread in_own_thread{};
 
+/// Option of an operation or command: an act of the operator. Scripts may call it only if the
+/// deployment grants it.
+struct ByOperator {};
+inline constexpr ByOperator by_operator{};
+
 /// Option of an operation or command: names of the arguments, `args("position [rad]", "time [s]")`.
 struct ArgumentNames {
   std::array<std::string_view, 6> names{};
@@ -47,6 +52,7 @@ class OperationBase {
   const Signature& signature() const { return about_->signature; }
   Component& owner() const { return owner_; }
   bool runs_in_own_thread() const { return about_->own_thread; }
+  bool is_by_operator() const { return about_->by_operator; }
   /// True if accepting it is not the end of it: it has progress and completion.
   virtual bool is_command() const { return false; }
 
@@ -66,11 +72,13 @@ class OperationBase {
     std::string_view doc;
     Signature signature;
     bool own_thread;
+    bool by_operator = false;
   };
 
   OperationBase(Component& owner, std::unique_ptr<About> about) noexcept;
   About& about() const { return *about_; }
   void apply(InOwnThread) noexcept { about_->own_thread = true; }
+  void apply(ByOperator) noexcept { about_->by_operator = true; }
   void apply(const ArgumentNames& given) noexcept;
   /// What is wrong with `arguments`, empty if nothing.
   std::string mismatch(const std::vector<types::Value>& arguments) const;
@@ -91,7 +99,7 @@ class OperationCaller;
 template <typename R, typename... Args>
 class Operation<R(Args...)> final : public OperationBase {
  public:
-  /// Options: in_own_thread, args(names...).
+  /// Options: in_own_thread, by_operator, args(names...).
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
             Options... options) noexcept

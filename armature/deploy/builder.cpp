@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/deploy/builder.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "armature/base/near_name.hpp"
+#include "armature/component/operation.hpp"
 #include "armature/component/property.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
@@ -36,12 +39,41 @@ void check_saved_files(const Document& document, base::Diagnostics& diagnostics)
 /// What this version reads but cannot do: better refused than left out silently.
 void check_supported(const Document& document, base::Diagnostics& diagnostics) {
   for (const Script& script : document.scripts) {
-    diagnostics.error(script.where, "scripts are not supported by this version",
-                      "remove " + in_quotes(script.path));
+    diagnostics.error(script.where, "scripts in a deployment are not supported by this version",
+                      "name it on the command line: --script " + in_quotes(script.path));
   }
   if (document.recorder.kind != Value::Kind::kNone) {
     diagnostics.error(document.recorder.where, "a recorder is not supported by this version",
                       "remove the section");
+  }
+}
+
+/// A grant that grants nothing would be found out when the script runs.
+void check_grants(const Document& document, const exec::Blueprint& blueprint,
+                  base::Diagnostics& diagnostics) {
+  std::unordered_map<std::string_view, const component::Component*> made;
+  std::vector<std::string> names;
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    made.emplace(entry.component->name(), entry.component.get());
+    names.push_back(entry.component->name());
+  }
+  for (const Grant& grant : document.script_grants) {
+    if (blueprint.absent.count(grant.component) > 0) continue;
+    const auto found = made.find(grant.component);
+    if (found == made.end()) {
+      diagnostics.error(grant.where, "there is no component " + in_quotes(grant.component),
+                        base::suggestion(grant.component, names));
+      continue;
+    }
+    std::vector<std::string> acts;
+    for (const component::OperationBase* operation : found->second->interface().operations) {
+      if (operation->is_by_operator()) acts.emplace_back(operation->name());
+    }
+    if (std::find(acts.begin(), acts.end(), grant.operation) != acts.end()) continue;
+    diagnostics.error(grant.where,
+                      in_quotes(grant.component) + " has no act of the operator " +
+                          in_quotes(grant.operation) + " that could be granted",
+                      base::suggestion(grant.operation, acts));
   }
 }
 
@@ -71,6 +103,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   internal::ComponentBuilder components(document, registry, options, diagnostics);
   for (const Component& component : document.components) components.build(component, blueprint);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
+  check_grants(document, blueprint, diagnostics);
   return blueprint;
 }
 
@@ -78,6 +111,9 @@ exec::ApplicationOptions application_options(const Document& document) {
   exec::ApplicationOptions options;
   const bool stop = document.on_fault == OnFault::kStopAll;
   options.on_fault = stop ? exec::OnFault::kStop : exec::OnFault::kContinue;
+  for (const Grant& grant : document.script_grants) {
+    options.grants.push_back({exec::Caller::kScript, grant.component, grant.operation});
+  }
   return options;
 }
 

@@ -46,6 +46,17 @@ components:
   EXPECT_EQ(activity.thread, "fast");
 }
 
+TEST(Builder, GrantsReachTheApplicationAndMustGrantSomething) {
+  const Deployment deployment =
+      deploy("components: {A: {model: Source}}\ngrants: {script: [A.arm]}\n");
+  EXPECT_THAT(deployment.diagnostics.to_text(),
+              HasSubstr("2:19: error: 'A' has no act of the operator 'arm' that could be granted"));
+  ASSERT_EQ(deployment.options.grants.size(), 1u);
+  EXPECT_EQ(deployment.options.grants[0].caller, exec::Caller::kScript);
+  EXPECT_EQ(deployment.options.grants[0].component, "A");
+  EXPECT_EQ(deployment.options.grants[0].operation, "arm");
+}
+
 TEST(Builder, WhatAnActivityDoesNotSayHasTheDefaultOfTheRuntime) {
   const Deployment deployment = deploy(R"(
 components:

@@ -158,6 +158,13 @@ struct Script {
   base::Location where;
 };
 
+/// An act of the operator that scripts may do in the operator's stead.
+struct Grant {
+  std::string component;  ///< full name
+  std::string operation;
+  base::Location where;
+};
+
 /// What follows when a component faults.
 enum class OnFault { kStopDependents, kStopAll, kKeepRunning };
 
@@ -174,6 +181,7 @@ struct Document {
   std::vector<NamedConnection> named_connections;
   std::vector<Composite> composites;
   std::vector<Script> scripts;
+  std::vector<Grant> script_grants;
   Value recorder;  ///< kNone if the document has none
 };
 

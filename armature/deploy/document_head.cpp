@@ -19,8 +19,8 @@ std::string path_from(const Document& document, std::string_view path) {
 namespace internal {
 namespace {
 
-constexpr std::array<std::string_view, 6> kHeadKeys = {"application", "on_fault", "libraries",
-                                                       "scripts",     "recorder", "composed"};
+constexpr std::array<std::string_view, 7> kHeadKeys = {
+    "application", "on_fault", "libraries", "scripts", "grants", "recorder", "composed"};
 
 std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
   Script script{{}, {}, value.where};
@@ -41,6 +41,22 @@ std::optional<Script> read_script(const Value& value, const ValueReader& reader)
   }
   assign(reader.text(*file, "file"), script.path);
   return script;
+}
+
+void read_grants(const Value& value, const ValueReader& reader, Document& document) {
+  Fields fields(value, reader);
+  for (const Value* grant : items_of(fields.take("script"))) {
+    const auto whole = reader.dotted_name(*grant, "grant");
+    if (!whole) continue;
+    auto [component, operation] = split_last_dot(*whole);
+    if (component.empty()) {
+      reader.error(grant->where,
+                   "grant must be component.operation, found " + in_quotes(operation));
+      continue;
+    }
+    document.script_grants.push_back({std::move(component), std::move(operation), grant->where});
+  }
+  fields.refuse_others();
 }
 
 void read_composed(const Value& value, Document& document, base::Diagnostics& diagnostics) {
@@ -86,8 +102,9 @@ bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
 }
 
 std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
-  constexpr std::array<std::pair<const char*, Value::Kind>, 5> kKinds = {
+  constexpr std::array<std::pair<const char*, Value::Kind>, 6> kKinds = {
       {{"parameters", Value::Kind::kMap},
+       {"grants", Value::Kind::kMap},
        {"components", Value::Kind::kMap},
        {"composites", Value::Kind::kMap},
        {"connections", Value::Kind::kList},
@@ -164,6 +181,7 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
   for (const Value* script : items_of(fields.take("scripts"))) {
     if (auto one = read_script(*script, reader)) document.scripts.push_back(std::move(*one));
   }
+  if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
   if (const Value* recorder = fields.take("recorder")) document.recorder = *recorder;
   if (const Value* composed = fields.take("composed")) {
     read_composed(*composed, document, diagnostics);

@@ -53,6 +53,7 @@ connections:
   - {from: J2.many, to: C.all, fan_in: true}
   - {name: bus, ports: [S.x, C.x, J1.x], policy: {fifo: 2}}
 scripts: [a.lua, {file: b.lua, component: S}]
+grants: {script: [S.arm, left.d.go]}
 recorder: {to: x.csv, ports: ["J{1..2}.Position", S.a], every: 10, nothing: }
 )";
 

@@ -223,6 +223,15 @@ TEST(Document, ScriptsMayRunInAComponent) {
   EXPECT_EQ(loaded.document.scripts[1].component, "Generator");
 }
 
+TEST(Document, ScriptsMayBeGrantedActsOfTheOperator) {
+  const Loaded loaded = load_yaml("grants: {script: [Arming.arm, left.Arming.arm]}\n");
+  EXPECT_EQ(loaded.messages(), "");
+  ASSERT_EQ(loaded.document.script_grants.size(), 2u);
+  EXPECT_EQ(loaded.document.script_grants[0].component, "Arming");
+  EXPECT_EQ(loaded.document.script_grants[0].operation, "arm");
+  EXPECT_EQ(loaded.document.script_grants[1].component, "left.Arming");
+}
+
 TEST(Document, RecorderIsKeptAsItIsWritten) {
   const Loaded loaded = load_yaml("recorder: {to: x.csv, ports: [A.Out]}\n");
   EXPECT_EQ(to_text(loaded.document.recorder), "{to: x.csv, ports: [A.Out]}");

@@ -195,6 +195,14 @@ Value script_tree(const Script& script) {
   return map;
 }
 
+Value grants_tree(const std::vector<Grant>& to_scripts) {
+  Value map = make_map();
+  add_items(map, "script", converted(to_scripts, [](const Grant& grant) {
+              return make_text(grant.component + "." + grant.operation);
+            }));
+  return map;
+}
+
 template <typename List, typename Convert>
 void add_section(Value& tree, const char* key, const List& list, Convert convert) {
   if (list.empty()) return;
@@ -247,6 +255,7 @@ Value to_tree(const Document& document) {
   add_items(tree, "connections", std::move(connections));
   add_section(tree, "composed", document.composites, composite_tree);
   add_items(tree, "scripts", converted(document.scripts, script_tree));
+  if (!document.script_grants.empty()) add(tree, "grants", grants_tree(document.script_grants));
   if (document.recorder.kind != Value::Kind::kNone) add(tree, "recorder", document.recorder);
   return tree;
 }

@@ -74,6 +74,7 @@ Row row_of(const component::OperationDescription& operation) {
   } else if (operation.own_thread) {
     add(notes, "in its own thread");
   }
+  if (operation.by_operator) add(notes, "by the operator");
   return {operation.name, operation.signature, with_notes(operation.doc, notes)};
 }
 

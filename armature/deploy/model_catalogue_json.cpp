@@ -54,11 +54,9 @@ Json json_of(const component::PortArrayDescription& array) {
 }
 
 Json json_of(const component::OperationDescription& operation) {
-  return {{"name", operation.name},
-          {"signature", operation.signature},
-          {"doc", operation.doc},
-          {"own_thread", operation.own_thread},
-          {"command", operation.command}};
+  return {{"name", operation.name},       {"signature", operation.signature},
+          {"doc", operation.doc},         {"own_thread", operation.own_thread},
+          {"command", operation.command}, {"by_operator", operation.by_operator}};
 }
 
 Json json_of(const component::EventDescription& event) {

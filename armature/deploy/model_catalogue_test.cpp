@@ -57,8 +57,12 @@ class Everything final : public Component {
                                             "begins anew",
                                             component::in_own_thread,
                                             component::args("position [rad]")};
-  component::Command<double> move_{this, "moveTo", component::serve<&Everything::move>,
-                                   "goes there", component::args("position [rad]")};
+  component::Command<double> move_{this,
+                                   "moveTo",
+                                   component::serve<&Everything::move>,
+                                   "goes there",
+                                   component::args("position [rad]"),
+                                   component::by_operator};
   component::Event<double> passed_{this, "passed", "went by", {"position [rad]"}};
   component::OperationCaller<double()> read_{this, "read", "reads the position",
                                              component::optional};
@@ -110,7 +114,7 @@ port arrays
 
 operations
   reset   void(double position [rad])  begins anew (in its own thread)
-  moveTo  void(double position [rad])  goes there (command with completion)
+  moveTo  void(double position [rad])  goes there (command with completion, by the operator)
 
 events
   passed  void(double position [rad])  went by
@@ -141,6 +145,8 @@ TEST(ModelCatalogue, DescribesModelsForMachines) {
   EXPECT_TRUE(model["inputs"][0]["triggers"]);
   EXPECT_EQ(model["outputs"][0]["size"], 2);
   EXPECT_EQ(model["operations"][1]["command"], true);
+  EXPECT_EQ(model["operations"][0]["by_operator"], false);
+  EXPECT_EQ(model["operations"][1]["by_operator"], true);
   EXPECT_EQ(model["events"][0]["signature"], "void(double position [rad])");
   EXPECT_EQ(model["requirements"][0]["kind"], "operation");
 }

@@ -84,7 +84,7 @@ class DeployerWriter {
   Attributes root_attributes() {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
     for (const char* key :
-         {"application", "on_fault", "parameters", "composed", "scripts", "recorder"}) {
+         {"application", "on_fault", "parameters", "composed", "scripts", "grants", "recorder"}) {
       extend(attributes, tree_, key);
     }
     return attributes;

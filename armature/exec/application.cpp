@@ -8,6 +8,7 @@
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/internal/simulation.hpp"
 #include "armature/exec/internal/start_gate.hpp"
+#include "armature/exec/internal/tool_ticket.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/stop_signal.hpp"
 
@@ -131,17 +132,29 @@ void Application::apply_declared_reactions() {
 }
 
 RunEnd Application::run_for(base::Duration duration, const platform::StopSignal* stop) {
-  const base::Time end = base::later(now(), duration);
-  if (options_.simulated) return simulate_until(end, stop);
+  return run_until(base::later(now(), duration), nullptr, stop);
+}
+
+RunEnd Application::run_until(base::Time end, const std::function<bool()>& condition,
+                              const platform::StopSignal* stop) {
+  if (options_.simulated) return simulate_until(end, condition, stop);
+  return run_threads_until(end, condition, stop);
+}
+
+RunEnd Application::run_threads_until(base::Time end, const std::function<bool()>& condition,
+                                      const platform::StopSignal* stop) {
   constexpr base::Duration kLogPeriod = std::chrono::milliseconds(20);
+  constexpr base::Duration kConditionPeriod = std::chrono::milliseconds(1);
+  const base::Duration period = condition ? kConditionPeriod : kLogPeriod;
   while (true) {
     drain_logs();
     if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
     const base::Time at = now();
     logs_.tell_losses_now_and_then(at);
+    if (condition && condition()) return RunEnd::kConditionMet;
     if (at >= end) return RunEnd::kTimeUp;
-    const base::Time next = std::min(end, at + kLogPeriod);
+    const base::Time next = std::min(end, at + period);
     if (stop != nullptr) {
       stop->wait_until(next);
     } else {
@@ -150,7 +163,8 @@ RunEnd Application::run_for(base::Duration duration, const platform::StopSignal*
   }
 }
 
-RunEnd Application::simulate_until(base::Time end, const platform::StopSignal* stop) {
+RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& condition,
+                                   const platform::StopSignal* stop) {
   while (true) {
     while (Engine* const engine = simulation_->take_turn(simulated_now_)) {
       logs_.drain(*engine);
@@ -158,6 +172,7 @@ RunEnd Application::simulate_until(base::Time end, const platform::StopSignal* s
       if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     }
     logs_.tell_losses_now_and_then(simulated_now_);
+    if (condition && condition()) return RunEnd::kConditionMet;
     if (simulated_now_ >= end) return RunEnd::kTimeUp;
     simulated_now_ = std::min(end, simulation_->next_due());
   }

@@ -13,6 +13,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
+#include "armature/component/command.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/internal/hook_series.hpp"
@@ -31,6 +32,7 @@ namespace armature::exec {
 
 namespace internal {
 class Simulation;
+class ToolTicket;
 class StartGate;
 }  // namespace internal
 
@@ -45,10 +47,24 @@ enum class OnFault : std::uint8_t {
   kStop,      ///< everything stops in order
 };
 
+/// On whose behalf operations and commands are called.
+enum class Caller : std::uint8_t {
+  kOperator,  ///< the operator's own program
+  kScript,
+};
+
+/// An act of the operator (`component::by_operator`) that a caller may do in the operator's stead.
+struct Grant {
+  Caller caller;
+  std::string component;
+  std::string operation;
+};
+
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
   OnFault on_fault = OnFault::kContinue;
+  std::vector<Grant> grants;
   base::Duration hook_limit = std::chrono::seconds(10);  ///< a hook that takes longer hangs
   base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
   /// Execution times of components are taken in every n-th cycle; 0: about four times a second,
@@ -62,7 +78,13 @@ struct ApplicationOptions {
 };
 
 /// Why a run ended.
-enum class RunEnd : std::uint8_t { kTimeUp, kStopRequested, kFaulted, kStoppedByReaction };
+enum class RunEnd : std::uint8_t {
+  kTimeUp,
+  kStopRequested,
+  kFaulted,
+  kStoppedByReaction,
+  kConditionMet
+};
 
 struct ThreadStatistics {
   std::string name;
@@ -101,6 +123,12 @@ class Application final {
   /// simulated time as fast as the machine can.
   RunEnd run_for(base::Duration duration, const platform::StopSignal* stop = nullptr);
 
+  /// Lets it run until `end` at most, and no longer than until `condition` is true. It is asked by
+  /// the controlling thread: in simulated time whenever all that is due at an instant is done, else
+  /// every millisecond.
+  RunEnd run_until(base::Time end, const std::function<bool()>& condition,
+                   const platform::StopSignal* stop = nullptr);
+
   /// Stops in reverse order of start and cleans up; the diagnostics name hooks that hang.
   base::Diagnostics stop();
 
@@ -132,7 +160,13 @@ class Application final {
   base::Result<types::Value> value_of(std::string_view component, std::string_view item);
   base::Result<std::optional<types::Value>> call(std::string_view component,
                                                  std::string_view operation,
-                                                 std::vector<types::Value> arguments);
+                                                 std::vector<types::Value> arguments,
+                                                 Caller caller = Caller::kOperator);
+  /// Begins a command; the error says why it was refused. The handle tells how it fares, ends with
+  /// the component's run at the latest, and may outlive the application.
+  base::Result<component::CommandHandle> begin(std::string_view component, std::string_view command,
+                                               std::vector<types::Value> arguments,
+                                               Caller caller = Caller::kOperator);
   /// Runs `work`, as code of `component`, in its thread, or here if that thread does not run; false
   /// if it was not done within the hook limit.
   bool run_in_thread_of(component::Component& component, std::function<void()> work);
@@ -190,7 +224,16 @@ class Application final {
   void go_live();
   void end_threads(base::Diagnostics& diagnostics);
 
-  RunEnd simulate_until(base::Time end, const platform::StopSignal* stop);
+  RunEnd simulate_until(base::Time end, const std::function<bool()>& condition,
+                        const platform::StopSignal* stop);
+  RunEnd run_threads_until(base::Time end, const std::function<bool()>& condition,
+                           const platform::StopSignal* stop);
+  /// What a tool may call on behalf of `caller`, or why it may not.
+  base::Result<component::OperationBase*> operation_for(std::string_view component,
+                                                        std::string_view operation,
+                                                        Caller caller) const;
+  bool granted(const component::OperationBase& operation, Caller caller) const;
+  internal::ToolTicket& claim_ticket(component::CommandBase& command);
   std::string unknown_component(std::string_view name) const;
   base::Result<types::Value> value_of(component::Component& component, const types::Type& type,
                                       std::function<const void*()> data);
@@ -216,6 +259,8 @@ class Application final {
   bool memory_locked_ = false;
   std::vector<Casualty> casualties_;
   std::unordered_set<const void*> stuck_;  ///< components and contexts in which something hangs
+  /// Of commands that tools began.
+  std::vector<std::unique_ptr<internal::ToolTicket, component::SharedRecord::LetGo>> tickets_;
   base::Time simulated_now_{};
   bool running_ = false;
   bool hangs_ = false;

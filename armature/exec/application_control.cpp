@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What tools do with a running application; each is executed by the component's own thread.
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "armature/component/author.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
+#include "armature/exec/internal/tool_ticket.hpp"
 #include "armature/exec/task.hpp"
 
 namespace armature::exec {
@@ -155,9 +157,18 @@ base::Result<types::Value> Application::value_of(Component& component, const typ
   return *value;
 }
 
-base::Result<std::optional<types::Value>> Application::call(std::string_view name,
-                                                            std::string_view operation_name,
-                                                            std::vector<types::Value> arguments) {
+bool Application::granted(const component::OperationBase& operation, Caller caller) const {
+  if (caller == Caller::kOperator || !operation.is_by_operator()) return true;
+  const auto grants_it = [&](const Grant& grant) {
+    return grant.caller == caller && grant.component == operation.owner().name() &&
+           grant.operation == operation.name();
+  };
+  return std::any_of(options_.grants.begin(), options_.grants.end(), grants_it);
+}
+
+base::Result<component::OperationBase*> Application::operation_for(std::string_view name,
+                                                                   std::string_view operation_name,
+                                                                   Caller caller) const {
   Component* const component = find(name);
   if (component == nullptr) return base::Error{unknown_component(name)};
   const auto& operations = component->interface().operations;
@@ -165,14 +176,66 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view nam
   if (operation == nullptr) {
     return base::Error{no_such("operation", operation_name, *component, names_of(operations))};
   }
+  if (!granted(*operation, caller)) {
+    const std::string whole = component->name() + "." + std::string(operation_name);
+    return base::Error{quoted(whole) +
+                       " is an act of the operator: a script may do it only where the deployment "
+                       "says so (grants: {script: [" +
+                       whole + "]})"};
+  }
+  return operation;
+}
+
+base::Result<std::optional<types::Value>> Application::call(std::string_view name,
+                                                            std::string_view operation_name,
+                                                            std::vector<types::Value> arguments,
+                                                            Caller caller) {
+  const auto found = operation_for(name, operation_name, caller);
+  if (!found) return base::Error{found.error()};
+  component::OperationBase* const operation = found.value();
   using Answer = base::Result<std::optional<types::Value>>;
   const auto answer = std::make_shared<Answer>(std::optional<types::Value>());
-  if (!run_in_thread_of(*component, [answer, operation, arguments = std::move(arguments)] {
+  if (!run_in_thread_of(operation->owner(), [answer, operation, arguments = std::move(arguments)] {
         *answer = operation->invoke(arguments);
       })) {
-    return base::Error{not_answered(*component)};
+    return base::Error{not_answered(operation->owner())};
   }
   return *answer;
+}
+
+internal::ToolTicket& Application::claim_ticket(component::CommandBase& command) {
+  auto free = std::find_if(tickets_.begin(), tickets_.end(),
+                           [](const auto& ticket) { return ticket->try_claim(); });
+  if (free == tickets_.end()) {
+    free = tickets_.emplace(tickets_.end(), new internal::ToolTicket);
+    static_cast<void>((*free)->try_claim());  // it is new: nobody else has it
+  }
+  (*free)->belong_to(command);
+  return **free;
+}
+
+base::Result<component::CommandHandle> Application::begin(std::string_view name,
+                                                          std::string_view command_name,
+                                                          std::vector<types::Value> arguments,
+                                                          Caller caller) {
+  const auto found = operation_for(name, command_name, caller);
+  if (!found) return base::Error{found.error()};
+  if (!found.value()->is_command()) {
+    return base::Error{quoted(std::string(name) + "." + std::string(command_name)) +
+                       " is an operation, not a command: call it"};
+  }
+  auto* const command = static_cast<component::CommandBase*>(found.value());
+  internal::ToolTicket* const ticket = &claim_ticket(*command);
+  component::CommandHandle handle(*ticket);
+  const auto begun = std::make_shared<base::Result<void>>();
+  if (!run_in_thread_of(command->owner(),
+                        [begun, command, ticket, arguments = std::move(arguments)] {
+                          *begun = command->begin_with(ticket, arguments);
+                        })) {
+    return base::Error{not_answered(command->owner())};
+  }
+  if (!*begun) return base::Error{begun->error()};
+  return handle;
 }
 
 std::vector<ThreadStatistics> Application::thread_statistics() const {

@@ -106,9 +106,11 @@ class Card final : public Component {
  private:
   double read() { return 0.0; }
   double scaled(double factor) { return factor; }
+  void release() {}
 
   Operation<double()> read_{this, "read", serve<&Card::read>, "reads it"};
   Operation<double(double)> scaled_{this, "scaled", serve<&Card::scaled>, "reads it, scaled"};
+  Operation<void()> release_{this, "release", serve<&Card::release>, "lets it move", by_operator};
 };
 
 class Joint final : public Component {

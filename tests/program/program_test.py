@@ -144,6 +144,40 @@ connections:
         self.assertIn("older than declared", done.stderr)
 
 
+class Scripts(unittest.TestCase):
+    def run_script(self, text, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "wave.lua")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            done = armature("run", "--sim", "--for", "20s", WAVE, "--script", path, *arguments)
+        done.stderr = done.stderr.replace(path, "wave.lua")
+        return done
+
+    def test_commands_the_application_until_it_stops_it(self):
+        done = self.run_script("wait(2.5)\n"
+                               "print(now(), Source.Frequency)\nstop()")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, "2.5\t2.0\n")
+
+    def test_mistake_ends_the_run_in_order(self):
+        done = self.run_script("wait(1)\nSource.Frequncy = 1")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("error"), 1, done.stderr)
+        self.assertIn("wave.lua:2: error: 'Source' has no property 'Frequncy' "
+                      "(did you mean 'Frequency'?)\n", done.stderr)
+
+    def test_mistake_of_syntax_is_found_before_anything_starts(self):
+        done = self.run_script("wait(1")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "wave.lua:1: error: ')' expected near <eof>\n")
+
+    def test_script_that_is_not_there(self):
+        done = armature("run", "--sim", "--for", "1s", WAVE, "--script", "/nowhere.lua")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/nowhere.lua", done.stderr)
+
+
 class Looking(unittest.TestCase):
     def test_models_for_machines(self):
         done = armature("models", "--json")

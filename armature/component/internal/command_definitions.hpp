@@ -36,21 +36,23 @@ Outcome Command<Args...>::begin(CommandTicket* ticket, Args... arguments) {
 }
 
 template <typename... Args>
-base::Result<std::optional<types::Value>> Command<Args...>::invoke(
-    const std::vector<types::Value>& arguments) {
+base::Result<void> Command<Args...>::begin_with(CommandTicket* ticket,
+                                                const std::vector<types::Value>& arguments) {
   if (std::string problem = mismatch(arguments); !problem.empty()) {
+    if (ticket != nullptr) ticket->end(CommandStage::kRefused, problem);
     return base::Error{std::move(problem)};
   }
-  const Outcome outcome = begin_with(arguments, std::index_sequence_for<Args...>{});
+  const Outcome outcome = begin_with(ticket, arguments, std::index_sequence_for<Args...>{});
   if (!outcome) return base::Error{std::string(outcome.reason())};
-  return std::optional<types::Value>();
+  return {};
 }
 
 template <typename... Args>
 template <std::size_t... I>
-Outcome Command<Args...>::begin_with([[maybe_unused]] const std::vector<types::Value>& arguments,
+Outcome Command<Args...>::begin_with(CommandTicket* ticket,
+                                     [[maybe_unused]] const std::vector<types::Value>& arguments,
                                      std::index_sequence<I...>) {
-  return begin(nullptr, *static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
+  return begin(ticket, *static_cast<const std::decay_t<Args>*>(arguments[I].data())...);
 }
 
 template <typename... Args>

@@ -71,8 +71,11 @@ class Arming final : public component::Component {
   component::Event<> stop_event_{this, "Stop", "smooth deceleration to rest"};
   component::Event<> disarm_event_{this, "Disarm", "effort 0, brakes applied"};
 
-  component::Command<> arm_{this, "arm", component::serve<&Arming::begin_to_arm>,
+  component::Command<> arm_{this,
+                            "arm",
+                            component::serve<&Arming::begin_to_arm>,
                             "lets the joints move from now on",
+                            component::by_operator,
                             component::cancelled_by<&Arming::disarm>};
   component::Operation<void()> stop_{this, "stop", component::serve<&Arming::stop_moving>,
                                      "brakes every motion smoothly; joints stay armed",

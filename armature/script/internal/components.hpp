@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <lua5.4/lua.hpp>
+
+#include "armature/component/command.hpp"
+#include "armature/exec/application.hpp"
+
+namespace armature::script::internal {
+
+/// Makes every component a global by its name, with its properties, ports, operations and commands;
+/// a part `left.d` of a composite is the field `d` of `left`. Names that are nobody's are errors.
+/// @param application  lives as long as functions of `lua` are called
+void install_components(lua_State* lua, exec::Application& application);
+
+/// The command that a handle of the script is for; nullptr if there is none at `index`.
+component::CommandHandle* command_at(lua_State* lua, int index);
+
+/// Why a command ended that is not done.
+std::string reason_of(const component::CommandHandle& command);
+
+/// Ends the function that is called with an error at the line of the script that called it.
+[[noreturn]] void refuse(lua_State* lua, const std::string& text);
+
+}  // namespace armature::script::internal

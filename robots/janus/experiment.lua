@@ -1,0 +1,22 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- The experiment of paper 1, table 2, on a head that a person or the deployment lets scripts arm:
+--   armature run robots/janus/deployments/pid.yaml --sim --script robots/janus/experiment.lua
+
+wait(0.1)   -- the cards answer
+assert(wait(Arming:arm()))
+
+local begin = now()
+local function after(seconds, positions, time)
+  at(begin + seconds, function() assert(wait(Generator:moveTo(positions, time))) end)
+end
+
+after(5, array(1.0, 1.0), 10)
+after(17, array(2.0, 2.0), 9)
+after(28, array(3.0, 1.0), 8)
+after(38, array(1.0, 3.0), 7)
+after(47, array(4.0, 4.0), 5)
+after(54, array(0.0, 0.0), 5)
+
+wait(60)
+print("positions", Sensor.sensor[1], Sensor.sensor[2])
+stop()
