@@ -17,6 +17,19 @@ after(38, array(1.0, 3.0), 7)
 after(47, array(4.0, 4.0), 5)
 after(54, array(0.0, 0.0), 5)
 
-wait(60)
-print("positions", Sensor.sensor[1], Sensor.sensor[2])
+-- How well the joints follow: looks at what the PIDs see, a hundred times a second.
+local period = 0.01
+local joints = {{pid = PID1, iae = 0, largest = 0}, {pid = PID2, iae = 0, largest = 0}}
+while now() < begin + 60 do
+  wait(period)
+  for _, joint in ipairs(joints) do
+    joint.last = math.abs(joint.pid.Ref - joint.pid.Sen)
+    joint.iae = joint.iae + period * joint.last
+    joint.largest = math.max(joint.largest, joint.last)
+  end
+end
+for number, joint in ipairs(joints) do
+  print(string.format("joint %d: IAE %.5f rad s, largest error %.5f rad, at the end %.5f rad",
+                      number, joint.iae, joint.largest, joint.last))
+end
 stop()
