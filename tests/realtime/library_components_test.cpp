@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "armature/library/actuator_demux/actuator_demux.hpp"
+#include "armature/library/arming/arming.hpp"
 #include "armature/library/axes_generator/axes_generator.hpp"
 #include "armature/library/base/reason_text.hpp"
+#include "armature/library/bridge/bridge.hpp"
 #include "armature/library/bridge_ref/bridge_ref.hpp"
 #include "armature/library/controller_npid/controller_npid.hpp"
 #include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/library/joint/joint.hpp"
 #include "armature/library/model/model.hpp"
 #include "armature/library/pid/pid.hpp"
 #include "armature/library/sampler/sampler.hpp"
@@ -148,6 +151,90 @@ TEST(RealtimeComponents, Model) {
   EXPECT_EQ(model.writes("Out"), 100u);
   expect_realtime_on_bench("Model", [&] { model.write("In", Vector(6, NAN)); });
   EXPECT_EQ(model.state(), component::State::kException);
+}
+
+/// Armed, driven, disarmed while it turns and switched off, again and again.
+TEST(RealtimeComponents, Joint) {
+  testing::Harness joint(std::make_unique<Joint>("Joint1"));
+  joint.set("PeerName", "Card");
+  joint.set("Brake", true);
+  joint.set("PositionMin", -1e6);
+  joint.set("PositionMax", 1e6);
+  joint.set("MaxVelocity", 10.0);
+  joint.set("MaxAcceleration", 100.0);
+  joint.set("MaxVoltage", 12.0);
+  joint.set("Period", 0.001);
+  for (const char* name :
+       {"actuatorOn", "actuatorOff", "brakeApply", "brakeRelease", "sensorRead"}) {
+    joint.serve<bool()>(name, [] { return true; });
+  }
+  joint.write("Voltage", 0.0);
+  start(joint);
+  int armed = 0;
+  expect_realtime_on_bench("Joint", [&] {
+    joint.run_cycles();
+    joint.raise("Sample");
+    joint.write("DisplacementSensor", 0.001);
+    joint.write("IndexSensor", true);
+    joint.raise("Arm");
+    armed += joint.output<bool>("Armed") ? 1 : 0;
+    joint.write("Voltage", 20.0);
+    joint.raise("Act");
+    joint.raise("Disarm");
+    joint.run_cycles();
+    joint.write("DisplacementSensor", 0.0);
+  });
+  EXPECT_EQ(armed, 100);
+  joint.raise("Sample");
+  expect_realtime_on_bench("Joint", [&] {
+    joint.run_cycles();
+    joint.write("DisplacementSensor", 0.0);
+    joint.raise("Arm");
+    joint.write<double>("Voltage", NAN);
+    joint.raise("Act");
+  });
+  EXPECT_EQ(joint.state(), component::State::kException);
+}
+
+TEST(RealtimeComponents, Arming) {
+  testing::Harness arming(std::make_unique<Arming>("Arming"));
+  arming.set("joints", 2);
+  start(arming);
+  const Vector position(2, 1.0);
+  const Vector rest(2, 0.0);
+  int done = 0;
+  const auto say_armed = [&](bool is) {
+    arming.write("Armed1", is);
+    arming.write("Armed2", is);
+  };
+  arming.write("nAxesSensorPosition", position);
+  expect_realtime_on_bench("Arming", [&] {
+    say_armed(false);
+    const component::CommandHandle command = arming.send("arm");
+    arming.run_cycles();
+    arming.write("nAxesDesiredPosition", position);
+    arming.write("nAxesDesiredVelocity", rest);
+    arming.run_cycles();
+    say_armed(true);
+    arming.run_cycles();
+    done += command.stage() == component::CommandStage::kDone ? 1 : 0;
+    EXPECT_TRUE(arming.call("stop"));
+    EXPECT_TRUE(arming.call("disarm"));
+  });
+  EXPECT_EQ(done, 100);
+}
+
+TEST(RealtimeComponents, Bridge) {
+  testing::Harness bridge(std::make_unique<Bridge>("Bridge"));
+  bridge.set("joints", 2);
+  start(bridge);
+  const Vector desired(2, 1.0);
+  expect_realtime_on_bench("Bridge", [&] {
+    bridge.write("Position1", 1.0);
+    bridge.write("Position2", 2.0);
+    bridge.write("nAxesDesiredPosition", desired);
+  });
+  EXPECT_EQ(bridge.writes("nAxesSensorPosition"), 199u);
 }
 
 TEST(RealtimeComponents, BridgeRef) {
