@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -17,6 +17,7 @@
 #include "armature/platform/file.hpp"
 #include "armature/platform/memory.hpp"
 #include "armature/platform/process.hpp"
+#include "armature/platform/shared_object.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/script/script.hpp"
 
@@ -137,12 +138,24 @@ void print_line(std::string_view line) {
   std::fflush(stdout);
 }
 
-std::optional<script::Script> load_script(const RunArguments& arguments,
-                                          base::Diagnostics& diagnostics) {
-  if (arguments.script.empty()) return std::nullopt;
+/// Lua is loaded here and not with the program: memory is locked, and most runs have no script.
+std::unique_ptr<script::LoadedScript> load_script(const RunArguments& arguments,
+                                                  base::Diagnostics& diagnostics) {
+  if (arguments.script.empty()) return nullptr;
+  const std::filesystem::path beside =
+      platform::file_of(reinterpret_cast<const void*>(&platform::monotonic_now));
+  const auto library =
+      platform::SharedObject::load(beside.parent_path() / "libarmature_script.so.0.1");
+  void* const load = library ? library.value().symbol(script::kLoadScript) : nullptr;
+  if (load == nullptr) {
+    diagnostics.error({}, "scripts need libarmature_script.so beside the other libraries: " +
+                              (library ? std::string("it is another version") : library.error()));
+    return nullptr;
+  }
   script::Options options;
   options.print = print_line;
-  return script::load_script(arguments.script, std::move(options), diagnostics);
+  return std::unique_ptr<script::LoadedScript>(
+      reinterpret_cast<script::LoadScript>(load)(arguments.script, options, diagnostics));
 }
 
 int exit_code(exec::RunEnd end, const exec::Application& application) {
@@ -170,7 +183,7 @@ int run(const RunArguments& arguments, Console& console) {
   if (!deployment.ok()) return kFailed;
 
   base::Diagnostics mistakes;
-  std::optional<script::Script> script = load_script(arguments, mistakes);
+  const std::unique_ptr<script::LoadedScript> script = load_script(arguments, mistakes);
   console.show(mistakes);
   if (!mistakes.ok() || !make_output_folder(arguments.output_folder, console)) return kFailed;
 

@@ -93,4 +93,26 @@ Script load_script(const std::string& path, Options options, base::Diagnostics& 
   return parse_script(text ? text.value() : "", path, std::move(options), diagnostics);
 }
 
+namespace {
+
+class Loaded final : public LoadedScript {
+ public:
+  explicit Loaded(Script script) : script_(std::move(script)) {}
+  exec::RunEnd run(exec::Application& application, base::Duration duration,
+                   const platform::StopSignal* stop, base::Diagnostics& diagnostics) override {
+    return script_.run(application, duration, stop, diagnostics);
+  }
+
+ private:
+  Script script_;
+};
+
+}  // namespace
 }  // namespace armature::script
+
+extern "C" armature::script::LoadedScript* armature_load_script(
+    const std::string& path, armature::script::Options& options,
+    armature::base::Diagnostics& diagnostics) {
+  return new armature::script::Loaded(
+      armature::script::load_script(path, std::move(options), diagnostics));
+}

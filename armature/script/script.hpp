@@ -52,4 +52,19 @@ Script load_script(const std::string& path, Options options, base::Diagnostics& 
 Script parse_script(std::string_view text, const std::string& path, Options options,
                     base::Diagnostics& diagnostics);
 
+/// A script as a program sees it that loads this library only when there is a script, so that a
+/// process without one does not keep Lua in its memory.
+class LoadedScript {
+ public:
+  virtual ~LoadedScript() = default;
+  /// As Script::run.
+  virtual exec::RunEnd run(exec::Application& application, base::Duration duration,
+                           const platform::StopSignal* stop, base::Diagnostics& diagnostics) = 0;
+};
+
+/// `load_script` under the name that `LoadScript` has in this library.
+using LoadScript = LoadedScript* (*)(const std::string& path, Options& options,
+                                     base::Diagnostics& diagnostics);
+inline constexpr const char* kLoadScript = "armature_load_script";
+
 }  // namespace armature::script
