@@ -26,8 +26,9 @@ AT_RUN_TIME = (
     + ["latency_1khz/p50", "latency_1khz/p99", "latency_1khz/p99.9", "periods_exact"]
 )
 OTHERS = (
+    [f"timeline_on/{n}" for n in JOINTS] +
     [f"{what}_per_component/{n}" for what in ("start", "load", "memory") for n in COMPONENTS]
-    + ["resident_two_joints", "resident_two_joints/locked", "compile_time"]
+    + ["resident_two_joints", "resident_two_joints/locked", "compile_time", "queries/p99.9"]
 )
 WITHOUT_REFERENCE = (
     [f"{what}_per_component/100" for what in ("start", "load", "memory")]

@@ -22,6 +22,8 @@ void run_cycle(benchmark::State& state, int joints) {
   exec::Application application(make_cycle(joints, one_thread()), simulated());
   const base::Diagnostics started = application.start();
   if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
+  application.run_for(std::chrono::milliseconds(10));
+  arm(application);
   MonolithicController loop(joints);
 
   Result result = measure_in_turn(

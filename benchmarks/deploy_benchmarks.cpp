@@ -34,7 +34,7 @@ struct Cost {
 };
 using Measure = std::function<Cost(int components)>;
 
-int joints_for(int components) { return (components - 5) / 3; }
+int joints_for(int components) { return (components - 6) / 3; }
 
 void demand(const base::Diagnostics& diagnostics) {
   if (!diagnostics.ok()) throw std::runtime_error(diagnostics.to_text());

@@ -15,10 +15,12 @@ namespace {
 void add_all(const armature::benchmarks::Suite& suite) {
   using namespace armature::benchmarks;
   add_cycles(suite);
+  add_timelines(suite);
   add_threaded_cycles(suite);
   add_calls(suite);
   add_crossings(suite);
   add_latency(suite);
+  add_queries(suite);
   add_deployments(suite);
   add_footprints(suite);
 }

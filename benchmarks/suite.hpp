@@ -70,10 +70,12 @@ class Suite {
 // --- themes, a file each -------------------------------------------------------------------------
 void add_cycles(const Suite& suite);
 void add_threaded_cycles(const Suite& suite);
+void add_timelines(const Suite& suite);
 void add_calls(const Suite& suite);
 void add_crossings(const Suite& suite);
 void add_latency(const Suite& suite);
 void add_deployments(const Suite& suite);
+void add_queries(const Suite& suite);
 void add_footprints(const Suite& suite);
 
 }  // namespace armature::benchmarks

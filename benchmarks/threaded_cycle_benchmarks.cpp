@@ -26,6 +26,10 @@ namespace {
 constexpr double kBound = 1.3;
 constexpr std::int64_t kRounds = 101;
 constexpr std::chrono::milliseconds kBatch(10);
+/// No cycle runs while the joints are armed, and what was measured last has to count.
+constexpr std::chrono::seconds kLongestArming(10);
+/// A controller does nothing before there is a reference.
+constexpr std::chrono::milliseconds kUntilReference(100);
 
 // Threads as a robot has them, ours and the reference's alike: real-time, and on one CPU, since one
 // waits for the other. Where the kernel chooses, a hop on the same CPU takes a third of one between
@@ -131,6 +135,8 @@ class OneThread {
   explicit OneThread(int joints) : application_(make_cycle(joints, one_thread()), simulated()) {
     const base::Diagnostics started = application_.start();
     if (!started.ok()) throw std::runtime_error(started.to_text());
+    run_cycles(10);
+    arm(application_);
   }
   void run_cycles(std::int64_t count) { application_.run_for(std::chrono::milliseconds(count)); }
 
@@ -140,7 +146,7 @@ class OneThread {
 
 void run_cycle(benchmark::State& state, int joints, Beside beside) {
   exec::Blueprint blueprint =
-      make_cycle(joints, {own_thread(), own_thread(), own_thread(), own_thread()});
+      make_cycle(joints, {own_thread(), own_thread(), own_thread(), own_thread(), kLongestArming});
   Pacer& pacer = add_pacer(blueprint, joints);
   exec::ApplicationOptions options;
   options.realtime = exec::RealtimeMode::kPrefer;
@@ -148,16 +154,15 @@ void run_cycle(benchmark::State& state, int joints, Beside beside) {
   const base::Diagnostics started = application.start();
   if (!started.ok()) return state.SkipWithError(started.to_text().c_str());
 
+  application.run_for(kUntilReference);
+  pacer.run_cycles(1);
+  application.run_for(kUntilReference);
+  arm(application);
   BareHops hops;
   std::optional<OneThread> work;
   if (beside == Beside::kHopsAndWork) work.emplace(joints);
-  std::int64_t cycles = 0;
   Result result = measure_in_turn(
-      state,
-      [&](std::int64_t count) {
-        pacer.run_cycles(count);
-        cycles += count;
-      },
+      state, [&](std::int64_t count) { pacer.run_cycles(count); },
       [&](std::int64_t count) {
         hops.run_cycles(count);
         if (work) work->run_cycles(count);
@@ -166,9 +171,7 @@ void run_cycle(benchmark::State& state, int joints, Beside beside) {
   result.bound = ratio_at_most(kBound);
   publish(state, result);
 
-  application.stop();
   MonolithicController loop(joints);
-  for (std::int64_t i = 0; i < cycles; ++i) loop.cycle();
   const std::string difference = difference_of(application, loop, joints);
   if (!difference.empty()) state.SkipWithError(difference.c_str());
 }

@@ -15,11 +15,12 @@ set(ARMATURE_LAYERS
     "exec: base component rt platform"
     "record: base exec component types rt platform"
     "deploy: base exec component types platform"
-    "script: base deploy exec component types platform"
+    "report: base platform types control component exec record"
+    "script: base deploy exec component rt types platform"
     "remote: base ride deploy component types"
     "library: base component control record rt types"
     "sim: base exec component can control"
     "robots: base platform rt library component can control sim"
     "studio: base remote record"
-    "cli: base platform types rt control component can ride exec record deploy script remote library sim studio"
-    "testing: base platform types rt guard control component can ride exec record deploy script remote library sim studio")
+    "cli: base platform types rt control component can ride exec record deploy report script remote library sim studio"
+    "testing: base platform types rt guard control component can ride exec record deploy report script remote library sim studio")

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/base/seconds.hpp"
+
 namespace armature::base {
 namespace {
 
@@ -26,6 +28,13 @@ TEST(Time, LaterIsAtMostTheEndOfTime) {
   EXPECT_EQ(later(start, Duration::max()), Time::max());
   EXPECT_EQ(later(Time{}, Duration::max()), Time::max());
   EXPECT_EQ(later(Time::max(), 1ns), Time::max());
+}
+
+TEST(Seconds, AreTheNearestNanosecondsAndBack) {
+  EXPECT_EQ(from_seconds(0.0003), Duration(300'000));
+  EXPECT_EQ(from_seconds(1.1), Duration(1'100'000'000));
+  EXPECT_EQ(from_seconds(-0.25), Duration(-250'000'000));
+  EXPECT_EQ(to_seconds(Duration(1'500'000'000)), 1.5);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "armature/can/internal/watcher.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::can {
@@ -94,15 +95,11 @@ bool SocketCan::open(const BusOptions& options, base::Diagnostics& diagnostics) 
   options_ = options;
   lost_before_ = 0;
   state_ = to_state(socket_->at_first());
-  if (options_.on_news) start_watcher(diagnostics);
-  return true;
-}
-
-void SocketCan::start_watcher(base::Diagnostics& diagnostics) {
-  watcher_ = std::make_unique<platform::Thread>(watcher_request_, [this] { watch(); });
-  for (const std::string& refusal : watcher_->grant().refusals) {
-    diagnostics.warning({}, "bus '" + name() + "': the thread that announces news: " + refusal);
+  if (options_.on_news) {
+    watcher_ = internal::start_watcher(
+        name(), watcher_request_, [this] { watch(); }, diagnostics);
   }
+  return true;
 }
 
 void SocketCan::close() {

@@ -39,7 +39,6 @@ class SocketCan final : public Bus {
   BusCounters counters() const override { return tally_.now(); }
 
  private:
-  void start_watcher(base::Diagnostics& diagnostics);
   SendStatus try_send(const Frame& frame);
   ReceiveStatus nothing_came();
   void count_lost();

@@ -123,7 +123,11 @@ VirtualBus::Transmission VirtualBus::plan(base::Time begin) {
   }
   Outcome outcome = Outcome::kGood;
   if (const Fault* fault = fault_for(frame->frame)) outcome = fault->outcome;
-  if (!acknowledged(*winner)) outcome = Outcome::kNoAcknowledgement;
+  if (destroyed(*winner)) {
+    outcome = Outcome::kCorrupted;
+  } else if (!acknowledged(*winner)) {
+    outcome = Outcome::kNoAcknowledgement;
+  }
   return {winner, frame->number,
           WireEvent{frame->frame, begin, begin + duration(frame->frame, outcome), outcome, winner}};
 }
@@ -137,7 +141,15 @@ VirtualBus::Fault* VirtualBus::fault_for(const Frame& frame) {
 
 bool VirtualBus::acknowledged(const VirtualStation& sender) const {
   return !cut_ && std::ranges::any_of(stations_, [&](const auto& station) {
-    return station.get() != &sender && station->on_bus();
+    return station.get() != &sender && station->understands();
+  });
+}
+
+/// By a wrong bit rate: of the sender, if anybody else is there, or of one that listens.
+bool VirtualBus::destroyed(const VirtualStation& sender) const {
+  return !cut_ && std::ranges::any_of(stations_, [&](const auto& station) {
+    if (station.get() == &sender) return false;
+    return sender.understands() ? station->destroys_others() : station->on_bus();
   });
 }
 
@@ -194,6 +206,10 @@ void VirtualBus::end_good(const Transmission& done) {
   for (const auto& station : stations_) {
     const bool own = station.get() == done.sender;
     if (!station->on_bus() || (own && !station->options_.own_frames)) continue;
+    if (!station->understands()) {
+      hear_noise(*station, event.end);
+      continue;
+    }
     if (!own) station->count_good_received(event.end);
     if (lost && !own) {
       station->miss(event.frame);
@@ -213,12 +229,22 @@ void VirtualBus::end_with_error(const Transmission& done) {
   } else {
     for (const auto& station : stations_) {
       if (!station->on_bus()) continue;
-      station->report(error_class::kProtocol | error_class::kBusError, 0, end);
-      if (station.get() != &sender) station->add_receive_error(end);
+      if (station.get() == &sender) {
+        station->report(error_class::kProtocol | error_class::kBusError, 0, end);
+      } else {
+        hear_noise(*station, end);
+      }
     }
     sender.add_send_errors(8, end);
   }
   sender.suspend_if_passive(end);
+}
+
+/// Who raises the flag that the others follow sees them do it, and counts eight more (ISO 11898).
+void VirtualBus::hear_noise(VirtualStation& station, base::Time end) {
+  const bool raised_the_flag = station.destroys_others();
+  station.report(error_class::kProtocol | error_class::kBusError, 0, end);
+  station.add_receive_errors(raised_the_flag ? 9 : 1, end);
 }
 
 void VirtualBus::count(const WireEvent& event) {

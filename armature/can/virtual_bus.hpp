@@ -117,11 +117,13 @@ class VirtualBus {
   Transmission plan(base::Time begin);
   Fault* fault_for(const Frame& frame);
   bool acknowledged(const VirtualStation& sender) const;
+  bool destroyed(const VirtualStation& sender) const;
   base::Duration duration(const Frame& frame, Outcome outcome) const;
   void begin(base::Time at);
   void finish();
   void end_good(const Transmission& done);
   void end_with_error(const Transmission& done);
+  void hear_noise(VirtualStation& station, base::Time end);
   void count(const WireEvent& event);
 
   const std::string name_;

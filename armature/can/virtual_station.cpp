@@ -18,7 +18,7 @@ constexpr int kSuspendBits = 8;
 }  // namespace
 
 VirtualStation::VirtualStation(VirtualBus& bus, std::string name, SendOrder order)
-    : Bus(std::move(name)), bus_(bus), order_(order) {}
+    : Bus(std::move(name)), bus_(bus), order_(order), bit_rate_(bus.bit_rate()) {}
 
 bool VirtualStation::open(const BusOptions& options, base::Diagnostics& diagnostics) {
   if (state() != BusState::kClosed) {
@@ -94,6 +94,13 @@ void VirtualStation::force_bus_off() {
 bool VirtualStation::on_bus() const {
   const BusState now = state();
   return !dead_ && (now == BusState::kActive || now == BusState::kPassive);
+}
+
+bool VirtualStation::understands() const { return on_bus() && bit_rate_ == bus_.bit_rate(); }
+
+/// Only an active station may.
+bool VirtualStation::destroys_others() const {
+  return !understands() && !dead_ && state() == BusState::kActive;
 }
 
 void VirtualStation::collect() {
@@ -185,8 +192,8 @@ void VirtualStation::add_send_errors(int by, base::Time now) {
   update_state(now);
 }
 
-void VirtualStation::add_receive_error(base::Time now) {
-  receive_errors_ = std::min(receive_errors() + 1, kMostOnBus);
+void VirtualStation::add_receive_errors(int by, base::Time now) {
+  receive_errors_ = std::min(receive_errors() + by, kMostOnBus);
   update_state(now);
 }
 

@@ -43,6 +43,10 @@ class VirtualStation final : public Bus {
   RestartStatus restart() override;
   BusCounters counters() const override { return tally_.now(); }
 
+  /// Frames that were taken and neither sent nor discarded yet.
+  /// @rt nonblocking
+  std::size_t waiting() const { return waiting_.load(std::memory_order_acquire); }
+
   /// Sends `frame` when `earliest` has come: the answer of a device that takes its time.
   /// @rt nonblocking, no allocation
   /// @thread the sender only
@@ -57,6 +61,10 @@ class VirtualStation final : public Bus {
   void delay_by(base::Duration delay) { delay_ = delay; }
   /// A dead station neither sends nor receives nor acknowledges, and does not know it.
   void set_dead(bool dead) { dead_ = dead; }
+  /// Its own idea of the bit rate. With another than the bus's it understands nothing, nobody
+  /// understands it, and while it is active its error frames destroy what the others send: it is
+  /// passive after 15 frames of theirs, bus-off after 32 attempts of its own.
+  void set_bit_rate(std::uint32_t bit_rate) { bit_rate_ = bit_rate; }
   /// As if it had made 256 errors.
   void force_bus_off();
 
@@ -72,6 +80,8 @@ class VirtualStation final : public Bus {
   // What the bus does with its stations, in the thread that advances it.
   void collect();
   bool on_bus() const;
+  bool understands() const;
+  bool destroys_others() const;
   /// When a frame may begin on a bus that has been idle since then; none waits: the end of time.
   base::Time earliest_start(base::Time idle_since) const;
   /// What competes for the bus at that time; nullptr if nothing does.
@@ -84,7 +94,7 @@ class VirtualStation final : public Bus {
   void tell_news();
 
   void add_send_errors(int by, base::Time now);
-  void add_receive_error(base::Time now);
+  void add_receive_errors(int by, base::Time now);
   void count_good_sent(base::Time now);
   void count_good_received(base::Time now);
   void suspend_if_passive(base::Time frame_end);
@@ -126,6 +136,7 @@ class VirtualStation final : public Bus {
   int recessive_left_ = 0;
   base::Duration delay_{};
   bool dead_ = false;
+  std::uint32_t bit_rate_;
   bool news_ = false;
 };
 

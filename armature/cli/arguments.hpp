@@ -26,6 +26,7 @@ struct LoadArguments {
   std::string file;
   std::vector<std::string> overrides;
   std::vector<std::string> library_folders;
+  std::string mode;
   std::string times_file;
 };
 
@@ -37,8 +38,10 @@ struct RunArguments {
   std::optional<rt::GuardMode> guard;
   std::vector<std::string> command_line;  ///< to start again behind the guard
   std::string script;
+  bool browse = false;
   std::string write_times;
   std::string output_folder;  ///< of recordings; empty: the working directory
+  std::string trace;          ///< the timeline's file; empty: none
   bool statistics = false;
 };
 
@@ -59,6 +62,11 @@ struct ModelsArguments {
   std::vector<std::string> library_folders;
   std::string name;
   bool json = false;
+};
+
+struct ReportArguments {
+  std::string folder;
+  std::string page;  ///< empty: beside the recordings
 };
 
 /// `10s`, `250 ms`: a time above 0, or nothing.

@@ -25,6 +25,9 @@ int models(const ModelsArguments& arguments, const Console& console);
 /// Rewrites a deployment in the other file's format.
 int convert(const std::string& from, const std::string& to, const Console& console);
 
+/// Shows what runs left in a folder, as one HTML page.
+int report(const ReportArguments& arguments, const Console& console);
+
 /// Makes a component library to start from, in the current folder.
 int new_component(const std::string& name, const Console& console);
 

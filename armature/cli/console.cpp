@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "armature/base/seconds.hpp"
 #include "armature/platform/clock.hpp"
 
 namespace armature::cli {
@@ -33,8 +34,8 @@ void print_json(const nlohmann::ordered_json& object) {
 }  // namespace
 
 void Console::log(const rt::LogRecord& record) const {
-  const std::chrono::duration<double> since_begin = record.time - begin_;
-  line(record.level, since_begin.count(), record.component.view(), record.message());
+  line(record.level, base::to_seconds(record.time - begin_), record.component.view(),
+       record.message());
 }
 
 void Console::say(rt::LogLevel level, std::string_view text) const {

@@ -11,6 +11,7 @@ inline deploy::Deployment load(const LoadArguments& arguments) {
   deploy::DeploymentOptions options;
   options.document.overrides = arguments.overrides;
   options.library_folders = arguments.library_folders;
+  options.mode = arguments.mode;
   options.times_file = arguments.times_file;
   return deploy::load_deployment(arguments.file, options);
 }

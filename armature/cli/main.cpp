@@ -36,6 +36,7 @@ class CommandLine {
     add_check();
     add_graph();
     add_models();
+    add_report();
     add_convert();
     add_new();
   }
@@ -77,6 +78,7 @@ class CommandLine {
                     "changes a parameter or property: Joint1.GearRatio=0.02")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
+    command.add_option("--mode", load.mode, "the mode in which it starts")->type_name("NAME");
     add_folders(command, load.library_folders);
     command.add_option("--times", load.times_file, "measured execution times, for the load");
   }
@@ -102,8 +104,11 @@ class CommandLine {
             },
             "how long, for example 10s or 500ms")
         ->type_name("TIME");
-    command->add_option("--script", run_.script, "commands it by a script in Lua")
-        ->type_name("FILE");
+    CLI::Option* const script =
+        command->add_option("--script", run_.script, "commands it by a script in Lua");
+    script->type_name("FILE");
+    command->add_flag("--browse", run_.browse, "commands it line by line: the task browser")
+        ->excludes(script);
     static const std::map<std::string, exec::RealtimeMode> kModes{
         {"off", exec::RealtimeMode::kOff},
         {"prefer", exec::RealtimeMode::kPrefer},
@@ -119,6 +124,8 @@ class CommandLine {
     command->add_option("--write-times", run_.write_times, "writes measured execution times");
     command->add_option("--out", run_.output_folder, "the folder for recordings; made if need be")
         ->type_name("FOLDER");
+    command->add_option("--trace", run_.trace, "writes the timeline of all threads, for Perfetto")
+        ->type_name("FILE");
     command->add_flag("--statistics", run_.statistics, "prints cycles and latencies at the end");
     command->callback([this] {
       if (guard_ == "report") run_.guard = rt::GuardMode::kReport;
@@ -154,6 +161,14 @@ class CommandLine {
     command->callback([this] { chosen_ = [this] { return models(models_, console_); }; });
   }
 
+  void add_report() {
+    CLI::App* command = app_.add_subcommand("report", "shows recorded runs as one HTML page");
+    command->add_option("folder", report_.folder, "of a run, or of folders of runs")->required();
+    command->add_option("--out", report_.page, "the page; report.html in that folder otherwise")
+        ->type_name("FILE");
+    command->callback([this] { chosen_ = [this] { return report(report_, console_); }; });
+  }
+
   void add_convert() {
     CLI::App* command = app_.add_subcommand("convert", "rewrites YAML as OROCOS XML and back");
     command->add_option("from", from_, "the deployment to read")->required();
@@ -175,6 +190,7 @@ class CommandLine {
   CheckArguments check_;
   GraphArguments graph_;
   ModelsArguments models_;
+  ReportArguments report_;
   std::string guard_;
   std::string from_;
   std::string to_;

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "armature/cli/commands.hpp"
+#include "armature/cli/companions.hpp"
 #include "armature/cli/load.hpp"
+#include "armature/cli/report.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/schedule.hpp"
@@ -17,9 +19,7 @@
 #include "armature/platform/file.hpp"
 #include "armature/platform/memory.hpp"
 #include "armature/platform/process.hpp"
-#include "armature/platform/shared_object.hpp"
 #include "armature/platform/stop_signal.hpp"
-#include "armature/script/script.hpp"
 
 namespace armature::cli {
 namespace {
@@ -29,12 +29,13 @@ using rt::LogLevel;
 /// Long enough to be "until stopped", short enough to be added to any time.
 constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
 
-/// What reads and checks deployments is not needed while one runs: no real-time thread ever runs
-/// any of it. It comes back when the run has ended. The program itself stays: the C++ library may
-/// use functions of `std::string` that were compiled into it.
+/// What reads and checks deployments, and descriptions of robots, is not needed while one runs: no
+/// real-time thread ever runs any of it. It comes back when the run has ended. The program itself
+/// stays: the C++ library may use functions of `std::string` that were compiled into it.
 void release_what_loads() {
   constexpr std::string_view kLibraries[] = {"libarmature_deploy.so", "libyaml-cpp.so",
-                                             "libpugixml.so"};
+                                             "libpugixml.so",         "liburdfdom_model.so",
+                                             "libtinyxml.so",         "libconsole_bridge.so"};
   platform::release_code(kLibraries);
 }
 
@@ -123,39 +124,26 @@ bool passed_guard(const RunArguments& arguments, const Console& console) {
   return violations == 0;
 }
 
+/// The summary of a run before this one would be taken for this one's if it does not get to its
+/// end.
 bool make_output_folder(const std::string& folder, const Console& console) {
   if (folder.empty()) return true;
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (!failure) return true;
+  if (!failure) {
+    std::error_code ignored;  // to write it will fail, too, and be told
+    std::filesystem::remove(folder + '/' + report::kSummaryFile, ignored);
+    return true;
+  }
   console.say(LogLevel::kError, "cannot make the folder '" + folder + "': " + failure.message());
   return false;
 }
 
-/// What a script prints is what the program was asked for, so it goes to standard output.
-void print_line(std::string_view line) {
-  std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
-  std::fflush(stdout);
-}
-
-/// Lua is loaded here and not with the program: memory is locked, and most runs have no script.
-std::unique_ptr<script::LoadedScript> load_script(const RunArguments& arguments,
-                                                  base::Diagnostics& diagnostics) {
-  if (arguments.script.empty()) return nullptr;
-  const std::filesystem::path beside =
-      platform::file_of(reinterpret_cast<const void*>(&platform::monotonic_now));
-  const auto library =
-      platform::SharedObject::load(beside.parent_path() / "libarmature_script.so.0.1");
-  void* const load = library ? library.value().symbol(script::kLoadScript) : nullptr;
-  if (load == nullptr) {
-    diagnostics.error({}, "scripts need libarmature_script.so beside the other libraries: " +
-                              (library ? std::string("it is another version") : library.error()));
-    return nullptr;
-  }
-  script::Options options;
-  options.print = print_line;
-  return std::unique_ptr<script::LoadedScript>(
-      reinterpret_cast<script::LoadScript>(load)(arguments.script, options, diagnostics));
+bool complete(record::TimelineWriter* timeline, const Console& console) {
+  if (timeline == nullptr) return true;
+  const base::Result<void> closed = timeline->close();
+  if (!closed) console.say(LogLevel::kError, closed.error());
+  return closed.ok();
 }
 
 int exit_code(exec::RunEnd end, const exec::Application& application) {
@@ -174,6 +162,54 @@ int start(exec::Application& application, const RunArguments& arguments, const C
   return refused ? kNoRealtime : kFailed;
 }
 
+report::RunFacts facts_of(const RunArguments& arguments) {
+  report::RunFacts facts;
+  facts.deployment = arguments.load.file;
+  facts.simulated = arguments.simulated;
+  if (!arguments.simulated) facts.begin = platform::monotonic_now();
+  return facts;
+}
+
+/// @param companions, facts  outlive the application
+exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArguments& arguments,
+                                    const Companions& companions, const Console& console,
+                                    report::RunFacts& facts) {
+  exec::ApplicationOptions options = std::move(deployment.options);
+  options.simulated = arguments.simulated;
+  options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
+  options.output_folder = arguments.output_folder;
+  options.log = [&](const rt::LogRecord& record) {
+    note_complaint(facts, record);
+    if (!companions.browser) return console.log(record);
+    companions.browser->beside([&] { console.log(record); });
+  };
+  options.black_box.write = [&arguments](const exec::BlackBoxReport& report) {
+    return write_black_box(report, arguments.output_folder);
+  };
+  if (companions.timeline) {
+    options.timeline.sink = [&](const exec::TimelineSlice& slice) {
+      companions.timeline->add(slice);
+    };
+  }
+  options.ready = release_what_loads;
+  return options;
+}
+
+void let_run(exec::Application& application, const Companions& companions,
+             const RunArguments& arguments, const platform::StopSignal& stop,
+             base::Diagnostics& mistakes, report::RunFacts& facts) {
+  const std::unique_ptr<script::Script>& script = companions.script;
+  const std::unique_ptr<script::Browser>& browser = companions.browser;
+  const base::Duration duration = arguments.duration.value_or(kUntilStopped);
+  const base::Time begin = application.now();
+  const base::Time wall_begin = platform::monotonic_now();
+  facts.end = script    ? script->run(application, duration, &stop, mistakes)
+              : browser ? browser->run(application, duration, &stop)
+                        : application.run_for(duration, &stop);
+  facts.duration = application.now() - begin;
+  facts.wall_time = platform::monotonic_now() - wall_begin;
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments, Console& console) {
@@ -182,38 +218,40 @@ int run(const RunArguments& arguments, Console& console) {
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
 
+  if (!make_output_folder(arguments.output_folder, console)) return kFailed;
+
   base::Diagnostics mistakes;
-  const std::unique_ptr<script::LoadedScript> script = load_script(arguments, mistakes);
+  const Companions companions = load_companions(arguments, mistakes);
   console.show(mistakes);
-  if (!mistakes.ok() || !make_output_folder(arguments.output_folder, console)) return kFailed;
+  if (!mistakes.ok()) return kFailed;
 
-  exec::ApplicationOptions options = std::move(deployment.options);
-  options.simulated = arguments.simulated;
-  options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
-  options.output_folder = arguments.output_folder;
-  options.log = [&console](const rt::LogRecord& record) { console.log(record); };
-  options.ready = release_what_loads;
-  if (!arguments.simulated) console.set_begin(platform::monotonic_now());
-
+  report::RunFacts facts = facts_of(arguments);
+  if (!arguments.simulated) console.set_begin(facts.begin);
   const platform::StopSignal stop;
-  exec::Application application(std::move(deployment.blueprint), std::move(options));
+  exec::Application application(std::move(deployment.blueprint),
+                                options_of(deployment, arguments, companions, console, facts));
   if (const int failed = start(application, arguments, console); failed != kDone) {
     if (application.hangs()) platform::exit_now(failed);
     return failed;
   }
-  const base::Duration duration = arguments.duration.value_or(kUntilStopped);
-  const exec::RunEnd end = script ? script->run(application, duration, &stop, mistakes)
-                                  : application.run_for(duration, &stop);
+  let_run(application, companions, arguments, stop, mistakes, facts);
   console.show(mistakes);
   tell_casualties(application, console);
   base::Diagnostics ended = application.stop();
   deploy::save_properties(deployment.document, application.blueprint(), ended);
   console.show(ended);
   tell_statistics(application, arguments.statistics, console);
-  int code = exit_code(end, application);
+  int code = exit_code(facts.end, application);
+  if (companions.browser && companions.browser->mistakes() > 0) code = kFailed;
   if (!mistakes.ok() || !ended.ok() || !passed_guard(arguments, console)) code = kFailed;
+  if (!complete(companions.timeline.get(), console)) code = kFailed;
   if (!arguments.write_times.empty() &&
       !write_times_file(arguments.write_times, application, console)) {
+    code = kFailed;
+  }
+  facts.exit_code = code;
+  if (!arguments.output_folder.empty() &&
+      !write_run_summary(arguments.output_folder, facts, application, console)) {
     code = kFailed;
   }
   // A thread that hangs still uses everything: leave without taking it down.

@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/command.hpp"
 
+#include "armature/component/black_box.hpp"
+
 namespace armature::component {
+
+namespace {
+
+using Noted = BlackBox::Note::Kind;
+
+Noted noted(CommandStage stage) {
+  if (stage == CommandStage::kDone) return Noted::kDone;
+  return stage == CommandStage::kFailed ? Noted::kFailed : Noted::kCancelled;
+}
+
+}  // namespace
 
 std::string_view name_of(CommandStage stage) {
   switch (stage) {
@@ -63,17 +76,20 @@ void CommandBase::step() {
 Outcome CommandBase::admit(CommandTicket* ticket) {
   const bool running = owner().state() == State::kRunning;
   if (running && !active()) {
+    note(owner(), Noted::kBegun, name(), {});
     phase_ = Phase::kBeginning;
     return accepted();
   }
   const Outcome refusal =
       refused(running ? "the command before is still under way" : "the component is not running");
+  note(owner(), Noted::kRefused, name(), refusal.reason());
   if (ticket != nullptr) ticket->end(CommandStage::kRefused, refusal.reason());
   return refusal;
 }
 
 Outcome CommandBase::begun(CommandTicket* ticket, bool completed, const Outcome& outcome) {
   const Outcome answer = completed ? outcome : refused(owner().reason());
+  if (!answer) note(owner(), Noted::kRefused, name(), answer.reason());
   if (!answer) {
     phase_ = Phase::kIdle;
   } else if (phase_ == Phase::kBeginning) {
@@ -96,6 +112,7 @@ void CommandBase::cancel(std::string_view reason) {
     end(CommandStage::kCancelled, reason);
     return;
   }
+  note(owner(), Noted::kCancelled, name(), reason);
   CommandTicket* const ticket = std::exchange(ticket_, nullptr);
   phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
   if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(owner()); });
@@ -108,6 +125,7 @@ void CommandBase::end(CommandStage stage, std::string_view reason) {
     ended_early_ = stage;
     early_reason_ = reason;
   }
+  if (active()) note(owner(), noted(stage), name(), reason);
   phase_ = Phase::kIdle;
   if (ticket != nullptr) ticket->end(stage, reason);
 }

@@ -5,13 +5,17 @@
 #include <exception>
 #include <utility>
 
+#include "armature/component/black_box.hpp"
 #include "armature/component/input_port.hpp"
 #include "armature/component/output_port.hpp"
 #include "armature/component/state_machine.hpp"
+#include "armature/component/timeline.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::component {
 namespace {
+
+using Noted = BlackBox::Note::Kind;
 
 /// Where a component lives before an application gave it a thread.
 ExecutionContext& no_context() {
@@ -158,6 +162,7 @@ void Component::error(std::string_view reason) {
   if (state() != State::kRunning) return;
   rest_->reason = reason;
   enter(State::kRunTimeError);
+  note(*this, Noted::kError, {}, reason);
   log_warning("{}", reason);
 }
 
@@ -178,10 +183,11 @@ void Component::enter_fault(std::string_view reason) {
   }
   rest_->reason = reason;
   enter(State::kException);
+  note(*this, Noted::kFault, {}, rest_->reason);
   halt_steps(rest_->reason);
   log_error("fault: {}", rest_->reason.view());
-  if (before == State::kRunning || before == State::kRunTimeError) tell_readers_lost();
   if (context_->supervisor != nullptr) context_->supervisor->component_faulted(*this);
+  if (before == State::kRunning || before == State::kRunTimeError) tell_readers_lost();
 }
 
 void Component::stop_because(std::string_view reason) {
@@ -189,9 +195,10 @@ void Component::stop_because(std::string_view reason) {
   const Reason kept(reason);
   stop();
   if (state() != State::kException) rest_->reason = kept;
+  note(*this, Noted::kReaction, {}, kept);
   log_warning("stopped: {}", kept.view());
-  tell_readers_lost();
   if (context_->supervisor != nullptr) context_->supervisor->component_stopped_itself(*this);
+  tell_readers_lost();
 }
 
 void Component::contain(ExecutionContext& where) noexcept {
@@ -229,6 +236,13 @@ void Component::ReportedFault::deliver(rt::Message& message) {
   report.taken.store(false, std::memory_order_release);
 }
 
+void Component::enter(State state) {
+  state_.store(state, std::memory_order_release);
+  set_at_once(state == State::kRunning && !aging_);
+  if (aging_) context_->ages_to_settle = true;
+  note(*this, Noted::kState, {}, name_of(state));
+}
+
 void Component::set_at_once(bool on) {
   if (on == admits_at_once_) return;
   admits_at_once_ = on;
@@ -238,6 +252,24 @@ void Component::set_at_once(bool on) {
 bool Component::admits_after_look() noexcept {
   if (aging_ && time() > rest_->ages_hold_until) check_ages();
   return state() == State::kRunning;
+}
+
+void Component::note_aging_input() {
+  aging_ = true;
+  rest_->ages_hold_until = {};
+  set_at_once(false);
+  context_->ages_to_settle = true;
+}
+
+base::Time Component::settle_ages() {
+  if (state() != State::kRunning) return base::Time::max();
+  base::Time hold = base::Time::max();
+  for (const InputPortBase* input : rest_->interface.inputs) {
+    hold = std::min(hold, input->age_holds_until());
+  }
+  set_at_once(hold >= time());
+  if (admits_at_once_) rest_->ages_hold_until = hold;
+  return hold;
 }
 
 void Component::check_ages() {
@@ -282,6 +314,7 @@ void Component::remove_step(Step& step) {
 
 void Component::charge(ExecutionContext& where, Component* ran) noexcept {
   const std::uint64_t now = rt::ticks();
+  if (where.timeline != nullptr) where.timeline->add_step(ran, where.mark, now);
   // What runs here as a guest keeps its measurements in its own thread.
   if (ran != nullptr && ran->context_ == &where) {
     Rest& rest = *ran->rest_;

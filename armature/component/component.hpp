@@ -127,10 +127,13 @@ class Component {
   bool has_aging_inputs() const { return aging_; }
   /// One of its inputs has an age from now on, or a writer.
   /// @thread configuration only
-  void note_aging_input() {
-    aging_ = true;
-    rest_->ages_hold_until = {};
-  }
+  void note_aging_input();
+  /// Lets handlers run without a look at the ages for as long as no input's data can be too old.
+  /// @return the end of that time: the end of time if it does not run; before `time()` if there is
+  ///         something too old, or may be at any time: then `admits` looks
+  /// @rt nonblocking, no allocation, O(inputs)
+  /// @thread its own
+  base::Time settle_ages();
   /// When the reaction to old data of an input is due if nothing new comes; the end of time if none
   /// is.
   /// @rt nonblocking, no allocation, O(inputs)
@@ -273,10 +276,7 @@ class Component {
   void refuse_depth(ExecutionContext& where) noexcept;
   void enter_fault(std::string_view reason);
   void fault_from(const ExecutionContext& where, std::string_view reason);
-  void enter(State state) {
-    state_.store(state, std::memory_order_release);
-    set_at_once(state == State::kRunning && !aging_);
-  }
+  void enter(State state);
   void set_at_once(bool on);
   bool admits_after_look() noexcept;
   void check_ages();

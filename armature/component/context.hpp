@@ -19,7 +19,9 @@
 
 namespace armature::component {
 
+class BlackBox;
 class Component;
+class Timeline;
 
 /// Told by components of what the application must react to.
 /// @rt both functions are called on real-time threads
@@ -58,9 +60,12 @@ struct ExecutionContext {
   std::unique_ptr<HookEntrance[]> hooks;             ///< those that are entered, and room for more
   HookEntrance* next_hook = nullptr;
   HookEntrance* end_of_hooks = nullptr;
+  bool ages_to_settle = false;    ///< a component began to run, or has other ages than before
   bool measuring = false;         ///< this cycle's execution times are taken for each component
   std::uint64_t mark = 0;         ///< tick at which another one began to run, while measuring
   Component* measured = nullptr;  ///< the first of those that ran while measuring
+  BlackBox* black_box = nullptr;  ///< keeps what happens; nullptr: nobody asked
+  Timeline* timeline = nullptr;   ///< gets what is measured as well; nullptr: nobody asked
   std::exception_ptr caught;      ///< the last one, kept: to let go of it frees memory
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};

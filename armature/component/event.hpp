@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/component/entrance.hpp"
+#include "armature/component/event_tap.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
@@ -58,6 +60,12 @@ class EventBase {
   /// `listener` belongs to the same component and is told before the subscribers.
   void add_listener(EventListener& listener) { listeners_.push_back(&listener); }
 
+  /// `tap` is told until it is removed; also while the application runs.
+  /// @rt nonblocking, no allocation, O(taps)
+  /// @thread the component's own
+  void add_tap(EventTap& tap);
+  void remove_tap(EventTap& tap);
+
  protected:
   EventBase(Component& owner, std::string_view name, std::string_view doc,
             Signature signature) noexcept;
@@ -65,6 +73,9 @@ class EventBase {
   void tell_listeners() {
     for (EventListener* listener : listeners_) listener->event_raised();
   }
+
+  bool is_tapped() const { return first_tap_ != nullptr; }
+  void tell_taps(const void* const* arguments) noexcept;
 
   std::uint64_t raised_ = 0;
   std::vector<EventHandlerBase*> subscribers_;
@@ -75,6 +86,7 @@ class EventBase {
   std::string_view doc_;
   Signature signature_;
   std::vector<EventListener*> listeners_;
+  EventTap* first_tap_ = nullptr;
 };
 
 /// Option of an event handler: it runs in the thread of whoever raises the event, at once, even if
@@ -164,6 +176,10 @@ class Event final : public EventBase {
     if (!queues_.empty()) rt::flush_outbox();  // who is told of an event is woken at once
     for (EventHandler<Args...>* handler : direct_) {
       owner().call_out(handler->owner(), [&] { handler->handle(owner().context(), arguments...); });
+    }
+    if (is_tapped()) [[unlikely]] {
+      const std::array<const void*, sizeof...(Args)> places{&arguments...};
+      tell_taps(places.data());
     }
     return status;
   }

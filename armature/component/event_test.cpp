@@ -264,5 +264,33 @@ TEST_F(Events, HaveASignatureThatHandlersCanBeComparedWith) {
   EXPECT_EQ(raiser_.happened.signature().text(), "void(int32 count)");
 }
 
+// --- taps ----------------------------------------------------------------------------------------
+
+class Noting final : public EventTap {
+ public:
+  std::vector<int> counts;
+
+ private:
+  void event_raised(const void* const* arguments) noexcept override {
+    counts.push_back(*static_cast<const int*>(arguments[0]));
+  }
+};
+
+TEST_F(Events, AreSeenByEachTapUntilItIsRemoved) {
+  Noting first;
+  Noting second;
+  raiser_.happened.add_tap(first);
+  raiser_.happened.raise(1);
+  raiser_.happened.add_tap(second);
+  raiser_.happened.raise(2);
+  raiser_.happened.remove_tap(first);
+  raiser_.happened.remove_tap(first);
+  raiser_.happened.raise(3);
+  raiser_.happened.remove_tap(second);
+  raiser_.happened.raise(4);
+  EXPECT_THAT(first.counts, ElementsAre(1, 2));
+  EXPECT_THAT(second.counts, ElementsAre(2, 3));
+}
+
 }  // namespace
 }  // namespace armature::component

@@ -59,7 +59,7 @@ class InputPortBase : public PortBase {
   bool allows_fan_in() const { return about().fan_in; }
   bool connected() const { return !about().writers.empty(); }
   const std::vector<OutputPortBase*>& writers() const { return about().writers; }
-  bool ages() const { return has(kAges); }
+  bool ages() const { return about().max_age > base::Duration::zero(); }
   base::Duration max_age() const { return about().max_age; }
   Reaction stale_reaction() const { return about().stale_reaction; }
   Reaction lost_reaction() const { return about().lost_reaction; }
@@ -87,8 +87,11 @@ class InputPortBase : public PortBase {
   /// @thread the writer's
   void tell_lost() { owner().context().raise(about().lost); }
 
-  /// Its component runs and has no ages to look at, or not any more.
-  void set_at_once(bool on) { set(kRests, !on); }
+  /// Its component runs, and no ages have to be looked at, or not for some time.
+  void set_at_once(bool on) {
+    set(kRests, !on);
+    set(kAges, !on && ages());
+  }
 
   /// The component starts: reactions to ages count from now.
   void begin();
@@ -105,6 +108,11 @@ class InputPortBase : public PortBase {
 
   // --- for the output port that is connected ---------------------------------------------------
   void connect_channel(OutputPortBase& writer, std::unique_ptr<internal::ChannelBase> channel);
+  /// Several writers will be connected, which take turns: one runs, the others do not. What the
+  /// last one wrote stays until the next one writes.
+  /// @thread configuration only, before they are connected
+  void let_writers_take_turns() { about().turns = true; }
+  bool writers_take_turns() const { return about().turns; }
   virtual void disconnect(OutputPortBase& writer) = 0;
   /// A sample was written in this thread to the place that this port reads; for a component that
   /// calls out (see Component::call_out).
@@ -128,7 +136,8 @@ class InputPortBase : public PortBase {
     ~About() override;
 
     bool fan_in = false;
-    bool late = false;  ///< the reaction to old data happened
+    bool turns = false;  ///< its writers take turns
+    bool late = false;   ///< the reaction to old data happened
     LeadsTo leads_to;
     Reaction stale_reaction = Reaction::kStop;
     Reaction lost_reaction = Reaction::kStop;
@@ -156,6 +165,7 @@ class InputPortBase : public PortBase {
   void forget_writer(OutputPortBase& writer);
   /// The next sample was taken from `channel`.
   void note_taken(internal::ChannelBase& channel, std::uint64_t sequence);
+  bool has_running_writer() const;
   virtual void look_for_newer() = 0;
 
   ReadStatus status_of(std::uint64_t sequence) {
@@ -188,7 +198,7 @@ class InputPortBase : public PortBase {
 
   /// What makes a port less simple than most; all of it in one byte, so that one look tells.
   enum Special : std::uint8_t {
-    kAges = 1,    ///< a maximum age is declared
+    kAges = 1,    ///< a maximum age is declared and has to be looked at
     kZeroed = 2,  ///< its writer was lost, and nothing came since
     kPulls = 4,   ///< a read takes from channels
     kRests = 8,   ///< its component does not run, or looks at ages first
@@ -327,6 +337,8 @@ class InputPort final : public InputPortBase {
 
   /// Takes the next sample of the channels, in turn; the channel it came from, or nullptr.
   internal::Channel<T>* pull();
+  /// Of writers that take turns only the newest sample counts.
+  internal::Channel<T>* pull_newest();
   void take(internal::Channel<T>& channel, const Sample<T>& sample);
   /// A FIFO's next sample is not passed over: it is the one to be read next.
   void look_for_newer() override;

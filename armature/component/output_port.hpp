@@ -42,6 +42,12 @@ class OutputPortBase : public PortBase {
   /// `input` is no reader any more.
   void forget(InputPortBase& input);
 
+  /// `writer`, which feeds an input that this port feeds too, is what this port takes over from as
+  /// its component starts; nullptr: nothing.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  void take_over_from(const OutputPortBase* writer) { about().predecessor = writer; }
+
   /// Has every n-th sample from the first on go to a tap as well, which lives until
   /// `disconnect_all`. It is no reader: a write says what it would say without.
   /// @param capacity  samples that it holds
@@ -63,6 +69,7 @@ class OutputPortBase : public PortBase {
     std::vector<InputPortBase*> triggered;  ///< readers in this thread whose handlers run now
     std::vector<internal::ChannelBase*> channels;
     std::vector<std::unique_ptr<internal::PortTapBase>> taps;
+    const OutputPortBase* predecessor = nullptr;
   };
   OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
@@ -131,6 +138,15 @@ class OutputPort final : public OutputPortBase {
 
   /// The value last written.
   const T& last() const { return sample_.value; }
+
+  /// For `on_start`: what the readers of this port have from the writer whose place it takes, if
+  /// the component starts because modes are switched; nullptr at every other start.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  const T* taken_over() const {
+    const OutputPortBase* const predecessor = about().predecessor;
+    return predecessor == nullptr ? nullptr : static_cast<const T*>(predecessor->current());
+  }
 
   const void* current() const override;
   base::Time current_time() const override;

@@ -105,6 +105,7 @@ void InputPortBase::forget_writer(OutputPortBase& writer) {
   About& mine = about();
   std::erase(mine.writers, &writer);
   std::erase_if(mine.channels, [&writer](const auto& each) { return each->writer == &writer; });
+  if (mine.writers.empty()) mine.turns = false;
   mine.next_channel = 0;
   mine.unread = false;
   mine.looked_ahead = false;
@@ -237,7 +238,7 @@ void InputPortBase::begin() {
 }
 
 void InputPortBase::check_age() {
-  if (!has(kAges) || !connected() || owner().state() != State::kRunning) return;
+  if (!ages() || !connected() || owner().state() != State::kRunning) return;
   look_for_newer();
   About& mine = about();
   const bool was_late = std::exchange(mine.late, is_stale(written()));
@@ -253,13 +254,12 @@ base::Time InputPortBase::written() const {
 }
 
 base::Time InputPortBase::expiry() const {
-  const bool ages = has(kAges) && connected() && !about().late;
-  if (!ages) return base::Time::max();
+  if (!ages() || !connected() || about().late) return base::Time::max();
   return base::later(base::later(written(), about().max_age), base::Duration(1));
 }
 
 base::Time InputPortBase::age_holds_until() const {
-  if (!has(kAges) || !connected()) return base::Time::max();
+  if (!ages() || !connected()) return base::Time::max();
   // What comes after old data, or from several writers, may change at any time how old it is.
   if (about().late || about().fan_in) return base::Time{};
   return base::later(written(), about().max_age);
@@ -269,8 +269,16 @@ void InputPortBase::Lost::deliver(rt::Message& message) {
   auto& lost = static_cast<Lost&>(message);
   lost.lower();
   About& about = lost.self.about();
+  if (about.turns && lost.self.has_running_writer()) return;  // it was not this one's turn
   ++about.counters.lost;
   lost.self.react(about.lost_reaction, "the component that writes it is out of service");
+}
+
+bool InputPortBase::has_running_writer() const {
+  const auto& writers = about().writers;
+  return std::any_of(writers.begin(), writers.end(), [](const OutputPortBase* writer) {
+    return writer->owner().state() >= State::kRunning;
+  });
 }
 
 void InputPortBase::react(Reaction reaction, std::string_view what) {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <type_traits>
 
+#include "armature/component/black_box.hpp"
 #include "armature/component/internal/property_tap.hpp"
 #include "armature/types/elements.hpp"
 
@@ -85,6 +86,9 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
   types::Value copy = value;
   swap(copy);
   about_->set = true;
+  if (const auto* box = about_->owner.context().black_box; box != nullptr) {
+    note(about_->owner, BlackBox::Note::Kind::kProperty, about_->name, value.text());
+  }
   tell_followers();
   return {};
 }

@@ -2,22 +2,16 @@
 #include "armature/control/error_metrics.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "armature/base/seconds.hpp"
 #include "armature/control/internal/mistakes.hpp"
 
 namespace armature::control {
-namespace {
-
-double seconds(base::Duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-}  // namespace
-
 base::Result<void> ErrorMetrics::check(const Config& config) {
   internal::Mistakes mistakes("ErrorMetrics");
   mistakes.expect(config.joints >= 1, "joints", 0.0, "at least 1");
-  mistakes.expect_positive("period [s]", seconds(config.period));
+  mistakes.expect_positive("period [s]", base::to_seconds(config.period));
   return mistakes.result();
 }
 
@@ -27,7 +21,7 @@ base::Result<ErrorMetrics> ErrorMetrics::make(const Config& config) {
 }
 
 ErrorMetrics::ErrorMetrics(const Config& config)
-    : period_s_(seconds(config.period)), figures_(config.joints) {}
+    : period_s_(base::to_seconds(config.period)), figures_(config.joints) {}
 
 bool ErrorMetrics::step(std::span<const double> errors) {
   if (errors.size() != figures_.size()) return false;

@@ -2,9 +2,9 @@
 #include "armature/control/joint_limiter.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "armature/base/seconds.hpp"
 #include "armature/control/internal/mistakes.hpp"
 
 namespace armature::control {
@@ -18,8 +18,6 @@ constexpr double kTolerance = 1e-6;
 constexpr double kHuge = 1e100;
 /// Below this, whole numbers and their squares are exact enough to count steps by.
 constexpr double kExact = 1e12;
-
-double seconds(base::Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 bool finite(const JointLimiter::Measured& measured) {
   return std::isfinite(measured.position) && std::isfinite(measured.velocity);
@@ -35,8 +33,8 @@ base::Result<void> JointLimiter::check(const Config& config) {
   mistakes.expect_positive("max_velocity", config.max_velocity);
   mistakes.expect_positive("max_acceleration", config.max_acceleration);
   mistakes.expect_positive("max_effort", config.max_effort);
-  mistakes.expect_positive("period [s]", seconds(config.period));
-  mistakes.expect_not_negative("arming_time [s]", seconds(config.arming_time));
+  mistakes.expect_positive("period [s]", base::to_seconds(config.period));
+  mistakes.expect_not_negative("arming_time [s]", base::to_seconds(config.arming_time));
   if (config.arming_time > base::Duration{}) {
     mistakes.expect_positive("effort_rate", config.effort_rate);
   }
@@ -50,7 +48,7 @@ base::Result<JointLimiter> JointLimiter::make(const Config& config) {
 
 JointLimiter::JointLimiter(const Config& config)
     : config_(config),
-      period_s_(seconds(config.period)),
+      period_s_(base::to_seconds(config.period)),
       velocity_step_(config.max_acceleration * period_s_) {}
 
 bool JointLimiter::arm(const Measured& measured) {

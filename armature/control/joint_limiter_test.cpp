@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/base/seconds.hpp"
 #include "armature/control/trapezoid.hpp"
 
 namespace armature::control {
@@ -300,19 +301,17 @@ class RandomCommands {
   double drift_ = 0.0;
 };
 
-double seconds(base::Duration duration) { return std::chrono::duration<double>(duration).count(); }
-
 TEST(JointLimiter, NoPositionLeavesALimitOrCannotStopBeforeIt) {
   RandomCommands random(4711);
   for (int round = 0; round < 100; ++round) {
     const auto config = random.config();
     JointLimiter limiter = make_armed(0.0, config);
-    const double step = config.max_acceleration * seconds(config.period);
+    const double step = config.max_acceleration * base::to_seconds(config.period);
     double position = 0.0;
     double velocity = 0.0;
     for (int k = 0; k < 2000; ++k) {
       const double now = limiter.step_position({}, random.next()).value;
-      const double velocity_now = (now - position) / seconds(config.period);
+      const double velocity_now = (now - position) / base::to_seconds(config.period);
       ASSERT_GE(now, config.lower);
       ASSERT_LE(now, config.upper);
       ASSERT_LE(std::abs(velocity_now), config.max_velocity + 1e-5 * step);
@@ -329,14 +328,14 @@ TEST(JointLimiter, NoVelocityLeavesALimitOrCannotStopBeforeIt) {
   for (int round = 0; round < 100; ++round) {
     const auto config = random.config();
     JointLimiter limiter = make_armed(0.0, config);
-    const double step = config.max_acceleration * seconds(config.period);
+    const double step = config.max_acceleration * base::to_seconds(config.period);
     double position = 0.0;
     double velocity = 0.0;
     for (int k = 0; k < 2000; ++k) {
       const double now = limiter.step_velocity({position, velocity}, random.next()).value;
       ASSERT_LE(std::abs(now), config.max_velocity + 1e-9);
       ASSERT_LE(std::abs(now - velocity), step * (1.0 + 1e-9));
-      position += now * seconds(config.period);
+      position += now * base::to_seconds(config.period);
       velocity = now;
       ASSERT_GE(position, config.lower - 1e-9);
       ASSERT_LE(position, config.upper + 1e-9);

@@ -77,6 +77,15 @@ void check_grants(const Document& document, const exec::Blueprint& blueprint,
   }
 }
 
+void add_modes(const Document& document, exec::Blueprint& blueprint) {
+  for (const Mode& mode : document.modes) {
+    std::vector<exec::ModeMember> members;
+    for (const Reference& each : mode.components) members.push_back({each.name, each.where});
+    blueprint.add_mode(mode.name, std::move(members), mode.where);
+  }
+  blueprint.initial_mode = {document.mode.name, document.mode.where};
+}
+
 std::vector<Property> persistent_properties(const component::Component& component) {
   std::vector<Property> properties;
   for (const component::PropertyBase* property : component.interface().properties) {
@@ -103,6 +112,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   internal::ComponentBuilder components(document, registry, options, diagnostics);
   for (const Component& component : document.components) components.build(component, blueprint);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
+  add_modes(document, blueprint);
   check_grants(document, blueprint, diagnostics);
   return blueprint;
 }
@@ -111,6 +121,10 @@ exec::ApplicationOptions application_options(const Document& document) {
   exec::ApplicationOptions options;
   const bool stop = document.on_fault == OnFault::kStopAll;
   options.on_fault = stop ? exec::OnFault::kStop : exec::OnFault::kContinue;
+  const BlackBox& box = document.black_box;
+  if (box.history) options.black_box.history = *box.history;
+  if (!box.kept) options.black_box.history = base::Duration::zero();
+  if (box.memory_kb) options.black_box.memory = static_cast<std::size_t>(*box.memory_kb) * 1000;
   for (const Grant& grant : document.script_grants) {
     options.grants.push_back({exec::Caller::kScript, grant.component, grant.operation});
   }

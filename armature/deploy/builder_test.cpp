@@ -57,6 +57,18 @@ TEST(Builder, GrantsReachTheApplicationAndMustGrantSomething) {
   EXPECT_EQ(deployment.options.grants[0].operation, "arm");
 }
 
+TEST(Builder, TheBlackBoxIsAsLargeAsTheDocumentSays) {
+  const exec::BlackBoxOptions box =
+      deploy("black_box: {history: 5 s, memory_kB: 200}").options.black_box;
+  EXPECT_EQ(box.history, 5s);
+  EXPECT_EQ(box.memory, 200'000u);
+  EXPECT_EQ(deploy("black_box: off").options.black_box.history, 0s);
+  EXPECT_EQ(deploy("application: x").options.black_box.history, exec::BlackBoxOptions{}.history);
+  EXPECT_THAT(deploy("black_box: {history: 5}").diagnostics.to_text(), HasSubstr("history"));
+  EXPECT_THAT(deploy("black_box: maybe").diagnostics.to_text(),
+              HasSubstr("black_box must be off or on"));
+}
+
 TEST(Builder, WhatAnActivityDoesNotSayHasTheDefaultOfTheRuntime) {
   const Deployment deployment = deploy(R"(
 components:

@@ -42,6 +42,7 @@ void warn_of_idle_components(const Deployment& deployment, base::Diagnostics& di
 /// Goes on from the document as far as it could be read, so that all mistakes are found in one run.
 void complete(Deployment& deployment, const DeploymentOptions& options) {
   base::Diagnostics& diagnostics = deployment.diagnostics;
+  if (!options.mode.empty()) deployment.document.mode = {options.mode, {"<command line>", 0, 0}};
   const Document& document = deployment.document;
   if (options.models) options.models(deployment.models);
   const bool all_loaded =

@@ -21,6 +21,7 @@ struct DeploymentOptions {
   LoadOptions document;                      ///< overrides of the command line, how files are read
   std::vector<std::string> library_folders;  ///< looked through before all others
   std::function<void(component::Registry&)> models;  ///< adds models of the program itself
+  std::string mode;        ///< in which it starts, whatever the document says
   std::string times_file;  ///< measured execution times (see schedule.hpp); empty: none
   int cpus = 0;            ///< of the machine that is to run it; 0: as many as this one has
 };

@@ -165,8 +165,24 @@ struct Grant {
   base::Location where;
 };
 
+/// Components that run together; what no mode names runs in all.
+struct Mode {
+  std::string name;
+  std::vector<Reference> components;  ///< full names
+  base::Location where;
+};
+
 /// What follows when a component faults.
 enum class OnFault { kStopDependents, kStopAll, kKeepRunning };
+
+/// What is kept for the case of a fault; what is not given is the runtime's choice.
+struct BlackBox {
+  bool kept = true;
+  std::optional<base::Duration> history;
+  std::optional<int> memory_kb;
+
+  bool usual() const { return kept && !history && !memory_kb; }
+};
 
 /// An application as a user described it: ranges, parameters and composites are expanded, names are
 /// resolved as far as the document alone can; nothing is checked against models yet.
@@ -182,6 +198,9 @@ struct Document {
   std::vector<Composite> composites;
   std::vector<Script> scripts;
   std::vector<Grant> script_grants;
+  std::vector<Mode> modes;
+  Reference mode;  ///< in which it starts; empty: the first
+  BlackBox black_box;
   Value recorder;  ///< kNone if the document has none
 };
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <system_error>
 
 #include "armature/base/near_name.hpp"
+#include "armature/base/seconds.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
@@ -112,7 +112,7 @@ std::optional<base::Duration> ValueReader::duration(const Value& value,
   if (!seconds.ok()) return refuse("must be a time");
   const bool possible = seconds.value() >= 1e-9 && seconds.value() <= kLongestSeconds;
   if (!possible) return refuse("must be from 1 ns to 1000000 s");
-  return base::Duration(std::llround(seconds.value() * 1e9));
+  return base::from_seconds(seconds.value());
 }
 
 void ValueReader::refuse_choice(const Value& value, std::string_view what, const std::string& found,

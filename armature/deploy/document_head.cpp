@@ -19,8 +19,9 @@ std::string path_from(const Document& document, std::string_view path) {
 namespace internal {
 namespace {
 
-constexpr std::array<std::string_view, 7> kHeadKeys = {
-    "application", "on_fault", "libraries", "scripts", "grants", "recorder", "composed"};
+constexpr std::array<std::string_view, 10> kHeadKeys = {
+    "application", "on_fault", "black_box", "libraries", "scripts",
+    "grants",      "modes",    "mode",      "recorder",  "composed"};
 
 std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
   Script script{{}, {}, value.where};
@@ -57,6 +58,41 @@ void read_grants(const Value& value, const ValueReader& reader, Document& docume
     document.script_grants.push_back({std::move(component), std::move(operation), grant->where});
   }
   fields.refuse_others();
+}
+
+void read_modes(const Value& value, const ValueReader& reader, Document& document) {
+  for (const Property& entry : value.entries) {
+    Mode mode{entry.name, {}, entry.where};
+    if (!is_name(entry.name)) {
+      reader.error(entry.where,
+                   "mode " + in_quotes(entry.name) + " must be a name: letters, digits, _ and -");
+    }
+    for (const Value* component : items_of(&entry.value)) {
+      if (component->kind == Value::Kind::kNone) continue;  // an empty mode is refused later
+      auto name = reader.dotted_name(*component, "mode " + in_quotes(entry.name));
+      if (name) mode.components.push_back({std::move(*name), component->where});
+    }
+    document.modes.push_back(std::move(mode));
+  }
+}
+
+BlackBox read_black_box(const Value& value, const ValueReader& reader) {
+  constexpr int kMostMemory = 1'000'000;
+  BlackBox box;
+  if (value.kind != Value::Kind::kMap) {
+    const Choices<bool> choices = {{"off", false}, {"on", true}};
+    assign(reader.choice(value, "black_box", choices), box.kept);
+    return box;
+  }
+  Fields fields(value, reader);
+  if (const Value* history = fields.take("history")) {
+    box.history = reader.duration(*history, "history of black_box");
+  }
+  if (const Value* memory = fields.take("memory_kB")) {
+    box.memory_kb = reader.whole_number(*memory, "memory_kB of black_box", 1, kMostMemory);
+  }
+  fields.refuse_others();
+  return box;
 }
 
 void read_composed(const Value& value, Document& document, base::Diagnostics& diagnostics) {
@@ -102,9 +138,10 @@ bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
 }
 
 std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
-  constexpr std::array<std::pair<const char*, Value::Kind>, 6> kKinds = {
+  constexpr std::array<std::pair<const char*, Value::Kind>, 7> kKinds = {
       {{"parameters", Value::Kind::kMap},
        {"grants", Value::Kind::kMap},
+       {"modes", Value::Kind::kMap},
        {"components", Value::Kind::kMap},
        {"composites", Value::Kind::kMap},
        {"connections", Value::Kind::kList},
@@ -116,7 +153,10 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
     known.emplace_back(key);
     return fields.take(key);
   };
-  for (const char* key : {"application", "on_fault", "include", "libraries", "scripts"}) take(key);
+  for (const char* key :
+       {"application", "on_fault", "black_box", "include", "libraries", "scripts", "mode"}) {
+    take(key);
+  }
   for (const auto& [key, kind] : kKinds) require_kind(take(key), kind, key, reader);
   require_kind(take("recorder"), Value::Kind::kMap, "recorder", reader);
   fields.refuse_others();
@@ -173,6 +213,9 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
                                       {"keep_running", OnFault::kKeepRunning}};
     assign(reader.choice(*on_fault, "on_fault", choices), document.on_fault);
   }
+  if (const Value* box = fields.take("black_box")) {
+    document.black_box = read_black_box(*box, reader);
+  }
   for (const Value* library : items_of(fields.take("libraries"))) {
     if (auto name = reader.text(*library, "library")) {
       document.libraries.push_back({std::move(*name), library->where});
@@ -182,6 +225,11 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     if (auto one = read_script(*script, reader)) document.scripts.push_back(std::move(*one));
   }
   if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
+  if (const Value* modes = fields.take("modes")) read_modes(*modes, reader, document);
+  if (const Value* mode = fields.take("mode")) {
+    document.mode.where = mode->where;
+    assign(reader.text(*mode, "mode"), document.mode.name);
+  }
   if (const Value* recorder = fields.take("recorder")) document.recorder = *recorder;
   if (const Value* composed = fields.take("composed")) {
     read_composed(*composed, document, diagnostics);

@@ -85,7 +85,7 @@ class Sources {
     Property* before = find(all.entries, section.name);
     if (before == nullptr) {
       all.entries.push_back(std::move(section));
-    } else if (section.name == "parameters") {
+    } else if (section.name == "parameters" || section.name == "modes") {
       for (Property& one : section.value.entries) {
         replace(before->value.entries, std::move(one), own);
       }

@@ -14,6 +14,7 @@ using internal::Loaded;
 constexpr const char* kEverything = R"(
 application: everything
 on_fault: stop_all
+black_box: {history: 5 s, memory_kB: 200}
 libraries: [robot, ./local.so]
 parameters: {joints: 2, gains: [1.0, 2]}
 components:
@@ -54,6 +55,8 @@ connections:
   - {name: bus, ports: [S.x, C.x, J1.x], policy: {fifo: 2}}
 scripts: [a.lua, {file: b.lua, component: S}]
 grants: {script: [S.arm, left.d.go]}
+modes: {one: ["J{1..2}", left], two: [C, J1]}
+mode: two
 recorder: {to: x.csv, ports: ["J{1..2}.Position", S.a], every: 10, nothing: }
 )";
 

@@ -203,6 +203,22 @@ Value grants_tree(const std::vector<Grant>& to_scripts) {
   return map;
 }
 
+Value mode_tree(const Mode& mode) {
+  Value list = make_list();
+  for (const Reference& component : mode.components) {
+    list.items.push_back(make_text(component.name));
+  }
+  return list;
+}
+
+Value black_box_tree(const BlackBox& box) {
+  if (!box.kept) return make_text("off");
+  Value map = make_map();
+  if (box.history) add(map, "history", to_text(*box.history));
+  if (box.memory_kb) add(map, "memory_kB", std::to_string(*box.memory_kb));
+  return map;
+}
+
 template <typename List, typename Convert>
 void add_section(Value& tree, const char* key, const List& list, Convert convert) {
   if (list.empty()) return;
@@ -246,6 +262,7 @@ Value to_tree(const Document& document) {
   if (document.on_fault != OnFault::kStopDependents) {
     add(tree, "on_fault", to_text(document.on_fault));
   }
+  if (!document.black_box.usual()) add(tree, "black_box", black_box_tree(document.black_box));
   add_items(tree, "libraries", converted(document.libraries, reference_tree));
   if (!document.parameters.empty()) add(tree, "parameters", map_of(document.parameters));
   add_section(tree, "components", document.components, component_tree);
@@ -256,6 +273,8 @@ Value to_tree(const Document& document) {
   add_section(tree, "composed", document.composites, composite_tree);
   add_items(tree, "scripts", converted(document.scripts, script_tree));
   if (!document.script_grants.empty()) add(tree, "grants", grants_tree(document.script_grants));
+  add_section(tree, "modes", document.modes, mode_tree);
+  if (!document.mode.name.empty()) add(tree, "mode", document.mode.name);
   if (document.recorder.kind != Value::Kind::kNone) add(tree, "recorder", document.recorder);
   return tree;
 }

@@ -53,6 +53,19 @@ TEST(Composite, BecomesComponentsNamedAfterItsInstance) {
   EXPECT_EQ(property(loaded, "base.wheel2", "limit"), "2 rad/s");
 }
 
+TEST(Composite, InAModeStandsForItsParts) {
+  const Loaded loaded = load_chassis(
+      "components: {b: {model: Chassis, properties: {top_speed: 1}}, c: {model: Card}}\n"
+      "modes: {one: [b], two: [\"{c}\", c]}\nmode: two\n");
+  EXPECT_EQ(loaded.messages(),
+            "robot.yaml:2:25: error: document: mode 'two' '{c}' is not a name (a name has letters, "
+            "digits, '_' and '-' and begins with a letter)\n");
+  ASSERT_EQ(loaded.document.modes.size(), 2u);
+  ASSERT_EQ(loaded.document.modes[0].components.size(), 3u);
+  EXPECT_EQ(loaded.document.modes[0].components[1].name, "b.wheel2");
+  EXPECT_EQ(loaded.document.mode.name, "two");
+}
+
 TEST(Composite, ConnectsItsParts) {
   const Loaded loaded =
       load_chassis("components: {b: {model: Chassis, properties: {top_speed: 1}}}");

@@ -63,6 +63,16 @@ class Resolver {
     report();
   }
 
+  /// A composite in a mode stands for its parts.
+  void resolve_mode(Mode& mode) {
+    std::vector<Reference> components;
+    for (const Reference& each : mode.components) {
+      if (check_visible({}, each.name, each.where)) resolve_delay(each, {}, components);
+    }
+    mode.components = std::move(components);
+    report();
+  }
+
   void resolve_endpoint(Endpoint& endpoint, const std::string& scope) {
     resolve_member(scope, {ExportKind::kPort}, {endpoint.component, endpoint.port, endpoint.where});
     report();
@@ -218,6 +228,7 @@ void resolve_names(Document& document, const Scopes& scopes, const NameTable& na
       resolver.resolve_endpoint(port, scopes.named_connections[i]);
     }
   }
+  for (Mode& mode : document.modes) resolver.resolve_mode(mode);
 }
 
 }  // namespace armature::deploy::internal

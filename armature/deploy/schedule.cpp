@@ -25,9 +25,9 @@ constexpr double kDeadlineShare = 0.95;  // the kernel admits no more
 /// Finds each thread's execution time and period.
 class LoadFinder {
  public:
-  LoadFinder(const exec::Blueprint& blueprint, const ExecutionTimes& measured,
-             base::Diagnostics& diagnostics)
-      : blueprint_(blueprint), measured_(measured), diagnostics_(diagnostics) {}
+  LoadFinder(const exec::Blueprint& blueprint, const exec::Plan& plan,
+             const ExecutionTimes& measured, base::Diagnostics& diagnostics)
+      : blueprint_(blueprint), plan_(plan), measured_(measured), diagnostics_(diagnostics) {}
 
   ThreadLoad load_of(const exec::ThreadPlan& thread) {
     ThreadLoad load;
@@ -54,24 +54,46 @@ class LoadFinder {
     if (thread.activity.scheduler == exec::Activity::Scheduler::kDeadline) {
       return thread.activity.budget;
     }
-    base::Duration sum{};
-    for (const Index member : thread.members) {
-      sum += blueprint_.components[member].activity.budget;
+    return most_of_modes([&](exec::ModeSet mode) {
+      base::Duration sum{};
+      for (const Index member : thread.members) {
+        if (runs_in(mode, member)) sum += blueprint_.components[member].activity.budget;
+      }
+      return sum;
+    });
+  }
+
+  /// What modes switch lives in one thread, so that no two threads need their most in different
+  /// modes.
+  template <typename Cost>
+  base::Duration most_of_modes(const Cost& cost) const {
+    base::Duration most{};
+    for (std::size_t mode = 0; mode < std::max<std::size_t>(1, plan_.modes.size()); ++mode) {
+      most = std::max(most, cost(exec::ModeSet{1} << mode));
     }
-    return sum;
+    return most;
+  }
+  bool runs_in(exec::ModeSet mode, Index component) const {
+    return (plan_.modes_of[component] & mode) != 0;
   }
 
   /// The thread's, or else the sum of its components' if they were measured in other threads.
   std::optional<base::Duration> measured_cost(const exec::ThreadPlan& thread) const {
     const auto whole = measured_.threads.find(thread.name);
     if (whole != measured_.threads.end()) return whole->second.p999;
-    base::Duration sum{};
+    const auto measured = [&](Index member) {
+      return measured_.components.find(blueprint_.components[member].component->name());
+    };
     for (const Index member : thread.members) {
-      const auto one = measured_.components.find(blueprint_.components[member].component->name());
-      if (one == measured_.components.end()) return std::nullopt;
-      sum += one->second.p999;
+      if (measured(member) == measured_.components.end()) return std::nullopt;
     }
-    return sum;
+    return most_of_modes([&](exec::ModeSet mode) {
+      base::Duration sum{};
+      for (const Index member : thread.members) {
+        if (runs_in(mode, member)) sum += measured(member)->second.p999;
+      }
+      return sum;
+    });
   }
 
   void warn_of_budget(const exec::ThreadPlan& thread, base::Duration declared,
@@ -83,6 +105,7 @@ class LoadFinder {
   }
 
   const exec::Blueprint& blueprint_;
+  const exec::Plan& plan_;
   const ExecutionTimes& measured_;
   base::Diagnostics& diagnostics_;
 };
@@ -267,7 +290,7 @@ Schedule check_schedule(const exec::Blueprint& blueprint, const exec::Plan& plan
   schedule.cpus = cpus;
   schedule.threads.reserve(plan.threads.size());
   std::vector<LoadChecker::Task> tasks;
-  LoadFinder finder(blueprint, measured, diagnostics);
+  LoadFinder finder(blueprint, plan, measured, diagnostics);
   for (const exec::ThreadPlan& thread : plan.threads) {
     if (thread.members.empty()) continue;
     schedule.threads.push_back(finder.load_of(thread));

@@ -55,6 +55,27 @@ TEST(Schedule, AResponseAfterThePeriodIsAnError) {
                     HasSubstr("but its period is 20 ms"), HasSubstr("waits for 'T0', 'T1'")));
 }
 
+TEST(Schedule, OfModesTheMostExpensiveCounts) {
+  const auto with = [](const char* second_budget) {
+    DeploymentOptions options;
+    options.cpus = 1;
+    return deploy(std::string(R"(
+components:
+  A: {model: Source, activity: {periodic: 10 ms, priority: 50, budget: 1 ms}}
+  B: {model: Echo, activity: {sequential: true, budget: 6 ms}}
+  C: {model: Echo, activity: {sequential: true, budget: )") +
+                      second_budget + R"(}}
+connections: [A.Out -> B.In, A.Out -> C.In]
+modes: {one: [B], two: [C]}
+)",
+                  options);
+  };
+  const Deployment fits = with("8 ms");
+  ASSERT_TRUE(fits.ok()) << fits.diagnostics.to_text();
+  EXPECT_EQ(fits.schedule.threads.front().cost, 9ms) << "not the sum of both modes";
+  EXPECT_THAT(with("10 ms").diagnostics.to_text(), HasSubstr("thread 'A' (priority 50) answers"));
+}
+
 TEST(Schedule, AFullCpuIsNotTooFull) {
   EXPECT_TRUE(sources({periodic(10000, 30, 5000), periodic(10000, 20, 5000)}).ok());
   EXPECT_THAT(sources({periodic(10000, 30, 5000), periodic(10000, 20, 5001)}).diagnostics.to_text(),

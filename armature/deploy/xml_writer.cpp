@@ -83,8 +83,8 @@ class DeployerWriter {
 
   Attributes root_attributes() {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
-    for (const char* key :
-         {"application", "on_fault", "parameters", "composed", "scripts", "grants", "recorder"}) {
+    for (const char* key : {"application", "on_fault", "black_box", "parameters", "composed",
+                            "scripts", "grants", "modes", "mode", "recorder"}) {
       extend(attributes, tree_, key);
     }
     return attributes;

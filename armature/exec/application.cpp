@@ -42,6 +42,8 @@ Application::Application(Blueprint blueprint, ApplicationOptions options)
     : blueprint_(std::move(blueprint)),
       options_(std::move(options)),
       logs_(options_.log),
+      timeline_(options_.timeline),
+      black_boxes_(options_.black_box),
       incidents_(std::make_unique<internal::Incidents>()) {
   for (Index i = 0; i < blueprint_.components.size(); ++i) {
     index_of_.emplace(blueprint_.components[i].component->name(), i);
@@ -78,6 +80,7 @@ base::Diagnostics Application::start() {
   incidents_ = std::make_unique<internal::Incidents>();
   apply_declared_reactions();
   make_engines();
+  set_up_modes();
   const bool up = configure_all(diagnostics) && connect_all(diagnostics) &&
                   prepare_threads(diagnostics) && start_all(diagnostics) && get_ready(diagnostics);
   if (up) {
@@ -120,6 +123,7 @@ void Application::make_engines() {
     engines.push_back(&engine);
   }
   logs_.set_engines(engines);
+  timeline_.set_engines(engines, plan_, options_.simulated);
   if (options_.simulated) simulation_ = std::make_unique<internal::Simulation>(engines);
 }
 
@@ -151,6 +155,7 @@ RunEnd Application::run_threads_until(base::Time end, const std::function<bool()
     if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
     const base::Time at = now();
+    say(black_boxes_.write_if_due(*incidents_, at));
     logs_.tell_losses_now_and_then(at);
     if (condition && condition()) return RunEnd::kConditionMet;
     if (at >= end) return RunEnd::kTimeUp;
@@ -168,9 +173,11 @@ RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& 
   while (true) {
     while (Engine* const engine = simulation_->take_turn(simulated_now_)) {
       logs_.drain(*engine);
+      timeline_.drain_if_half_full();
       if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
       if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     }
+    say(black_boxes_.write_if_due(*incidents_, simulated_now_));
     logs_.tell_losses_now_and_then(simulated_now_);
     if (condition && condition()) return RunEnd::kConditionMet;
     if (simulated_now_ >= end) return RunEnd::kTimeUp;
@@ -189,6 +196,15 @@ base::Time Application::now() const {
   return options_.simulated ? simulated_now_ : platform::monotonic_now();
 }
 
-void Application::drain_logs() { logs_.drain(); }
+/// Empty texts say nothing.
+void Application::say(const std::string& text) {
+  if (text.empty()) return;
+  logs_.say(text, now());
+}
+
+void Application::drain_logs() {
+  logs_.drain();
+  timeline_.drain();
+}
 
 }  // namespace armature::exec

@@ -14,12 +14,16 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
 #include "armature/component/command.hpp"
+#include "armature/exec/black_box.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/engine.hpp"
+#include "armature/exec/internal/black_boxes.hpp"
 #include "armature/exec/internal/hook_series.hpp"
 #include "armature/exec/internal/incidents.hpp"
 #include "armature/exec/internal/log_pump.hpp"
+#include "armature/exec/internal/timeline_pump.hpp"
 #include "armature/exec/plan.hpp"
+#include "armature/exec/timeline.hpp"
 #include "armature/exec/verdict.hpp"
 #include "armature/platform/idle_states.hpp"
 #include "armature/platform/thread.hpp"
@@ -35,6 +39,8 @@ class Simulation;
 class ToolTicket;
 class StartGate;
 }  // namespace internal
+
+class Modes;
 
 enum class RealtimeMode : std::uint8_t {
   kOff,      ///< asks for nothing
@@ -73,6 +79,8 @@ struct ApplicationOptions {
   /// Where the files of recorders go that are named without a folder; empty: the working directory.
   std::string output_folder;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
+  TimelineOptions timeline;
+  BlackBoxOptions black_box;
   /// Called by `start` when all is in place, before the first cycle; if it throws, nothing starts.
   std::function<void()> ready;
 };
@@ -154,9 +162,11 @@ class Application final {
   component::Outcome stop_component(std::string_view name);
   component::Outcome recover_component(std::string_view name);
   component::Outcome reset_component(std::string_view name);
+  /// Goes over to another mode between two cycles, see exec/modes.hpp; refused, all is as it was.
+  component::Outcome switch_mode(std::string_view name);
   base::Result<void> set_property(std::string_view component, std::string_view property,
                                   const types::Value& value);
-  /// The current value of a property or port.
+  /// The current value of a property or port; of an input, what its component has taken of it.
   base::Result<types::Value> value_of(std::string_view component, std::string_view item);
   base::Result<std::optional<types::Value>> call(std::string_view component,
                                                  std::string_view operation,
@@ -173,7 +183,7 @@ class Application final {
 
   std::vector<ThreadStatistics> thread_statistics() const;
 
-  /// Hands log lines to the sink; `run_for` does it too.
+  /// Hands log lines and the timeline to their sinks; `run_for` does it too.
   void drain_logs();
 
  private:
@@ -191,6 +201,10 @@ class Application final {
 
   void make_engines();
   void apply_declared_reactions();
+
+  // application_modes.cpp
+  Modes* modes() const;
+  void set_up_modes();
 
   // application_life_cycle.cpp
   bool configure_all(base::Diagnostics& diagnostics);
@@ -238,8 +252,9 @@ class Application final {
   base::Result<types::Value> value_of(component::Component& component, const types::Type& type,
                                       std::function<const void*()> data);
   component::Outcome change(std::string_view name,
-                            component::Outcome (*transition)(component::Component&));
+                            std::function<component::Outcome(component::Component&)> transition);
   std::optional<RunEnd> end_by_fault() const;
+  void say(const std::string& text);
   const ComponentEntry& entry_of(const component::Component& component) const {
     return blueprint_.components[index_of_.at(component.name())];
   }
@@ -251,6 +266,8 @@ class Application final {
   std::vector<std::unique_ptr<Engine>> engines_;
   std::unique_ptr<internal::Simulation> simulation_;
   internal::LogPump logs_;
+  internal::TimelinePump timeline_;
+  internal::BlackBoxes black_boxes_;
   std::unique_ptr<internal::Incidents> incidents_;
   std::vector<Worker> workers_;
   std::shared_ptr<internal::StartGate> gate_;

@@ -9,6 +9,7 @@
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/internal/tool_ticket.hpp"
+#include "armature/exec/modes.hpp"
 #include "armature/exec/task.hpp"
 
 namespace armature::exec {
@@ -76,21 +77,23 @@ bool Application::run_in_thread_of(Component& component, std::function<void()> w
   return true;
 }
 
-Outcome Application::change(std::string_view name, Outcome (*transition)(Component&)) {
+Outcome Application::change(std::string_view name, std::function<Outcome(Component&)> transition) {
   Component* const component = find(name);
   if (component == nullptr) return component::refused(unknown_component(name));
   const auto outcome = std::make_shared<Outcome>(component::accepted());
-  if (!run_in_thread_of(*component,
-                        [outcome, component, transition] { *outcome = transition(*component); })) {
+  if (!run_in_thread_of(*component, [outcome, component, transition = std::move(transition)] {
+        *outcome = transition(*component);
+      })) {
     return component::refused(not_answered(*component));
   }
   return *outcome;
 }
 
 Outcome Application::start_component(std::string_view name) {
-  return change(name, [](Component& component) {
+  return change(name, [modes = modes()](Component& component) {
+    Outcome outcome = modes == nullptr ? component::accepted() : modes->admit(component);
     const bool fresh = component.state() == component::State::kPreOperational;
-    Outcome outcome = fresh ? component.configure() : component::accepted();
+    if (outcome && fresh) outcome = component.configure();
     if (outcome && component.state() == component::State::kStopped) outcome = component.activate();
     return outcome ? component.start() : outcome;
   });
@@ -196,6 +199,8 @@ base::Result<std::optional<types::Value>> Application::call(std::string_view nam
   using Answer = base::Result<std::optional<types::Value>>;
   const auto answer = std::make_shared<Answer>(std::optional<types::Value>());
   if (!run_in_thread_of(operation->owner(), [answer, operation, arguments = std::move(arguments)] {
+        component::note(operation->owner(), component::BlackBox::Note::Kind::kCall,
+                        operation->name(), {});
         *answer = operation->invoke(arguments);
       })) {
     return base::Error{not_answered(operation->owner())};

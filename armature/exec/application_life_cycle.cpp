@@ -8,6 +8,7 @@
 #include "armature/component/observer.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
+#include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec {
 namespace {
@@ -73,14 +74,13 @@ bool Application::connect_all(base::Diagnostics& diagnostics) {
   }
   for (const CallPlan& call : plan_.calls) call.requirement->connect(*call.operation);
   if (!plan_.observers.empty()) let_observers_look();
+  black_boxes_.set_engines(engines_, blueprint_, plan_, options_.simulated);
   return diagnostics.ok();
 }
 
 void Application::let_observers_look() {
-  component::Surroundings surroundings{{}, options_.output_folder};
-  for (const ComponentEntry& entry : blueprint_.components) {
-    surroundings.components.push_back(entry.component.get());
-  }
+  const component::Surroundings surroundings{internal::components_of(blueprint_),
+                                             options_.output_folder};
   for (const Index index : plan_.observers) {
     for (auto* observer : blueprint_.components[index].component->interface().observers) {
       observer->observe(surroundings);
@@ -92,9 +92,12 @@ bool Application::start_all(base::Diagnostics& diagnostics) {
   const base::Time begin = now();
   for (auto& engine : engines_) engine->context().cycle_time = begin;
   std::vector<Component*> components;
+  std::vector<Component*> starting;
   for (const Index index : plan_.start_order) {
     const ComponentEntry& entry = blueprint_.components[index];
-    if (entry.autostart) components.push_back(entry.component.get());
+    if (!entry.autostart) continue;
+    components.push_back(entry.component.get());
+    if (plan_.runs_at_start(index)) starting.push_back(entry.component.get());
   }
   // Whoever starts may call the others: so first all begin to serve.
   const Stage activate{[](Component& component) { return component.activate(); }, "on_activate",
@@ -102,7 +105,7 @@ bool Application::start_all(base::Diagnostics& diagnostics) {
   const Stage start{[](Component& component) { return component.start(); }, "on_start", "start",
                     true};
   if (!run_stage(activate, components, diagnostics)) return false;
-  if (!run_stage(start, components, diagnostics)) return false;
+  if (!run_stage(start, starting, diagnostics)) return false;
   for (const Component* component : components) {
     if (component->state() != State::kException) continue;
     diagnostics.error(entry_of(*component).where,
@@ -144,6 +147,8 @@ void Application::take_down(base::Diagnostics& diagnostics) {
   end_threads(diagnostics);
   deliver_leftovers(diagnostics);
   list_casualties();
+  drain_logs();
+  say(black_boxes_.write_last(*incidents_, now()));
   clean_up(diagnostics);
   drain_logs();
   logs_.tell_losses(now());

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "armature/exec/modes.hpp"
+
 namespace armature::exec {
 namespace {
 
@@ -32,6 +34,14 @@ void Blueprint::add_peer(std::string_view user, std::string_view used) {
   for (ComponentEntry& entry : components) {
     if (entry.component->name() == user) entry.peers.push_back({std::string(used), {}});
   }
+}
+
+void Blueprint::add_mode(std::string mode_name, std::vector<ModeMember> members,
+                         base::Location where) {
+  if (modes.empty()) {
+    components.push_back({std::make_unique<Modes>(kModesName), {}, {}, {}, {}, where});
+  }
+  modes.push_back({std::move(mode_name), std::move(members), std::move(where)});
 }
 
 }  // namespace armature::exec

@@ -50,13 +50,27 @@ struct ConnectionEntry {
   base::Location where;
 };
 
+struct ModeMember {
+  std::string component;
+  base::Location where;
+};
+
+/// Components that run together, and not in other modes unless those name them too.
+struct ModeEntry {
+  std::string name;
+  std::vector<ModeMember> members;
+  base::Location where;
+};
+
 /// What an application consists of, before anything is checked: components with their activities
-/// and peers, and the connections between their ports. Locations lead diagnostics to the user's
-/// file.
+/// and peers, the connections between their ports, and its modes. Locations lead diagnostics to the
+/// user's file.
 struct Blueprint {
   std::string name = "application";
   std::vector<ComponentEntry> components;
   std::vector<ConnectionEntry> connections;
+  std::vector<ModeEntry> modes;  ///< a component that none of them names runs in all
+  ModeMember initial_mode;       ///< empty: the first
   /// Components that could not be made, which was reported: what refers to them is not checked.
   std::unordered_set<std::string> absent;
 
@@ -72,6 +86,8 @@ struct Blueprint {
   void connect(std::string_view from, std::string_view to, component::ConnectionPolicy policy = {});
   /// `user` may use the operations, events and properties of `used`, not the other way round.
   void add_peer(std::string_view user, std::string_view used);
+  /// Adds a mode and, with the first one, the component `Modes`, which switches between them.
+  void add_mode(std::string mode_name, std::vector<ModeMember> members, base::Location where = {});
 };
 
 }  // namespace armature::exec

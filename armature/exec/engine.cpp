@@ -72,6 +72,18 @@ Engine::Engine(std::string name, Activity activity, std::vector<Component*> memb
     member->assign_context(context_);
     if (member->has_aging_inputs()) aging_.push_back(member);
   }
+  looking_.reserve(aging_.size());
+}
+
+void Engine::keep_timeline(std::shared_ptr<component::Timeline> timeline, std::uint16_t number) {
+  timeline_ = std::move(timeline);
+  number_ = number;
+  context_.timeline = timeline_.get();
+}
+
+void Engine::keep_black_box(std::shared_ptr<component::BlackBox> box) {
+  black_box_ = std::move(box);
+  context_.black_box = black_box_.get();
 }
 
 void Engine::begin(base::Time start) {
@@ -124,6 +136,7 @@ void Engine::step(base::Time now) ARMATURE_NONBLOCKING {
 }
 
 void Engine::do_due(base::Time now) ARMATURE_NONBLOCKING {
+  woken_ = now;
   if (!periodic() || now < schedule_.next()) {
     wake(now);
     return;
@@ -141,29 +154,31 @@ void Engine::do_due(base::Time now) ARMATURE_NONBLOCKING {
 
 void Engine::run_cycle(base::Time now) ARMATURE_NONBLOCKING {
   close_account();
-  open(now);
+  turn_to(now);
+  open();
   begin_cycle();
   deliver_messages();
   for (Component* component : updating_) component->update();
   deliver_messages();
-  close();
+  close(true);
 }
 
 /// Handles what has arrived. For a triggered thread this is its cycle; in a periodic one it happens
 /// between two cycles.
 void Engine::wake(base::Time now) ARMATURE_NONBLOCKING {
   if (!has_messages() && now < next_due()) return;  // of what woke it, the last time took care
-  open(now);
-  if (!periodic()) begin_cycle();
-  deliver_messages();
-  close();
+  turn_to(now);
+  const bool all_is_fresh = !has_messages() && looking_.empty();
+  if (!all_is_fresh) {
+    open();
+    if (!periodic()) begin_cycle();
+    deliver_messages();
+    close(!periodic());
+  }
   if (periodic()) return;
   close_account();
   cycles_run_.store(context_.cycle, std::memory_order_relaxed);
-  next_age_check_ = base::Time::max();
-  for (const Component* each : aging_) {
-    next_age_check_ = std::min(next_age_check_, each->next_expiry());
-  }
+  next_age_check_ = next_expiry();
   if (!context_.next_cycle.empty()) context_.wakeup.notify();
 }
 
@@ -171,20 +186,64 @@ void Engine::begin_cycle() {
   ++context_.cycle;
   context_.measuring = --cycles_to_measured_ == 0;
   if (context_.measuring) cycles_to_measured_ = measure_every_;
+  if (timeline_ != nullptr && timeline_->affords_steps()) context_.measuring = true;
   account_open_ = true;
   if (!context_.next_cycle.empty()) context_.next_cycle.deliver_all();
 }
 
-void Engine::open(base::Time now) {
+void Engine::turn_to(base::Time now) {
   context_.cycle_time = now;
-  opened_ = rt::ticks();
-  context_.mark = opened_;
+  if (now > ages_hold_until_ || context_.ages_to_settle) [[unlikely]]
+    settle_ages();
 }
 
-void Engine::close() {
-  for (Component* component : aging_) component->admits();
-  if (!aging_.empty()) deliver_messages();
-  busy_ += rt::ticks() - opened_;
+void Engine::open() {
+  opened_ = rt::ticks();
+  context_.mark = opened_;
+  if (timeline_ != nullptr) timeline_->open(number_, woken_, opened_);
+}
+
+void Engine::close(bool cycle) {
+  if (context_.ages_to_settle) [[unlikely]]
+    settle_ages();
+  if (!looking_.empty()) look_at_ages();
+  if (black_box_ != nullptr && black_box_->due(context_.cycle_time)) {
+    black_box_->make_picture(context_.cycle_time);
+  }
+  const std::uint64_t closed = rt::ticks();
+  busy_ += closed - opened_;
+  if (timeline_ == nullptr) return;
+  timeline_->close(closed, context_.cycle, context_.cycle_time, cycle, context_.measuring);
+}
+
+/// Finds those whose data is too old, or may be at any time. The others need no look for as long as
+/// the oldest of their data is good for, so that it costs nothing in most cycles.
+void Engine::settle_ages() {
+  context_.ages_to_settle = false;
+  ages_hold_until_ = base::Time::max();
+  looking_.clear();
+  for (Component* component : aging_) {
+    if (!ages_hold(*component)) looking_.push_back(component);
+  }
+}
+
+bool Engine::ages_hold(Component& component) {
+  const base::Time hold = component.settle_ages();
+  if (hold < component.time()) return false;
+  ages_hold_until_ = std::min(ages_hold_until_, hold);
+  return true;
+}
+
+void Engine::look_at_ages() {
+  for (Component* component : looking_) component->admits();
+  deliver_messages();
+  std::erase_if(looking_, [this](Component* component) { return ages_hold(*component); });
+}
+
+base::Time Engine::next_expiry() const {
+  base::Time next = base::later(ages_hold_until_, base::Duration(1));
+  for (const Component* component : looking_) next = std::min(next, component->next_expiry());
+  return next;
 }
 
 /// The cycle and the messages since are one entry in the statistics.

@@ -3,13 +3,16 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "armature/base/realtime.hpp"
 #include "armature/base/time.hpp"
+#include "armature/component/black_box.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/timeline.hpp"
 #include "armature/exec/activity.hpp"
 #include "armature/exec/periodic_schedule.hpp"
 #include "armature/rt/log.hpp"
@@ -34,6 +37,12 @@ class Engine {
 
   /// Execution times of components are taken in every n-th cycle.
   void measure_every(std::uint64_t cycles) { measure_every_ = cycles_to_measured_ = cycles; }
+
+  /// Has everything that the thread does go to a timeline as well.
+  void keep_timeline(std::shared_ptr<component::Timeline> timeline, std::uint16_t number);
+
+  /// Has what its components write and do lately kept.
+  void keep_black_box(std::shared_ptr<component::BlackBox> box);
 
   /// From now on the thread's cycles count; the components have been started.
   void begin(base::Time start);
@@ -84,9 +93,14 @@ class Engine {
   void do_due(base::Time now) ARMATURE_NONBLOCKING;
   void run_cycle(base::Time now) ARMATURE_NONBLOCKING;
   void wake(base::Time now) ARMATURE_NONBLOCKING;
-  void open(base::Time now);
-  void close();
+  void turn_to(base::Time now);
+  void open();
+  void close(bool cycle);
   void begin_cycle();
+  void settle_ages();
+  bool ages_hold(component::Component& component);
+  void look_at_ages();
+  base::Time next_expiry() const;
   void deliver_messages();
   void fault_if_late();
 
@@ -97,7 +111,9 @@ class Engine {
   rt::LogQueue log_;
   std::vector<component::Component*> members_;
   std::vector<component::Component*> updating_;
-  std::vector<component::Component*> aging_;  ///< whose inputs have declared ages
+  std::vector<component::Component*> aging_;    ///< whose inputs have declared ages
+  std::vector<component::Component*> looking_;  ///< those of them that look before each handler
+  base::Time ages_hold_until_{};                ///< none of the others has to look before
   base::Time next_age_check_ = base::Time::max();
   PeriodicSchedule schedule_;
   std::uint64_t measure_every_ = 1;
@@ -105,6 +121,10 @@ class Engine {
   std::uint64_t opened_ = 0;  ///< tick
   std::uint64_t busy_ = 0;    ///< ticks of the cycle whose account is open
   bool account_open_ = false;
+  base::Time woken_{};  ///< what the clock said
+  std::shared_ptr<component::BlackBox> black_box_;
+  std::shared_ptr<component::Timeline> timeline_;
+  std::uint16_t number_ = 0;  ///< in the timeline
   std::atomic<bool> ending_{false};
   std::atomic<std::uint64_t> cycles_run_{0};
   std::atomic<std::uint64_t> cycles_skipped_{0};

@@ -38,11 +38,13 @@ Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   Plan plan;
   const internal::Directory directory(blueprint, diagnostics);
   check_mandatory_properties(blueprint, diagnostics);
+  internal::plan_modes(blueprint, directory, plan, diagnostics);
   internal::plan_connections(blueprint, directory, plan, diagnostics);
   internal::plan_requirements(blueprint, directory, plan, diagnostics);
   internal::plan_threads(blueprint, plan, diagnostics);
   internal::plan_observers(blueprint, plan, diagnostics);
   internal::plan_order(blueprint, plan, diagnostics);
+  internal::plan_members(blueprint, plan, diagnostics);
   internal::plan_triggers(blueprint, plan, diagnostics);
   internal::check_priorities(blueprint, plan, diagnostics);
   return plan;
@@ -55,11 +57,14 @@ std::string describe_order(const Blueprint& blueprint, const Plan& plan) {
     if (thread.members.empty()) continue;
     text += "thread " + thread.name + " (" + activity_text(thread) + ")\n";
     for (const Index updating : thread.updating) {
-      text += "  updates " + blueprint.components[updating].component->name() + "\n";
+      text += "  updates " + blueprint.components[updating].component->name() +
+              internal::in_modes(plan, plan.modes_of[updating]) + "\n";
     }
     for (const Index member : thread.members) {
       const bool guest = !blueprint.components[member].activity.owns_thread();
-      if (guest) text += "  hosts " + blueprint.components[member].component->name() + "\n";
+      if (!guest) continue;
+      text += "  hosts " + blueprint.components[member].component->name() +
+              internal::in_modes(plan, plan.modes_of[member]) + "\n";
     }
     for (const SubscriptionPlan& told : plan.subscriptions) {
       if (plan.thread_of[told.to] != t) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,16 @@ struct ThreadPlan {
   int depth = 1;  ///< how many handlers may set each other off, one within the other
 };
 
+/// A mode's place among the modes, as a bit: whether a component runs in it.
+using ModeSet = std::uint64_t;
+inline constexpr std::size_t kMostModes = 64;
+
+/// What one mode has that another one has not.
+struct ModePlan {
+  std::string name;
+  std::vector<Index> members;  ///< that not all modes have, in the order of start
+};
+
 /// Everything that starting an application needs to know; made by `make_plan`, without effect on
 /// the components.
 struct Plan {
@@ -65,8 +76,16 @@ struct Plan {
   std::vector<Index> thread_of;    ///< for each component
   std::vector<Index> observers;    ///< components that look at others
   std::vector<Index> start_order;  ///< observers, then writers before readers
+  std::vector<ModePlan> modes;
+  std::size_t initial_mode = 0;
+  std::vector<ModeSet> modes_of;  ///< for each component: all bits unless modes name it
+  std::vector<component::InputPortBase*> in_turns;  ///< whose writers take turns
 
   std::size_t service_thread() const { return threads.size() - 1; }
+  bool run_together(Index a, Index b) const { return (modes_of[a] & modes_of[b]) != 0; }
+  bool runs_at_start(Index component) const {
+    return (modes_of[component] >> initial_mode & 1) != 0;
+  }
 };
 
 /// Resolves every name, checks everything that can be known before start, assigns threads and

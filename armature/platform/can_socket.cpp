@@ -21,6 +21,7 @@
 #include "armature/platform/clock.hpp"
 #include "armature/platform/internal/can_state.hpp"
 #include "armature/platform/internal/descriptor.hpp"
+#include "armature/platform/internal/edge_events.hpp"
 
 namespace armature::platform {
 namespace {
@@ -125,13 +126,6 @@ CanSocket::Controller controller_now(const std::string& interface) {
   }
 }
 
-bool add_event(int events, int fd, std::uint32_t kind) {
-  epoll_event event{};
-  event.events = kind;
-  event.data.fd = fd;
-  return ::epoll_ctl(events, EPOLL_CTL_ADD, fd, &event) == 0;
-}
-
 base::Time from_timespec(const timespec& time) {
   return base::time_from_ns(std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec);
 }
@@ -181,8 +175,8 @@ std::unique_ptr<CanSocket> CanSocket::open(const CanSocketRequest& request,
   Descriptor events(::epoll_create1(EPOLL_CLOEXEC));
   Descriptor interruption(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   // Edge-triggered: told once of what has come in, whether it is received at once or not.
-  if (!add_event(events.get(), socket.get(), EPOLLIN | EPOLLET) ||
-      !add_event(events.get(), interruption.get(), EPOLLIN)) {
+  if (!internal::add_event(events.get(), socket.get(), EPOLLIN | EPOLLET) ||
+      !internal::add_event(events.get(), interruption.get(), EPOLLIN)) {
     failed(request, "cannot be waited for", "close other files", diagnostics);
     return nullptr;
   }
@@ -247,21 +241,8 @@ bool CanSocket::is_up() const {
          address.can_ifindex != 0 && platform::is_up(socket_, interface_);
 }
 
-bool CanSocket::wait() {
-  epoll_event happened[2];
-  int count = 0;
-  do {
-    count = ::epoll_wait(events_, happened, 2, -1);
-  } while (count < 0 && errno == EINTR);
-  return std::none_of(
-             happened, happened + std::max(count, 0),
-             [this](const epoll_event& event) { return event.data.fd == interruption_; }) &&
-         count > 0;
-}
+bool CanSocket::wait() { return internal::wait_for_events(events_, interruption_); }
 
-void CanSocket::interrupt() {
-  const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = ::write(interruption_, &one, sizeof one);
-}
+void CanSocket::interrupt() { internal::interrupt_events(interruption_); }
 
 }  // namespace armature::platform

@@ -20,4 +20,9 @@ std::string file_of(const void* address) {
   return found.dli_fname;
 }
 
+std::string file_beside(const void* address, std::string_view name) {
+  const std::string here = file_of(address);
+  return here.substr(0, here.rfind('/') + 1).append(name);
+}
+
 }  // namespace armature::platform

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "armature/base/result.hpp"
 
@@ -24,5 +25,8 @@ class SharedObject {
 
 /// The file that the code at `address` was loaded from, empty if it is nobody's.
 std::string file_of(const void* address);
+
+/// The path of `name` in the folder of that file.
+std::string file_beside(const void* address, std::string_view name);
 
 }  // namespace armature::platform

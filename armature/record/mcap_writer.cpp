@@ -114,6 +114,26 @@ base::Result<ChannelId> McapWriter::add_channel(Channel channel) {
   return id;
 }
 
+base::Result<void> McapWriter::add_metadata(const std::string& name,
+                                            const std::map<std::string, std::string>& entries) {
+  auto usable = check_usable();
+  if (!usable) return usable;
+  std::string map;
+  for (const auto& [key, value] : entries) put_entry(key, value, map);
+  std::string content;
+  put_counted(name, content);
+  put_counted(map, content);
+  std::string record;
+  put_record(Op::kMetadata, content, record);
+  std::string index;
+  put(size_, index);
+  put(std::uint64_t{record.size()}, index);
+  put_counted(name, index);
+  put_record(Op::kMetadataIndex, index, metadata_indexes_);
+  ++metadata_count_;
+  return emit(record);
+}
+
 /// Writes the schema if it is new. There are fewer than channels, so their numbers suffice.
 std::uint16_t McapWriter::schema_id(const types::Type& type) {
   std::string text = json_schema(type);
@@ -223,7 +243,7 @@ std::string McapWriter::statistics() const {
   put(static_cast<std::uint16_t>(schemas_.size()), content);
   put(static_cast<std::uint32_t>(channels_.size()), content);
   put(std::uint32_t{0}, content);  // attachments
-  put(std::uint32_t{0}, content);  // metadata records
+  put(metadata_count_, content);
   put(chunk_count_, content);
   put(times_.begin_ns, content);
   put(times_.end_ns, content);
@@ -241,6 +261,7 @@ std::string McapWriter::summary(std::uint64_t begin) const {
   add_group(Op::kChannel, begin, channel_records_, bytes, offsets);
   add_group(Op::kStatistics, begin, statistics(), bytes, offsets);
   add_group(Op::kChunkIndex, begin, chunk_indexes_, bytes, offsets);
+  add_group(Op::kMetadataIndex, begin, metadata_indexes_, bytes, offsets);
   const std::uint64_t offsets_begin = begin + bytes.size();
   bytes += offsets;
   // The CRC is of all but itself.

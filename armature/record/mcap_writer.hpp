@@ -35,6 +35,9 @@ class McapWriter final : public Writer {
   ~McapWriter() override;
 
   base::Result<ChannelId> add_channel(Channel channel) override;
+  /// What the whole file is about; at any time.
+  base::Result<void> add_metadata(const std::string& name,
+                                  const std::map<std::string, std::string>& entries);
   base::Result<void> write(const Sample& sample) override;
   base::Result<void> flush() override;
   base::Result<void> close() override;
@@ -84,6 +87,8 @@ class McapWriter final : public Writer {
   std::string schema_records_;
   std::string channel_records_;
   std::string chunk_indexes_;
+  std::string metadata_indexes_;
+  std::uint32_t metadata_count_ = 0;
   std::uint32_t chunk_count_ = 0;
   std::vector<std::uint64_t> message_counts_;
   TimeSpan times_;

@@ -21,8 +21,8 @@ Guard* loaded_guard() { return armature_guard == nullptr ? nullptr : armature_gu
 
 std::vector<std::pair<std::string, std::string>> guard_environment(GuardMode mode) {
   // The guard lies where this library lies.
-  const std::string here = platform::file_of(reinterpret_cast<const void*>(&guard_state));
-  std::string preload = here.substr(0, here.rfind('/') + 1) + "libarmature_guard.so";
+  std::string preload =
+      platform::file_beside(reinterpret_cast<const void*>(&guard_state), "libarmature_guard.so");
   if (const char* others = std::getenv("LD_PRELOAD"); others != nullptr && *others != '\0') {
     preload.append(":").append(others);
   }

@@ -28,8 +28,8 @@ TEST(Calls, OfCommandsGiveAHandle) {
                       "print(wait(move))\n"
                       "stop()"),
             "");
-  EXPECT_THAT(bench.lines, ElementsAre("false\t0.0\t\tcommand (under way)", "false\t0.5", "true",
-                                       "true\t1.0\t\tcommand (done)", "true"));
+  EXPECT_THAT(bench.lines, ElementsAre("false\t0.0\t\tAxis.moveTo (under way)", "false\t0.5",
+                                       "true", "true\t1.0\t\tAxis.moveTo (done)", "true"));
 }
 
 TEST(Calls, OfCommandsThatFailSayWhy) {
@@ -96,8 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Axis:moveTo('there')",
                 "Axis.moveTo: argument 1 (target [m]) must be a number, found the text 'there'"},
         Refusal{"Axis.moveTo(1)", "Axis.moveTo is called with a colon: Axis:moveTo(...)"},
-        Refusal{"Axis:moveto(1)",
-                "'Axis' has no property, port or operation 'moveto' (did you mean 'moveTo'?)"},
+        Refusal{
+            "Axis:moveto(1)",
+            "'Axis' has no property, port, operation or event 'moveto' (did you mean 'moveTo'?)"},
         Refusal{"Axsi:moveTo(1)",
                 "there is no component and no variable 'Axsi' (did you mean 'Axis'?)"},
         Refusal{"Settings:sum({1, {}}, 1)",
@@ -109,10 +110,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "Axis.moveTo: the target is outside the axis"},
         Refusal{"error('I give up')", "I give up"}, Refusal{"error({code = 5})", "{code: 5}"},
         Refusal{"assert(false, 'not there')", "not there"},
-        Refusal{"wait(Axis)", "wait takes a number of seconds above 0, or a command, found Axis"},
-        Refusal{"wait()", "wait takes a number of seconds above 0, or a command, found nothing"},
-        Refusal{"wait(0)", "wait takes a number of seconds above 0, or a command, found 0"},
-        Refusal{"wait(-1)", "wait takes a number of seconds above 0, or a command, found -1"},
+        Refusal{
+            "wait(Axis)",
+            "wait takes a number of seconds above 0, a command, an event or a machine, found Axis"},
+        Refusal{"wait()",
+                "wait takes a number of seconds above 0, a command, an event or a machine, found "
+                "nothing"},
+        Refusal{
+            "wait(0)",
+            "wait takes a number of seconds above 0, a command, an event or a machine, found 0"},
+        Refusal{
+            "wait(-1)",
+            "wait takes a number of seconds above 0, a command, an event or a machine, found -1"},
         Refusal{"at(-1, print)", "at takes a number of seconds from 0 on, found -1"},
         Refusal{"at(1)", "at takes a time and a function: at(5.0, function() ... end)"}));
 

@@ -24,47 +24,33 @@ struct Options {
 ///
 /// It runs in the application's controlling thread, between slices of the application's run, never
 /// in a thread of components. In simulated time two runs are the same to the bit.
-class Script final {
+class Script {
  public:
-  Script(Script&& other) noexcept;
-  Script& operator=(Script&& other) noexcept;
-  ~Script();
+  Script() = default;
+  Script(const Script&) = delete;
+  Script& operator=(const Script&) = delete;
+  virtual ~Script() = default;
 
   /// Lets `application`, which runs, go on for `duration` while the script commands it; once. A
   /// mistake of the script is an error in `diagnostics` with its line, and ends the run.
   /// @return kStopRequested if the script said `stop()` or made a mistake, or if `stop` came
-  exec::RunEnd run(exec::Application& application, base::Duration duration,
-                   const platform::StopSignal* stop, base::Diagnostics& diagnostics);
-
- private:
-  friend Script parse_script(std::string_view text, const std::string& path, Options options,
-                             base::Diagnostics& diagnostics);
-  struct Rest;
-  explicit Script(std::unique_ptr<Rest> rest);
-
-  std::unique_ptr<Rest> rest_;
-};
-
-/// Reads a script; errors of its syntax are added to `diagnostics`. It runs nothing yet.
-Script load_script(const std::string& path, Options options, base::Diagnostics& diagnostics);
-
-/// Likewise for text in memory. `require` looks beside `path`.
-Script parse_script(std::string_view text, const std::string& path, Options options,
-                    base::Diagnostics& diagnostics);
-
-/// A script as a program sees it that loads this library only when there is a script, so that a
-/// process without one does not keep Lua in its memory.
-class LoadedScript {
- public:
-  virtual ~LoadedScript() = default;
-  /// As Script::run.
   virtual exec::RunEnd run(exec::Application& application, base::Duration duration,
                            const platform::StopSignal* stop, base::Diagnostics& diagnostics) = 0;
 };
 
-/// `load_script` under the name that `LoadScript` has in this library.
-using LoadScript = LoadedScript* (*)(const std::string& path, Options& options,
-                                     base::Diagnostics& diagnostics);
+/// Reads a script; errors of its syntax are added to `diagnostics`. It runs nothing yet.
+std::unique_ptr<Script> load_script(const std::string& path, Options options,
+                                    base::Diagnostics& diagnostics);
+
+/// Likewise for text in memory. `require` looks beside `path`.
+std::unique_ptr<Script> parse_script(std::string_view text, const std::string& path,
+                                     Options options, base::Diagnostics& diagnostics);
+
+/// `load_script` for a program that loads this library only when there is a script, so that a
+/// process without one does not keep Lua in its memory. The script is the caller's.
+using LoadScript = Script* (*)(const std::string& path, Options& options,
+                               base::Diagnostics& diagnostics);
+/// The name of the function in this library.
 inline constexpr const char* kLoadScript = "armature_load_script";
 
 }  // namespace armature::script

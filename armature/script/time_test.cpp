@@ -91,9 +91,10 @@ TEST(Time, IsOverWhenTheScriptStops) {
 
 TEST(Time, StandingStillByAtIsRefused) {
   Bench bench;
-  EXPECT_EQ(bench.run("local function again() at(now(), again) end again()"),
-            "robot.lua: error: the script goes on by `at` without end, while its time stands "
-            "still\n");
+  EXPECT_EQ(
+      bench.run("local function again() at(now(), again) end again()"),
+      "robot.lua: error: the script goes on by `at`, events or machines without end, while its "
+      "time stands still\n");
 }
 
 TEST(Time, CannotPassInAFunctionThatLuaItselfCalls) {

@@ -89,8 +89,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Settings.Gian = 2", "'Settings' has no property 'Gian' (did you mean 'Gain'?)"},
         Refusal{"Axis.Position = 2", "'Axis.Position' is a port: only components write it"},
         Refusal{"Axis = 2", "'Axis' is a component: give your variable another name"},
-        Refusal{"print(Settings.Gian)",
-                "'Settings' has no property, port or operation 'Gian' (did you mean 'Gain'?)"},
+        Refusal{
+            "print(Settings.Gian)",
+            "'Settings' has no property, port, operation or event 'Gian' (did you mean 'Gain'?)"},
         Refusal{"print(Setings.Gain)",
                 "there is no component and no variable 'Setings' (did you mean 'Settings'?)"},
         Refusal{"prnt(1)",

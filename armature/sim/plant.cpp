@@ -12,6 +12,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include "armature/base/seconds.hpp"
+
 namespace armature::sim {
 namespace {
 
@@ -84,7 +86,7 @@ base::Result<void> set_armature(mjModel& model, const std::string& name,
   };
   for (const auto& [joint, inertia] : armature) {
     const int id = mj_name2id(&model, mjOBJ_JOINT, joint.c_str());
-    if (id < 0) return mistake(joint, "belongs to no joint that moves");
+    if (id < 0) return mistake(joint, "is given, but the description has no such joint that moves");
     if (!std::isfinite(inertia) || inertia < 0.0) {
       return mistake(joint, "is expected to be a finite number of at least 0");
     }
@@ -107,8 +109,6 @@ void harden_friction(mjModel& model, double step) {
   }
   model.opt.tolerance = 1e-12;
 }
-
-double seconds(base::Duration time) { return std::chrono::duration<double>(time).count(); }
 
 }  // namespace
 
@@ -177,7 +177,7 @@ base::Result<Plant> Plant::parse(const std::string& urdf, const std::string& nam
   if (const auto set = set_armature(model, name, options.armature); !set) {
     return base::Error{set.error()};
   }
-  model.opt.timestep = seconds(options.inner_step);
+  model.opt.timestep = base::to_seconds(options.inner_step);
   model.opt.disableflags |= mjDSBL_CONTACT;
   impl->data.reset(mj_makeData(&model));
   mj_setConst(&model, impl->data.get());

@@ -240,7 +240,7 @@ TEST(Plant, AMistakeIsNamedWithItsFile) {
   EXPECT_THAT(error(pendulum(0.0, 0.0), {.inner_step = 0ns, .armature = {}}),
               HasSubstr("inner_step is 0 ns"));
   EXPECT_THAT(error(pendulum(0.0, 0.0), {.inner_step = 1ms, .armature = {{"elbow", 1.0}}}),
-              HasSubstr("the armature of joint 'elbow' belongs to no joint"));
+              HasSubstr("the armature of joint 'elbow' is given, but the description has no such"));
   EXPECT_THAT(error(pendulum(0.0, 0.0), {.inner_step = 1ms, .armature = {{"spin", -1.0}}}),
               HasSubstr("joint 'spin' is expected to be a finite number"));
 }

@@ -8,9 +8,9 @@
 
 namespace armature::benchmarks {
 
-/// Says which motor of the application's cycle is not, to the last bit, in the state of the loop's;
-/// empty if all are. To be asked between two cycles, both having done the same number.
-std::string difference_of(const exec::Application& application, const MonolithicController& loop,
+/// Says which motor of the application's cycle is not, to the last bit, in the state of the loop's,
+/// which does the cycles first that it is behind; empty if all are. To be asked between two cycles.
+std::string difference_of(const exec::Application& application, MonolithicController& loop,
                           int joints);
 
 }  // namespace armature::benchmarks

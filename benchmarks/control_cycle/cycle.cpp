@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "benchmarks/control_cycle/cycle.hpp"
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "benchmarks/control_cycle/components.hpp"
+#include "armature/base/seconds.hpp"
+#include "armature/library/actuator_demux/actuator_demux.hpp"
+#include "armature/library/arming/arming.hpp"
+#include "armature/library/controller_npid/controller_npid.hpp"
+#include "armature/library/joint/joint.hpp"
+#include "armature/library/pid/pid.hpp"
+#include "armature/library/sampler/sampler.hpp"
+#include "armature/library/sensor_mux/sensor_mux.hpp"
 #include "benchmarks/control_cycle/pacer.hpp"
+#include "benchmarks/control_cycle/stand_ins.hpp"
 
 namespace armature::benchmarks {
 namespace {
 
+using component::Component;
+
 template <typename T>
 void set(Component& component, std::string_view name, const T& value) {
-  for (PropertyBase* property : component.interface().properties) {
-    if (property->name() == name) static_cast<void>(property->set(types::Value::of(value)));
+  for (component::PropertyBase* property : component.interface().properties) {
+    if (property->name() != name) continue;
+    if (const auto done = property->set(types::Value::of(value)); !done) {
+      throw std::runtime_error(component.name() + ": " + done.error());
+    }
+    return;
   }
+  throw std::runtime_error(component.name() + " has no property " + std::string(name));
 }
 
 template <typename Model>
@@ -26,16 +42,38 @@ Model& add(exec::Blueprint& blueprint, const std::string& name,
   return component;
 }
 
-void add_joints(exec::Blueprint& blueprint, int joints) {
+void add_joint(exec::Blueprint& blueprint, const std::string& number, double gear_ratio,
+               base::Duration period) {
+  const std::string card = "Card" + number;
+  Component& joint =
+      add<library::Joint>(blueprint, "Joint" + number, {card, "Sampler", "Actuator", "Arming"});
+  const control::JointLimiter::Config limits = limits_of_joints();
+  set(joint, "PeerName", card);
+  set(joint, "GearRatio", gear_ratio);
+  set(joint, "PositionMin", limits.lower);
+  set(joint, "PositionMax", limits.upper);
+  set(joint, "MaxVelocity", limits.max_velocity);
+  set(joint, "MaxAcceleration", limits.max_acceleration);
+  set(joint, "MaxVoltage", limits.max_effort);
+  set(joint, "Period", base::to_seconds(period));
+  set(joint, "ArmingTime", base::to_seconds(limits.arming_time));
+}
+
+void add_pid(exec::Blueprint& blueprint, const std::string& number) {
+  Component& pid = add<library::Pid>(blueprint, "PID" + number, {"Arming"});
+  set(pid, "Kp", kKp);
+  set(pid, "Ki", kKi);
+  set(pid, "Kd", kKd);
+  set(pid, "UMin", -kMaxVoltage);
+  set(pid, "UMax", kMaxVoltage);
+}
+
+void add_joints(exec::Blueprint& blueprint, int joints, base::Duration period) {
   for (int i = 1; i <= joints; ++i) add<Card>(blueprint, "Card" + std::to_string(i));
   for (int i = 1; i <= joints; ++i) {
-    const std::string card = "Card" + std::to_string(i);
-    Component& made =
-        add<Joint>(blueprint, "Joint" + std::to_string(i), {card, "Sampler", "Actuator"});
-    set(made, "PeerName", card);
-    set(made, "GearRatio", gear_ratio_of(i - 1));
+    add_joint(blueprint, std::to_string(i), gear_ratio_of(i - 1), period);
   }
-  for (int i = 1; i <= joints; ++i) add<Pid>(blueprint, "PID" + std::to_string(i));
+  for (int i = 1; i <= joints; ++i) add_pid(blueprint, std::to_string(i));
 }
 
 void connect_joint(exec::Blueprint& blueprint, const std::string& number) {
@@ -47,37 +85,63 @@ void connect_joint(exec::Blueprint& blueprint, const std::string& number) {
   blueprint.connect(joint + ".VoltageActuator", card + ".VoltageActuator");
   blueprint.connect(joint + ".Position", "Sensor.Position" + number);
   blueprint.connect(joint + ".Displacement", "Sensor.Displacement" + number);
+  blueprint.connect(joint + ".Armed", "Arming.Armed" + number);
   blueprint.connect("Controller.Ref" + number, pid + ".Ref");
   blueprint.connect("Controller.Sen" + number, pid + ".Sen");
   blueprint.connect(pid + ".Out", "Controller.Out" + number);
   blueprint.connect("Actuator.Voltage" + number, joint + ".Voltage");
 }
 
+/// Between two batches of cycles everything stands still, for as long as that takes: nothing is to
+/// be too old then. What looks at the ages is there as ever.
+void let_data_wait(exec::Blueprint& blueprint) {
+  for (exec::ConnectionEntry& connection : blueprint.connections) {
+    const std::string& port = connection.to_port;
+    const bool ages = port == "sensor" || port == "reference" || port == "act" ||
+                      port.starts_with("Ref") || port.starts_with("Sen") ||
+                      port.starts_with("Voltage");
+    if (ages) connection.max_age = component::max_age(std::chrono::hours(1));
+  }
+}
+
+void connect_vectors(exec::Blueprint& blueprint) {
+  blueprint.connect("Sensor.sensor", "Controller.sensor");
+  blueprint.connect("Sensor.sensor", "Reference.sensor");
+  blueprint.connect("Reference.reference", "Controller.reference");
+  blueprint.connect("Reference.nAxesSensorPosition", "Arming.nAxesSensorPosition");
+  blueprint.connect("Reference.nAxesDesiredPosition", "Arming.nAxesDesiredPosition");
+  blueprint.connect("Reference.nAxesDesiredVelocity", "Arming.nAxesDesiredVelocity");
+  blueprint.connect("Controller.act", "Actuator.act");
+}
+
 }  // namespace
 
 CycleThreads one_thread() {
   CycleThreads threads;
-  threads.sampler = exec::Activity::periodic(std::chrono::milliseconds(1));
+  threads.sampler = exec::Activity::periodic(threads.period);
   return threads;
 }
 
 exec::Blueprint make_cycle(int joints, const CycleThreads& threads) {
+  const exec::Activity slowly = exec::Activity::periodic(std::chrono::milliseconds(10));
   exec::Blueprint blueprint;
   blueprint.name = "control cycle";
-  add<Sampler>(blueprint, "Sampler", {}, threads.sampler);
-  set(add<SensorNMux>(blueprint, "Sensor", {"Sampler"}, threads.sensor), "joints", joints);
-  set(add<Reference>(blueprint, "Reference"), "joints", joints);
-  set(add<ControllerNPid>(blueprint, "Controller", {}, threads.controller), "joints", joints);
-  set(add<ActuatorNDemux>(blueprint, "Actuator", {"Sampler"}, threads.actuator), "joints", joints);
-  blueprint.connect("Reference.reference", "Controller.reference");
-  blueprint.connect("Sensor.sensor", "Controller.sensor");
-  blueprint.connect("Controller.act", "Actuator.act");
-  add_joints(blueprint, joints);
+  add<library::Sampler>(blueprint, "Sampler", {}, threads.sampler);
+  set(add<library::SensorNMux>(blueprint, "Sensor", {"Sampler"}, threads.sensor), "joints", joints);
+  set(add<Reference>(blueprint, "Reference", {"Arming"}, slowly), "joints", joints);
+  set(add<library::Arming>(blueprint, "Arming", {}, slowly), "joints", joints);
+  set(add<library::ControllerNPID>(blueprint, "Controller", {"Sampler"}, threads.controller),
+      "joints", joints);
+  set(add<library::ActuatorNDemux>(blueprint, "Actuator", {"Sampler"}, threads.actuator), "joints",
+      joints);
+  connect_vectors(blueprint);
+  add_joints(blueprint, joints, threads.period);
   for (int i = 1; i <= joints; ++i) connect_joint(blueprint, std::to_string(i));
   return blueprint;
 }
 
 Pacer& add_pacer(exec::Blueprint& blueprint, int joints) {
+  let_data_wait(blueprint);
   Pacer& pacer = add<Pacer>(blueprint, "Pacer", {"Sampler", "Actuator"});
   set(pacer, "joints", joints);
   for (int i = 1; i <= joints; ++i) {
@@ -85,6 +149,15 @@ Pacer& add_pacer(exec::Blueprint& blueprint, int joints) {
     blueprint.connect("Joint" + number + ".Position", "Pacer.Position" + number);
   }
   return pacer;
+}
+
+void arm(exec::Application& application) {
+  auto arming = application.begin("Arming", "arm", {});
+  if (!arming) throw std::runtime_error(arming.error());
+  application.run_until(base::later(application.now(), std::chrono::seconds(10)),
+                        [&] { return arming.value().ended(); });
+  if (arming.value().stage() == component::CommandStage::kDone) return;
+  throw std::runtime_error("not armed: " + std::string(arming.value().reason()));
 }
 
 }  // namespace armature::benchmarks

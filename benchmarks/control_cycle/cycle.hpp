@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+
+#include "armature/exec/application.hpp"
 #include "armature/exec/blueprint.hpp"
 
 namespace armature::benchmarks {
@@ -13,15 +16,21 @@ struct CycleThreads {
   exec::Activity sensor;
   exec::Activity controller;
   exec::Activity actuator;
+  base::Duration period =
+      std::chrono::milliseconds(1);  ///< for which the joints' limiters are made
 };
 
 /// The whole cycle in the sampler's thread.
 CycleThreads one_thread();
 
-/// The sampled-control cycle of `joints` joints.
+/// The sampled-control cycle of `joints` joints, of the library's components; the cards and what
+/// says where to go are stand-ins.
 exec::Blueprint make_cycle(int joints, const CycleThreads& threads);
 
 /// Adds what runs the cycle again and again.
 Pacer& add_pacer(exec::Blueprint& blueprint, int joints);
+
+/// Lets the joints move from now on; the sampler runs, or has run. Throws if that does not succeed.
+void arm(exec::Application& application);
 
 }  // namespace armature::benchmarks

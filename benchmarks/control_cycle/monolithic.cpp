@@ -4,6 +4,11 @@
 #include <algorithm>
 
 namespace armature::benchmarks {
+namespace {
+
+constexpr double kPeriod = 0.001;  // s
+
+}  // namespace
 
 MonolithicController::MonolithicController(int joints)
     : cards_(make_simulated_cards(joints)),
@@ -11,7 +16,9 @@ MonolithicController::MonolithicController(int joints)
       sensor_(2 * cards_.size()),
       act_(cards_.size()) {
   for (int i = 0; i < joints; ++i) {
-    joints_.push_back({gear_ratio_of(i)});
+    joints_.push_back(
+        {gear_ratio_of(i), 0.0, false, control::JointLimiter::make(limits_of_joints()).value()});
+    joints_.back().limiter.arm({});
     reference_.push_back(reference_of(i));
   }
 }
@@ -20,6 +27,7 @@ void MonolithicController::cycle() {
   sample();
   control();
   actuate();
+  ++cycles_;
 }
 
 void MonolithicController::sample() {
@@ -36,19 +44,22 @@ void MonolithicController::control() {
   for (std::size_t i = 0; i < pids_.size(); ++i) {
     Pid& pid = pids_[i];
     const double error = reference_[i] - sensor_[i];
-    if (first_) pid.last_error = pid.error_before_last = error;
-    pid.control += pid.kp * (error - pid.last_error) + pid.ki * error +
-                   pid.kd * (error - 2.0 * pid.last_error + pid.error_before_last);
-    pid.control = std::clamp(pid.control, pid.u_min, pid.u_max);
+    if (cycles_ == 0) pid.last_error = pid.error_before_last = error;
+    const double control = pid.control + pid.kp * (error - pid.last_error) + pid.ki * error +
+                           pid.kd * (error - 2.0 * pid.last_error + pid.error_before_last);
+    pid.control = std::clamp(control, pid.u_min, pid.u_max);
     pid.error_before_last = pid.last_error;
     pid.last_error = error;
     act_[i] = pid.control;
   }
-  first_ = false;
 }
 
 void MonolithicController::actuate() {
-  for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->drive(act_[i]);
+  for (std::size_t i = 0; i < cards_.size(); ++i) {
+    const control::JointLimiter::Measured measured{sensor_[i],
+                                                   sensor_[joints_.size() + i] / kPeriod};
+    cards_[i]->drive(joints_[i].limiter.step_effort(measured, act_[i]).value);
+  }
 }
 
 const SimulatedMotor& MonolithicController::motor(int joint) const {

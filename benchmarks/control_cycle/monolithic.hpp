@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -23,11 +24,12 @@ std::vector<std::unique_ptr<HardwareCard>> make_simulated_cards(int count);
 const SimulatedMotor& motor_of(const HardwareCard& card);
 
 /// The same cycle as `make_cycle`, as a hand-written controller: all joints are sampled, then the
-/// control signals are computed, then all joints are actuated.
+/// control signals are computed, then all joints are actuated, each behind its limiter.
 class MonolithicController {
  public:
   explicit MonolithicController(int joints);
   void cycle();
+  std::int64_t cycles() const { return cycles_; }
   const SimulatedMotor& motor(int joint) const;
 
  private:
@@ -35,6 +37,7 @@ class MonolithicController {
     double ratio;
     double position = 0.0;
     bool index = false;
+    control::JointLimiter limiter;
   };
   struct Pid {
     double kp = kKp;
@@ -56,7 +59,7 @@ class MonolithicController {
   std::vector<double> reference_;  ///< desired positions
   std::vector<double> sensor_;     ///< positions, then displacements
   std::vector<double> act_;        ///< control signals
-  bool first_ = true;
+  std::int64_t cycles_ = 0;
 };
 
 }  // namespace armature::benchmarks

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+
+#include "armature/control/joint_limiter.hpp"
+
 namespace armature::benchmarks {
 
 /// A motor with an encoder, as a card sees them; advances by one sampling period whenever its
@@ -41,5 +45,16 @@ inline constexpr double kKp = 20.0;
 inline constexpr double kKi = 0.02;
 inline constexpr double kKd = 4.0;
 inline constexpr double kMaxVoltage = 12.0;
+
+/// Of all joints, so wide that nothing is clipped: both would do the same, but flat out in threads
+/// a measured velocity is a matter of the machine.
+inline control::JointLimiter::Config limits_of_joints() {
+  return {.lower = -100.0,
+          .upper = 100.0,
+          .max_velocity = 1e6,
+          .max_acceleration = 1e12,
+          .max_effort = kMaxVoltage,
+          .period = std::chrono::milliseconds(1)};
+}
 
 }  // namespace armature::benchmarks

@@ -1,22 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <string>
+
 #include "robots/janus/aic_host.hpp"
 #include "robots/janus/can_link.hpp"
 
 namespace armature::janus {
 
-/// The host of AIC cards on a CAN interface of this machine.
+/// The host of AIC cards on a CAN interface of this machine, or on the virtual bus of another
+/// process, such as armature-janus-plant.
 class AicBus final : public AicHost {
  public:
   using AicHost::AicHost;
 
  private:
   base::Result<std::unique_ptr<AicLink>> make_link() override {
-    return std::unique_ptr<AicLink>(std::make_unique<CanLink>(interface_.get()));
+    return std::unique_ptr<AicLink>(
+        std::make_unique<CanLink>(bus_.get(), static_cast<std::uint32_t>(bit_rate_.get())));
   }
 
-  component::Property<std::string> interface_{this, "bus", "can0", "the CAN interface"};
+  component::Property<std::string> bus_{
+      this, "bus", "can0", "the CAN interface, or virtual: and the socket file of another process"};
+  component::Property<int> bit_rate_{this,
+                                     "bit_rate",
+                                     static_cast<int>(kBitRate),
+                                     "of this host on a virtual bus; an interface has its own",
+                                     "",
+                                     component::range(1, 1'000'000)};
 };
 
 }  // namespace armature::janus

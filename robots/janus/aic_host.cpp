@@ -2,9 +2,9 @@
 #include "robots/janus/aic_host.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/library/base/max_age.hpp"
 
 namespace armature::janus {
@@ -24,9 +24,7 @@ Outcome AicHost::on_configure() {
   auto driver = AicDriver::make(link_->bus(), config);
   if (!driver) return component::refused(driver.error());
   driver_.emplace(std::move(driver).value());
-  taken_.assign(driver_->cards(), {});
-  motor_set_.assign(driver_->cards(), false);
-  motor_set_at_.assign(driver_->cards(), base::Time{});
+  accounts_.assign(driver_->cards(), {});
   index_of_.assign(kMostCards + 1, std::nullopt);
   for (std::size_t i = 0; i < driver_->cards(); ++i) {
     index_of_[static_cast<std::size_t>(driver_->card(i).number)] = i;
@@ -41,8 +39,7 @@ Outcome AicHost::make_config(AicDriver::Config& config) const {
   }
   config.cards = numbers_.get();
   config.mode = mode_.get() == "sequential" ? AicMode::kSequential : AicMode::kSynchronous;
-  config.answer_timeout = std::chrono::duration_cast<base::Duration>(
-      std::chrono::duration<double>(answer_timeout_.get()));
+  config.answer_timeout = base::from_seconds(answer_timeout_);
   return component::accepted();
 }
 
@@ -76,7 +73,7 @@ void AicHost::read_all() {
   while (driver_->poll(link_->now()) == AicReading::kWaiting) {
     link_->wait_for_news(driver_->deadline());
   }
-  for (Taken& taken : taken_) taken.in_cycle = false;
+  for (Account& account : accounts_) account.taken = false;
   if (driver_->reading() != AicReading::kComplete) note_losses();
 }
 
@@ -95,16 +92,17 @@ void AicHost::note_losses() {
 /// Each answer once.
 AicSample AicHost::take(std::size_t index) {
   const AicCard& card = driver_->card(index);
-  Taken& taken = taken_[index];
+  Account& account = accounts_[index];
   AicSample sample{.no_bus = driver_->reading() == AicReading::kNoBus};
-  if (!card.fresh || taken.in_cycle) return sample;
+  if (!card.fresh || std::exchange(account.taken, true)) return sample;
   sample.fresh = true;
-  sample.counts = card.counts - taken.counts;
+  sample.counts = card.counts - std::exchange(account.counts, card.counts);
   sample.index = card.report.index;
   sample.actuator_on = card.report.actuator_on;
-  sample.restarted = card.counters.restarts != taken.restarts;
-  sample.counts_lost = card.counters.lost_reports != taken.lost_reports;
-  taken = {card.counts, card.counters.restarts, card.counters.lost_reports, true};
+  const std::uint64_t restarts = card.counters.restarts;
+  const std::uint64_t lost = card.counters.lost_reports;
+  sample.restarted = std::exchange(account.restarts, restarts) != restarts;
+  sample.counts_lost = std::exchange(account.lost_reports, lost) != lost;
   return sample;
 }
 
@@ -112,25 +110,19 @@ bool AicHost::set_motor(int number, control::LimitedEffort effort) {
   const auto index = index_of(number);
   if (!index) return false;
   driver_->set_motor(*index, effort / supply_);
-  motor_set_at_[*index] = time();
-  if (!motor_set_[*index]) {
-    motor_set_[*index] = true;
-    ++motors_set_;
-  }
-  return motors_set_ < driver_->cards() || send_motors();
+  Account& account = accounts_[*index];
+  account.motor_set_at = time();
+  if (!std::exchange(account.motor_set, true)) ++motors_set_;
+  return motors_set_ < accounts_.size() || send_motors();
 }
 
 bool AicHost::send_motors() {
-  std::fill(motor_set_.begin(), motor_set_.end(), false);
   motors_set_ = 0;
-  drop_old_motor_values();
-  return driver_->send_motors() == can::SendStatus::kSent;
-}
-
-void AicHost::drop_old_motor_values() {
-  for (std::size_t i = 0; i < driver_->cards(); ++i) {
-    if (time() - motor_set_at_[i] > library::kMaxAge) driver_->set_motor(i, 0.0);
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    accounts_[i].motor_set = false;
+    if (time() - accounts_[i].motor_set_at > library::kMaxAge) driver_->set_motor(i, 0.0);
   }
+  return driver_->send_motors() == can::SendStatus::kSent;
 }
 
 bool AicHost::command_card(int number, int command) {

@@ -42,6 +42,7 @@ class AicHost : public component::Component {
  protected:
   /// Not opened yet.
   virtual base::Result<std::unique_ptr<AicLink>> make_link() = 0;
+  const std::vector<int>& cards() const { return numbers_; }
 
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
@@ -58,7 +59,6 @@ class AicHost : public component::Component {
   void note_losses();
   AicSample take(std::size_t index);
   bool send_motors();
-  void drop_old_motor_values();
   void make_safe();
   std::optional<std::size_t> index_of(int number) const;
 
@@ -98,20 +98,20 @@ class AicHost : public component::Component {
   component::Attribute<int> bus_lost_{this, "bus_lost", 0,
                                       "how often since the start the bus was found to be off"};
 
-  /// What a card's component has taken of its counts.
-  struct Taken {
+  /// What a card's component has taken and given.
+  struct Account {
     std::int64_t counts = 0;
     std::uint64_t restarts = 0;
     std::uint64_t lost_reports = 0;
-    bool in_cycle = false;
+    bool taken = false;      ///< in this cycle
+    bool motor_set = false;  ///< and not sent yet
+    base::Time motor_set_at{};
   };
   std::unique_ptr<AicLink> link_;
   std::optional<AicDriver> driver_;
-  std::vector<Taken> taken_;
-  std::vector<std::optional<std::size_t>> index_of_;  ///< by the card's number
-  std::vector<bool> motor_set_;
-  std::vector<base::Time> motor_set_at_;
+  std::vector<Account> accounts_;
   std::size_t motors_set_ = 0;
+  std::vector<std::optional<std::size_t>> index_of_;  ///< by the card's number
   base::Time read_at_ = base::Time::min();
 };
 

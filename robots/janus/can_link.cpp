@@ -3,16 +3,18 @@
 
 #include <utility>
 
+#include "armature/can/make_bus.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::janus {
 
-CanLink::CanLink(const std::string& interface) : bus_(interface) {}
+CanLink::CanLink(const std::string& bus, std::uint32_t bit_rate)
+    : bus_(can::make_bus(bus, bit_rate)) {}
 
 bool CanLink::open(can::BusOptions options, base::Diagnostics& diagnostics) {
   options.on_news = [this] { news_.notify(); };
-  return bus_.open(std::move(options), diagnostics);
+  return bus_->open(std::move(options), diagnostics);
 }
 
 base::Time CanLink::now() { return platform::monotonic_now(); }

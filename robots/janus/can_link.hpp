@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 
-#include "armature/can/socket_can.hpp"
+#include "armature/can/bus.hpp"
 #include "armature/rt/wakeup.hpp"
 #include "robots/janus/aic_link.hpp"
 
 namespace armature::janus {
 
-/// Cards on a CAN interface of this machine.
+/// Cards on a CAN bus outside this process.
 class CanLink final : public AicLink {
  public:
-  /// @param interface  such as can0
-  explicit CanLink(const std::string& interface);
+  /// @param bus       as `can::make_bus` has it: can0, virtual:/tmp/janus.bus
+  /// @param bit_rate  of this station on a virtual bus
+  CanLink(const std::string& bus, std::uint32_t bit_rate);
 
-  can::Bus& bus() override { return bus_; }
+  can::Bus& bus() override { return *bus_; }
   bool open(can::BusOptions options, base::Diagnostics& diagnostics) override;
   void begin_cycle(base::Time /*time*/) override {}
   base::Time now() override;
@@ -23,7 +26,7 @@ class CanLink final : public AicLink {
 
  private:
   rt::Wakeup news_;
-  can::SocketCan bus_;
+  std::unique_ptr<can::Bus> bus_;
 };
 
 }  // namespace armature::janus

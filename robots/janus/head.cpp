@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/sim/brake.hpp"
 #include "armature/sim/encoder.hpp"
 #include "armature/sim/index_switch.hpp"
@@ -124,8 +125,7 @@ void Head::advance_to(base::Time now) {
 double Head::position(std::size_t joint, base::Time now) {
   advance_to(now);
   if (status() == sim::PlantStatus::kDiverged) return plant_.position(joint);
-  const std::chrono::duration<double> since = now - reached();
-  return plant_.position(joint) + plant_.velocity(joint) * since.count();
+  return plant_.position(joint) + plant_.velocity(joint) * base::to_seconds(now - reached());
 }
 
 double Head::velocity(std::size_t joint, base::Time now) {

@@ -229,8 +229,10 @@ TEST(Head, AnotherRobotsFileIsRefused) {
       "<robot name='r'><link name='base'/><joint name='joint1' type='continuous'>"
       "<parent link='base'/><child link='a'/></joint><link name='a'><inertial><mass value='1'/>"
       "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>";
-  EXPECT_THAT(Head::parse(one_joint, {.urdf_file = "one.urdf"}).error(),
-              HasSubstr("one.urdf: the armature of joint 'joint2' belongs to no joint"));
+  EXPECT_THAT(
+      Head::parse(one_joint, {.urdf_file = "one.urdf"}).error(),
+      HasSubstr(
+          "one.urdf: the armature of joint 'joint2' is given, but the description has no such"));
 }
 
 }  // namespace

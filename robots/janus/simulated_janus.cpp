@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robots/janus/simulated_janus.hpp"
 
-#include <chrono>
+#include <string>
 
+#include "armature/base/seconds.hpp"
 #include "armature/platform/clock.hpp"
 
 namespace armature::janus {
@@ -13,9 +14,12 @@ double SimulatedJanus::position(std::size_t joint) {
 }
 
 base::Result<std::unique_ptr<AicLink>> SimulatedJanus::make_link() {
-  const Head::Config head{.urdf_file = urdf_,
-                          .inner_step = std::chrono::duration_cast<base::Duration>(
-                              std::chrono::duration<double>(inner_step_.get()))};
+  for (const int number : cards()) {
+    if (number >= 1 && number <= static_cast<int>(kJoints)) continue;
+    return base::Error{"cards has " + std::to_string(number) +
+                       ", expected 1 or 2: so many has the head"};
+  }
+  const Head::Config head{.urdf_file = urdf_, .inner_step = base::from_seconds(inner_step_)};
   const bool simulated = context().simulated;
   auto made = SimulatedLink::make(
       head, simulated ? SimulatedLink::Time::kSimulated : SimulatedLink::Time::kReal,

@@ -17,8 +17,9 @@ class SimulatedJanus final : public AicHost {
   /// Where a joint really is [rad], without an encoder's steps.
   /// @thread the component's own, or any while it does not run
   double position(std::size_t joint);
-  /// For tests that break something: all there is, and the host's own station on the bus.
+  /// For tests that break something: all there is, the host's own station on the bus, and its link.
   Simulation& simulation() { return link_->simulation(); }
+  SimulatedLink& link() { return *link_; }
   can::VirtualStation& station() { return link_->station(); }
 
  private:

@@ -12,7 +12,7 @@ namespace armature::janus {
 base::Result<std::unique_ptr<SimulatedLink>> SimulatedLink::make(const Head::Config& head,
                                                                  Time time, base::Time now) {
   std::unique_ptr<SimulatedLink> link(new SimulatedLink(time));
-  Simulation::Config config{.head = head, .clock = {}};
+  Simulation::Config config{.head = head};
   config.head.begin = now;
   if (time == Time::kReal) config.clock = platform::monotonic_now;
   auto simulation = Simulation::make(config);
@@ -36,7 +36,9 @@ base::Time SimulatedLink::now() {
 
 void SimulatedLink::wait_for_news(base::Time deadline) {
   if (time_ == Time::kSimulated) {
+    const std::uint64_t begin = platform::ticks();
     simulation_->advance_to_next_event(deadline);
+    ticks_spent_ += platform::ticks() - begin;
     return;
   }
   const base::Time next = simulation_->next_event();
@@ -48,7 +50,9 @@ void SimulatedLink::wait_for_news(base::Time deadline) {
 }
 
 void SimulatedLink::advance_to(base::Time now) {
+  const std::uint64_t begin = platform::ticks();
   if (now > simulation_->now()) simulation_->advance_to(now);
+  ticks_spent_ += platform::ticks() - begin;
 }
 
 }  // namespace armature::janus

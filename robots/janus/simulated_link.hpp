@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "robots/janus/aic_link.hpp"
@@ -27,6 +28,9 @@ class SimulatedLink final : public AicLink {
   base::Time now() override;
   void wait_for_news(base::Time deadline) override;
 
+  /// What this machine has spent on the simulation of the robot, which a host of a real robot
+  /// would not have to: ticks of platform::ticks().
+  std::uint64_t ticks_spent() const { return ticks_spent_; }
   Simulation& simulation() { return *simulation_; }
   can::VirtualStation& station() { return *host_; }
 
@@ -35,6 +39,7 @@ class SimulatedLink final : public AicLink {
   void advance_to(base::Time now);
 
   const Time time_;
+  std::uint64_t ticks_spent_ = 0;
   std::unique_ptr<Simulation> simulation_;
   can::VirtualStation* host_ = nullptr;
 };

@@ -9,7 +9,7 @@
 namespace armature::janus {
 
 base::Result<std::unique_ptr<Simulation>> Simulation::make(const Config& config) {
-  auto head = Head::load(config.head);
+  auto head = config.urdf.empty() ? Head::load(config.head) : Head::parse(config.urdf, config.head);
   if (!head) return base::Error{head.error()};
   std::unique_ptr<Simulation> made(new Simulation(std::move(head).value(), config));
   base::Diagnostics diagnostics;
@@ -22,7 +22,8 @@ base::Result<std::unique_ptr<Simulation>> Simulation::make(const Config& config)
 Simulation::Simulation(std::unique_ptr<Head> head, const Config& config)
     : head_(std::move(head)),
       bus_(
-          config.bus_name, kBitRate, config.clock ? config.clock : [this] { return bus_.now(); }) {
+          config.bus_name, config.bit_rate,
+          config.clock ? config.clock : [this] { return bus_.now(); }) {
   bus_.advance_to(config.head.begin);
   for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const int number = static_cast<int>(joint) + 1;

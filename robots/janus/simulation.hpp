@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,9 +25,12 @@ class Simulation {
  public:
   struct Config {
     Head::Config head;
+    std::string urdf{};  ///< the text of the URDF, instead of the head's file
+    /// Of the bus; above the cards' own where frames have had their time elsewhere already.
+    std::uint32_t bit_rate = kBitRate;
     /// The time that it is, asked when a host sends; none: how far the simulation has come. In real
     /// time the application's clock, which any thread may ask.
-    can::VirtualBus::Clock clock;
+    can::VirtualBus::Clock clock{};
     std::string bus_name = "can0";
   };
 

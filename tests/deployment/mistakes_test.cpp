@@ -53,6 +53,7 @@ DeploymentOptions options_in(const std::string& file) {
     std::istringstream words(line.substr(kCommand.size()));
     for (std::string option, value; words >> option >> value;) {
       if (option == "--set") options.document.overrides.push_back(value);
+      if (option == "--mode") options.mode = value;
       if (option == "--times") options.times_file = value;
     }
   }

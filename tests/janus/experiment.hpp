@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/base/seconds.hpp"
 #include "armature/control/error_metrics.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "robots/janus/simulated_janus.hpp"
@@ -34,7 +36,9 @@ inline const std::vector<Motion> kTable2 = {
 /// A deployment of Janus in simulated time, from its files.
 class Robot {
  public:
-  explicit Robot(const std::string& file, std::vector<std::string> overrides = {}) {
+  using Adjust = std::function<void(exec::ApplicationOptions&)>;
+  explicit Robot(const std::string& file, std::vector<std::string> overrides = {},
+                 const Adjust& adjust = {}) {
     deploy::DeploymentOptions options;
     options.library_folders = {LIBRARIES};
     options.document.overrides = std::move(overrides);
@@ -42,6 +46,7 @@ class Robot {
     deployment_ = deploy::load_deployment(std::string(JANUS "/deployments/") + file, options);
     EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
     deployment_.options.simulated = true;
+    if (adjust) adjust(deployment_.options);
     application_ =
         std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
   }
@@ -111,8 +116,7 @@ inline Figures run_experiment(Robot& robot) {
     if (next < kTable2.size() && now >= begin + kTable2[next].at) {
       const Motion& motion = kTable2[next++];
       EXPECT_EQ(robot.move_to(motion.positions, motion.time), "");
-      rest_from = now + std::chrono::duration_cast<base::Duration>(
-                            std::chrono::duration<double>(motion.time + 2.0));
+      rest_from = now + base::from_seconds(motion.time + 2.0);
     }
     robot.run_for(kPeriod);
     const std::array<double, kJoints> errors{

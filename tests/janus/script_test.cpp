@@ -50,11 +50,11 @@ Course run_experiment_script() {
   std::ifstream file(JANUS "/experiment.lua");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   base::Diagnostics diagnostics;
-  script::Script script =
+  const auto script =
       script::parse_script(kWatch + text, JANUS "/experiment.lua", options, diagnostics);
   Robot robot("pid.yaml");
   robot.start();
-  EXPECT_EQ(script.run(robot.application(), 100s, nullptr, diagnostics),
+  EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),
             exec::RunEnd::kStopRequested);
   EXPECT_EQ(diagnostics.to_text(), "");
   EXPECT_LT(robot.application().now(), base::Time{} + 61s) << "it says stop()";
@@ -84,6 +84,73 @@ TEST(Script, RunsTheExperimentTwiceTheSameToTheBit) {
   const Course second = run_experiment_script();
   EXPECT_EQ(first.lines, second.lines);
   EXPECT_EQ(first.samples, second.samples);
+}
+
+/// What the script of the patrol printed; the robot is looked at where it ended.
+std::vector<std::string> run_patrol() {
+  std::vector<std::string> lines;
+  script::Options options;
+  options.print = [&](std::string_view line) { lines.emplace_back(line); };
+  base::Diagnostics diagnostics;
+  const auto script = script::load_script(JANUS "/patrol.lua", options, diagnostics);
+  Robot robot("pid.yaml");
+  robot.start();
+  EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),
+            exec::RunEnd::kStopRequested);
+  EXPECT_EQ(diagnostics.to_text(), "");
+  EXPECT_EQ(robot.application().faults(), 0u);
+  EXPECT_EQ(robot.application().reactions(), 0u);
+  return lines;
+}
+
+std::size_t count_of(const std::vector<std::string>& lines, const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(lines.begin(), lines.end(), [&](const auto& line) {
+    return line.find(text) != std::string::npos;
+  }));
+}
+
+TEST(Script, PatrolsByAStateMachineThatPausesAndRecovers) {
+  const std::vector<std::string> lines = run_patrol();
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  EXPECT_GE(count_of(lines, "looks at place 1, joints at 1.00 and 0.50"), 3u) << all;
+  EXPECT_GE(count_of(lines, "looks at place 2, joints at 3.00 and 1.00"), 2u) << all;
+  EXPECT_EQ(count_of(lines, "looks at place 3"), 0u) << all;
+  EXPECT_EQ(count_of(lines, "leaves out place 3: "), 1u) << all;
+  EXPECT_EQ(count_of(lines, "pauses"), 1u) << all;
+  EXPECT_EQ(count_of(lines, "goes on"), 1u) << all;
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("is off"), std::string::npos) << all;
+}
+
+TEST(Script, PatrolsTwiceTheSame) { EXPECT_EQ(run_patrol(), run_patrol()); }
+
+/// The block of Lua in the documentation that has `text`.
+std::string documented_script(const std::string& text) {
+  std::ifstream file(JANUS "/../../docs/scripts.md");
+  const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::string fence = "```";
+  const std::size_t at = page.find(text);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = page.rfind(fence + "lua\n", at) + fence.size() + 4;
+  return page.substr(begin, page.find(fence, at) - begin);
+}
+
+TEST(Script, OfTheDocumentationRuns) {
+  std::vector<std::string> lines;
+  script::Options options;
+  options.print = [&](std::string_view line) { lines.emplace_back(line); };
+  base::Diagnostics diagnostics;
+  const auto script = script::parse_script(documented_script("local shuttle = machine {"),
+                                           "shuttle.lua", options, diagnostics);
+  Robot robot("pid.yaml");
+  robot.start();
+  EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),
+            exec::RunEnd::kStopRequested);
+  EXPECT_EQ(diagnostics.to_text(), "");
+  EXPECT_EQ(lines, std::vector<std::string>{"rests at 10.0"});
+  EXPECT_GT(robot.application().now(), base::Time{} + 23s);
+  EXPECT_LT(robot.application().now(), base::Time{} + 25s);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, EXAMPLES = sys.argv[1:3]
@@ -82,6 +83,11 @@ class Checking(unittest.TestCase):
         self.assertEqual(done.stderr.count("error:"), 3, done.stderr)
         self.assertIn("did you mean 'Filter'?", done.stderr)
 
+    def test_mode_that_is_not_there(self):
+        done = armature("check", WAVE, "--mode", "fast")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("<command line>: error: there is no mode 'fast', as there are no modes", done.stderr)
+
     def test_run_refuses_what_check_refuses(self):
         done = armature("run", "--sim", "--for", "1s", WAVE, "--set", "Source.Frequency=100 Hz")
         self.assertEqual(done.returncode, 1)
@@ -142,6 +148,61 @@ connections:
             done = armature("run", "--sim", "--for", "5s", file.name)
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertIn("older than declared", done.stderr)
+
+
+class Timeline(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = os.path.join(self.folder.name, "trace.json")
+
+    def test_has_every_cycle_with_the_steps_of_its_components(self):
+        done = armature("run", WAVE, "--sim", "--for", "1s", "--trace", self.path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path, encoding="utf-8") as file:
+            events = json.load(file)
+        names = {event["args"]["name"] for event in events if event["name"] == "thread_name"}
+        self.assertIn("Source", names)
+        thread = next(e["tid"] for e in events if e["ph"] == "M" and e["args"]["name"] == "Source")
+        mine = [e for e in events if e.get("tid") == thread and e["ph"] == "X"]
+        cycles = [e for e in mine if e["cat"] == "cycle"]
+        self.assertEqual([e["args"]["cycle"] for e in cycles], list(range(1, 101)))
+        for step in (e for e in mine if e["cat"] == "step"):
+            around = [c for c in cycles if c["ts"] <= step["ts"] <= c["ts"] + c["dur"]]
+            self.assertEqual(len(around), 1, step)
+        self.assertEqual({e["name"] for e in mine if e["cat"] == "step"}, {"Source", "Filter"})
+
+    def test_is_there_after_a_kill_up_to_the_last_second(self):
+        run = subprocess.Popen(
+            [PROGRAM, "run", WAVE, "--realtime", "off", "--trace", self.path],
+            stderr=subprocess.DEVNULL)
+        try:
+            deadline = time.monotonic() + 60
+            while time.monotonic() < deadline and self.whole_lines() < 300:
+                time.sleep(0.05)
+        finally:
+            run.kill()
+            run.wait()
+        self.assertGreaterEqual(self.whole_lines(), 300)
+
+    def whole_lines(self):
+        """Events of a file that ends anywhere, read as Perfetto does."""
+        if not os.path.exists(self.path):
+            return 0
+        with open(self.path, encoding="utf-8") as file:
+            text = file.read()
+        whole = text[:text.rfind("\n")].rstrip(",\n")
+        return len(json.loads(whole + "]")) if whole else 0
+
+    def test_file_that_cannot_be_made_is_told_before_anything_runs(self):
+        done = armature("run", WAVE, "--sim", "--for", "1s", "--trace", "/no/such/folder/t.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot write '/no/such/folder/t.json'", done.stderr)
+
+    def test_full_disk_ends_nothing_and_is_told(self):
+        done = armature("run", WAVE, "--sim", "--for", "5s", "--trace", "/dev/full")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("No space left on device: the timeline lacks", done.stderr)
 
 
 class Scripts(unittest.TestCase):

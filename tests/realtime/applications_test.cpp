@@ -11,6 +11,7 @@
 #include "armature/component/author.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/engine.hpp"
+#include "armature/exec/modes.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/testing/realtime_guard.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -23,6 +24,12 @@ using component::Component;
 using component::EventHandler;
 using component::Outcome;
 using std::chrono::milliseconds;
+
+/// With everything on that looks at an application.
+void watch(ApplicationOptions& options) {
+  options.timeline.sink = [](const TimelineSlice&) {};
+  options.black_box.write = [](const BlackBoxReport&) { return std::string(); };
+}
 
 /// Measures, alarms, logs, and stops now and then for longer than its period.
 class Sensor final : public Component {
@@ -173,6 +180,7 @@ class Applications : public ::testing::TestWithParam<Arrangement> {
     options.simulated = GetParam().simulated;
     options.measure_every = 2;
     options.log = [this](const rt::LogRecord&) { ++log_lines_; };
+    watch(options);
     application_ = std::make_unique<Application>(std::move(blueprint), std::move(options));
   }
 
@@ -286,6 +294,7 @@ class Failures : public ::testing::TestWithParam<bool> {
     blueprint.connect("failing.Out", "dependent.In");
     ApplicationOptions options;
     options.simulated = GetParam();
+    watch(options);
     Application application(std::move(blueprint), std::move(options));
     ASSERT_TRUE(application.start().ok());
     while (application.faults() == 0) application.run_for(milliseconds(5));
@@ -312,6 +321,77 @@ TEST_P(Failures, ByExceptionAreOneViolationWhateverItTakesToContainThem) {
   EXPECT_EQ(guard_.violations(), 1u) << guard_.report();
   EXPECT_THAT(guard_.report(),
               ::testing::HasSubstr("'failing' in thread 'failing' threw std::runtime_error"));
+}
+
+/// Writes where others do, too, and goes on from what they wrote.
+class Turn final : public Component {
+ public:
+  using Component::Component;
+  int taken = 0;
+
+ private:
+  Outcome on_start() override {
+    if (const std::vector<double>* const present = out_.taken_over()) {
+      values_ = *present;
+      ++taken;
+    }
+    return component::accepted();
+  }
+  void step(const std::vector<double>&) { out_.write(values_); }
+
+  std::vector<double> values_ = std::vector<double>(7, 1.0);
+  component::InputPort<std::vector<double>> in_{
+      this, "In", "", "", component::on_data<&Turn::step>, component::fixed_size(7)};
+  component::OutputPort<std::vector<double>> out_{this, "Out", "", "", component::fixed_size(7)};
+};
+
+class Reader final : public Component {
+ public:
+  using Component::Component;
+  component::InputPort<std::vector<double>> in{this, "In", "", ""};
+};
+
+/// Asks for the other mode every few cycles.
+class Switcher final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  void on_update() override {
+    if (++cycles_ % 7 == 0) sent_ = switch_.send(ModeName(cycles_ % 14 == 0 ? "one" : "two"));
+  }
+  int cycles_ = 0;
+  CommandHandle sent_{component::CallStatus::kPending};
+  component::CommandCaller<ModeName> switch_{this, "switch", ""};
+};
+
+TEST_P(Failures, AreNotWhatASwitchOfModesIs) {
+  Blueprint blueprint;
+  blueprint.add<Sensor>("sensor", Activity::periodic(milliseconds(1), 30));
+  auto& first = blueprint.add<Turn>("first");
+  auto& second = blueprint.add<Turn>("second");
+  blueprint.add<Reader>("reader");
+  blueprint.add<Switcher>("switcher", Activity::periodic(milliseconds(2), 20));
+  for (const char* turn : {"first", "second"}) {
+    blueprint.connect("sensor.Values", std::string(turn) + ".In");
+    blueprint.connect(std::string(turn) + ".Out", "reader.In");
+  }
+  blueprint.add_mode("one", {{"first", {}}});
+  blueprint.add_mode("two", {{"second", {}}});
+  blueprint.add_peer("switcher", "Modes");
+  ApplicationOptions options;
+  options.simulated = GetParam();
+  Application application(std::move(blueprint), std::move(options));
+  const testing::RealtimeGuard guard;
+  ASSERT_TRUE(application.start().ok());
+  while (application.thread_statistics().front().cycles_run < 200) {
+    application.run_for(milliseconds(5));
+  }
+  application.stop();
+  EXPECT_EQ(guard.violations(), 0u) << "Modes"
+                                    << ": " << guard.report();
+  EXPECT_GT(first.taken, 3);
+  EXPECT_GT(second.taken, 3);
 }
 
 TEST(SimulatedTime, AnEngineStepsWithoutAViolation) {

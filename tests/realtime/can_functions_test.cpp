@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real-time functions of can.
 #include <optional>
+#include <string>
+#include <thread>
+
+#include <unistd.h>
 
 #include "armature/base/fixed_text.hpp"
 #include "armature/can/bus.hpp"
+#include "armature/can/bus_server.hpp"
 #include "armature/can/frame.hpp"
+#include "armature/can/shared_bus.hpp"
 #include "armature/can/virtual_bus.hpp"
+#include "armature/platform/clock.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::can {
@@ -63,12 +70,40 @@ TEST(RealtimeCan, AVirtualBus) {
   expect_realtime("VirtualStation::send_at", [&] { wire.host.send_at(sync, wire.now); });
   expect_realtime("VirtualBus::next_event", [&] { next = wire.bus.next_event(); });
   EXPECT_TRUE(next);
+  std::size_t waiting = 0;
+  expect_realtime("VirtualStation::waiting", [&] { waiting = wire.host.waiting(); });
+  EXPECT_EQ(waiting, 64u) << "all it has room for";
   expect_realtime("VirtualBus::advance_to", [&] {
     host.send(sync);
     wire.advance();
   });
   expect_realtime("Bus::receive", [&] { host.receive(arrival); });
   EXPECT_EQ(arrival.frame, data_frame(0x181, {1}));
+}
+
+TEST(RealtimeCan, ABusOfAnotherProcess) {
+  const std::string path = ::testing::TempDir() + "armature-" + std::to_string(::getpid());
+  base::Diagnostics diagnostics;
+  VirtualBus bus("bus", 1'000'000, platform::monotonic_now);
+  const auto server = BusServer::open(bus, path, diagnostics);
+  ASSERT_NE(server, nullptr) << diagnostics.to_text();
+  const std::jthread serving([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      server->take();
+      bus.advance_to(platform::monotonic_now());
+      server->give();
+      server->wait_until(platform::monotonic_now() + base::Duration(1'000'000));
+    }
+  });
+  SharedBus host(path, 1'000'000);
+  SharedBus card(path, 1'000'000);
+  ASSERT_TRUE(host.open({}, diagnostics) && card.open({}, diagnostics)) << diagnostics.to_text();
+  Arrival arrival;
+  expect_realtime("SharedBus::send", [&] { host.send(data_frame(0x080, {7})); });
+  while (card.receive(arrival) != ReceiveStatus::kReceived) std::this_thread::yield();
+  expect_realtime("SharedBus::receive", [&] { card.receive(arrival); });
+  expect_realtime("SharedBus::receive, with the bus's status", [&] { host.receive(arrival); });
+  EXPECT_EQ(arrival.frame, data_frame(0x080, {7}));
 }
 
 TEST(RealtimeCan, TheStateOfABus) {

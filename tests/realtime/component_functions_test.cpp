@@ -117,6 +117,9 @@ TEST_P(ComponentFunctions, TimeAndAdmission) {
   base::Time expiry{};
   expect_realtime("Component::next_expiry", [&] { expiry = server_.next_expiry(); });
   EXPECT_GT(expiry, now);
+  base::Time hold{};
+  expect_realtime("Component::settle_ages", [&] { hold = server_.settle_ages(); });
+  EXPECT_GE(hold, now);
   EXPECT_TRUE(admitted);
 }
 
@@ -182,6 +185,74 @@ TEST_P(ComponentFunctions, AChangeOfATappedProperty) {
   expect_realtime("Property::assign", [&] { server_.gains.assign(gains[++changes % 2]); });
   EXPECT_EQ(tap.dropped(), 52u);  // of 101 changes and the value before
   server_.gains.untap();
+}
+
+class CountingTap final : public EventTap {
+ public:
+  int seen = 0;
+
+ private:
+  void event_raised(const void* const*) noexcept override { ++seen; }
+};
+
+TEST_P(ComponentFunctions, ATapOfAnEvent) {
+  CountingTap tap;
+  expect_realtime("EventBase::add_tap", [&] {
+    server_.happened.add_tap(tap);
+    server_.happened.remove_tap(tap);
+  });
+  server_.happened.add_tap(tap);
+  expect_realtime("EventTap::event_raised", [&] {
+    server_.happened.raise(1.0, 2);
+    deliver();
+  });
+  EXPECT_EQ(tap.seen, 101);
+}
+
+TEST(BlackBoxFunctions, PicturesAndNotes) {
+  ExecutionContext context("thread");
+  Server server("server");
+  BlackBox box;
+  box.add(server);
+  box.reserve(4, 4, std::chrono::milliseconds(1));
+  server.assign_context(context);
+  context.black_box = &box;
+  bool due = false;
+  std::int64_t now = 0;
+  const auto time = [&] { return base::time_from_ns(now); };
+  expect_realtime("BlackBox::due", [&] { due = box.due(time()); });
+  EXPECT_TRUE(due);
+  expect_realtime("BlackBox::make_picture", [&] {
+    now += 1'000'000;
+    box.make_picture(time());
+  });
+  expect_realtime("BlackBox::note",
+                  [&] { box.note(BlackBox::Note::Kind::kFault, server, "item", "text"); });
+  expect_realtime("component::note",
+                  [&] { note(server, BlackBox::Note::Kind::kCall, "item", "text"); });
+  EXPECT_EQ(box.missed(), 0u);
+}
+
+TEST(TimelineFunctions, AStretchWithSteps) {
+  const Server first("first");
+  const Server second("second");
+  Timeline timeline({.capacity = 50, .burst = std::chrono::seconds(1)});  // it becomes full
+  bool affords = false;
+  expect_realtime("Timeline::open", [&] { timeline.open(0, base::Time(), 100); });
+  expect_realtime("Timeline::affords_steps", [&] { affords = timeline.affords_steps(); });
+  EXPECT_FALSE(affords);  // what found no room is not kept
+  while (timeline.pop() != nullptr) continue;
+  timeline.open(0, base::Time(), 100);
+  std::uint64_t tick = 100;
+  expect_realtime("Timeline::add_step", [&] {
+    timeline.add_step(&first, tick, tick + 1);
+    timeline.add_step(&second, tick + 1, tick + 2);
+    tick += 2;
+  });
+  expect_realtime("Timeline::close", [&] { timeline.close(tick, 1, base::Time(), true, true); });
+  expect_realtime("Timeline::spend", [&] { timeline.spend(1); });
+  expect_realtime("Timeline::pushed", [&] { tick = timeline.pushed(); });
+  EXPECT_GT(timeline.dropped(), 0u);
 }
 
 TEST_P(ComponentFunctions, AnOperationInTheCallersThread) {

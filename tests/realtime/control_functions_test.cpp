@@ -8,9 +8,11 @@
 #include "armature/control/dc_motor.hpp"
 #include "armature/control/error_metrics.hpp"
 #include "armature/control/gathering.hpp"
+#include "armature/control/hand_over.hpp"
 #include "armature/control/inverse_dynamics.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/control/reference_brake.hpp"
 #include "armature/control/trajectory.hpp"
 #include "armature/control/trapezoid.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -29,6 +31,18 @@ TEST(RealtimeFunctions, Pid) {
   EXPECT_EQ(pid.value().state().output, 2.0);
   expect_realtime("Pid::reset", [&] { pid.value().reset(); });
   EXPECT_EQ(pid.value().state().output, 0.0);
+}
+
+TEST(RealtimeFunctions, HandOver) {
+  control::HandOver over(3);
+  const std::vector<double> present{1.0, 2.0, 3.0};
+  std::vector<double> signals(3, 0.0);
+  base::Time now{};
+  expect_realtime("HandOver::begin", [&] { over.begin(present); });
+  expect_realtime("HandOver::step", [&] { over.step(signals, now += 10ms, 1s); });
+  EXPECT_GT(signals[2], 2.9);
+  expect_realtime("HandOver::reset", [&] { over.reset(); });
+  EXPECT_FALSE(over.active());
 }
 
 TEST(RealtimeFunctions, Trapezoid) {
@@ -123,6 +137,21 @@ TEST(RealtimeFunctions, Gathering) {
   EXPECT_TRUE(complete);
   expect_realtime("Gathering::reset", [&] { gathering.reset(); });
   EXPECT_EQ(gathering.values()[5], 0.0);
+}
+
+TEST(RealtimeFunctions, ReferenceBrake) {
+  auto made =
+      control::ReferenceBrake::make({.joints = 2, .max_acceleration = {1.0}, .period = 10ms});
+  auto& brake = made.value();
+  const std::vector<double> last{1.0, 2.0, 0.5, 0.0, 0.0, 0.0};
+  const std::vector<double> measured{1.0, 2.0, 0.0, 0.0};
+  expect_realtime("ReferenceBrake::begin", [&] { brake.begin(last); });
+  expect_realtime("ReferenceBrake::step", [&] { brake.step(); });
+  EXPECT_EQ(brake.step()[2], 0.0);
+  bool may = true;
+  expect_realtime("ReferenceBrake::may_give_way_to",
+                  [&] { may = brake.may_give_way_to(last, measured); });
+  EXPECT_FALSE(may) << "it moves";
 }
 
 TEST(RealtimeFunctions, InverseDynamics) {

@@ -127,6 +127,25 @@ TEST(RealtimeComponents, ControllerNPID) {
   EXPECT_EQ(controller.writes("act"), 50u);
 }
 
+TEST(RealtimeComponents, ControllerThatBrakesForWantOfAReference) {
+  testing::Harness controller(std::make_unique<ControllerNPID>("Controller"));
+  controller.set("joints", 2);
+  controller.set("MaxAcceleration", Vector{1.0});
+  start(controller);
+  write_reference_and_sensor(controller);
+  const auto sample = [&] {
+    controller.write("sensor", Vector(4, 0.1));
+    controller.write("Out1", 1.0);
+    controller.write("Out2", 1.0);
+  };
+  for (int i = 0; i < 20; ++i) {
+    controller.advance(std::chrono::milliseconds(10));
+    sample();
+  }
+  expect_realtime_on_bench("ControllerNPID", sample);
+  EXPECT_EQ(controller.get<int>("brakings"), 1);
+}
+
 TEST(RealtimeComponents, ControllerNPIDFF) {
   testing::Harness controller(std::make_unique<ControllerNPIDFF>("Controller"));
   controller.set("joints", 2);

@@ -87,6 +87,12 @@ TEST_P(PortFunctions, ANumberIsWrittenAndRead) {
   connect(source_.number, sink_.number);
   double sum = 0.0;
   expect_realtime("OutputPort::write", [&] { source_.number.write(1.0); });
+  expect_realtime("OutputPortBase::take_over_from",
+                  [&] { source_.number.take_over_from(&source_.number); });
+  const double* taken = nullptr;
+  expect_realtime("OutputPort::taken_over", [&] { taken = source_.number.taken_over(); });
+  EXPECT_EQ(*taken, 1.0);
+  source_.number.take_over_from(nullptr);
   expect_realtime("InputPort::read", [&] {
     begin_cycle();
     source_.number.write(2.0);

@@ -21,6 +21,7 @@
 #include "armature/rt/quick_latest.hpp"
 #include "armature/rt/ring.hpp"
 #include "armature/rt/statistics.hpp"
+#include "armature/rt/try_lock.hpp"
 #include "armature/rt/wakeup.hpp"
 #include "armature/types/struct.hpp"
 #include "armature/types/type.hpp"
@@ -47,6 +48,14 @@ TEST(RealtimeFunctions, FixedText) {
     equal = equal && text == base::FixedText<15>("joint 1, and mo");
   });
   EXPECT_TRUE(equal);
+}
+
+TEST(RealtimeFunctions, TryLock) {
+  rt::TryLock lock;
+  int taken = 0;
+  expect_realtime("TryLock::try_lock", [&] { taken += lock.try_lock() ? 1 : 0; });
+  EXPECT_EQ(taken, 1);
+  expect_realtime("TryLock::unlock", [&] { lock.unlock(); });
 }
 
 TEST(RealtimeFunctions, Clocks) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every command of docs/tutorial.md, in order, in one shell each block.
+"""Runs every command of docs/tutorial.md and docs/own_robot.md, in order, in one shell each block.
 
 usage: tutorial_test.py SOURCE_DIR BUILD_DIR
 
@@ -23,9 +23,11 @@ def blocks(text):
         yield text.count("\n", 0, found.start()) + 1, found.group(1), found.group(2)
 
 
-def main():
-    source, build = map(os.path.abspath, sys.argv[1:3])
-    page = os.path.join(source, "docs", "tutorial.md")
+PAGES = {"tutorial.md": 8, "own_robot.md": 3}  # and at least so many blocks
+
+
+def follow(source, build, name, least):
+    page = os.path.join(source, "docs", name)
     environment = dict(os.environ)
     environment["PATH"] = os.path.join(build, "bin") + os.pathsep + environment["PATH"]
     run = 0
@@ -42,9 +44,15 @@ def main():
             if (status != 0) != (kind == "fails"):
                 sys.exit(f"{page}:{line}: error: exit status {status} of:\n{commands}")
             run += 1
-    if run < 8:
+    if run < least:
         sys.exit(f"{page}: error: only {run} blocks of commands were found")
-    print(f"{run} blocks of commands did what the tutorial says")
+    print(f"{run} blocks of commands did what {name} says")
+
+
+def main():
+    source, build = map(os.path.abspath, sys.argv[1:3])
+    for name, least in PAGES.items():
+        follow(source, build, name, least)
 
 
 if __name__ == "__main__":

@@ -110,6 +110,7 @@ void InputPort<T>::arrived_with_care(ExecutionContext& where, Handle handle) noe
 template <typename T>
 internal::Channel<T>* InputPort<T>::pull() {
   About& mine = about();
+  if (mine.turns) return pull_newest();
   for (std::size_t tried = 0; tried < mine.channels.size(); ++tried) {
     auto& channel = static_cast<internal::Channel<T>&>(*mine.channels[mine.next_channel]);
     if (++mine.next_channel == mine.channels.size()) mine.next_channel = 0;
@@ -119,6 +120,23 @@ internal::Channel<T>* InputPort<T>::pull() {
     }
   }
   return nullptr;
+}
+
+template <typename T>
+internal::Channel<T>* InputPort<T>::pull_newest() {
+  internal::Channel<T>* newest = nullptr;
+  for (const auto& each : about().channels) {
+    auto& channel = static_cast<internal::Channel<T>&>(*each);
+    const Sample<T>* const sample = channel.pop();
+    if (sample == nullptr) continue;
+    if (newest != nullptr && sample->time < source_->time) {
+      ++about().counters.missed;
+      continue;
+    }
+    take(channel, *sample);
+    newest = &channel;
+  }
+  return newest;
 }
 
 template <typename T>

@@ -59,7 +59,8 @@ void OutputPort<T>::connect(InputPortBase& base, const ConnectionPolicy& policy)
   input.set_shape(sample_.value);
   const bool same_thread = &owner().context() == &base.owner().context();
   const bool latest = policy.kind == ConnectionPolicy::Kind::kLatest;
-  if (same_thread && latest && !policy.one_cycle_delay && !base.allows_fan_in()) {
+  const bool several = base.allows_fan_in() || base.writers_take_turns();
+  if (same_thread && latest && !policy.one_cycle_delay && !several) {
     input.connect_source(*this, sample_);
     add_reader(base);
   } else {

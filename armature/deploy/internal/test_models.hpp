@@ -56,6 +56,9 @@ class Sink final : public Component {
                        component::may_stay_open,
                        component::max_age(std::chrono::seconds(1), component::Reaction::kZero)};
   InputPort<double> all{this, "All", "angles", "rad", component::may_stay_open, component::fan_in};
+
+ private:
+  void on_update() override { in.read(); }
 };
 
 class Mux final : public Component {

@@ -8,22 +8,34 @@
 
 namespace armature::exec::internal {
 
-/// Counts what components report from their threads.
+/// Counts what components report from their threads, and remembers the first.
 class Incidents final : public component::Supervisor {
  public:
-  void component_faulted(component::Component&) override { count(faults_); }
-  void component_stopped_itself(component::Component&) override { count(reactions_); }
+  void component_faulted(component::Component& component) override { note(faults_, component); }
+  void component_stopped_itself(component::Component& component) override {
+    note(reactions_, component);
+  }
 
   std::uint64_t faults() const { return faults_.load(std::memory_order_relaxed); }
   std::uint64_t reactions() const { return reactions_.load(std::memory_order_relaxed); }
 
+  /// Since the last `take_first`; nullptr if there was none.
+  const component::Component* first() const { return first_.load(std::memory_order_acquire); }
+  const component::Component* take_first() {
+    return first_.exchange(nullptr, std::memory_order_acq_rel);
+  }
+
  private:
-  static void count(std::atomic<std::uint64_t>& counter) {
+  void note(std::atomic<std::uint64_t>& counter, const component::Component& component) {
+    const component::Component* none = nullptr;
+    first_.compare_exchange_strong(none, &component, std::memory_order_acq_rel,
+                                   std::memory_order_relaxed);
     counter.fetch_add(1, std::memory_order_relaxed);
   }
 
   std::atomic<std::uint64_t> faults_{0};
   std::atomic<std::uint64_t> reactions_{0};
+  std::atomic<const component::Component*> first_{nullptr};
 };
 
 }  // namespace armature::exec::internal

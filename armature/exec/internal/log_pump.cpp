@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/internal/log_pump.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -40,6 +41,21 @@ void LogPump::tell_losses(base::Time now) {
     record.arguments[0] = dropped - before;
     tell(record);
   }
+}
+
+void LogPump::say(std::string_view text, base::Time now) {
+  rt::LogRecord record;
+  record.level = rt::LogLevel::kWarning;
+  record.time = now;
+  record.component = "application";
+  // An argument holds less than a path may have.
+  record.format = "{}{}{}{}";
+  constexpr std::size_t kEach = 95;
+  for (rt::LogArgument& argument : record.arguments) {
+    argument = rt::LogArgument(text.substr(0, kEach));
+    text.remove_prefix(std::min(text.size(), kEach));
+  }
+  tell(record);
 }
 
 void LogPump::tell(const rt::LogRecord& record) noexcept {

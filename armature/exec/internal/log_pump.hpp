@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/base/time.hpp"
@@ -27,6 +28,8 @@ class LogPump {
   void tell_losses(base::Time now);
   /// The same, if it was not done for a second.
   void tell_losses_now_and_then(base::Time now);
+  /// The controlling thread's own line.
+  void say(std::string_view text, base::Time now);
   /// What the sink threw; empty if it did not.
   const std::string& failure() const { return failure_; }
 

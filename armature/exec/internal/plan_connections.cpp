@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -28,11 +29,12 @@ class ConnectionPlanner {
         directory_(directory),
         plan_(plan),
         diagnostics_(diagnostics),
-        writers_(directory.input_count(), nullptr) {}
+        writers_(directory.input_count()) {}
 
   void run() {
     plan_.connections.reserve(blueprint_.connections.size());
     for (const ConnectionEntry& entry : blueprint_.connections) plan_one(entry);
+    check_turns();
     for (Index i = 0; i < blueprint_.components.size(); ++i) check_open_inputs(i);
   }
 
@@ -52,7 +54,7 @@ class ConnectionPlanner {
     check_policy(entry);
     const bool fits = check_types(*output, *input, entry) && check_units(*output, *input, entry) &&
                       check_sizes(*output, *input, entry);
-    if (check_writers(*output, *input, number, entry) && fits) {
+    if (check_writers({output, from}, *input, number, entry) && fits) {
       plan_.connections.push_back({from, to, output, input, &entry, input->triggers(),
                                    entry.policy.one_cycle_delay, entry.max_age || entry.on_lost});
     }
@@ -162,37 +164,86 @@ class ConnectionPlanner {
     return false;
   }
 
-  bool check_writers(const OutputPortBase& output, const InputPortBase& input, Index number,
+  struct Writer {
+    const OutputPortBase* port = nullptr;
+    Index component = kNone;
+  };
+
+  bool check_writers(const Writer& writer, InputPortBase& input, Index number,
                      const ConnectionEntry& entry) {
-    const OutputPortBase*& first = writers_[number];
-    if (first == nullptr) {
-      first = &output;
+    Writer& first = writers_[number];
+    if (first.port == nullptr) {
+      first = writer;
       return true;
     }
-    if (first == &output || !more_writers_.emplace(&input, &output).second) {
+    if (first.port == writer.port || !more_writers_.emplace(&input, writer.port).second) {
       diagnostics_.error(
           entry.where,
-          quoted(path(output)) + " is connected to " + quoted(path(input)) + " already",
+          quoted(path(*writer.port)) + " is connected to " + quoted(path(input)) + " already",
           "remove one of the two connections");
       return false;
     }
-    if (input.allows_fan_in()) return true;
-    diagnostics_.error(entry.where,
-                       quoted(path(input)) + " has two writers: " + quoted(path(*first)) + " and " +
-                           quoted(path(output)),
-                       "an input takes several writers only if its component declares fan_in");
-    return false;
+    if (input.allows_fan_in() && plan_.modes.empty()) return true;
+    std::vector<Writer>& all = several_[number];
+    if (all.empty()) all.push_back(first);
+    all.push_back(writer);
+    return input.allows_fan_in() || take_turns(all, input, entry);
+  }
+
+  /// The last of `all` is new.
+  bool take_turns(const std::vector<Writer>& all, InputPortBase& input,
+                  const ConnectionEntry& entry) {
+    const Writer& writer = all.back();
+    for (auto other = all.begin(); other + 1 != all.end(); ++other) {
+      if (!plan_.run_together(other->component, writer.component)) continue;
+      const ModeSet both = plan_.modes_of[other->component] & plan_.modes_of[writer.component];
+      diagnostics_.error(
+          entry.where,
+          quoted(path(input)) + " has two writers" + in_modes(plan_, both) + ": " +
+              quoted(path(*other->port)) + " and " + quoted(path(*writer.port)),
+          std::string("an input takes several writers only if its component declares fan_in") +
+              (plan_.modes.empty() ? "" : ", or if no mode has more than one of them"));
+      return false;
+    }
+    if (all.size() == 2) plan_.in_turns.push_back(&input);
+    return true;
+  }
+
+  /// What waits in a FIFO of a writer that is not running any more would come after newer values.
+  void check_turns() {
+    for (const ConnectionPlan& each : plan_.connections) {
+      const bool fifo = each.entry->policy.kind == component::ConnectionPolicy::Kind::kFifo;
+      const auto& turns = plan_.in_turns;
+      if (!fifo || std::find(turns.begin(), turns.end(), each.input) == turns.end()) continue;
+      diagnostics_.error(each.entry->where,
+                         "the writers of " + quoted(path(*each.input)) +
+                             " take turns, and one of them has a FIFO, in which old values wait",
+                         "use the policy latest");
+    }
   }
 
   void check_open_inputs(Index component) {
     const ComponentEntry& entry = blueprint_.components[component];
     Index number = directory_.first_input(component);
     for (const InputPortBase* input : entry.component->interface().inputs) {
-      const bool written = writers_[number++] != nullptr;
-      if (written || input->stays_open() || attempted(*input)) continue;
-      diagnostics_.error(entry.where, "nobody writes the input " + quoted(path(*input)),
+      const Index here = number++;
+      if (input->stays_open()) continue;
+      const bool never = writers_[here].port == nullptr;
+      const ModeSet unwritten = never ? 0 : plan_.modes_of[component] & ~written_in(here);
+      if (never ? attempted(*input) : (unwritten & all_modes(plan_)) == 0) continue;
+      diagnostics_.error(entry.where,
+                         "nobody writes the input " + quoted(path(*input)) +
+                             (never ? std::string() : in_modes(plan_, unwritten)),
                          "connect it");
     }
+  }
+
+  ModeSet written_in(Index number) {
+    ModeSet modes = plan_.modes_of[writers_[number].component];
+    if (const auto all = several_.find(number); all != several_.end()) {
+      for (const Writer& writer : all->second) modes |= plan_.modes_of[writer.component];
+    }
+    return modes;
   }
 
   /// A connection to it exists but is wrong, which was reported.
@@ -210,8 +261,9 @@ class ConnectionPlanner {
   const Directory& directory_;
   Plan& plan_;
   base::Diagnostics& diagnostics_;
-  std::vector<const OutputPortBase*> writers_;  ///< the first of each input, by its number
+  std::vector<Writer> writers_;  ///< the first of each input, by its number
   std::set<std::pair<const InputPortBase*, const OutputPortBase*>> more_writers_;
+  std::unordered_map<Index, std::vector<Writer>> several_;  ///< all of those that have more
   std::unordered_map<std::string, bool> attempted_;
   std::unordered_set<const InputPortBase*> backwards_;  ///< that a connection begins at
 };

@@ -18,16 +18,21 @@ void check_period(const ComponentEntry& entry, base::Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::vector<component::Component*> components_of(const Blueprint& blueprint) {
+  std::vector<component::Component*> components;
+  for (const ComponentEntry& entry : blueprint.components) {
+    components.push_back(entry.component.get());
+  }
+  return components;
+}
+
 void plan_observers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
   for (Index i = 0; i < blueprint.components.size(); ++i) {
     if (!blueprint.components[i].component->interface().observers.empty())
       plan.observers.push_back(i);
   }
   if (plan.observers.empty()) return;
-  std::vector<component::Component*> components;
-  for (const ComponentEntry& entry : blueprint.components) {
-    components.push_back(entry.component.get());
-  }
+  const std::vector<component::Component*> components = components_of(blueprint);
   for (const Index index : plan.observers) {
     const ComponentEntry& entry = blueprint.components[index];
     check_period(entry, diagnostics);

@@ -153,7 +153,7 @@ class UpdateOrder {
     for (const ConnectionPlan& connection : plan.connections) {
       const Index thread = plan.thread_of[connection.from];
       const bool both_update = place_[connection.from] != kNone && place_[connection.to] != kNone;
-      const bool at_once = !connection.delayed;
+      const bool at_once = !connection.delayed && plan.run_together(connection.from, connection.to);
       if (both_update && at_once && thread == plan.thread_of[connection.to]) {
         inside_[thread].push_back(&connection);
       }

@@ -8,6 +8,7 @@
 
 #include "armature/exec/internal/grouped.hpp"
 #include "armature/exec/internal/wiring.hpp"
+#include "armature/exec/modes.hpp"
 
 namespace armature::exec::internal {
 namespace {
@@ -38,6 +39,7 @@ class ThreadPlanner {
     // triggers runs in the most urgent thread that calls it.
     spread(triggered_by_);
     spread(called_or_triggered_by_);
+    seat_modes();
     for (Index& thread : plan_.thread_of) {
       if (thread == kNone) thread = plan_.service_thread();
     }
@@ -149,6 +151,19 @@ class ThreadPlanner {
     called_or_triggered_by_.close();
   }
 
+  /// Modes are switched in the thread of what they switch.
+  void seat_modes() {
+    if (plan_.modes.empty()) return;
+    Index switched = 0;
+    while (switched < plan_.modes_of.size() && plan_.modes_of[switched] == ~ModeSet{0}) ++switched;
+    for (Index i = 0; i < blueprint_.components.size(); ++i) {
+      const bool is_modes = blueprint_.components[i].component->name() == kModesName;
+      if (is_modes && switched < plan_.modes_of.size()) {
+        plan_.thread_of[i] = plan_.thread_of[switched];
+      }
+    }
+  }
+
   void add_trigger(Index from, Index to) {
     triggered_by_.add(from, to);
     called_or_triggered_by_.add(from, to);
@@ -228,7 +243,9 @@ void check_priorities(const Blueprint& blueprint, const Plan& plan,
   for (const ConnectionPlan& connection : plan.connections) {
     const Activity& writer = plan.threads[plan.thread_of[connection.from]].activity;
     const bool urgent = writer.scheduler == Activity::Scheduler::kRealtime;
-    if (!connection.triggers || !urgent) continue;
+    if (!connection.triggers || !urgent || !plan.run_together(connection.from, connection.to)) {
+      continue;
+    }
     const Activity& reader = blueprint.components[connection.to].activity;
     const bool interrupts = reader.kind == Activity::Kind::kTriggered &&
                             reader.scheduler == Activity::Scheduler::kRealtime &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +17,12 @@ namespace {
 /// the search goes over kinds, so that its effort grows with the wiring and not with its square.
 class TriggerGraph {
  public:
-  TriggerGraph(const Blueprint& blueprint, const Plan& plan)
-      : blueprint_(blueprint), plan_(plan), first_kind_(blueprint.components.size(), kNone) {
+  /// @param modes  those that count; what does not run in one of them sets nobody off
+  TriggerGraph(const Blueprint& blueprint, const Plan& plan, ModeSet modes)
+      : blueprint_(blueprint),
+        plan_(plan),
+        modes_(modes),
+        first_kind_(blueprint.components.size(), kNone) {
     kinds_.reserve(2 * blueprint.components.size());
     // All kinds first: which of them a way begins at is known only then.
     std::vector<Handler> handlers;
@@ -39,7 +44,10 @@ class TriggerGraph {
     }
     for (const SubscriptionPlan& subscription : plan.subscriptions) {
       const Handler& to = *handler++;
-      if (!same_thread(subscription.from, subscription.to)) continue;
+      if (!same_thread(subscription.from, subscription.to) ||
+          !both_run(subscription.from, subscription.to)) {
+        continue;
+      }
       add_way(subscription.from, *subscription.event,
               {to, &blueprint.components[subscription.to].where, false});
     }
@@ -110,7 +118,12 @@ class TriggerGraph {
   /// at once, so that the delay does not end a cycle of handlers.
   bool runs_within_the_write(const ConnectionPlan& connection) const {
     if (!connection.triggers || !same_thread(connection.from, connection.to)) return false;
+    if (!both_run(connection.from, connection.to)) return false;
     return !connection.delayed || !is_periodic(connection.to);
+  }
+
+  bool both_run(Index a, Index b) const {
+    return (plan_.modes_of[a] & plan_.modes_of[b] & modes_) != 0;
   }
 
   bool is_periodic(Index component) const {
@@ -151,14 +164,17 @@ class TriggerGraph {
     std::string text = path_of(back.to);
     bool inside = false;
     bool delay_helps = false;
+    ModeSet modes = plan_.modes_of[kinds_[back.to.kind].component];
     for (const Visit& visit : path) {
       if (inside) text += " -> " + path_of(visit.handler);
       inside = inside || visit.handler.kind == back.to.kind;
+      if (inside) modes &= plan_.modes_of[kinds_[visit.handler.kind].component];
       delay_helps = delay_helps || (inside && way_taken(visit).ends_by_delay);
     }
     diagnostics.error(
         *back.where,
-        "handlers may set each other off without end: " + text + " -> " + path_of(back.to),
+        "handlers may set each other off without end" + in_modes(plan_, modes) + ": " + text +
+            " -> " + path_of(back.to),
         std::string("declare ") +
             (delay_helps ? "delay: one_cycle on one of these connections, or " : "") +
             "leads_to(...) where a handler does not write all outputs of its component");
@@ -176,6 +192,7 @@ class TriggerGraph {
 
   const Blueprint& blueprint_;
   const Plan& plan_;
+  const ModeSet modes_;
   std::vector<Kind> kinds_;
   Grouped<Way> ways_{0};                 ///< of each kind
   std::vector<std::size_t> first_kind_;  ///< of each component, or kNone
@@ -187,11 +204,20 @@ constexpr int kDeepest = 2000;
 }  // namespace
 
 void plan_triggers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
-  TriggerGraph graph(blueprint, plan);
-  const std::size_t before = diagnostics.error_count();
-  graph.report_cycles(diagnostics);
-  if (diagnostics.error_count() > before) return;
-  const std::vector<int> depths = graph.depths();
+  std::vector<int> depths(plan.threads.size(), 0);
+  std::set<std::string> told;
+  for (std::size_t mode = 0; mode < std::max<std::size_t>(1, plan.modes.size()); ++mode) {
+    TriggerGraph graph(blueprint, plan, plan.modes.empty() ? ~ModeSet{0} : ModeSet{1} << mode);
+    base::Diagnostics found;
+    graph.report_cycles(found);
+    for (const base::Diagnostic& each : found.all()) {
+      if (told.insert(each.message).second) diagnostics.error(each.where, each.message, each.hint);
+    }
+    if (!found.ok()) continue;
+    const std::vector<int> here = graph.depths();
+    for (Index t = 0; t < depths.size(); ++t) depths[t] = std::max(depths[t], here[t]);
+  }
+  if (!told.empty()) return;
   for (Index t = 0; t < plan.threads.size(); ++t) {
     plan.threads[t].depth += depths[t];
     if (depths[t] <= kDeepest) continue;

@@ -74,6 +74,13 @@ class Probe : public component::Component {
     actions[hook] = [hook] { throw std::runtime_error("thrown in " + hook); };
   }
 
+ protected:
+  component::Outcome answer(const std::string& hook) {
+    act(hook);
+    const auto refusal = refusals.find(hook);
+    return refusal == refusals.end() ? component::accepted() : component::refused(refusal->second);
+  }
+
  private:
   component::Outcome on_configure() override { return answer("configure"); }
   component::Outcome on_activate() override { return answer("activate"); }
@@ -89,11 +96,6 @@ class Probe : public component::Component {
     const rt::PermitScope what_a_test_does_is_no_real_time_code;
     if (journal != nullptr) journal->note(name() + " " + hook);
     if (const auto action = actions.find(hook); action != actions.end()) action->second();
-  }
-  component::Outcome answer(const std::string& hook) {
-    act(hook);
-    const auto refusal = refusals.find(hook);
-    return refusal == refusals.end() ? component::accepted() : component::refused(refusal->second);
   }
 };
 

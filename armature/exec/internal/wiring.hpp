@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/plan.hpp"
 
 namespace armature::exec::internal {
+
+/// Finds the modes and what runs in which.
+void plan_modes(const Blueprint& blueprint, const Directory& directory, Plan& plan,
+                base::Diagnostics& diagnostics);
+
+/// Orders what the modes switch, when threads and order are known, and checks it.
+void plan_members(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
+
+ModeSet all_modes(const Plan& plan);
+
+/// ` in the mode 'pid'`, for messages; nothing if these are all modes.
+std::string in_modes(const Plan& plan, ModeSet set);
 
 /// Resolves and checks the port connections.
 void plan_connections(const Blueprint& blueprint, const Directory& directory, Plan& plan,
@@ -23,6 +38,9 @@ void plan_order(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagn
 /// Refuses handlers that would set each other off without end in one thread; finds how deep the
 /// others nest.
 void plan_triggers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
+
+/// All of them, as declared.
+std::vector<component::Component*> components_of(const Blueprint& blueprint);
 
 /// Has observers say what is wrong with what they are to look at, and gives them their place.
 void plan_observers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);

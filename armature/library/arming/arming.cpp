@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/library/arming/arming.hpp"
 
-#include <chrono>
 #include <cmath>
 
+#include "armature/base/seconds.hpp"
 #include "armature/library/base/missing_answers.hpp"
 #include "armature/library/base/of_this_run.hpp"
 #include "armature/library/base/reason_text.hpp"
@@ -99,9 +99,7 @@ void Arming::disarm() {
   disarm_event_.raise();
 }
 
-bool Arming::out_of_patience() const {
-  return std::chrono::duration<double>(time() - since_).count() > patience_;
-}
+bool Arming::out_of_patience() const { return base::to_seconds(time() - since_) > patience_; }
 
 std::size_t Arming::first_disarmed() {
   std::size_t joint = 0;

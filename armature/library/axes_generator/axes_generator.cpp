@@ -86,18 +86,20 @@ Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, doubl
 
 void AxesGeneratorPos::reset_position() {
   if (state() != component::State::kRunning || !knows_position()) return;
-  const Trajectory::Answer answer =
-      trajectory_->stop_from(measured_.read().value, trajectory_->velocities());
-  stepped_at_ = time();
-  if (move_to_.active()) move_to_.fail("resetPosition stopped the motion");
-  if (!answer.accepted()) refuse_measured(answer.axis);
+  begin_anew(trajectory_->stop_from(measured_.read().value, trajectory_->velocities()),
+             "resetPosition stopped the motion");
 }
 
 void AxesGeneratorPos::settle() {
   if (!knows_position()) return;
-  const Trajectory::Answer answer = trajectory_->hold(measured_.read().value);
+  begin_anew(trajectory_->hold(measured_.read().value), "the robot was disarmed or armed");
+}
+
+/// @param answer  of the trajectory, which begins where the axes are
+/// @param why     the motion before ended
+void AxesGeneratorPos::begin_anew(const Trajectory::Answer& answer, std::string_view why) {
   stepped_at_ = time();
-  if (move_to_.active()) move_to_.fail("the robot was disarmed or armed");
+  if (move_to_.active()) move_to_.fail(why);
   if (!answer.accepted()) refuse_measured(answer.axis);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "armature/component/author.hpp"
@@ -39,6 +40,7 @@ class AxesGeneratorPos final : public component::Component {
   void brake() { trajectory_->stop(); }
   void reset_position();
   void settle();
+  void begin_anew(const control::Trajectory::Answer& answer, std::string_view why);
   void stop();
   component::Reason refusal_of(const control::Trajectory::Answer& answer,
                                const std::vector<double>& positions, double time) const;

@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <utility>
+#include <optional>
 #include <vector>
 
+#include "armature/base/seconds.hpp"
 #include "armature/component/author.hpp"
+#include "armature/control/hand_over.hpp"
+#include "armature/control/reference_brake.hpp"
+#include "armature/library/base/changes.hpp"
 #include "armature/library/base/max_age.hpp"
 
 namespace armature::library {
 
 /// The controller of a robot with N joints (paper 1, figure 4): to be extended by a control law.
+///
+/// A reference that is older than declared is not followed any more: the component stops, and so
+/// do the joints. With MaxAcceleration they are braked smoothly instead, from the first sampling
+/// period in which no reference comes, and once it is too old they are held until there is one
+/// again that begins where they are (see control::ReferenceBrake).
+///
+/// If it takes over from another controller because modes are switched, `act` goes on from what
+/// that one wrote last, and the difference dies away in `SwitchTime`; arming ends that. A reference
+/// that is far from where the joints are was not followed any more: with MaxAcceleration it is not
+/// followed now either, and the joints are braked.
 class Controller : public component::Component {
  public:
   using Component::Component;
@@ -19,32 +33,54 @@ class Controller : public component::Component {
   /// measured.
   /// Runs in real time: nonblocking, no allocation.
   /// @thread the component's own
-  virtual void sample_now() {
-    if (std::exchange(sampled_, true)) {
-      samples_without_sensor_.assign(samples_without_sensor_ + 1);
-    }
-  }
-  /// Computes the control signals of this sampling period and writes `act`.
+  virtual void sample_now();
+  /// Computes the control signals of this sampling period and writes them with `drive`.
   /// @param measured  [q1..qN, d1..dN] [rad]
   /// Runs in real time: nonblocking, no allocation.
   /// @thread the component's own
   virtual void controller_now(const std::vector<double>& measured) = 0;
 
-  component::Outcome on_start() override {
-    sampled_ = false;
-    samples_without_sensor_.assign(0);
-    return component::accepted();
+  /// Writes `act`.
+  /// Runs in real time: nonblocking, no allocation.
+  /// @thread the component's own
+  void drive(const std::vector<double>& signals) {
+    if (!hand_over_.active()) [[likely]] {
+      act_.write(signals);
+      return;
+    }
+    handed_over_ = signals;
+    hand_over_.step(handed_over_, time(), base::from_seconds(switch_time_));
+    act_.write(handed_over_);
   }
+
+  /// Whoever overrides these calls them.
+  component::Outcome on_configure() override;
+  component::Outcome on_start() override;
+
+  /// What is to be followed in this sampling period; to be asked once in each. nullptr: nothing
+  /// came yet since the start, or nothing is followed any more.
+  /// @param measured  [q1..qN, d1..dN] [rad]
+  /// Runs in real time: nonblocking, no allocation.
+  const std::vector<double>* reference_now(const std::vector<double>& measured);
 
   component::Property<int> joints_{
       this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+  component::Property<std::vector<double>> max_acceleration_{
+      this,
+      "MaxAcceleration",
+      {},
+      "with which a joint is braked when its reference stays away, one for each or one for all; "
+      "none: the component stops then",
+      "rad/s^2"};
+  component::Property<double> period_{this, "Period", 0.01,
+                                      "between two samples; counts with MaxAcceleration", "s"};
   component::InputPort<std::vector<double>> reference_{
       this,
       "reference",
       "desired [q1..qN, qd1..qdN, qdd1..qddN]: rad, rad/s, rad/s^2",
       "",
       component::size_of(joints_, 3),
-      component::max_age(kMaxAge)};
+      component::max_age(kMaxAge, component::Reaction::kHold)};
   component::OutputPort<std::vector<double>> act_{this, "act", "control signals [u1..uN]", "V",
                                                   component::size_of(joints_)};
 
@@ -53,7 +89,19 @@ class Controller : public component::Component {
     sampled_ = false;
     controller_now(measured);
   }
+  component::Outcome set_up();
+  void begin_to_brake(const std::vector<double>& last);
+  void take_over_reference(const std::vector<double>& measured);
+  void forget_other() { hand_over_.reset(); }
 
+  component::Property<double> switch_time_{this,
+                                           "SwitchTime",
+                                           0.5,
+                                           "in which the difference to the controller before dies "
+                                           "away when modes are switched; 0: a step",
+                                           "s",
+                                           component::range(0.0, 60.0),
+                                           component::changeable_while_running};
   component::InputPort<std::vector<double>> sensor_{
       this,
       "sensor",
@@ -67,6 +115,24 @@ class Controller : public component::Component {
   component::Attribute<int> samples_without_sensor_{
       this, "samples_without_sensor", 0,
       "sampling periods since the start in which nothing was measured"};
+  component::EventHandler<> arm_{this,
+                                 "Arm",
+                                 component::serve<&Controller::forget_other>,
+                                 "what the controller before wrote means nothing any more",
+                                 component::optional,
+                                 component::leads_to_nothing()};
+  control::HandOver hand_over_;
+  std::vector<double> handed_over_;
+  std::vector<double> motion_;  ///< as measured, like a reference
+  component::Attribute<int> brakings_{this, "brakings", 0,
+                                      "how often since the start the reference stayed away"};
+  Changes changes_{joints_, max_acceleration_, period_};
+  std::optional<control::ReferenceBrake> brake_;
+  base::Time started_{};
+  base::Time followed_{};  ///< when the reference was written that was followed last
+  bool late_ = false;      ///< nothing came since, and it is not too old yet
+  bool braking_ = false;
+  bool takes_over_ = false;  ///< until the first sample
   bool sampled_ = false;
 };
 

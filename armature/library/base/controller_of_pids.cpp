@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/library/base/controller_of_pids.hpp"
 
-#include "armature/library/base/of_this_run.hpp"
-
 namespace armature::library {
 
 using component::Outcome;
 using control::Gathering;
 
-Outcome ControllerOfPids::on_configure() { return set_up(); }
+Outcome ControllerOfPids::on_configure() {
+  if (Outcome outcome = Controller::on_configure(); !outcome) return outcome;
+  return set_up();
+}
 
 Outcome ControllerOfPids::on_start() {
   if (changes_.take()) {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
   answers_->reset();
-  started_ = time();
   missing_.reset();
   return Controller::on_start();
 }
@@ -32,8 +32,8 @@ Outcome ControllerOfPids::set_up() {
 }
 
 void ControllerOfPids::controller_now(const std::vector<double>& measured) {
-  const auto reference = reference_.read();
-  if (!is_of_this_run(reference, started_)) return;
+  const std::vector<double>* const reference = reference_now(measured);
+  if (reference == nullptr) return;
   const Gathering::Round round = answers_->begin();
   if (round.missing > 0) note_missing();
   if (round.overdue != Gathering::kNobody) {
@@ -41,9 +41,9 @@ void ControllerOfPids::controller_now(const std::vector<double>& measured) {
                            answers_->missing_in_row(round.overdue)));
     return;
   }
-  ask_others(reference.value);
+  ask_others(*reference);
   for (std::size_t i = 0; i < ref_.size(); ++i) {
-    ref_[i].write(reference.value[i]);
+    ref_[i].write((*reference)[i]);
     sen_[i].write(measured[i]);
   }
   if (round.complete) conclude(answers_->values());

@@ -60,7 +60,6 @@ class ControllerOfPids : public Controller {
   MissingAnswers missing_{this};
   Changes changes_{joints_, missing_.limit()};
   std::optional<control::Gathering> answers_;
-  base::Time started_{};
 };
 
 }  // namespace armature::library

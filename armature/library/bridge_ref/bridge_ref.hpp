@@ -12,7 +12,7 @@ namespace armature::library {
 /// Between the vectors of a generator of motions and those of a controller (paper 1, table 1,
 /// BridgeRef; paper 2, section 5.3): hands the positions of `sensor` on, and composes `reference`
 /// of desired positions, velocities and accelerations, once all three of a step have come, in
-/// whatever order.
+/// whatever order. What is desired has no age here: who follows `reference` looks at that.
 /// @rt nonblocking, no allocation, O(joints)
 class BridgeRef final : public component::Component {
  public:
@@ -46,7 +46,6 @@ class BridgeRef final : public component::Component {
                                          "rad",
                                          component::on_data<&BridgeRef::on_position>,
                                          component::size_of(joints_),
-                                         component::max_age(kMaxAge),
                                          component::leads_to("reference")};
   component::InputPort<Vector> velocity_{this,
                                          "nAxesDesiredVelocity",
@@ -54,7 +53,6 @@ class BridgeRef final : public component::Component {
                                          "rad/s",
                                          component::on_data<&BridgeRef::on_velocity>,
                                          component::size_of(joints_),
-                                         component::max_age(kMaxAge),
                                          component::leads_to("reference")};
   component::InputPort<Vector> acceleration_{this,
                                              "nAxesDesiredAcceleration",
@@ -62,7 +60,6 @@ class BridgeRef final : public component::Component {
                                              "rad/s^2",
                                              component::on_data<&BridgeRef::on_acceleration>,
                                              component::size_of(joints_),
-                                             component::max_age(kMaxAge),
                                              component::leads_to("reference")};
   component::OutputPort<Vector> sensor_position_{this, "nAxesSensorPosition",
                                                  "measured position of each joint", "rad",

@@ -16,7 +16,7 @@ class ControllerNPID final : public ControllerOfPids {
   using ControllerOfPids::ControllerOfPids;
 
  private:
-  void conclude(const std::vector<double>& answers) override { act_.write(answers); }
+  void conclude(const std::vector<double>& answers) override { drive(answers); }
 };
 
 }  // namespace armature::library

@@ -75,7 +75,7 @@ void ControllerNPIDFF::conclude(const std::vector<double>& answers) {
     const double torque = torques_[i] + motors_[i].reflected_inertia() * accelerations[i];
     signals_[i] = answers[i] + motors_[i].voltage(torque, velocities[i]);
   }
-  act_.write(signals_);
+  drive(signals_);
 }
 
 }  // namespace armature::library

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "armature/base/seconds.hpp"
 #include "armature/library/base/of_this_run.hpp"
 #include "armature/library/base/reason_text.hpp"
 
@@ -14,12 +15,6 @@ using component::Outcome;
 using control::JointLimiter;
 
 namespace {
-
-double seconds(base::Duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-base::Duration duration(double seconds) {
-  return std::chrono::duration_cast<base::Duration>(std::chrono::duration<double>(seconds));
-}
 
 /// How long a motor that is to be switched off may brake itself first.
 constexpr base::Duration kLongestBraking = std::chrono::seconds(1);
@@ -38,16 +33,11 @@ Outcome Joint::on_start() {
   if (sampler_ && !voltage_.connected()) {
     return component::refused("nobody writes the input Voltage (connect it, or Sampler: false)");
   }
+  arming_ = arm_handler_.bound() ? &arm_handler_.source()->owner() : nullptr;
   started_ = time();
   measured_since_start_ = false;
-  let_go();
   switch_off();
   return component::accepted();
-}
-
-void Joint::on_stop() {
-  let_go();
-  switch_off();
 }
 
 Outcome Joint::set_up() {
@@ -73,8 +63,8 @@ JointLimiter::Config Joint::limits() const {
           .max_velocity = max_velocity_,
           .max_acceleration = max_acceleration_,
           .max_effort = max_effort_,
-          .period = duration(period_),
-          .arming_time = duration(arming_time_),
+          .period = base::from_seconds(period_),
+          .arming_time = base::from_seconds(arming_time_),
           .effort_rate = arming_time_ > 0.0 ? max_effort_ / arming_time_ : 0.0};
 }
 
@@ -86,7 +76,7 @@ bool Joint::sensor_read() { return succeeds(read_hardware_); }
 
 void Joint::on_displacement(double of_motor) {
   const double displacement = sensor_ratio_ * of_motor;
-  const double since = seconds(time() - measured_at_);
+  const double since = base::to_seconds(time() - measured_at_);
   const bool known = measured_since_start_ && since > 0.0;
   measured_.velocity = known ? displacement / since : 0.0;
   measured_.position += displacement;
@@ -94,22 +84,24 @@ void Joint::on_displacement(double of_motor) {
   measured_since_start_ = true;
   displacement_.write(displacement);
   position_.write(measured_.position);
-  if (off_at_rest_) switch_off_at_rest();
+  if (off_at_rest_) cut_power_at_rest();
 }
 
 /// In this sampling period or the one before.
 bool Joint::measured_lately() const {
-  return measured_since_start_ && seconds(time() - measured_at_) < 1.5 * period_;
+  return measured_since_start_ && base::to_seconds(time() - measured_at_) < 1.5 * period_;
 }
 
 // --- driving ---------------------------------------------------------------------------------
 
 void Joint::on_act() {
+  if (limiter_->armed() && arming_ != nullptr && arming_->state() == component::State::kException) {
+    log_error("{} is out of service, so it disarms", arming_->name());
+    disarm();
+  }
   const auto voltage = voltage_.read();
   if (is_of_this_run(voltage, started_)) apply(voltage.value);
 }
-
-bool Joint::motor_set(double voltage) { return apply(voltage); }
 
 /// True if it was passed unchanged.
 bool Joint::apply(double voltage) {
@@ -118,7 +110,6 @@ bool Joint::apply(double voltage) {
   if (step.status == JointLimiter::Status::kPassed) return true;
   if (step.status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
   if (step.status != JointLimiter::Status::kNotFinite) return false;
-  let_go();
   switch_off();
   component::Reason why("Voltage is ");
   append_number(why, voltage).append(" at the position ");
@@ -135,7 +126,6 @@ void Joint::on_arm() {
   off_at_rest_ = false;
   const bool ready = succeeds(actuator_on_) && (!brake_ || succeeds(release_brake_));
   if (!ready) {
-    let_go();
     switch_off();
     return refuse_to_arm("its hardware does not switch on");
   }
@@ -148,16 +138,17 @@ void Joint::refuse_to_arm(std::string_view why) {
   armed_.write(false);
 }
 
-void Joint::disarm() {
-  const bool turns = limiter_->armed() && measured_lately() && moves(measured_.velocity);
-  let_go();
-  off_at_rest_ = turns;
+/// @return the brake is applied
+bool Joint::disarm() {
+  off_at_rest_ = limiter_->armed() && measured_lately() && moves(measured_.velocity);
   disarmed_at_ = time();
-  if (!turns) switch_off();
+  const bool braked = let_go();
+  if (!off_at_rest_) cut_power();
+  return braked;
 }
 
 /// Effort 0 and brake, at once.
-void Joint::let_go() {
+bool Joint::let_go() {
   const bool was_armed = limiter_->armed();
   limiter_->disarm();
   voltage_actuator_.write({});
@@ -165,26 +156,23 @@ void Joint::let_go() {
   armed_.write(false);
   if (was_armed) log_info("disarmed");
   if (was_armed && !braked) log_error("the hardware did not confirm that it brakes");
+  return braked;
 }
 
+/// The brake first, so that nothing falls between the two.
 bool Joint::switch_off() {
+  let_go();
+  return cut_power();
+}
+
+bool Joint::cut_power() {
   off_at_rest_ = false;
   return succeeds(actuator_off_);
 }
 
-void Joint::switch_off_at_rest() {
+void Joint::cut_power_at_rest() {
   const bool waited = time() - disarmed_at_ > kLongestBraking;
-  if (waited || !moves(measured_.velocity)) switch_off();
-}
-
-bool Joint::motor_off() {
-  let_go();
-  return switch_off();
-}
-
-bool Joint::brake_apply() {
-  disarm();
-  return brake_ && succeeds(apply_brake_);
+  if (waited || !moves(measured_.velocity)) cut_power();
 }
 
 bool Joint::brake_release() { return limiter_->armed() && brake_ && succeeds(release_brake_); }

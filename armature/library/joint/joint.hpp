@@ -31,7 +31,7 @@ class Joint final : public component::Component {
  private:
   component::Outcome on_configure() override { return set_up(); }
   component::Outcome on_start() override;
-  void on_stop() override;
+  void on_stop() override { switch_off(); }
 
   component::Outcome set_up();
   control::JointLimiter::Config limits() const;
@@ -45,19 +45,18 @@ class Joint final : public component::Component {
 
   // Driving.
   void on_act();
-  bool motor_set(double voltage);
   bool apply(double voltage);
 
   // Arming.
   void on_arm();
   void refuse_to_arm(std::string_view why);
-  void disarm();
-  void let_go();
+  bool disarm();
+  bool let_go();
   bool switch_off();
-  void switch_off_at_rest();
+  bool cut_power();
+  void cut_power_at_rest();
   bool motor_on() { return succeeds(actuator_on_); }
-  bool motor_off();
-  bool brake_apply();
+  bool brake_apply() { return disarm() && brake_; }
   bool brake_release();
   static bool succeeds(component::OperationCaller<bool()>& call);
 
@@ -157,13 +156,13 @@ class Joint final : public component::Component {
   component::Operation<bool()> motor_on_{this, "motorOn", component::serve<&Joint::motor_on>,
                                          "switches the motor on; effort 0 as long as disarmed",
                                          component::in_own_thread};
-  component::Operation<bool()> motor_off_{this, "motorOff", component::serve<&Joint::motor_off>,
+  component::Operation<bool()> motor_off_{this, "motorOff", component::serve<&Joint::switch_off>,
                                           "disarms, and switches the motor off",
                                           component::in_own_thread};
   component::Operation<bool(double)> motor_set_{
       this,
       "motorSet",
-      component::serve<&Joint::motor_set>,
+      component::serve<&Joint::apply>,
       "applies a voltage until the next; false if the limiter did not pass it as it is",
       component::args("voltage [V]"),
       component::in_own_thread};
@@ -183,6 +182,7 @@ class Joint final : public component::Component {
   Changes changes_{actuator_sign_, sensor_sign_, gear_ratio_,   initial_position_,
                    lower_,         upper_,       max_velocity_, max_acceleration_,
                    max_effort_,    period_,      arming_time_};
+  const component::Component* arming_ = nullptr;  ///< who lets it move, and could take that back
   std::optional<control::JointLimiter> limiter_;
   control::JointLimiter::Measured measured_;
   base::Time started_{};

@@ -13,7 +13,14 @@ component::Outcome Pid::on_start() {
   if (!made) return component::refused(made.error());
   pid_ = made.value();
   started_ = time();
+  if (const double* const present = output_.taken_over()) take_over(*present);
   return component::accepted();
+}
+
+/// What was desired before counts.
+void Pid::take_over(double output) {
+  pid_->reset_to(output);
+  if (const auto reference = reference_.read()) started_ = reference.time;
 }
 
 void Pid::on_update() {

@@ -15,7 +15,8 @@ namespace armature::library {
 /// control::Pid. One step for each value of Sen; nothing before the first value of Ref since the
 /// start. Neither a start nor `reset` kicks, and so it is when a
 /// robot is armed (see Arming). A difference that is no finite number is a fault, and nothing is
-/// written.
+/// written. If it takes over the place of another writer of its output because modes are switched,
+/// it goes on from what that one wrote last.
 ///
 /// With `PeerName` it has a joint of its own (paper 2, section 5.2): each update has that joint
 /// read its sensor, and each output is set there.
@@ -29,6 +30,7 @@ class Pid final : public component::Component {
   void on_update() override;
   void step(double measured);
   void expect_done(component::CallStatus status, std::string_view operation);
+  void take_over(double output);
   void reset();
   void take_gains();
   control::Pid::Config config() const { return {kp_, ki_, kd_, u_min_, u_max_}; }

@@ -128,5 +128,21 @@ TEST_F(PidTest, StopsBeforeItUsesAReferenceThatIsTooOld) {
   EXPECT_EQ(pid.reason(), "input 'Ref': its data is older than declared");
 }
 
+TEST_F(PidTest, GoesOnFromWhatItsPredecessorWroteAndDesired) {
+  struct Other : component::Component {
+    using Component::Component;
+    component::OutputPort<double> port{this, "Out", "", "V"};
+  } other("Other");
+  other.port.set_sample(3.0);
+  pid.write("Ref", 1.0);
+  pid.advance(10ms);
+  auto& out = *pid.component().interface().outputs.front();
+  out.take_over_from(&other.port);
+  ASSERT_TRUE(pid.start()) << pid.reason();
+  out.take_over_from(nullptr);
+  pid.write("Sen", 0.8);
+  EXPECT_DOUBLE_EQ(pid.output<double>("Out"), 3.0 + 0.5 * 0.2) << "its integral alone";
+}
+
 }  // namespace
 }  // namespace armature::library

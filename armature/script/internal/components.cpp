@@ -9,6 +9,8 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/script/internal/subscriptions.hpp"
+#include "armature/script/internal/table_reader.hpp"
 #include "armature/script/internal/values.hpp"
 
 namespace armature::script::internal {
@@ -21,17 +23,14 @@ using component::OperationBase;
 constexpr const char* kComponent = "component";
 constexpr const char* kCommand = "command";
 
-exec::Application& application_of(lua_State* lua) {
-  return *static_cast<exec::Application*>(lua_touserdata(lua, lua_upvalueindex(1)));
+const Access& access_of(lua_State* lua) {
+  return *static_cast<const Access*>(lua_touserdata(lua, lua_upvalueindex(1)));
 }
+
+exec::Application& application_of(lua_State* lua) { return access_of(lua).application; }
 
 Component& component_at(lua_State* lua, int index) {
   return **static_cast<Component**>(luaL_checkudata(lua, index, kComponent));
-}
-
-std::string hint(std::string_view name, const std::vector<std::string>& known) {
-  const std::string text = base::suggestion(name, known);
-  return text.empty() ? text : " (" + text + ")";
 }
 
 template <typename Items>
@@ -56,6 +55,7 @@ std::vector<std::string> members_of(const Component& component) {
   add(component.interface().operations);
   add(component.interface().inputs);
   add(component.interface().outputs);
+  add(component.interface().events);
   return names;
 }
 
@@ -88,15 +88,18 @@ std::vector<types::Value> arguments_of(lua_State* lua, const OperationBase& oper
   return values;
 }
 
-void push_command(lua_State* lua, CommandHandle command) {
-  void* const place = lua_newuserdatauv(lua, sizeof(CommandHandle), 0);
+void push_command(lua_State* lua, CommandHandle command, const std::string& name) {
+  void* const place = lua_newuserdatauv(lua, sizeof(CommandHandle), 1);
   ::new (place) CommandHandle(std::move(command));
   luaL_setmetatable(lua, kCommand);
+  lua_pushlstring(lua, name.data(), name.size());
+  lua_setiuservalue(lua, -2, 1);
 }
 
-/// Upvalues: the application, the component, the name of the operation.
+/// Upvalues: the access, the component, the name of the operation.
 int call_operation(lua_State* lua) {
-  exec::Application& application = application_of(lua);
+  const Access& access = access_of(lua);
+  exec::Application& application = access.application;
   const auto& owner = **static_cast<Component**>(lua_touserdata(lua, lua_upvalueindex(2)));
   const std::string operation_name = lua_tostring(lua, lua_upvalueindex(3));
   const std::string name = owner.name() + "." + operation_name;
@@ -106,14 +109,15 @@ int call_operation(lua_State* lua) {
   const OperationBase& operation = *find_in(owner.interface().operations, operation_name);
   std::vector<types::Value> arguments = arguments_of(lua, operation, name);
   if (operation.is_command()) {
-    auto begun = application.begin(owner.name(), operation_name, std::move(arguments),
-                                   exec::Caller::kScript);
+    auto begun =
+        application.begin(owner.name(), operation_name, std::move(arguments), access.caller);
     if (!begun) refuse(lua, with_name(name, begun.error()));
-    push_command(lua, std::move(begun).value());
+    push_command(lua, std::move(begun).value(), name);
+    if (access.begun) access.begun(lua, name);
     return 1;
   }
   const auto answer =
-      application.call(owner.name(), operation_name, std::move(arguments), exec::Caller::kScript);
+      application.call(owner.name(), operation_name, std::move(arguments), access.caller);
   if (!answer) refuse(lua, with_name(name, answer.error()));
   if (!answer.value()) return 0;
   push_value(lua, answer.value()->type(), answer.value()->data());
@@ -132,9 +136,13 @@ int read_member(lua_State* lua) {
     push_value(lua, value.value().type(), value.value().data());
     return 1;
   }
+  if (component::EventBase* const event = find_in(interface.events, name)) {
+    push_event(lua, *event);
+    return 1;
+  }
   if (find_in(interface.operations, name) == nullptr) {
-    refuse(lua, "'" + component.name() + "' has no property, port or operation '" + name + "'" +
-                    hint(name, members_of(component)));
+    refuse(lua, "'" + component.name() + "' has no property, port, operation or event '" + name +
+                    "'" + hint(name, members_of(component)));
   }
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_pushvalue(lua, 1);
@@ -198,7 +206,7 @@ int command_cancel(lua_State* lua) {
 
 int command_text(lua_State* lua) {
   const std::string_view stage = component::name_of(checked_command(lua).stage());
-  lua_pushfstring(lua, "command (%s)", std::string(stage).c_str());
+  lua_pushfstring(lua, "%s (%s)", command_name(lua, 1).c_str(), std::string(stage).c_str());
   return 1;
 }
 
@@ -225,9 +233,9 @@ void make_command_type(lua_State* lua) {
   lua_pop(lua, 1);
 }
 
-void make_component_type(lua_State* lua, exec::Application& application) {
+void make_component_type(lua_State* lua, const Access& access) {
   const auto add = [&](const char* name, lua_CFunction function) {
-    lua_pushlightuserdata(lua, &application);
+    lua_pushlightuserdata(lua, const_cast<Access*>(&access));
     lua_pushcclosure(lua, function, 1);
     lua_setfield(lua, -2, name);
   };
@@ -345,6 +353,13 @@ CommandHandle* command_at(lua_State* lua, int index) {
   return static_cast<CommandHandle*>(luaL_testudata(lua, index, kCommand));
 }
 
+std::string command_name(lua_State* lua, int index) {
+  lua_getiuservalue(lua, index, 1);
+  std::string name = text_at(lua, -1);
+  lua_pop(lua, 1);
+  return name;
+}
+
 std::string reason_of(const CommandHandle& command) {
   const bool failed = command.ended() && command.stage() != component::CommandStage::kDone;
   if (!failed) return {};
@@ -352,12 +367,12 @@ std::string reason_of(const CommandHandle& command) {
   return std::string(reason.empty() ? component::name_of(command.stage()) : reason);
 }
 
-void install_components(lua_State* lua, exec::Application& application) {
-  make_component_type(lua, application);
+void install_components(lua_State* lua, const Access& access) {
+  make_component_type(lua, access);
   make_command_type(lua);
   lua_createtable(lua, 0, 0);
   const int names = lua_gettop(lua);
-  for (const exec::ComponentEntry& entry : application.blueprint().components) {
+  for (const exec::ComponentEntry& entry : access.application.blueprint().components) {
     add_component(lua, names, *entry.component);
   }
   lua_pushglobaltable(lua);

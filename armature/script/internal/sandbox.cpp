@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "armature/base/seconds.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/script/internal/values.hpp"
 
@@ -23,7 +24,7 @@ Sandbox::Sandbox(std::size_t memory_limit, base::Duration time_limit)
       lua_(lua_newstate(&Sandbox::allocate, this)) {
   if (lua_ == nullptr) return;
   sandbox_of(lua_) = this;
-  lua_sethook(lua_, &Sandbox::check_time, LUA_MASKCOUNT, kInstructionsBetweenChecks);
+  lua_sethook(lua_, &Sandbox::check, LUA_MASKCOUNT, kInstructionsBetweenChecks);
 }
 
 Sandbox::~Sandbox() {
@@ -31,6 +32,7 @@ Sandbox::~Sandbox() {
 }
 
 base::Result<void> Sandbox::call_protected() {
+  lua_sethook(lua_, &Sandbox::check, LUA_MASKCOUNT, kInstructionsBetweenChecks);
   if (lua_pcall(lua_, 1, 0, 0) == LUA_OK) return {};
   base::Error error{text_at(lua_, -1)};
   lua_pop(lua_, 1);
@@ -53,21 +55,27 @@ void* Sandbox::allocate(void* self, void* block, std::size_t old_size, std::size
   return moved;
 }
 
+std::string Sandbox::reason_to_end() const {
+  if (platform::monotonic_now() >= deadline_) {
+    return "the script has run for more than " + seconds_text(time_limit_) + " without a wait";
+  }
+  return reason_to_end_ ? reason_to_end_() : std::string();
+}
+
 /// From then on every instruction is refused, so that no `pcall` of the script goes on.
-void Sandbox::check_time(lua_State* lua, lua_Debug*) {
-  const Sandbox& sandbox = *sandbox_of(lua);
-  if (platform::monotonic_now() < sandbox.deadline_) return;
-  lua_sethook(lua, &Sandbox::check_time, LUA_MASKCOUNT, 1);
+void Sandbox::check(lua_State* lua, lua_Debug*) {
+  const std::string reason = sandbox_of(lua)->reason_to_end();
+  if (reason.empty()) return;
+  lua_sethook(lua, &Sandbox::check, LUA_MASKCOUNT, 1);
   luaL_where(lua, 0);
-  lua_pushfstring(lua, "the script has run for more than %s without a wait",
-                  seconds_text(sandbox.time_limit_).c_str());
+  lua_pushlstring(lua, reason.data(), reason.size());
   lua_concat(lua, 2);
   lua_error(lua);
 }
 
 std::string seconds_text(base::Duration duration) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.9g s", std::chrono::duration<double>(duration).count());
+  std::snprintf(text, sizeof text, "%.9g s", base::to_seconds(duration));
   return text;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include <lua5.4/lua.hpp>
 
@@ -33,6 +35,9 @@ class Sandbox {
   /// The script's time begins anew.
   void restart_clock();
 
+  /// `reason` is asked now and then while Lua runs: why that is to end, or nothing.
+  void end_when(std::function<std::string()> reason) { reason_to_end_ = std::move(reason); }
+
  private:
   template <typename Code>
   static int call(lua_State* lua) {
@@ -41,12 +46,14 @@ class Sandbox {
   }
   base::Result<void> call_protected();
   static void* allocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
-  static void check_time(lua_State* lua, lua_Debug* where);
+  static void check(lua_State* lua, lua_Debug* where);
+  std::string reason_to_end() const;
 
   std::size_t memory_limit_;
   base::Duration time_limit_;
   std::size_t used_ = 0;
   base::Time deadline_ = base::Time::max();
+  std::function<std::string()> reason_to_end_;
   lua_State* lua_;
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -115,11 +116,17 @@ class Axis final : public Component {
 /// An axis and a component with settings, a cycle each 10 ms.
 class Bench {
  public:
-  explicit Bench(bool simulated = true, std::vector<exec::Grant> grants = {}) {
+  /// @param more  adds components of the test's own
+  explicit Bench(bool simulated = true, std::vector<exec::Grant> grants = {},
+                 const std::function<void(exec::Blueprint&)>& more = {}) {
     exec::Blueprint blueprint;
     axis_ = &blueprint.add<Axis>("Axis", exec::Activity::periodic(10ms));
     settings_ = &blueprint.add<Settings>("Settings", exec::Activity::periodic(10ms));
     blueprint.add<Settings>("left.hand.Finger");
+    blueprint.add<Settings>("aic-1");
+    for (exec::ComponentEntry& entry : blueprint.components) entry.model = "Settings";
+    blueprint.components.front().model = "Axis";
+    if (more) more(blueprint);
     exec::ApplicationOptions options;
     options.simulated = simulated;
     options.hook_limit = 60s;
@@ -142,9 +149,9 @@ class Bench {
     options.memory_limit = memory_limit;
     options.print = [this](std::string_view line) { lines.emplace_back(line); };
     base::Diagnostics diagnostics;
-    Script script = parse_script(text, path, options, diagnostics);
+    const auto script = parse_script(text, path, options, diagnostics);
     if (diagnostics.ok()) {
-      ended_ = script.run(application(), duration, nullptr, diagnostics);
+      ended_ = script->run(application(), duration, nullptr, diagnostics);
     }
     return diagnostics.to_text();
   }

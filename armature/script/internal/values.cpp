@@ -161,23 +161,31 @@ Mistake read(lua_State* lua, int index, const Type& type, void* to) {
   });
 }
 
-std::string text_in(lua_State* lua, int index, int depth);
+/// What a table is written as.
+struct TableText {
+  std::size_t most_elements;
 
-std::string list_text(lua_State* lua, int table, std::size_t count, int depth) {
+  std::string of(lua_State* lua, int index, int depth) const;
+  std::string list(lua_State* lua, int table, std::size_t count, int depth) const;
+  std::string map(lua_State* lua, int table, int depth) const;
+};
+
+std::string TableText::list(lua_State* lua, int table, std::size_t count, int depth) const {
   std::string text = "[";
-  for (std::size_t i = 1; i <= count; ++i) {
+  for (std::size_t i = 1; i <= std::min(count, most_elements); ++i) {
     lua_rawgeti(lua, table, static_cast<lua_Integer>(i));
-    text += (i > 1 ? ", " : "") + text_in(lua, lua_gettop(lua), depth + 1);
+    text += (i > 1 ? ", " : "") + of(lua, lua_gettop(lua), depth + 1);
     lua_pop(lua, 1);
   }
+  if (count > most_elements) text += ", ... " + std::to_string(count) + " elements";
   return text + "]";
 }
 
-std::string map_text(lua_State* lua, int table, int depth) {
+std::string TableText::map(lua_State* lua, int table, int depth) const {
   std::vector<std::pair<std::string, std::string>> entries;
   for (lua_pushnil(lua); lua_next(lua, table) != 0; lua_pop(lua, 1)) {
     const int value = lua_gettop(lua);
-    entries.emplace_back(text_at(lua, value - 1), text_in(lua, value, depth + 1));
+    entries.emplace_back(of(lua, value - 1, 0), of(lua, value, depth + 1));
   }
   std::sort(entries.begin(), entries.end());
   std::string text = "{";
@@ -187,14 +195,14 @@ std::string map_text(lua_State* lua, int table, int depth) {
   return text + "}";
 }
 
-std::string text_in(lua_State* lua, int index, int depth) {
+std::string TableText::of(lua_State* lua, int index, int depth) const {
   constexpr int kDeepest = 16;
   luaL_checkstack(lua, kStackForOne, "text");
   if (lua_type(lua, index) == LUA_TTABLE && luaL_getmetafield(lua, index, "__tostring") == 0) {
     if (depth > kDeepest) return "...";
     const std::size_t count = lua_rawlen(lua, index);
-    const bool list = count == entries_of(lua, index);
-    return list ? list_text(lua, index, count, depth) : map_text(lua, index, depth);
+    const bool is_list = count == entries_of(lua, index);
+    return is_list ? list(lua, index, count, depth) : map(lua, index, depth);
   }
   if (lua_type(lua, index) == LUA_TTABLE) lua_pop(lua, 1);  // its __tostring
   const bool quote = depth > 0 && lua_type(lua, index) == LUA_TSTRING;
@@ -245,6 +253,8 @@ base::Result<types::Value> value_at(lua_State* lua, int index, const Type& type)
   return value;
 }
 
-std::string text_at(lua_State* lua, int index) { return text_in(lua, lua_absindex(lua, index), 0); }
+std::string text_at(lua_State* lua, int index, std::size_t most_elements) {
+  return TableText{most_elements}.of(lua, lua_absindex(lua, index), 0);
+}
 
 }  // namespace armature::script::internal

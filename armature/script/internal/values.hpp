@@ -4,6 +4,8 @@
 // From described values to Lua's and back: vectors and arrays are tables counted from 1, structs
 // tables by the names of their fields.
 
+#include <cstddef>
+#include <limits>
 #include <string>
 
 #include <lua5.4/lua.hpp>
@@ -19,7 +21,9 @@ void push_value(lua_State* lua, const types::Type& type, const void* value);
 /// fault, `[2].x must be a number, found nothing`.
 base::Result<types::Value> value_at(lua_State* lua, int index, const types::Type& type);
 
-/// For people: a number or text as it is, a table as `[1, 2]` or `{x: 1, y: 2}`.
-std::string text_at(lua_State* lua, int index);
+/// For people: a number or text as it is, a table as `[1, 2]` or `{x: 1, y: 2}`; of longer lists
+/// the first elements and how many there are.
+std::string text_at(lua_State* lua, int index,
+                    std::size_t most_elements = std::numeric_limits<std::size_t>::max());
 
 }  // namespace armature::script::internal

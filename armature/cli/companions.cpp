@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/cli/companions.hpp"
+
+#include <cstdio>
+#include <string_view>
+
+#include "armature/cli/loaded.hpp"
+#include "armature/record/black_box_file.hpp"
+
+namespace armature::cli {
+namespace {
+
+constexpr const char* kScriptLibrary = "libarmature_script.so";
+constexpr const char* kRecordLibrary = "libarmature_record.so";
+
+/// What a script prints is what the program was asked for, so it goes to standard output.
+void print_line(std::string_view line) {
+  std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
+  std::fflush(stdout);
+}
+
+std::unique_ptr<script::Script> load_script(const RunArguments& arguments,
+                                            base::Diagnostics& diagnostics) {
+  if (arguments.script.empty()) return nullptr;
+  void* const load =
+      load_function(kScriptLibrary, script::kLoadScript, "scripts need", diagnostics);
+  if (load == nullptr) return nullptr;
+  script::Options options;
+  options.print = print_line;
+  return std::unique_ptr<script::Script>(
+      reinterpret_cast<script::LoadScript>(load)(arguments.script, options, diagnostics));
+}
+
+std::unique_ptr<script::Browser> load_browser(const RunArguments& arguments,
+                                              base::Diagnostics& diagnostics) {
+  if (!arguments.browse) return nullptr;
+  void* const make =
+      load_function(kScriptLibrary, script::kMakeBrowser, "the task browser needs", diagnostics);
+  if (make == nullptr) return nullptr;
+  return std::unique_ptr<script::Browser>(
+      reinterpret_cast<script::MakeBrowser>(make)(arguments.simulated));
+}
+
+std::unique_ptr<record::TimelineWriter> create_timeline(const RunArguments& arguments,
+                                                        base::Diagnostics& diagnostics) {
+  if (arguments.trace.empty()) return nullptr;
+  void* const create =
+      load_function(kRecordLibrary, record::kCreateTimelineWriter, "--trace needs", diagnostics);
+  if (create == nullptr) return nullptr;
+  std::string error;
+  std::unique_ptr<record::TimelineWriter> writer(
+      reinterpret_cast<record::CreateTimelineWriter>(create)(arguments.trace, error));
+  if (writer == nullptr) diagnostics.error({}, error);
+  return writer;
+}
+
+}  // namespace
+
+Companions load_companions(const RunArguments& arguments, base::Diagnostics& diagnostics) {
+  return {.script = load_script(arguments, diagnostics),
+          .browser = load_browser(arguments, diagnostics),
+          .timeline = create_timeline(arguments, diagnostics)};
+}
+
+std::string write_black_box(const exec::BlackBoxReport& report, const std::string& folder) {
+  base::Diagnostics problems;
+  void* const write =
+      load_function(kRecordLibrary, record::kWriteBlackBox, "the black box needs", problems);
+  if (write == nullptr) return problems.to_text();
+  std::string said;
+  reinterpret_cast<record::WriteBlackBox>(write)(report, folder, said);
+  return said;
+}
+
+}  // namespace armature::cli

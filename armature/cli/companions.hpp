@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/cli/commands.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/record/timeline_writer.hpp"
+#include "armature/script/browser.hpp"
+#include "armature/script/script.hpp"
+
+namespace armature::cli {
+
+/// What accompanies the runs that want it; each from its own library.
+struct Companions {
+  std::unique_ptr<script::Script> script;            ///< `--script`
+  std::unique_ptr<script::Browser> browser;          ///< `--browse`
+  std::unique_ptr<record::TimelineWriter> timeline;  ///< `--trace`
+};
+
+/// Those that `arguments` ask for; what is wrong is added to `diagnostics`.
+Companions load_companions(const RunArguments& arguments, base::Diagnostics& diagnostics);
+
+/// Writes a file for a fault, which is hoped to be needed by nobody.
+/// @return what is to be said of it
+std::string write_black_box(const exec::BlackBoxReport& report, const std::string& folder);
+
+}  // namespace armature::cli

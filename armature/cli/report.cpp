@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What needs the library `report`.
+#include "armature/report/report.hpp"
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/loaded.hpp"
+#include "armature/cli/report.hpp"
+
+namespace armature::cli {
+namespace {
+
+constexpr std::size_t kMostComplaints = 1000;
+
+/// nullptr after an error, which was shown.
+void* function_of_report(const char* name, const Console& console) {
+  base::Diagnostics diagnostics;
+  void* const function = load_function("libarmature_report.so", name, "reports need", diagnostics);
+  console.show(diagnostics);
+  return function;
+}
+
+}  // namespace
+
+void note_complaint(report::RunFacts& facts, const rt::LogRecord& record) {
+  if (record.level < rt::LogLevel::kWarning) return;
+  if (facts.complaints.size() < kMostComplaints) {
+    facts.complaints.push_back(record);
+  } else {
+    ++facts.complaints_left_out;
+  }
+}
+
+bool write_run_summary(const std::string& folder, const report::RunFacts& facts,
+                       const exec::Application& application, const Console& console) {
+  void* const function = function_of_report(report::kWriteRunSummary, console);
+  if (function == nullptr) return false;
+  std::string error;
+  reinterpret_cast<report::WriteRunSummary>(function)(folder, facts, application, error);
+  if (!error.empty()) console.say(rt::LogLevel::kError, error);
+  return error.empty();
+}
+
+int report(const ReportArguments& arguments, const Console& console) {
+  void* const function = function_of_report(report::kWriteReport, console);
+  if (function == nullptr) return kFailed;
+  base::Diagnostics diagnostics;
+  report::Written written;
+  reinterpret_cast<report::WriteReport>(function)({arguments.folder, arguments.page}, written,
+                                                  diagnostics);
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  console.say(rt::LogLevel::kInfo, "wrote " + written.page + " and " + written.figures);
+  return kDone;
+}
+
+}  // namespace armature::cli

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writers of one input that take turns: one runs, the others do not.
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "armature/component/internal/test_ports.hpp"
+
+namespace armature::component {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Two writers and a reader in one thread.
+template <typename Reads>
+class Turns {
+ public:
+  template <typename... Options>
+  explicit Turns(Options... options) : reader("Reader", options...) {
+    for (Component* each : {static_cast<Component*>(&a), static_cast<Component*>(&b),
+                            static_cast<Component*>(&reader)}) {
+      each->assign_context(context);
+      EXPECT_TRUE(each->configure());
+    }
+    reader.in.let_writers_take_turns();
+    a.out.connect(reader.in, latest());
+    b.out.connect(reader.in, latest());
+    EXPECT_TRUE(a.start());
+    EXPECT_TRUE(reader.start());
+  }
+  ~Turns() {
+    a.out.disconnect_all();
+    b.out.disconnect_all();
+  }
+  void at(base::Duration time) { context.cycle_time = base::Time{} + time; }
+
+  ExecutionContext context{"thread"};
+  Writer<int> a{"A"};
+  Writer<int> b{"B"};
+  Reads reader;
+};
+
+TEST(Turns, AHandlerRunsForWhoeverWrites) {
+  Turns<TriggeredReader> turns;
+  turns.a.out.write(1);
+  turns.a.stop();
+  EXPECT_TRUE(turns.b.start());
+  turns.b.out.write(2);
+  turns.b.out.write(3);
+  EXPECT_EQ(turns.reader.values, (std::vector<int>{1, 2, 3}));
+}
+
+TEST(Turns, WhatTheLastOneWroteStaysUntilTheNextOneWrites) {
+  Turns<Reader<int>> turns;
+  turns.a.out.write(1);
+  EXPECT_EQ(turns.reader.in.read().value, 1);
+  turns.a.stop();
+  EXPECT_TRUE(turns.b.start());
+  const auto held = turns.reader.in.read();
+  EXPECT_EQ(held.status, ReadStatus::kOld);
+  EXPECT_EQ(held.value, 1);
+  turns.b.out.write(2);
+  EXPECT_EQ(turns.reader.in.read().value, 2);
+}
+
+TEST(Turns, WhatNobodyReadOfTheLastOneDoesNotComeAfterTheNext) {
+  for (const bool first_to_second : {true, false}) {
+    Turns<Reader<int>> turns;
+    Writer<int>& last = first_to_second ? turns.a : turns.b;
+    Writer<int>& next = first_to_second ? turns.b : turns.a;
+    turns.at(10ms);
+    last.out.write(1);
+    turns.at(20ms);
+    next.out.write(2);
+    EXPECT_EQ(turns.reader.in.read().value, 2);
+    const auto again = turns.reader.in.read();
+    EXPECT_EQ(again.status, ReadStatus::kOld);
+    EXPECT_EQ(again.value, 2);
+  }
+}
+
+TEST(Turns, AgeGoesOnFromTheLastOne) {
+  Turns<Reader<int>> turns(max_age(30ms));
+  turns.at(10ms);
+  turns.a.out.write(1);
+  turns.a.stop();
+  EXPECT_TRUE(turns.b.start());
+  turns.at(40ms);
+  EXPECT_TRUE(turns.reader.admits()) << "30 ms old";
+  turns.b.out.write(2);
+  turns.at(70ms);
+  EXPECT_TRUE(turns.reader.admits());
+  turns.at(71ms);
+  EXPECT_FALSE(turns.reader.admits());
+}
+
+TEST(Turns, OnlyTheLossOfTheOneWhoseTurnItIsCounts) {
+  Turns<Reader<int>> turns;
+  EXPECT_TRUE(turns.b.start());
+  turns.b.fault("broken");
+  turns.context.inbox.deliver_all();
+  EXPECT_EQ(turns.reader.state(), State::kRunning);
+  turns.a.fault("broken");
+  turns.context.inbox.deliver_all();
+  EXPECT_EQ(turns.reader.state(), State::kStopped);
+}
+
+TEST(Turns, APortKnowsWhatItTakesOverAsLongAsItIsSaid) {
+  Turns<Reader<int>> turns;
+  turns.a.out.write(7);
+  EXPECT_EQ(turns.b.out.taken_over(), nullptr);
+  turns.b.out.take_over_from(&turns.a.out);
+  ASSERT_NE(turns.b.out.taken_over(), nullptr);
+  EXPECT_EQ(*turns.b.out.taken_over(), 7);
+  turns.b.out.take_over_from(nullptr);
+  EXPECT_EQ(turns.b.out.taken_over(), nullptr);
+}
+
+}  // namespace
+}  // namespace armature::component

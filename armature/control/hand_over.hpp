@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "armature/base/time.hpp"
+
+namespace armature::control {
+
+/// Has signals go on from where another controller left them: the first output equals the present
+/// one, and what that is apart from the first signal dies away smoothly.
+///
+///     output[k] = signal[k] + (present - signal[0]) (1 - 3 x^2 + 2 x^3),  x = (t[k] - t[0]) / time
+///
+/// Afterwards, and before anything was taken over, the output is the signal, to the bit.
+class HandOver {
+ public:
+  struct State {
+    std::vector<double> offsets;  ///< present - signal[0]; while pending, present
+    base::Time begun{};
+    bool pending = false;  ///< the next signals are the first
+    bool active = false;
+  };
+
+  /// Makes room for so many signals.
+  /// @thread configuration only
+  explicit HandOver(std::size_t signals = 0);
+
+  /// The next output is `present`.
+  /// @return false, and nothing is taken over, if these are not as many as the signals
+  /// @rt nonblocking, no allocation, O(signals)
+  bool begin(std::span<const double> present);
+  bool begin(double present) { return begin(std::span(&present, 1)); }
+
+  /// Nothing is taken over any more.
+  /// @rt nonblocking, no allocation
+  void reset();
+
+  /// Whether the output is not just the signal.
+  bool active() const { return state_.active; }
+
+  /// Makes outputs of `signals`, which are as many as there is room for.
+  /// @param time  in which the difference dies away; not above 0: nothing is taken over
+  /// @rt nonblocking, no allocation, O(signals)
+  void step(std::span<double> signals, base::Time now, base::Duration time);
+
+  const State& state() const { return state_; }
+
+ private:
+  State state_;
+};
+
+}  // namespace armature::control

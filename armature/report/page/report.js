@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: Apache-2.0
+'use strict';
+(() => {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const root = document.getElementById('report');
+  const style = getComputedStyle(document.documentElement);
+  const color = (name) => style.getPropertyValue(name).trim();
+  const tracked = data.runs.filter((run) => run.joints.length > 0);
+  const colorOf = new Map(tracked.map((run, i) => [run, `--run-${i % 6}`]));
+
+  function el(tag, attributes = {}, ...children) {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+    made.append(...children);
+    return made;
+  }
+
+  const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
+
+  /** Three digits that count, without an exponent where people read none. */
+  function short(value, digits = 3) {
+    if (!isNumber(value)) return '–';
+    if (value === 0) return '0';
+    const size = Math.abs(value);
+    if (size < 1e-4 || size >= 1e6) return times(value.toExponential(digits - 1));
+    const places = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+    return value.toLocaleString('en', {minimumFractionDigits: places, maximumFractionDigits: places,
+      useGrouping: size >= 1e4}).replace('-', '−');
+  }
+  /** As on an axis, where 0.50 is 0.5. */
+  const mark = (value) => String(Number(value.toPrecision(6))).replace('-', '−');
+  const times = (text) => {
+    const [mantissa, power] = text.split('e');
+    const raised = String(Number(power)).replace(/[-\d]/g, (c) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] ?? '⁻');
+    return `${mantissa.replace('-', '−')}·10${raised}`;
+  };
+  const whole = (n) => n.toLocaleString('en');
+  const duration = (us) => (us >= 1e6 ? `${short(us / 1e6)} s` : us >= 1e4 ? `${short(us / 1e3)} ms` : `${short(us)} µs`);
+  const seconds = (s) => `${short(s, s >= 100 ? 4 : 3)} s`;
+
+  // --- curves ------------------------------------------------------------------------------------
+
+  const plots = [];  // all over the same time
+  let following = false;
+
+  /** Whoever is zoomed takes the others along. */
+  function follow(leader, key) {
+    if (key !== 'x' || following || !leader.settled) return;
+    following = true;
+    const {min, max} = leader.scales.x;
+    for (const plot of plots) if (plot !== leader) plot.setScale('x', {min, max});
+    following = false;
+  }
+
+  const padded = {min: {pad: 0.1, soft: 0, mode: 3}, max: {pad: 0.1, soft: 0, mode: 3}};
+
+  /** @param lines  [{label, stroke: CSS variable, broad, t, v}] */
+  function plot(parent, {title, unit, lines, scale = 1, digits = 4, height = 230}) {
+    const outputs = lines.map(() => el('output', {}, ''));
+    const legend = el('div', {class: 'legend'});
+    const canvas = el('div', {class: 'canvas', role: 'img', 'aria-label': `${title}, ${unit} over time`});
+    parent.append(el('div', {class: 'plot'},
+      el('div', {class: 'head'}, el('h3', {}, title, ' ', el('span', {class: 'unit'}, unit)), legend), canvas));
+    const tables = lines.map((line) => [line.t, line.v.map((v) => (v === null ? null : v * scale))]);
+    const joined = tables.length > 1 ? uPlot.join(tables) : tables[0];
+    const tall = canvas.clientHeight || height;
+    const axis = (more) => ({stroke: () => color('--faint'), font: '12px system-ui, sans-serif',
+      grid: {stroke: () => color('--grid'), width: 1}, ticks: {show: false}, ...more});
+    const made = new uPlot({
+      width: canvas.clientWidth || 400, height: tall,
+      legend: {show: false},
+      scales: {x: {time: false}, y: {range: (u, min, max) => (min === max ? [(min ?? 0) - 1, (max ?? 0) + 1] : uPlot.rangeNum(min, max, padded))}},
+      padding: [8, 22, 0, 0],
+      cursor: {sync: {key: 'time'}, points: {size: 5}, y: false, drag: {x: true, y: false, dist: 4}},
+      axes: [axis({size: 26, space: 60, values: (u, splits) => splits.map((s) => `${s} s`)}),
+             axis({size: 52, space: tall < 160 ? 26 : 34, values: (u, splits) => splits.map(mark)})],
+      series: [{}, ...lines.map((line) => ({
+        label: line.label, stroke: () => color(line.stroke), width: line.broad ? 5 : 1.5, points: {show: false},
+        // Few samples are those of a port that changes now and then, and holds its value.
+        paths: line.t.length < 200 ? uPlot.paths.stepped({align: 1}) : undefined}))],
+      hooks: {
+        setScale: [follow],
+        setCursor: [(u) => outputs.forEach((output, i) => {
+          const value = u.cursor.idx === null || u.cursor.idx === undefined ? null : nearest(u, i + 1);
+          output.textContent = value === null ? '' : value.toFixed(digits).replace('-', '−');
+        })]},
+    }, joined, canvas);
+    lines.filter((line) => line.label).forEach((line, i) => {
+      const button = el('button', {'aria-pressed': 'true', title: 'show or hide'},
+        el('i', {class: line.broad ? 'broad' : '', style: `border-color: var(${line.stroke})`}), line.label, outputs[i]);
+      button.onclick = () => {
+        const show = button.getAttribute('aria-pressed') === 'false';
+        button.setAttribute('aria-pressed', show);
+        made.setSeries(i + 1, {show});
+      };
+      legend.append(button);
+    });
+    new ResizeObserver(() => made.setSize({width: canvas.clientWidth, height: canvas.clientHeight})).observe(canvas);
+    setTimeout(() => { made.settled = true; });
+    plots.push(made);
+    return made;
+  }
+
+  /** Curves that were thinned have values at times of their own. */
+  function nearest(u, series) {
+    const values = u.data[series];
+    for (let off = 0; off < 40; ++off) {
+      for (const i of [u.cursor.idx - off, u.cursor.idx + off]) if (isNumber(values[i])) return values[i];
+    }
+    return null;
+  }
+
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => plots.forEach((p) => p.redraw(false)));
+
+  // --- tables ------------------------------------------------------------------------------------
+
+  function table(columns, rows) {
+    const head = el('tr', {}, ...columns.map(([name, unit, kind]) =>
+      el('th', kind ? {class: kind} : {}, name, ...(unit ? [el('small', {}, unit)] : []))));
+    return el('div', {class: 'scroll'}, el('table', {}, el('thead', {}, head), el('tbody', {}, ...rows)));
+  }
+  const row = (cells, attributes = {}) => el('tr', attributes, ...cells.map((cell) =>
+    cell instanceof Node && cell.nodeName === 'TD' ? cell : el('td', {}, cell)));
+  const section = (title, note) => {
+    const made = el('section', {}, el('h2', {}, title));
+    if (note) made.append(el('p', {class: 'note'}, note));
+    root.append(made);
+    return made;
+  };
+  const named = (run) => el('td', {}, el('span', {class: 'dot', style: `background: var(${colorOf.get(run)})`}), run.name);
+
+  // --- the page's parts --------------------------------------------------------------------------
+
+  function begin() {
+    const applications = [...new Set(data.runs.map((run) => run.summary?.application).filter(Boolean))];
+    root.append(el('header', {}, el('p', {class: 'eyebrow'}, 'Armature report'), el('h1', {}, data.name),
+      el('p', {class: 'lead'}, applications.length > 0 ? applications.join(' · ') : data.runs.map((r) => r.name).join(' · '))));
+    if (tracked.length > 0) keyFigures();
+  }
+
+  /** Errors are shown in mrad, unless they are large. */
+  const largest = Math.max(0, ...tracked.flatMap((run) => run.joints.map((joint) => joint.max_abs_error_rad)));
+  const [angle, scale] = largest < 0.1 ? ['mrad', 1e3] : ['rad', 1];
+
+  /** The worst joint of each run, at one look. */
+  function keyFigures() {
+    const worst = (run, figure) => Math.max(...run.joints.map((joint) => Math.abs(joint[figure])));
+    root.append(el('div', {class: 'key'}, ...tracked.slice(0, 4).flatMap((run) => [
+      ['iae', `${angle} s`, 'integral of |error|'], ['max_abs_error_rad', angle, 'largest error'],
+    ].map(([figure, unit, says]) => el('div', {style: `border-color: var(${colorOf.get(run)})`},
+      el('strong', {}, `${short(worst(run, figure) * scale)} `, el('small', {}, unit)),
+      el('span', {}, `${run.name}: ${says}, worst joint`))))));
+  }
+
+  const jointNames = [...new Set(tracked.flatMap((run) => run.joints.map((joint) => joint.joint)))];
+  const jointOf = (run, name) => run.joints.find((joint) => joint.joint === name);
+  const grid = (parent, count) => {
+    const made = el('div', {class: count > 1 ? 'plots' : 'plots single'});
+    parent.append(made);
+    return made;
+  };
+
+  function errors() {
+    const part = section('Position error', 'Desired minus measured position. ');
+    part.lastChild.append(el('span', {class: 'fine'}, 'Drag over a stretch to see it closely, in all curves; double-click for all of it.'));
+    const parent = grid(part, jointNames.length);
+    for (const name of jointNames) {
+      const lines = tracked.filter((run) => jointOf(run, name)).map((run) => ({
+        label: run.name, stroke: colorOf.get(run), ...jointOf(run, name).curves.error}));
+      plot(parent, {title: `Joint ${name}`, unit: angle, scale, digits: 3, lines});
+    }
+  }
+
+  function figures() {
+    const part = section('How well the joints follow',
+      'While the joints were armed. At rest: the largest error from two seconds after a motion on. Counts are the encoder’s.');
+    const kinds = [['iae', 'IAE', `${angle} s`, scale], ['itae', 'ITAE', `${angle} s²`, scale], ['ise', 'ISE', `${angle}² s`, scale ** 2],
+                   ['itse', 'ITSE', `${angle}² s²`, scale ** 2], ['max_abs_error_rad', 'largest', angle, scale],
+                   ['final_error_rad', 'final', angle], ['final_error_counts', 'final', 'counts'], ['at_rest_error_counts', 'at rest', 'counts']];
+    const rows = jointNames.flatMap((name) => {
+      const runs = tracked.filter((run) => jointOf(run, name));
+      return runs.map((run, i) => {
+        const joint = jointOf(run, name);
+        const cells = kinds.map(([kind, , , by]) => {
+          const best = by && runs.length > 1 && isNumber(joint[kind]) &&
+            runs.every((other) => !(Math.abs(jointOf(other, name)[kind]) <= Math.abs(joint[kind])) || other === run);
+          return el('td', best ? {class: 'best'} : {}, by ? short(joint[kind] * by) : small(joint[kind], kind.endsWith('counts') ? 1 : scale));
+        });
+        return row([el('td', {}, i === 0 ? `Joint ${name}` : ''), Object.assign(named(run), {className: 'text'}), ...cells],
+          i === 0 ? {class: 'first'} : {});
+      });
+    });
+    part.append(table([['', ''], ['', '', 'text'], ...kinds.map(([, title, unit]) => [title, unit])], rows));
+    const missing = tracked.flatMap((run) => run.joints.filter((j) => j.samples_missing > 0)
+      .map((j) => `${run.name}, joint ${j.joint}: ${whole(j.samples_missing)} of ${whole(j.samples + j.samples_missing)}`));
+    if (missing.length > 0) part.append(el('p', {class: 'note bad'}, `Samples missing, for which the one before stands: ${missing.join('; ')}.`));
+  }
+  /** What is next to nothing is 0. */
+  const small = (value, by) => (isNumber(value) ? (value * by).toFixed(3).replace('-', '−').replace(/^−?0\.000$/, '0') : '–');
+
+  function positions() {
+    const part = section('Position', 'Desired and measured.');
+    for (const run of tracked) {
+      part.append(el('p', {class: 'eyebrow', style: 'margin: 18px 0 0'}, run.name));
+      const parent = grid(part, run.joints.length);
+      for (const joint of run.joints) {
+        plot(parent, {title: `Joint ${joint.joint}`, unit: 'rad', lines: [
+          {label: 'desired', stroke: '--desired', broad: true, ...joint.curves.desired},
+          {label: 'measured', stroke: colorOf.get(run), ...joint.curves.measured}]});
+      }
+    }
+  }
+
+  function timelines() {
+    const runs = data.runs.filter((run) => run.timeline);
+    if (runs.length === 0) return;
+    const part = section('A cycle', 'What each component did, in the cycle of median length; time that others used in between is theirs. ');
+    part.lastChild.append(el('span', {class: 'fine'}, 'Drag over a part to see it closely; double-click for all of it.'));
+    for (const run of runs) {
+      part.append(el('p', {class: 'eyebrow', style: 'margin: 16px 0 0'},
+        `${run.name}: ${duration(run.timeline.length_us)}, one of ${whole(run.timeline.cycles)} cycles`), timeline(run.timeline));
+    }
+  }
+
+  function timeline({lanes, end_us: end}) {
+    const tracks = lanes.map(() => el('div', {class: 'track'}));
+    const scale = el('div', {class: 'track'});
+    const made = el('div', {class: 'timeline'});
+    lanes.forEach((lane, i) => {
+      const took = lane.bars.reduce((sum, bar) => sum + bar.length, 0);
+      const says = lane.thread ? `${lane.component}, in thread ${lane.thread}` : lane.component;
+      made.append(el('div', {class: 'lane'}, el('div', {class: 'name', title: says}, lane.component), tracks[i],
+        el('div', {class: 'took'}, duration(took))));
+    });
+    made.append(el('div', {class: 'lane scale'}, el('div'), scale, el('div')));
+    const show = (from, to) => {
+      const percent = (us) => `${(100 * us / (to - from)).toFixed(3)}%`;
+      lanes.forEach((lane, i) => tracks[i].replaceChildren(...lane.bars
+        .filter((bar) => bar.begin + bar.length >= from && bar.begin <= to)
+        .map((bar) => el('b', {title: `${duration(bar.length)}, from ${duration(bar.begin)} on`,
+          style: `left: ${percent(bar.begin - from)}; width: ${percent(bar.length)}`}))));
+      const step = stepOf((to - from) / 6);
+      const first = Math.ceil(from / step - 1e-9);
+      const marks = [];
+      for (let k = first; k * step <= from + (to - from) * 0.97; ++k) {
+        marks.push(el('span', {class: (k - first) % 2 === 1 ? 'fine' : '', style: `left: ${percent(k * step - from)}`},
+          k === 0 ? '0' : `${mark(k * step)} µs`));
+        tracks.forEach((track) => track.prepend(el('s', {style: `left: ${percent(k * step - from)}`})));
+      }
+      scale.replaceChildren(...marks);
+      made.range = [from, to];
+    };
+    show(0, end);
+    selectable(made, scale, (from, to) => show(...[from, to].map((share) => made.range[0] + share * (made.range[1] - made.range[0]))), () => show(0, end));
+    return made;
+  }
+
+  /** The round step next to `raw`. */
+  function stepOf(raw) {
+    const power = 10 ** Math.floor(Math.log10(raw));
+    return [1, 2, 5, 10].map((m) => m * power).find((step) => step >= raw * (1 - 1e-9));
+  }
+
+  /** Calls `choose` with the part of `ruler`'s width over which somebody drags, `reset` at a double-click. */
+  function selectable(area, ruler, choose, reset) {
+    const shade = el('u', {hidden: ''});
+    area.append(shade);
+    let begin = null;
+    const share = (event) => {
+      const box = ruler.getBoundingClientRect();
+      return Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
+    };
+    area.addEventListener('pointerdown', (event) => {
+      if (event.button !== 0 || event.pointerType === 'touch') return;
+      begin = share(event);
+      area.setPointerCapture(event.pointerId);
+    });
+    area.addEventListener('pointermove', (event) => {
+      if (begin === null) return;
+      const offset = ruler.offsetLeft - area.offsetLeft;
+      const [from, to] = [begin, share(event)].sort((x, y) => x - y);
+      shade.hidden = false;
+      shade.style.left = `${offset + from * ruler.clientWidth}px`;
+      shade.style.width = `${(to - from) * ruler.clientWidth}px`;
+    });
+    area.addEventListener('pointerup', (event) => {
+      if (begin === null) return;
+      const [from, to] = [begin, share(event)].sort((x, y) => x - y);
+      begin = null;
+      shade.hidden = true;
+      if ((to - from) * ruler.clientWidth > 4) choose(from, to);
+    });
+    area.addEventListener('dblclick', reset);
+  }
+
+  function busCycle() {
+    if (!data.io) return;
+    const part = section('The cycle on the bus', data.io.doc ?? '');
+    const modes = Object.entries(data.io).filter(([, mode]) => isNumber(mode?.cycle_us));
+    part.append(table([['mode', ''], ['cycle', 'µs'], ['of it computed', 'µs'], ['hand-written loop', 'µs'], ['ratio', ''], ['frames on the wire', 'µs'], ['of wire + 90 µs', '']],
+      modes.map(([name, mode]) => row([name, short(mode.cycle_us, 4), short(mode.computing_us, 3), short(mode.monolithic_cycle_us, 4),
+        (mode.cycle_us / mode.monolithic_cycle_us).toFixed(4), short(mode.wire_us, 4), name === 'synchronous' ? (mode.cycle_us / (mode.wire_us + 90)).toFixed(4) : '–']))));
+  }
+
+  function health() {
+    const part = section('Runs');
+    for (const run of data.runs) part.append(oneRun(run));
+  }
+
+  function oneRun(run) {
+    const made = el('div', {class: 'run'}, el('h3', {}, run.name));
+    if (run.cut_off) made.append(el('p', {class: 'bad'}, 'The recording has no end, as after a crash; what is whole of it is shown.'));
+    const s = run.summary;
+    if (!s) {
+      made.append(el('p', {class: 'note'}, 'No run.json: nothing is known of faults, of what was lost and of times. `armature run --out` leaves one.'));
+      return made;
+    }
+    const pace = s.time === 'simulated' ? `${seconds(s.duration_s)} in simulated time, which took ${seconds(s.wall_time_s)}` : `${seconds(s.duration_s)} in real time`;
+    made.append(el('p', {class: 'note'}, `${s.application}, ${s.components} components: ${pace}. End: ${s.end}.`));
+    made.append(...troubles(s));
+    if (s.time === 'real') made.append(threads(s), ...granted(s));
+    return made;
+  }
+
+  function troubles(s) {
+    const found = [];
+    if (s.faults > 0) found.push(`${s.faults} ${s.faults === 1 ? 'fault' : 'faults'}`);
+    if (s.reactions > 0) found.push(`${s.reactions} safety ${s.reactions === 1 ? 'reaction' : 'reactions'}`);
+    const skipped = s.threads.reduce((sum, thread) => sum + thread.cycles_skipped, 0);
+    if (skipped > 0) found.push(`${whole(skipped)} cycles skipped`);
+    for (const [name, counter] of Object.entries(s.counters)) {
+      if (/[._](dropped|lost|not_written|missing|missed|late)/.test(name)) found.push(`${name} = ${whole(counter.value)}`);
+    }
+    const lines = s.complaints.map((c) => `${c.time_s.toFixed(3)} s, ${c.component}: ${c.message}`);
+    const told = new Set(s.complaints.map((c) => c.component));
+    lines.push(...s.casualties.filter((c) => !told.has(c.component)).map((c) => `${c.component} (${c.state}): ${c.reason}`));
+    if (s.complaints_left_out > 0) lines.push(`and ${whole(s.complaints_left_out)} more`);
+    const verdict = el('div', {}, found.length === 0 ? el('p', {class: 'good'}, 'No fault, no reaction, nothing lost.') : el('p', {class: 'bad'}, `${found.join(', ')}.`));
+    const list = (some) => el('ul', {}, ...some.map((line) => el('li', {}, line)));
+    const first = lines.slice(0, 4);  // the cause comes first, and takes others along
+    if (first.length > 0) verdict.append(list(first));
+    return lines.length <= 4 ? [verdict] : [verdict, el('details', {}, el('summary', {}, `${whole(lines.length - 4)} more`), list(lines.slice(4)))];
+  }
+
+  function threads(s) {
+    const periodic = s.threads.filter((thread) => thread.period_s);
+    const rows = periodic.map((thread) => {
+      const due = thread.cycles_due ?? 0;
+      return row([thread.name, `${mark(thread.period_s * 1e3)} ms`, whole(thread.cycles_run), whole(thread.cycles_skipped),
+        whole(Math.max(0, due - thread.cycles_run - thread.cycles_skipped)),
+        ...[thread.cycle_us, thread.late_us].flatMap((d) => (d ? [duration(d.median), duration(d.p99_9), duration(d.most)] : ['–', '–', '–']))]);
+    });
+    return table([['thread', ''], ['period', ''], ['cycles run', ''], ['skipped', ''], ['unaccounted', ''],
+      ['cycle', 'median'], ['', '99.9 %'], ['', 'most'], ['woke late', 'median'], ['', '99.9 %'], ['', 'most']], rows);
+  }
+
+  const granted = (s) => {
+    const refused = s.verdict.flatMap((line) => line.refusals.map((why) => `${line.subject}: ${why}`));
+    return refused.length === 0 ? [] : [el('p', {class: 'note', style: 'margin-top: 10px'}, `Not granted by this machine: ${[...new Set(refused)].join('; ')}.`)];
+  };
+
+  function others() {
+    const runs = data.runs.filter((run) => run.others.length > 0);
+    if (runs.length === 0) return;
+    const part = section('Everything else that was recorded');
+    for (const run of runs) {
+      const details = el('details', {}, el('summary', {}, `${run.name}: ${run.others.length} signals`));
+      const fill = () => {
+        const parent = el('div', {class: 'multiples'});
+        details.append(parent);
+        for (const one of run.others) {
+          const holder = el('div', {class: 'small', title: one.doc});
+          parent.append(holder);
+          plot(holder, {title: one.name, unit: one.unit, height: 120, lines: [{label: '', stroke: colorOf.get(run) ?? '--run-0', t: one.t, v: one.v}]});
+        }
+      };
+      details.addEventListener('toggle', fill, {once: true});
+      part.append(details);
+      if (tracked.length === 0) details.open = true;
+    }
+  }
+
+  begin();
+  if (tracked.length > 0) { errors(); figures(); positions(); }
+  timelines();
+  busCycle();
+  health();
+  others();
+  root.append(el('footer', {}, 'Made by armature report. This page is one file and loads nothing; its figures are in report.json.'));
+})();

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "armature/base/diagnostic.hpp"
+
+namespace armature::report {
+
+struct Options {
+  std::string folder;  ///< of a run, or of folders of runs
+  std::string page;    ///< the file to write; empty: report.html in that folder
+};
+
+/// Where everything went.
+struct Written {
+  std::string page;     ///< HTML that needs no other file and no network
+  std::string figures;  ///< report.json in the folder: the figures for programs
+};
+
+/// Shows what runs of an application left in their folders: positions and errors of the joints, the
+/// figures of each controller, the timeline of a cycle, and what was lost or went wrong.
+/// docs/report.md has what it looks for and what the figures are.
+///
+/// Writes nothing after an error; each one says what was expected where.
+Written write_report(const Options& options, base::Diagnostics& diagnostics);
+
+/// `write_report` for a program that loads this library only when a report is wanted.
+using WriteReport = void (*)(const Options& options, Written& written,
+                             base::Diagnostics& diagnostics);
+/// The name of the function in this library.
+inline constexpr const char* kWriteReport = "armature_write_report";
+
+}  // namespace armature::report

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/report/run_folder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "armature/platform/file.hpp"
+#include "armature/record/mcap_reader.hpp"
+#include "armature/report/run_summary.hpp"
+
+namespace armature::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestText = 256u << 20;
+
+/// The recordings and folders in `folder`, each by their names.
+struct Content {
+  std::vector<std::string> recordings;
+  std::vector<std::string> folders;
+};
+
+Content content_of(const fs::path& folder, base::Diagnostics& diagnostics) {
+  Content content;
+  std::error_code failure;
+  for (fs::directory_iterator each(folder, failure), end; !failure && each != end;
+       each.increment(failure)) {
+    std::error_code ignored;
+    if (each->is_directory(ignored)) content.folders.push_back(each->path().string());
+    if (each->path().extension() == ".mcap") content.recordings.push_back(each->path().string());
+  }
+  if (failure) {
+    diagnostics.error({}, "cannot read the folder '" + folder.string() + "': " + failure.message());
+  }
+  std::sort(content.recordings.begin(), content.recordings.end(), before_by_number);
+  std::sort(content.folders.begin(), content.folders.end(), before_by_number);
+  return content;
+}
+
+/// The text of a file of JSON, if it is there; empty after an error.
+std::string load_json(const fs::path& path, base::Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return {};
+  auto text = platform::read_file(path.string(), kLargestText);
+  if (!text) {
+    diagnostics.error({}, text.error());
+    return {};
+  }
+  try {
+    if (nlohmann::json::parse(text.value()).is_object()) return std::move(text).value();
+    diagnostics.error({path.string(), 1, 1}, "expected a JSON object");
+  } catch (const nlohmann::json::exception& wrong) {
+    diagnostics.error({path.string(), 0, 0}, std::string("expected JSON: ") + wrong.what());
+  }
+  return {};
+}
+
+void load_recording(const std::string& path, Run& run, base::Diagnostics& diagnostics) {
+  run.recording = path;
+  const auto loaded = record::load_mcap(path, record::Unclosed::kReadToLastChunk);
+  if (!loaded) {
+    diagnostics.error({}, loaded.error());
+    return;
+  }
+  run.cut_off = !loaded.value().closed;
+  if (run.cut_off) {
+    diagnostics.warning({path, 0, 0},
+                        "the recording has no end, as after a crash: the report has what is whole "
+                        "of it, " +
+                            std::to_string(loaded.value().samples.size()) + " samples");
+  }
+  run.signals = signals_of(loaded.value());
+  run.joints = joints_of(run.signals);
+  if (run.joints.empty()) {
+    diagnostics.warning(
+        {path, 0, 0},
+        std::string("there are no positions to show; looked for ") + what_is_looked_for(),
+        "name them in the Reporter's property `what`");
+  }
+}
+
+void load_timeline(const fs::path& path, Run& run, base::Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return;
+  const auto text = platform::read_file(path.string(), kLargestText);
+  if (!text) return diagnostics.error({}, text.error());
+  auto timeline = parse_timeline(text.value(), path.string());
+  if (!timeline) {
+    diagnostics.error({}, timeline.error());
+  } else if (!timeline.value().lanes.empty()) {
+    run.timeline = std::move(timeline).value();
+  }
+}
+
+std::string name_of(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path whole = fs::weakly_canonical(folder, ignored);
+  return whole.filename().empty() ? folder.string() : whole.filename().string();
+}
+
+std::optional<Run> load_run(const fs::path& folder, const Content& content,
+                            base::Diagnostics& diagnostics) {
+  Run run;
+  run.name = name_of(folder);
+  run.summary = load_json(folder / kSummaryFile, diagnostics);
+  if (content.recordings.empty() && run.summary.empty()) return std::nullopt;
+  if (content.recordings.size() > 1) {
+    diagnostics.warning(
+        {content.recordings[1], 0, 0},
+        "a second recording of one run; the report shows the first, " + content.recordings[0],
+        "give each run a folder of its own");
+  }
+  if (!content.recordings.empty()) load_recording(content.recordings[0], run, diagnostics);
+  load_timeline(folder / kTraceFile, run, diagnostics);
+  return run;
+}
+
+}  // namespace
+
+Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics) {
+  Runs runs;
+  runs.name = name_of(folder);
+  const Content content = content_of(folder, diagnostics);
+  if (auto run = load_run(folder, content, diagnostics)) runs.runs.push_back(std::move(*run));
+  for (const std::string& inner : content.folders) {
+    if (auto run = load_run(inner, content_of(inner, diagnostics), diagnostics)) {
+      runs.runs.push_back(std::move(*run));
+    }
+  }
+  runs.cycle_json = load_json(fs::path(folder) / kCycleFile, diagnostics);
+  if (runs.runs.empty() && diagnostics.ok()) {
+    diagnostics.error({},
+                      "no run in '" + folder + "': expected a recording (*.mcap) or " +
+                          kSummaryFile + " in it, or in folders in it",
+                      "`armature run FILE --out FOLDER` leaves one");
+  }
+  return runs;
+}
+
+}  // namespace armature::report

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/report/signals.hpp"
+#include "armature/report/timeline.hpp"
+#include "armature/report/tracking.hpp"
+
+namespace armature::report {
+
+/// A trace in a run's folder, beside its recording and its summary.
+inline constexpr const char* kTraceFile = "trace.json";
+/// The time of a cycle on the bus, in the folder of the runs.
+inline constexpr const char* kCycleFile = "io.json";
+
+/// A run as its folder has it. Something of it is there: a recording or a summary.
+struct Run {
+  std::string name;       ///< the folder's
+  std::string recording;  ///< its file; empty: none
+  bool cut_off = false;   ///< the recording has no end: what is whole of it was read
+  Signals signals;
+  std::vector<Joint> joints;
+  std::string summary;  ///< JSON of `write_run_summary`; empty: none
+  std::optional<Timeline> timeline;
+};
+
+struct Runs {
+  std::string name;        ///< the folder's
+  std::vector<Run> runs;   ///< of the folder itself, or of those in it, by their names
+  std::string cycle_json;  ///< the content of kCycleFile; empty: none
+};
+
+/// Reads a run's folder or a folder of run folders. Errors name the file, what was expected and
+/// what was found; a recording that was cut off is a warning.
+Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics);
+
+}  // namespace armature::report

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
+#include "armature/exec/application.hpp"
+
+namespace armature::report {
+
+/// Its name in the folder of a run.
+inline constexpr const char* kSummaryFile = "run.json";
+
+/// What only the program knows that ran an application.
+struct RunFacts {
+  std::string deployment;  ///< its file
+  bool simulated = false;
+  base::Duration duration{};   ///< on the application's clock
+  base::Duration wall_time{};  ///< on the machine's
+  exec::RunEnd end = exec::RunEnd::kTimeUp;
+  int exit_code = 0;
+  std::vector<rt::LogRecord> complaints;  ///< warnings and errors that it logged
+  std::size_t complaints_left_out = 0;
+  base::Time begin{};  ///< of the times of `complaints`
+};
+
+/// Writes `run.json` into `folder`: how an application that has stopped fared, for the report and
+/// for programs. Cycles and wake-ups of each thread, what the system granted, faults and who did
+/// not get to the end, and every attribute that counts something and is not 0.
+base::Result<void> write_run_summary(const std::string& folder, const RunFacts& facts,
+                                     const exec::Application& application);
+
+/// `write_run_summary` for a program that loads this library only for that.
+/// @param error  becomes the error's text
+using WriteRunSummary = void (*)(const std::string& folder, const RunFacts& facts,
+                                 const exec::Application& application, std::string& error);
+/// The name of the function in this library.
+inline constexpr const char* kWriteRunSummary = "armature_write_run_summary";
+
+}  // namespace armature::report

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/report/signals.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace armature::report {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Takes one channel's samples apart.
+class Unpacking {
+ public:
+  Unpacking(const record::RecordedChannel& channel, Signals& signals)
+      : channel_(channel), signals_(signals) {}
+
+  void add(const record::RecordedSample& sample) {
+    const Json value = Json::parse(sample.json, nullptr, false);
+    if (!value.is_object()) return;
+    time_s_ = static_cast<double>(sample.time.time_since_epoch().count()) * 1e-9;
+    const bool plain = value.size() == 1 && value.contains("value");
+    add(plain ? value["value"] : value, channel_.name);
+  }
+
+ private:
+  void add(const Json& value, const std::string& name) {
+    if (value.is_string()) {
+      signals_.texts[name] = value.get<std::string>();
+    } else if (value.is_array()) {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        std::string element = name;
+        element.append("[").append(std::to_string(i)).append("]");
+        add(value[i], element);
+      }
+    } else if (value.is_object()) {
+      for (const auto& [field, inner] : value.items()) add(inner, name + '.' + field);
+    } else {
+      append(number(value), name);
+    }
+  }
+
+  static double number(const Json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
+    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void append(double value, const std::string& name) {
+    const auto [found, added] = index_.try_emplace(name, signals_.all.size());
+    if (added) signals_.all.push_back({name, channel_.unit, channel_.doc, {}, {}});
+    Signal& signal = signals_.all[found->second];
+    if (!signal.time_s.empty() && time_s_ < signal.time_s.back()) return;
+    signal.time_s.push_back(time_s_);
+    signal.values.push_back(value);
+  }
+
+  const record::RecordedChannel& channel_;
+  Signals& signals_;
+  std::unordered_map<std::string, std::size_t> index_;
+  double time_s_ = 0.0;
+};
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// Takes the digits at the beginning of `text` away; without leading zeros.
+std::string_view take_number(std::string_view& text) {
+  std::size_t end = 0;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  std::string_view number = text.substr(0, end);
+  text.remove_prefix(end);
+  while (number.size() > 1 && number.front() == '0') number.remove_prefix(1);
+  return number;
+}
+
+}  // namespace
+
+const Signal* Signals::find(const std::string& name) const {
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Signal& signal) { return signal.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+Signals signals_of(const record::McapRecording& recording) {
+  Signals signals;
+  std::vector<std::vector<const record::RecordedSample*>> by_channel(recording.channels.size());
+  for (const record::RecordedSample& sample : recording.samples) {
+    by_channel[sample.channel].push_back(&sample);
+  }
+  for (std::size_t i = 0; i < by_channel.size(); ++i) {
+    Unpacking unpacking(recording.channels[i], signals);
+    for (const record::RecordedSample* sample : by_channel[i]) unpacking.add(*sample);
+  }
+  return signals;
+}
+
+bool before_by_number(const std::string& left, const std::string& right) {
+  std::string_view a = left;
+  std::string_view b = right;
+  while (!a.empty() && !b.empty()) {
+    if (is_digit(a.front()) && is_digit(b.front())) {
+      const std::string_view x = take_number(a);
+      const std::string_view y = take_number(b);
+      if (x != y) return std::pair(x.size(), x) < std::pair(y.size(), y);
+    } else {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+    }
+  }
+  return a.size() < b.size();
+}
+
+Signal thinned(const Signal& signal, std::size_t most) {
+  const std::size_t size = signal.values.size();
+  if (size <= most) return signal;
+  Signal thin{signal.name, signal.unit, signal.doc, {}, {}};
+  const auto keep = [&](std::size_t i) {
+    thin.time_s.push_back(signal.time_s[i]);
+    thin.values.push_back(signal.values[i]);
+  };
+  const std::size_t stretches = std::max<std::size_t>(most / 2, 1);
+  for (std::size_t stretch = 0; stretch < stretches; ++stretch) {
+    const auto begin =
+        signal.values.begin() + static_cast<std::ptrdiff_t>(stretch * size / stretches);
+    const auto end =
+        signal.values.begin() + static_cast<std::ptrdiff_t>((stretch + 1) * size / stretches);
+    const auto [least, largest] = std::minmax_element(begin, end);
+    const auto first = static_cast<std::size_t>(std::min(least, largest) - signal.values.begin());
+    const auto second = static_cast<std::size_t>(std::max(least, largest) - signal.values.begin());
+    keep(first);
+    if (second != first) keep(second);
+  }
+  return thin;
+}
+
+}  // namespace armature::report

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "armature/record/mcap_reader.hpp"
+
+namespace armature::report {
+
+/// One number over time; what is no number is nan.
+struct Signal {
+  std::string name;  ///< `PID1.Ref`, `Sensor.sensor[0]`, `Head.pan.q`
+  std::string unit;
+  std::string doc;
+  std::vector<double> time_s;  ///< never goes back
+  std::vector<double> values;
+};
+
+/// What a recording has: every number in every channel, and the texts that did not change.
+struct Signals {
+  std::vector<Signal> all;                   ///< in the order of the channels
+  std::map<std::string, std::string> texts;  ///< the last one of each channel of texts
+
+  const Signal* find(const std::string& name) const;
+};
+
+Signals signals_of(const record::McapRecording& recording);
+
+/// Sorts names as people count: PID2 before PID10.
+bool before_by_number(const std::string& left, const std::string& right);
+
+/// The same curve with at most about `most` points: of each stretch its smallest and its largest.
+Signal thinned(const Signal& signal, std::size_t most);
+
+}  // namespace armature::report

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of the task browser and the functions of its Lua, as help and completion know them.
+#include "armature/script/internal/help.hpp"
+
+namespace armature::script::internal {
+
+const std::vector<Topic>& command_topics() {
+  static const std::vector<Topic> all = {
+      {"ls", "ls [COMPONENT ...]",
+       "lists the components and state machines, or one component with its values",
+       "ls\nls Joint1\n`list` is the same."},
+      {"help", "help [WHAT]", "explains a command, a function, a component or a member of one",
+       "help watch\nhelp moveTo\nhelp Joint1\nhelp Joint1.Position\nhelp Generator:moveTo"},
+      {"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
+       "shows values as they change, until a key",
+       "In simulated time, and where there is no terminal, it lets that time pass and writes a "
+       "line for each step: ten of them unless `for` says more.\n"
+       "watch Joint1.Position Joint2.Position every 0.2\n"
+       "watch Sensor.sensor[1] every 0.01 for 1"},
+      {"threads", "threads", "how often each thread ran, how long its cycles take, its load", ""},
+      {"faults", "faults", "who does not run, and why", ""},
+      {"start", "start [COMPONENT ...]", "starts a component, and configures it before if need be",
+       "start Joint1\nWithout a name: every component that is stopped, writers before readers, "
+       "but for those that the deployment does not start."},
+      {"stop", "stop COMPONENT ...", "stops a component; `quit` ends the application",
+       "stop Joint1"},
+      {"reset", "reset [COMPONENT ...]", "takes a component out of its exception, to stopped",
+       "reset Joint1\nstart Joint1\nWithout a name: every component that is in an exception."},
+      {"recover", "recover [COMPONENT ...]",
+       "takes a component out of its run-time error, to running",
+       "recover Joint1\nWithout a name: every component that is in an error."},
+      {"run", "run SECONDS", "lets simulated time pass; in real time the same as wait",
+       "run 5\nCtrl-C ends it early."},
+      {"wait", "wait [SECONDS]", "waits so long, or until the commands that were begun have ended",
+       "Generator:moveTo(array(1.0, 1.0), 10)\nwait\n"
+       "Ctrl-C cancels the commands; a second one ends the waiting. As a function it takes a "
+       "command, an event or a machine: wait(motion) is true, or false and why."},
+      {"cancel", "cancel", "cancels the commands that are under way",
+       "Those that were begun here. One alone: motion:cancel()."},
+      {"quit", "quit", "stops the application in order; also Ctrl-D, exit, stop()", ""}};
+  return all;
+}
+
+const std::vector<Topic>& function_topics() {
+  static const std::vector<Topic> all = {
+      {"at", "at(seconds, function)", "calls a function at a time, counted from the begin",
+       "at(now() + 5, function() Generator:moveTo(array(1, 1), 10) end)"},
+      {"on", "on(event, function)", "calls a function each time that an event is raised",
+       "watching = on(Arming.Stop, function() print(now()) end)\nwatching:cancel()"},
+      {"machine", "machine {...}", "defines a state machine",
+       "m = machine {initial = \"Idle\", Idle = {on = {go = \"Moving\"}}, Moving = {after = {5, "
+       "\"Idle\"}}}\nm:start()\nm:send(\"go\")\nm.state\nm:stop()"},
+      {"now", "now()", "seconds since the begin", ""},
+      {"stop", "stop()", "stops the application in order", ""},
+      {"print", "print(...)", "writes a line", "print(Joint1.Position, Joint2.Position)"},
+      {"array", "array(...)", "a list: array(1, 2) is {1, 2}", ""},
+      {"require", "require(\"name\")", "runs name.lua in the working directory, once", ""},
+      {"done", "motion:done()", "whether a command has ended in any way",
+       "motion = Generator:moveTo(array(1, 1), 10)\nmotion:done()"},
+      {"progress", "motion:progress()", "how far a command is, 0 to 1", ""},
+      {"reason", "motion:reason()", "why a command failed or was cancelled, else \"\"", ""}};
+  return all;
+}
+
+}  // namespace armature::script::internal

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
+#include "armature/script/internal/display.hpp"
+#include "armature/script/internal/items.hpp"
+
+namespace armature::script::internal {
+
+/// Values that are looked at again and again: `watch ITEM ... [every SECONDS] [for SECONDS]`.
+class Watch {
+ public:
+  static base::Result<Watch> parse(const exec::Application& application,
+                                   const std::vector<std::string>& words);
+
+  base::Duration every() const { return every_; }
+  const std::optional<base::Duration>& limit() const { return limit_; }
+
+  /// The items in lines of their own, to be shown in place.
+  std::string picture(const Paper& paper, exec::Application& application) const;
+  /// One line for each moment, `seconds` behind which the values stand; and what is above them.
+  std::string heading(const Paper& paper) const;
+  std::string line(const Paper& paper, exec::Application& application, double seconds) const;
+
+ private:
+  std::vector<std::string> values(exec::Application& application) const;
+  std::string name_of(const Item& item) const;
+  bool fits(const Paper& paper) const;
+
+  std::vector<Item> items_;
+  base::Duration every_ = std::chrono::milliseconds(200);
+  std::optional<base::Duration> limit_;
+};
+
+/// A time above 0 in seconds, `0.2`, or with its unit, `20ms`.
+std::optional<base::Duration> seconds_in(std::string_view text);
+
+}  // namespace armature::script::internal

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robots/janus/plant_wire.hpp"
+
+#include <utility>
+
+#include "armature/can/bus_server.hpp"
+#include "armature/can/socket_can.hpp"
+#include "armature/rt/wakeup.hpp"
+
+namespace armature::janus {
+namespace {
+
+class SharedWire final : public PlantWire {
+ public:
+  explicit SharedWire(std::unique_ptr<can::BusServer> server) : server_(std::move(server)) {}
+  void take() override { server_->take(); }
+  void give() override { server_->give(); }
+  void wait_until(base::Time deadline) override { server_->wait_until(deadline); }
+
+ private:
+  std::unique_ptr<can::BusServer> server_;
+};
+
+/// Carries frames between the interface and a station of the virtual bus. What either does not take
+/// is lost, as on a wire that nobody hears; both count it.
+class InterfaceWire final : public PlantWire {
+ public:
+  InterfaceWire(can::VirtualBus& bus, const std::string& interface)
+      : inside_(bus.add_station("interface")), outside_(interface) {}
+
+  bool open(base::Diagnostics& diagnostics) {
+    can::BusOptions options;
+    options.on_news = [this] { news_.notify(); };
+    return inside_.open({}, diagnostics) && outside_.open(options, diagnostics);
+  }
+  void take() override { carry(outside_, inside_); }
+  void give() override { carry(inside_, outside_); }
+  void wait_until(base::Time deadline) override { news_.wait_until(deadline); }
+
+ private:
+  static void carry(can::Bus& from, can::Bus& to) {
+    can::Arrival arrival;
+    while (from.receive(arrival) == can::ReceiveStatus::kReceived) {
+      static_cast<void>(to.send(arrival.frame));
+    }
+  }
+
+  rt::Wakeup news_;
+  can::VirtualStation& inside_;
+  can::SocketCan outside_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlantWire> make_shared_wire(can::VirtualBus& bus, const std::string& path,
+                                            base::Diagnostics& diagnostics) {
+  auto server = can::BusServer::open(bus, path, diagnostics);
+  if (server == nullptr) return nullptr;
+  return std::make_unique<SharedWire>(std::move(server));
+}
+
+std::unique_ptr<PlantWire> make_interface_wire(can::VirtualBus& bus, const std::string& interface,
+                                               base::Diagnostics& diagnostics) {
+  auto wire = std::make_unique<InterfaceWire>(bus, interface);
+  if (!wire->open(diagnostics)) return nullptr;
+  return wire;
+}
+
+}  // namespace armature::janus

@@ -1,0 +1,1 @@
+local a = {} a.A = a a.initial = "A" machine(a)
