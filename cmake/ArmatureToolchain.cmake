@@ -54,7 +54,10 @@ endif()
 
 find_program(ARMATURE_CCACHE ccache)
 if(ARMATURE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${ARMATURE_CCACHE})
+  # Paths inside the checkout are not part of the key: clones and worktrees share what was compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      ${ARMATURE_CCACHE})
 endif()
 find_program(ARMATURE_MOLD mold)
 if(ARMATURE_MOLD)
