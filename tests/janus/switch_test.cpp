@@ -361,7 +361,9 @@ TEST_F(Switching, AScriptDoesItWithoutAGrant) {
 /// Whatever the operator does at the same time: nothing arms, and nothing moves that is disarmed.
 TEST(SwitchWhile, StoppingDisarmingAndArmingArmsAndMovesNothing) {
   std::mt19937 random(20261122);
-  const auto some = [&](int most) { return std::chrono::microseconds(random() % (1000 * most)); };
+  const auto some = [&](unsigned most) {
+    return std::chrono::microseconds(random() % (1000 * most));
+  };
   for (int round = 0; round < 12; ++round) {
     SCOPED_TRACE("round " + std::to_string(round));
     Head head;
