@@ -9,6 +9,7 @@ set(ARMATURE_LAYERS
     "rt: base platform"
     "control: base"
     "guard: base rt"
+    "idl: base"
     "component: base rt types"
     "can: base platform rt"
     "ride: base platform rt types"
