@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/interface.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace armature::ride {
+
+std::uint32_t digest(const Interface& interface) {
+  std::vector<std::string_view> sorted;
+  for (const Declaration& declaration : interface.declarations) {
+    sorted.push_back(declaration.canonical);
+  }
+  std::ranges::sort(sorted);
+  std::string all;
+  for (const std::string_view canonical : sorted) {
+    if (!all.empty()) all += ';';
+    all += canonical;
+  }
+  return base::fnv1a(all);
+}
+
+}  // namespace armature::ride
