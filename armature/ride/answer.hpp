@@ -16,8 +16,8 @@ struct CallOptions {
   Priority priority;
 };
 
-/// Whether a command went on its way.
-enum class Sent { kYes, kNotConnected, kQueueFull };
+/// Whether a command went on its way; kMalformed: a parameter is out of its range.
+enum class Sent { kYes, kNotConnected, kQueueFull, kMalformed };
 
 /// What a request brought: the result, or why there is none.
 template <typename T>

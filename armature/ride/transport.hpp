@@ -70,8 +70,12 @@ class Transport {
   virtual std::string scheme() const = 0;
   /// True if nobody but processes of this machine, or peers that prove who they are, can connect.
   virtual bool safe(const Address& address) const = 0;
+  /// The address without names that have to be asked for; may wait for a name service.
+  virtual base::Result<Address> look_up(const Address& address) { return address; }
+  /// @param address  as `look_up` gave it
   virtual base::Result<std::unique_ptr<Listener>> listen(const Address& address) = 0;
-  /// Begins to connect. Does not wait, except for a name to be looked up.
+  /// Begins to connect; never waits.
+  /// @param address  as `look_up` gave it
   virtual base::Result<std::unique_ptr<Connection>> connect(const Address& address) = 0;
 };
 
