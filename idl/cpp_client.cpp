@@ -27,7 +27,7 @@ class ClientWriter {
 
   std::string source() const {
     std::string text = text_.head(false) + "#include \"" + text_.main().name + "_client.hpp\"\n\n";
-    if (uses_flags()) text += "#include \"armature/ride/flags.hpp\"\n\n";
+    text += text_.include_flags();
     text += text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) {
       for (const Operation& operation : interface.operations) {
@@ -41,18 +41,6 @@ class ClientWriter {
   bool raises_events() const {
     for (const Interface& interface : text_.main().interfaces) {
       if (!interface.events.empty()) return true;
-    }
-    return false;
-  }
-
-  bool uses_flags() const {
-    for (const Interface& interface : text_.main().interfaces) {
-      for (const Operation& operation : interface.operations) {
-        if (is_flags(operation.result)) return true;
-        for (const Field& parameter : operation.parameters) {
-          if (is_flags(parameter.type)) return true;
-        }
-      }
     }
     return false;
   }

@@ -23,7 +23,7 @@ class ServiceWriter {
 
   std::string source() const {
     std::string text = text_.head(false) + "#include \"" + text_.main().name +
-                       "_service.hpp\"\n\n" + text_.begin_name_space();
+                       "_service.hpp\"\n\n" + text_.include_flags() + text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) text += "\n" + defined(interface);
     return text + text_.end_name_space();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "idl/internal/cpp_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "idl/cpp_backend.hpp"
@@ -162,6 +163,20 @@ std::vector<std::string> CppText::described(const Field& field) {
   if (lines.empty()) return {behind};
   lines.front() += (lines.front().empty() ? "" : " ") + behind;
   return lines;
+}
+
+std::string CppText::include_flags() const {
+  const auto uses_flags = [](const Operation& operation) {
+    return is_flags(operation.result) ||
+           std::any_of(operation.parameters.begin(), operation.parameters.end(),
+                       [](const Field& parameter) { return is_flags(parameter.type); });
+  };
+  for (const Interface& interface : main().interfaces) {
+    if (std::any_of(interface.operations.begin(), interface.operations.end(), uses_flags)) {
+      return "#include \"armature/ride/flags.hpp\"\n\n";
+    }
+  }
+  return {};
 }
 
 std::string CppText::head(bool header) const {

@@ -44,6 +44,8 @@ class CppText {
   /// Documentation of a member or parameter, with unit and range behind it.
   static std::vector<std::string> described(const Field& field);
 
+  /// What client and service need for an Array<bool> that is a parameter or result.
+  std::string include_flags() const;
   /// Of `// Generated ...`, up to and with the include guard of a header.
   std::string head(bool header) const;
   std::string begin_name_space() const;
