@@ -18,7 +18,7 @@ class ClientWriter {
     std::string text = text_.head(true);
     if (raises_events()) text += "#include <functional>\n";
     text += "#include <string>\n#include <utility>\n\n";
-    text += "#include \"armature/ride/placeholder.hpp\"\n";
+    text += text_.include_flags() + "#include \"armature/ride/placeholder.hpp\"\n";
     text += "#include \"" + text_.main().name + "_types.hpp\"\n\n";
     text += text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) text += "\n" + declared(interface);
@@ -27,7 +27,6 @@ class ClientWriter {
 
   std::string source() const {
     std::string text = text_.head(false) + "#include \"" + text_.main().name + "_client.hpp\"\n\n";
-    text += text_.include_flags();
     text += text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) {
       for (const Operation& operation : interface.operations) {
@@ -78,7 +77,7 @@ class ClientWriter {
     head.parameters = text_.parameters(operation);
     head.result = operation.is_command()
                       ? "armature::ride::Sent"
-                      : "armature::ride::Answer<" + text_.type(operation.result) + ">";
+                      : "armature::ride::Answer<" + text_.result_type(operation) + ">";
     const std::string last(operation.is_command() ? kPriority : kOptions);
     head.parameters.push_back(last + (in_class ? " = {}" : ""));
     head.tail = in_class ? ";" : " {";
@@ -134,7 +133,7 @@ class ClientWriter {
   std::string refusal(const Operation& operation,
                       const std::function<std::string(const Call&)>& with_problem) const {
     if (operation.is_command()) return "    return armature::ride::Sent::kMalformed;\n  }\n";
-    return with_problem({"return refuse<" + text_.type(operation.result) + ">(",
+    return with_problem({"return refuse<" + text_.result_type(operation) + ">(",
                          {literal(operation.name)}}) +
            "  }\n";
   }
@@ -148,16 +147,9 @@ class ClientWriter {
       arguments.emplace_back("options");
     }
     const Items names = text_.parameter_names(operation);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const bool flags = is_flags(operation.parameters[i].type);
-      arguments.push_back(flags ? "armature::ride::Flags{" + names[i] + "}" : names[i]);
-    }
+    arguments.insert(arguments.end(), names.begin(), names.end());
     if (operation.is_command()) return call(2, "return command(", arguments, ");");
-    if (is_flags(operation.result)) {
-      return nested_call(2, "return armature::ride::bytes_of(", "request<armature::ride::Flags>(",
-                         arguments, "));");
-    }
-    return call(2, "return request<" + text_.type(operation.result) + ">(", arguments, ");");
+    return call(2, "return request<" + text_.result_type(operation) + ">(", arguments, ");");
   }
 
   const CppText& text_;

@@ -14,16 +14,16 @@ class ServiceWriter {
   explicit ServiceWriter(const CppText& text) : text_(text), names_(text.names()) {}
 
   std::string header() const {
-    std::string text = text_.head(true) + "#include \"armature/ride/service.hpp\"\n" +
-                       "#include \"" + text_.main().name + "_types.hpp\"\n\n" +
-                       text_.begin_name_space();
+    std::string text = text_.head(true) + text_.include_flags() +
+                       "#include \"armature/ride/service.hpp\"\n" + "#include \"" +
+                       text_.main().name + "_types.hpp\"\n\n" + text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) text += "\n" + declared(interface);
     return text + text_.end_name_space();
   }
 
   std::string source() const {
     std::string text = text_.head(false) + "#include \"" + text_.main().name +
-                       "_service.hpp\"\n\n" + text_.include_flags() + text_.begin_name_space();
+                       "_service.hpp\"\n\n" + text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) text += "\n" + defined(interface);
     return text + text_.end_name_space();
   }
@@ -48,7 +48,7 @@ class ServiceWriter {
   }
 
   Function head(const Operation& operation) const {
-    return {"virtual " + text_.type(operation.result), "", names_.operation(operation.name),
+    return {"virtual " + text_.result_type(operation), "", names_.operation(operation.name),
             text_.parameters(operation), " = 0;"};
   }
 
@@ -99,9 +99,8 @@ class ServiceWriter {
     Items problems;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Type& type = operation.parameters[i].type;
-      text += "      " + text_.type(type) + " " + names[i] + "{};\n";
-      const std::string take = is_flags(type) ? "!parameters.take_flags(" : "!parameters.take(";
-      problems.push_back(take + names[i] + ")");
+      text += "      " + text_.variable_type(type) + " " + names[i] + "{};\n";
+      problems.push_back("!parameters.take(" + names[i] + ")");
     }
     problems.emplace_back("!parameters.ended()");
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -123,9 +122,6 @@ class ServiceWriter {
     const bool hidden = std::find(names.begin(), names.end(), name) != names.end();
     const std::string begin = (hidden ? "this->" : "") + name + "(";
     if (operation.is_command()) return call(6, begin, names, ");") + "      reply.done();\n";
-    if (is_flags(operation.result)) {
-      return nested_call(6, "reply.put(armature::ride::Flags{", begin, names, ")});");
-    }
     return nested_call(6, "reply.put(", begin, names, "));");
   }
 

@@ -125,8 +125,12 @@ std::string CppText::type(const Type& type) const {
   return "std::array<" + single(type) + ", " + std::to_string(type.count) + ">";
 }
 
+std::string CppText::variable_type(const Type& type) const {
+  return is_flags(type) ? "armature::ride::Flags" : this->type(type);
+}
+
 std::string CppText::parameter_type(const Type& type) const {
-  return by_value(type) ? this->type(type) : "const " + this->type(type) + "&";
+  return by_value(type) ? this->type(type) : "const " + variable_type(type) + "&";
 }
 
 Items CppText::parameters(const Operation& operation) const {
@@ -173,7 +177,7 @@ std::string CppText::include_flags() const {
   };
   for (const Interface& interface : main().interfaces) {
     if (std::any_of(interface.operations.begin(), interface.operations.end(), uses_flags)) {
-      return "#include \"armature/ride/flags.hpp\"\n\n";
+      return "#include \"armature/ride/flags.hpp\"\n";
     }
   }
   return {};

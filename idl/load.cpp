@@ -54,6 +54,7 @@ class Loader {
     Module module = parse(source, loaded_.diagnostics);
     module.name = fs::path(source.file()).stem().string();
     for (Structure& structure : module.structures) structure.module = module.name;
+    refuse_same_name(module, from);
     open_.push_back(source.file());
     for (Import& import : module.imports) {
       const fs::path path = fs::path(source.file()).parent_path() / import.path;
@@ -61,7 +62,6 @@ class Loader {
       module.complete = module.complete && !import.module.empty();
     }
     open_.pop_back();
-    refuse_same_name(module, from);
     names_[source.file()] = module.name;
     std::string name = module.name;
     loaded_.program.add(std::move(module));
@@ -70,13 +70,12 @@ class Loader {
 
   /// Both would be written to files of the same names.
   void refuse_same_name(const Module& module, const base::Location& from) {
-    for (const auto& [file, name] : names_) {
-      if (name != module.name) continue;
-      fail(from,
-           "'" + module.file + "' and '" + file + "' have the same name, " + name +
-               ", and so would the files generated from them",
-           "rename one of them");
-    }
+    const auto [first, is_new] = files_.emplace(module.name, module.file);
+    if (is_new) return;
+    fail(from,
+         "'" + module.file + "' and '" + first->second + "' have the same name, " + module.name +
+             ", and so would the files generated from them",
+         "rename one of them");
   }
 
   std::nullopt_t fail(const base::Location& where, std::string message, std::string hint = {}) {
@@ -93,6 +92,7 @@ class Loader {
   Loaded& loaded_;
   std::vector<std::string> open_;             ///< files whose imports are being loaded
   std::map<std::string, std::string> names_;  ///< of modules, by their files
+  std::map<std::string, std::string> files_;  ///< the other way round
 };
 
 }  // namespace

@@ -60,6 +60,8 @@ class Change {
 
  private:
   static std::optional<std::string> content_of(const fs::path& file) {
+    std::error_code failure;
+    if (!fs::is_regular_file(file, failure)) return std::nullopt;
     std::ifstream opened(file, std::ios::binary);
     if (!opened) return std::nullopt;
     return std::string(std::istreambuf_iterator<char>(opened), {});

@@ -218,11 +218,22 @@ class Parser {
     return result;
   }
 
-  /// A semicolon between parameters is no end of the operation.
+  /// A semicolon between parameters is no end of the operation, unless another one follows.
   void skip_parameters() {
     while (!reader_.at_end() && !reader_.is(")") && !reader_.is("{") && !reader_.is("}")) {
+      if (reader_.is(";") && parenthesis_opens_next()) return;
       reader_.take();
     }
+  }
+
+  bool parenthesis_opens_next() const {
+    for (std::size_t i = 1; reader_.ahead(i).kind != Token::Kind::kEnd; ++i) {
+      const Token& token = reader_.ahead(i);
+      if (TokenReader::is(token, "(")) return true;
+      if (TokenReader::is(token, ")") || TokenReader::is(token, ";")) return false;
+      if (TokenReader::is(token, "}")) return false;
+    }
+    return false;
   }
 
   /// Until behind the next semicolon, or before what ends or begins something larger.

@@ -5,23 +5,18 @@
 #include <utility>
 #include <vector>
 
-#include "armature/ride/answer.hpp"
 #include "armature/ride/codec.hpp"
 
 namespace armature::ride {
 
-/// An `Array<bool>` that is a parameter or a result on its own. C++ has it as bytes, of which only
-/// 0 and 1 are sent and taken.
-struct Flags {
-  std::vector<std::uint8_t> bytes;
+/// An `Array<bool>` that is a parameter or a result: bytes, of which each is 0 or 1 on the wire,
+/// and nothing else is taken.
+struct Flags : std::vector<std::uint8_t> {
+  using std::vector<std::uint8_t>::vector;
+  Flags() = default;
+  Flags(std::vector<std::uint8_t> bytes) : vector(std::move(bytes)) {}  // NOLINT: bytes are flags
 };
-inline void encode(Encoder& to, const Flags& flags) { to.put_flags(flags.bytes); }
-inline bool decode(Decoder& from, Flags& flags) { return from.take_flags(flags.bytes); }
-
-/// The answer with the bytes themselves.
-inline Answer<std::vector<std::uint8_t>> bytes_of(Answer<Flags> answer) {
-  if (!answer.ok()) return {answer.code(), answer.error()};
-  return Answer<std::vector<std::uint8_t>>(std::move(answer.value().bytes));
-}
+inline void encode(Encoder& to, const Flags& flags) { to.put_flags(flags); }
+inline bool decode(Decoder& from, Flags& flags) { return from.take_flags(flags); }
 
 }  // namespace armature::ride

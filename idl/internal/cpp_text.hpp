@@ -22,6 +22,11 @@ class CppText {
 
   /// `std::vector<double>`; `geometry::Pose` of a struct in another namespace.
   std::string type(const Type& type) const;
+  /// On its own and not in a struct: there an Array<bool> has a class with its wire form.
+  std::string variable_type(const Type& type) const;
+  std::string result_type(const Operation& operation) const {
+    return variable_type(operation.result);
+  }
   /// As a parameter: `double`, `const std::vector<double>&`.
   std::string parameter_type(const Type& type) const;
   /// Types and names, and the names alone.

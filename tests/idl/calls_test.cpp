@@ -41,9 +41,7 @@ class Echo final : public everything::EchoService {
   everything::Lists echo_lists(const everything::Lists& value) override { return value; }
   everything::Fixed echo_fixed(const everything::Fixed& value) override { return value; }
   everything::Ranges echo_ranges(const everything::Ranges& value) override { return value; }
-  std::vector<std::uint8_t> echo_flags(const std::vector<std::uint8_t>& value) override {
-    return value;
-  }
+  ride::Flags echo_flags(const ride::Flags& value) override { return value; }
   std::array<bool, 2> echo_two_flags(const std::array<bool, 2>& value) override { return value; }
   std::vector<std::string> echo_strings(const std::vector<std::string>& value) override {
     return value;
@@ -135,7 +133,7 @@ TEST_F(Calls, StructsAndArraysComeBack) {
 }
 
 TEST_F(Calls, FlagsAreZeroOrOne) {
-  EXPECT_EQ(echo_.echo_flags({0, 1, 9}, kPatient).value(), (std::vector<std::uint8_t>{0, 1, 1}));
+  EXPECT_EQ(echo_.echo_flags({0, 1, 9}, kPatient).value(), (ride::Flags{0, 1, 1}));
 }
 
 TEST_F(Calls, ParametersKeepTheirPlacesWhateverTheyAreCalled) {

@@ -93,10 +93,10 @@ TEST(Ranges, TheTextNamesParameterValueAndRange) {
 }
 
 TEST(Flags, AreSentAsZeroAndOneAndTakenAsNothingElse) {
-  EXPECT_EQ(encoded(ride::Flags{{0, 1, 7}}), "03 00 00 00 00 01 01");
+  EXPECT_EQ(encoded(ride::Flags{0, 1, 7}), "03 00 00 00 00 01 01");
   ride::Flags taken;
-  EXPECT_TRUE(transfer(ride::Flags{{0, 7}}, taken));
-  EXPECT_EQ(taken.bytes, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_TRUE(transfer(ride::Flags{0, 7}, taken));
+  EXPECT_EQ(taken, (ride::Flags{0, 1}));
   EXPECT_FALSE(transfer(std::vector<std::uint8_t>{0, 7}, taken));
 }
 
