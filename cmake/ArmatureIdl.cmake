@@ -49,7 +49,13 @@ function(armature_idl)
   add_library(${arg_NAME} STATIC ${sources})
   target_link_libraries(${arg_NAME} PUBLIC armature::ride armature::types ${arg_LINK})
   target_include_directories(${arg_NAME} PUBLIC ${folder})
-  set_target_properties(${arg_NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON IDL_FOLDER ${folder})
+  # A component library that uses it exports nothing of its own.
+  set_target_properties(
+    ${arg_NAME}
+    PROPERTIES POSITION_INDEPENDENT_CODE ON
+               CXX_VISIBILITY_PRESET hidden
+               VISIBILITY_INLINES_HIDDEN ON
+               IDL_FOLDER ${folder})
   if(COMMAND armature_warnings)
     armature_warnings(${arg_NAME})
   endif()
