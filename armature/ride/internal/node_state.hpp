@@ -107,6 +107,10 @@ class NodeState final : public LinkHost {
   void accept(Listener& listener);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
+  void throttle(Link& link);
+  base::Time next_timer() const;
+  base::Duration time_left() const;
+  void look_at_clock();
   void look_after(Link& link);
   void end(Link& link);
   template <typename Write>
@@ -151,7 +155,7 @@ class NodeState final : public LinkHost {
   base::Time return_at_ = base::Time::max();
   base::Time due_ = base::Time::max();
   base::Time accept_from_{};
-  base::Time now_{};  ///< when this round began
+  base::Time now_{};  ///< when the clock was last looked at
   Pending pending_;
   Counters counters_;
 
