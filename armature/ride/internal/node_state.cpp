@@ -121,15 +121,30 @@ void NodeState::count(std::uint64_t messages) {
 }
 
 void NodeState::deliver(Link& link, const Message& message) {
-  if (in_io_thread()) return pending_.push(link, message);
+  if (in_io_thread()) {
+    // What a caller has received before comes first.
+    if (has_handed_over_.load(std::memory_order_acquire)) take_handed_over();
+    return pending_.push(link, message);
+  }
   bool full = false;
   leave_letter([&](Letters& letters) {
     full = letters.messages.full();
     if (!full) letters.messages.push(link, message);
+    has_handed_over_.store(true, std::memory_order_release);
   });
   if (!full) return;
   counters_.events_dropped.fetch_add(1, std::memory_order_relaxed);
   journal_.tell(rt::LogLevel::kWarning, "messages were dropped: the node's thread is too slow");
+}
+
+void NodeState::take_handed_over() {
+  const std::lock_guard lock(letters_mutex_);
+  has_handed_over_.store(false);
+  while (!letters_.messages.empty()) {
+    const Pending::Entry entry = letters_.messages.pop();
+    pending_.push(*entry.link, entry.message);
+  }
+  letters_.messages.settle();
 }
 
 void NodeState::attend(Link& link) {
@@ -261,16 +276,12 @@ void NodeState::throttle(Link& link) {
 
 void NodeState::take_letters() {
   now_ = platform::monotonic_now();
+  take_handed_over();
   {
     const std::lock_guard lock(letters_mutex_);
     has_letters_.store(false);
-    std::swap(opened_, letters_);
+    opened_.swap(letters_);
   }
-  while (!opened_.messages.empty()) {
-    const Pending::Entry entry = opened_.messages.pop();
-    pending_.push(*entry.link, entry.message);
-  }
-  opened_.messages.settle();
   for (auto& link : opened_.flushes) {
     flushed_.push_back(std::move(link));
     flush_at_ = std::min(flush_at_, now_ + kGathering);
