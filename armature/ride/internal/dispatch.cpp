@@ -115,10 +115,8 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
 
 void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
                             std::uint32_t call, bool is_request, Decoder& parameters) {
-  std::shared_ptr<Link> requester;
-  if (is_request) requester = link.shared_from_this();
   const Priority priority{static_cast<std::uint8_t>(message.header.priority)};
-  Reply reply(is_request ? &requester : nullptr, call, priority, operation, hosted.identifier);
+  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier);
   try {
     switch (ServiceAccess::execute(*hosted.service, operation, parameters, reply)) {
       case Executed::kDone:
