@@ -161,6 +161,10 @@ function(armature_test)
   armature_test_program(${ARGV})
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "")
   add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
+  if(NOT arg_NAME MATCHES "${ARMATURE_TESTS}")
+    set_target_properties(${arg_NAME} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    set_tests_properties(${arg_NAME} PROPERTIES LABELS unneeded)
+  endif()
 endfunction()
 
 # The executable alone, for a test that does not run on this machine's own kernel.

@@ -43,6 +43,9 @@ set(CMAKE_INSTALL_RPATH $ORIGIN $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 set(ARMATURE_SANITIZE "" CACHE STRING
     "Sanitizers as -fsanitize= takes them, such as address,undefined, thread or realtime")
 option(ARMATURE_FUZZ "Build the fuzz targets (clang only)" OFF)
+# A sanitizer of threads has nothing to find where there is one, and building takes most of its time.
+set(ARMATURE_TESTS "." CACHE STRING
+    "Regular expression: of the tests in C++, only those with such a name are built and run")
 # A test that is too slow or meaningless under a sanitizer can ask for it: "" if there is none.
 add_compile_definitions(ARMATURE_SANITIZER="${ARMATURE_SANITIZE}")
 if(ARMATURE_SANITIZE)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/component/author.hpp"
+#include "armature/exec/internal/age_watch.hpp"
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/internal/simulation.hpp"
 #include "armature/exec/internal/start_gate.hpp"

@@ -35,6 +35,7 @@ class StopSignal;
 namespace armature::exec {
 
 namespace internal {
+class AgeWatch;
 class Simulation;
 class ToolTicket;
 class StartGate;
@@ -233,6 +234,7 @@ class Application final {
   // application_threads.cpp
   bool prepare_threads(base::Diagnostics& diagnostics);
   void reserve_system();
+  void start_workers();
   void start_worker(Index thread);
   bool get_ready(base::Diagnostics& diagnostics);
   void go_live();
@@ -270,6 +272,7 @@ class Application final {
   internal::BlackBoxes black_boxes_;
   std::unique_ptr<internal::Incidents> incidents_;
   std::vector<Worker> workers_;
+  std::unique_ptr<internal::AgeWatch> age_watch_;
   std::shared_ptr<internal::StartGate> gate_;
   Verdict verdict_;
   std::optional<platform::IdleStateHold> idle_states_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/exec/application.hpp"
+#include "armature/exec/internal/age_watch.hpp"
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/internal/start_gate.hpp"
 #include "armature/platform/memory.hpp"
@@ -57,6 +58,11 @@ std::string scheduling_text(platform::Scheduler scheduler, int priority,
   return text;
 }
 
+Verdict::Line line_of(const platform::ThreadRequest& request, const platform::ThreadGrant& grant) {
+  return {request.name, scheduling_text(request.scheduler, request.priority, request.cpus),
+          scheduling_text(grant.scheduler, grant.priority, grant.cpus), grant.refusals};
+}
+
 }  // namespace
 
 bool Application::prepare_threads(base::Diagnostics& diagnostics) {
@@ -64,19 +70,27 @@ bool Application::prepare_threads(base::Diagnostics& diagnostics) {
   if (options_.simulated) return true;
   if (options_.realtime != RealtimeMode::kOff) reserve_system();
   gate_ = std::make_shared<internal::StartGate>();
-  for (Index t = 0; t < engines_.size(); ++t) {
-    const bool idle = plan_.threads[t].members.empty() && t == plan_.service_thread();
-    if (idle) continue;
-    try {
-      start_worker(t);
-    } catch (const std::system_error& problem) {
-      diagnostics.error({}, problem.what());
-      return false;
-    }
+  try {
+    start_workers();
+  } catch (const std::system_error& problem) {
+    diagnostics.error({}, problem.what());
+    return false;
   }
   if (options_.realtime != RealtimeMode::kRequire || verdict_.complete()) return true;
   diagnostics.error({}, "real time was required and is not to be had:\n" + verdict_.to_text());
   return false;
+}
+
+void Application::start_workers() {
+  for (Index t = 0; t < engines_.size(); ++t) {
+    const bool idle = plan_.threads[t].members.empty() && t == plan_.service_thread();
+    if (!idle) start_worker(t);
+  }
+  age_watch_ =
+      std::make_unique<internal::AgeWatch>(engines_, options_.realtime != RealtimeMode::kOff);
+  if (const platform::ThreadGrant* grant = age_watch_->grant()) {
+    verdict_.lines.push_back(line_of(age_watch_->request(), *grant));
+  }
 }
 
 void Application::reserve_system() {
@@ -105,10 +119,7 @@ void Application::start_worker(Index thread) {
   workers_.push_back({engine, std::make_unique<platform::Thread>(request, [gate = gate_, engine] {
                         if (gate->wait()) engine->serve();
                       })});
-  const platform::ThreadGrant& grant = workers_.back().thread->grant();
-  verdict_.lines.push_back(
-      {plan.name, scheduling_text(request.scheduler, request.priority, request.cpus),
-       scheduling_text(grant.scheduler, grant.priority, grant.cpus), grant.refusals});
+  verdict_.lines.push_back(line_of(request, workers_.back().thread->grant()));
 }
 
 /// False if the one who waits for this moment has an objection.
@@ -154,6 +165,7 @@ void Application::end_threads(base::Diagnostics& diagnostics) {
     context->wakes_on_messages = false;
   }
   workers_.clear();
+  age_watch_.reset();
   gate_.reset();
   if (memory_locked_) platform::unlock_memory();
   memory_locked_ = false;

@@ -86,6 +86,11 @@ void Engine::keep_black_box(std::shared_ptr<component::BlackBox> box) {
   context_.black_box = black_box_.get();
 }
 
+void Engine::be_woken_by(std::shared_ptr<rt::Alarms> alarms) {
+  alarms_ = std::move(alarms);
+  alarm_ = alarms_->add(context_.wakeup);
+}
+
 void Engine::begin(base::Time start) {
   for (const auto& lane : context_.lanes) lane->lane.prepare();
   context_.cycle_time = start;
@@ -121,7 +126,8 @@ void Engine::deliver_leftovers() {
 base::Time Engine::wait() {
   const rt::PermitScope sleeping;
   const base::Time due = next_due();
-  if (due == base::Time::max()) {
+  if (alarms_ != nullptr) alarms_->set(alarm_, due);
+  if (alarms_ != nullptr || due == base::Time::max()) {
     context_.wakeup.wait();
   } else {
     context_.wakeup.wait_until(due);

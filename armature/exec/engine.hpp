@@ -15,6 +15,7 @@
 #include "armature/component/timeline.hpp"
 #include "armature/exec/activity.hpp"
 #include "armature/exec/periodic_schedule.hpp"
+#include "armature/rt/alarms.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/rt/statistics.hpp"
 
@@ -44,6 +45,11 @@ class Engine {
   /// Has what its components write and do lately kept.
   void keep_black_box(std::shared_ptr<component::BlackBox> box);
 
+  /// Whether it sleeps until data becomes too old, beside messages.
+  bool sleeps_until_ages() const { return !periodic() && !aging_.empty(); }
+  /// Has somebody else wake it then. Before its loop begins.
+  void be_woken_by(std::shared_ptr<rt::Alarms> alarms);
+
   /// From now on the thread's cycles count; the components have been started.
   void begin(base::Time start);
 
@@ -69,7 +75,7 @@ class Engine {
   /// whose inputs have no age.
   base::Time next_due() const {
     if (periodic()) return schedule_.next();
-    return aging_.empty() ? base::Time::max() : next_age_check_;
+    return sleeps_until_ages() ? next_age_check_ : base::Time::max();
   }
   /// Handles the messages, and the cycles that are due at `now`.
   /// @rt
@@ -122,6 +128,8 @@ class Engine {
   std::uint64_t busy_ = 0;    ///< ticks of the cycle whose account is open
   bool account_open_ = false;
   base::Time woken_{};  ///< what the clock said
+  std::shared_ptr<rt::Alarms> alarms_;
+  std::size_t alarm_ = 0;  ///< its number there
   std::shared_ptr<component::BlackBox> black_box_;
   std::shared_ptr<component::Timeline> timeline_;
   std::uint16_t number_ = 0;  ///< in the timeline

@@ -11,6 +11,7 @@
 #include "armature/base/fixed_text.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/futex.hpp"
+#include "armature/rt/alarms.hpp"
 #include "armature/rt/entry_pool.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/lane.hpp"
@@ -226,6 +227,20 @@ TEST(RealtimeFunctions, WakeupThatIsTried) {
     taken = taken && wakeup.try_wait() && !wakeup.try_wait();
   });
   EXPECT_TRUE(taken);
+}
+
+TEST(RealtimeFunctions, AlarmsSetAndRung) {
+  rt::Alarms alarms;
+  rt::Wakeup sleeper;
+  const std::size_t number = alarms.add(sleeper);
+  const base::Time due = base::Time(base::Duration(1));
+  bool woken = true;
+  expect_realtime("Alarms::set", [&] { alarms.set(number, due); });
+  expect_realtime("Alarms::ring", [&] {
+    alarms.set(number, due);
+    woken = woken && alarms.ring(due) == base::Time::max() && sleeper.try_wait();
+  });
+  EXPECT_TRUE(woken);
 }
 
 struct Numbered {

@@ -167,7 +167,8 @@ LineEditor::LineEditor(Typing typing, std::string file) : state_(std::make_uniqu
   el_set(state.editor, EL_PROMPT_ESC, &prompt_of, kEscapeMark);
   el_set(state.editor, EL_HIST, history, state.history);
   el_set(state.editor, EL_GETCFN, &next_character);
-  el_set(state.editor, EL_ADDFN, "armature-complete", "completes a name", &complete_word);
+  // The narrow el_set would copy both texts, and never free them.
+  el_wset(state.editor, EL_ADDFN, L"armature-complete", L"completes a name", &complete_word);
   el_set(state.editor, EL_BIND, "^I", "armature-complete", nullptr);
   el_set(state.editor, EL_BIND, "^R", "em-inc-search-prev", nullptr);
   el_set(state.editor, EL_BIND, "^W", "ed-delete-prev-word", nullptr);
