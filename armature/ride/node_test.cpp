@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -382,6 +383,25 @@ TEST_F(NodeTest, ANameIsGivenOnceAndAnIdentifierNeverAgain) {
   node_->remove(camera_);
   EXPECT_EQ(node_->add("camera", other).value(), 2u);
   node_->remove(other);
+}
+
+TEST_F(NodeTest, ASubscriptionThatComesWithTheEndOfItsConnectionIsNone) {
+  auto raw = std::optional(client());
+  const Number event = event_number(static_cast<const ObjectPosition*>(nullptr));
+  raw->send({}, Type::kCommand, 1, kStart);
+  camera_.wait_until_started();
+  Body batch;
+  batch.append(RawClient::message({9}, Type::kCommand, 1, kNote, 1).bytes());
+  batch.append(
+      RawClient::message({}, Type::kRequest, 0, internal::kSubscribe, 1u, 1, event, 1).bytes());
+  batch.append(bytes_of("47455420"));
+  raw->send(batch.bytes());
+  camera_.let_go();
+  raw.reset();
+  camera_.wait_for_notes(1);
+  while (node_->statistics().connections != 0) std::this_thread::yield();
+  camera_.raise({1, 2});  // The address sanitizer sees what is left of the connection.
+  EXPECT_EQ(client().subscribe(1, event, 1), 0);
 }
 
 TEST_F(NodeTest, AServiceThatIsRemovedIsNoMore) {
