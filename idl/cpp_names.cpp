@@ -116,9 +116,9 @@ constexpr std::string_view kWords[] = {"alignas",
                                        "xor_eq"};
 
 /// Members of the classes from which generated ones are derived, and their own.
-constexpr std::string_view kMembers[] = {"command",   "execute", "interface", "name",
-                                         "on_failed", "peer",    "publish",   "raise",
-                                         "refuse",    "request", "subscribe"};
+constexpr std::string_view kMembers[] = {
+    "Placeholder", "Service", "command", "execute", "interface", "name",     "on_failed",
+    "peer",        "publish", "raise",   "refuse",  "request",   "subscribe"};
 
 /// What generated functions call their own parameters and variables, and what they call.
 constexpr std::string_view kVariables[] = {"command", "in_range",   "operation",
@@ -268,7 +268,9 @@ CppNames::CppNames(const Program& program, std::string name_space)
     : name_space_(std::move(name_space)) {
   for (const Module& module : program.modules()) {
     name_spaces_.insert(divided(this->name_space(module)).front());
-    for (const Structure& each : module.structures) types_.insert(each.name);
+  }
+  for (const Module& module : program.modules()) {
+    for (const Structure& each : module.structures) types_.insert(type(each.name));
     for (const Interface& each : module.interfaces) {
       types_.insert({placeholder(each), service(each), constant(each)});
       types_.insert(constant(each) + "Declarations");
@@ -287,11 +289,13 @@ std::string CppNames::type(const std::string& name) const {
 }
 
 std::string CppNames::member(const std::string& name) const {
-  return is_one_of(kWords, name) || types_.contains(name) ? name + "_" : name;
+  std::string result = is_one_of(kWords, name) ? name + "_" : name;
+  while (types_.contains(result)) result += "_";
+  return result;
 }
 
 std::string CppNames::operation(const std::string& name) const {
-  return is_one_of(kMembers, name) ? name + "_" : member(name);
+  return member(is_one_of(kMembers, name) ? name + "_" : name);
 }
 
 std::vector<std::string> CppNames::parameters(const std::vector<Field>& parameters) const {
@@ -305,7 +309,7 @@ std::vector<std::string> CppNames::parameters(const std::vector<Field>& paramete
       while (taken.contains(name)) name += "_";
       taken.insert(name);
     }
-    names.push_back(is_one_of(kVariables, name) ? name + "_" : member(name));
+    names.push_back(member(is_one_of(kVariables, name) ? name + "_" : name));
   }
   return names;
 }

@@ -99,7 +99,8 @@ class ServiceWriter {
     Items problems;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Type& type = operation.parameters[i].type;
-      text += "      " + text_.variable_type(type) + " " + names[i] + "{};\n";
+      text +=
+          "      " + text_.variable_type(type) + " " + names[i] + CppText::initial(type) + ";\n";
       problems.push_back("!parameters.take(" + names[i] + ")");
     }
     problems.emplace_back("!parameters.ended()");
@@ -119,7 +120,9 @@ class ServiceWriter {
 
   std::string execution(const Operation& operation, const Items& names) const {
     const std::string name = names_.operation(operation.name);
-    const bool hidden = std::find(names.begin(), names.end(), name) != names.end();
+    // A variable of execute() may have the operation's name.
+    const bool hidden = std::find(names.begin(), names.end(), name) != names.end() ||
+                        name == "operation" || name == "parameters" || name == "reply";
     const std::string begin = (hidden ? "this->" : "") + name + "(";
     if (operation.is_command()) return call(6, begin, names, ");") + "      reply.done();\n";
     return nested_call(6, "reply.put(", begin, names, "));");

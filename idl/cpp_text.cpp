@@ -156,6 +156,14 @@ Items CppText::bounds(const Range& range, Basic type) const {
   return {bound(range.low, type), bound(range.high, type)};
 }
 
+std::string CppText::initial(const Type& type) {
+  if (type.form == Type::Form::kFixed) return " = {}";
+  if (type.is_array() || type.basic == Basic::kString || type.basic == Basic::kStruct) return "";
+  if (type.basic == Basic::kBool) return " = false";
+  if (type.basic == Basic::kFloat) return " = 0.0f";
+  return type.basic == Basic::kDouble ? " = 0.0" : " = 0";
+}
+
 std::string CppText::range_text(const Range& range) { return range.low + " to " + range.high; }
 
 std::vector<std::string> CppText::described(const Field& field) {

@@ -90,18 +90,10 @@ class TypesWriter {
 
   std::string declared(const Field& member) const {
     const std::string type = text_.type(member.type);
-    const std::string name = names_.member(member.name) + initial(member.type) + ";";
+    const std::string name = names_.member(member.name) + CppText::initial(member.type) + ";";
     const bool fits = 3 + columns_of(type) + columns_of(name) <= kColumns;
     return comment(2, CppText::described(member)) + "  " + type + (fits ? " " : "\n      ") + name +
            "\n";
-  }
-
-  static std::string initial(const Type& type) {
-    if (type.form == Type::Form::kFixed) return "{}";
-    if (type.is_array() || type.basic == Basic::kString || type.basic == Basic::kStruct) return "";
-    if (type.basic == Basic::kBool) return " = false";
-    if (type.basic == Basic::kFloat) return " = 0.0f";
-    return type.basic == Basic::kDouble ? " = 0.0" : " = 0";
   }
 
   std::string description(const Structure& structure) const {

@@ -43,7 +43,7 @@ TEST_P(Golden, IsWhatIsGenerated) {
 
 INSTANTIATE_TEST_SUITE_P(Files, Golden,
                          ::testing::Values("vision", "geometry", "chassis", "everything",
-                                           "directory"),
+                                           "directory", "odd_names"),
                          [](const auto& name) { return name.param; });
 
 }  // namespace

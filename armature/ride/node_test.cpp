@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -316,6 +317,22 @@ TEST_F(NodeTest, WhoSendsTooManyMessagesHasToWaitAndLosesNone) {
   for (int i = 0; i < 40; ++i) ASSERT_EQ(raw.receive_control().text, std::to_string(i));
 }
 
+TEST_F(NodeTest, WhoDoesNotTakeItsAnswersIsNotReadUntilItDoes) {
+  options_.limits.unsent_bytes = 4096;
+  auto raw = client();
+  constexpr std::uint32_t kCount = 2000;
+  std::thread sending([&] {
+    for (std::uint32_t i = 1; i <= kCount; ++i) {
+      raw.send({}, Type::kRequest, 1, kEcho, i, std::string(10'000, 'x'));
+    }
+  });
+  while (node_->statistics().messages < 100) std::this_thread::yield();
+  for (std::uint32_t i = 1; i <= kCount; ++i) {
+    ASSERT_EQ(raw.receive_reply<std::string>(i).value_or("").size(), 10'000u) << i;
+  }
+  sending.join();
+}
+
 TEST_F(NodeTest, WhenTooManyAnswersAreOwedItIsBusy) {
   options_.limits.pending_replies = 1;
   auto raw = client();
@@ -382,6 +399,25 @@ TEST_F(NodeTest, ANameIsGivenOnceAndAnIdentifierNeverAgain) {
   node_->remove(camera_);
   EXPECT_EQ(node_->add("camera", other).value(), 2u);
   node_->remove(other);
+}
+
+TEST_F(NodeTest, ASubscriptionThatComesWithTheEndOfItsConnectionIsNone) {
+  auto raw = std::optional(client());
+  const Number event = event_number(static_cast<const ObjectPosition*>(nullptr));
+  raw->send({}, Type::kCommand, 1, kStart);
+  camera_.wait_until_started();
+  Body batch;
+  batch.append(RawClient::message({9}, Type::kCommand, 1, kNote, 1).bytes());
+  batch.append(
+      RawClient::message({}, Type::kRequest, 0, internal::kSubscribe, 1u, 1, event, 1).bytes());
+  batch.append(bytes_of("47455420"));
+  raw->send(batch.bytes());
+  camera_.let_go();
+  raw.reset();
+  camera_.wait_for_notes(1);
+  while (node_->statistics().connections != 0) std::this_thread::yield();
+  camera_.raise({1, 2});  // The address sanitizer sees what is left of the connection.
+  EXPECT_EQ(client().subscribe(1, event, 1), 0);
 }
 
 TEST_F(NodeTest, AServiceThatIsRemovedIsNoMore) {

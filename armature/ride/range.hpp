@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "armature/ride/codec.hpp"
+
 namespace armature::ride {
 
 namespace internal {
@@ -23,8 +25,7 @@ using Bound = std::conditional_t<std::is_same_v<T, char>, signed char, T>;
 
 /// True if `value` is not below `low` and not above `high`; NaN never is.
 /// @rt nonblocking, no allocation
-template <typename T>
-requires std::is_arithmetic_v<T>
+template <Scalar T>
 constexpr bool within(T value, internal::Bound<T> low, internal::Bound<T> high) {
   const auto bounded = static_cast<internal::Bound<T>>(value);
   return bounded >= low && bounded <= high;

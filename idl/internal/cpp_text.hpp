@@ -44,6 +44,8 @@ class CppText {
   /// The arguments of `within` after the value: `-1.0, 1.0`.
   Items bounds(const Range& range, Basic type) const;
 
+  /// What stands behind a variable's name so that it has a value: ` = 0`, or nothing.
+  static std::string initial(const Type& type);
   /// `0 to 255`
   static std::string range_text(const Range& range);
   /// Documentation of a member or parameter, with unit and range behind it.

@@ -225,6 +225,8 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
                                             options_.limits.events_per_subscription);
   {
     const std::lock_guard lock(link.mutex());
+    // It may have gone with this message still here: nobody would ever end the subscription.
+    if (!link.open()) return refusal(Code::kShuttingDown);
     if (link.event_queues.size() >= options_.limits.subscriptions) return refusal(Code::kBusy);
     const bool taken = std::ranges::any_of(
         link.event_queues, [&](const auto& other) { return other->subscription == chosen; });

@@ -10,8 +10,8 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
                                                  armature::ride::Reply& reply) {
   switch (operation) {
     case 0x66e299df: {  // setVelocity
-      float left{};
-      float right{};
+      float left = 0.0f;
+      float right = 0.0f;
       if (!parameters.take(left) || !parameters.take(right) || !parameters.ended() ||
           !armature::ride::within(left, -1.5f, 1.5f) ||
           !armature::ride::within(right, -1.5f, 1.5f)) {
@@ -22,8 +22,8 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
       return armature::ride::Executed::kDone;
     }
     case 0x4de18ab0: {  // follow
-      Route route{};
-      double speed{};
+      Route route;
+      double speed = 0.0;
       if (!parameters.take(route) || !parameters.take(speed) || !parameters.ended() ||
           !armature::ride::within(speed, 0.0, 1.0)) {
         return armature::ride::Executed::kMalformed;
@@ -50,9 +50,9 @@ armature::ride::Executed ChassisService_Service::execute(armature::ride::Number 
                                                          armature::ride::Reply& reply) {
   switch (operation) {
     case 0x50e84f4d: {  // setGains
-      std::array<double, 3> left{};
-      std::array<double, 3> right{};
-      std::vector<std::string> names{};
+      std::array<double, 3> left = {};
+      std::array<double, 3> right = {};
+      std::vector<std::string> names;
       if (!parameters.take(left) || !parameters.take(right) || !parameters.take(names) ||
           !parameters.ended()) {
         return armature::ride::Executed::kMalformed;

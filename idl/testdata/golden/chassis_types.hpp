@@ -44,7 +44,7 @@ inline bool in_range(const Arrived& value) { return in_range(value.pose); }
 constexpr armature::ride::Number event_number(const Arrived*) { return 0x4802f2d7; }
 
 struct Bumped {
-  std::array<bool, 4> contacts{};
+  std::array<bool, 4> contacts = {};
 };
 ARMATURE_STRUCT(Bumped, contacts);
 inline void encode(armature::ride::Encoder& to, const Bumped& value) { to.put(value.contacts); }

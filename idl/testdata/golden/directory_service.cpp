@@ -10,7 +10,7 @@ armature::ride::Executed DirectoryService::execute(armature::ride::Number operat
                                                    armature::ride::Reply& reply) {
   switch (operation) {
     case 0x12e3685b: {  // find
-      std::string name{};
+      std::string name;
       if (!parameters.take(name) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -25,9 +25,9 @@ armature::ride::Executed DirectoryService::execute(armature::ride::Number operat
       return armature::ride::Executed::kDone;
     }
     case 0x5e363bed: {  // subscribe
-      std::int32_t component{};
-      std::uint32_t event{};
-      std::int32_t subscription{};
+      std::int32_t component = 0;
+      std::uint32_t event = 0;
+      std::int32_t subscription = 0;
       if (!parameters.take(component) || !parameters.take(event) ||
           !parameters.take(subscription) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
@@ -36,7 +36,7 @@ armature::ride::Executed DirectoryService::execute(armature::ride::Number operat
       return armature::ride::Executed::kDone;
     }
     case 0x61b16eb5: {  // unsubscribe
-      std::int32_t subscription{};
+      std::int32_t subscription = 0;
       if (!parameters.take(subscription) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }

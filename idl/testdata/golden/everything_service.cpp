@@ -10,7 +10,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
                                               armature::ride::Reply& reply) {
   switch (operation) {
     case 0x05f13d14: {  // echo_bool
-      bool value{};
+      bool value = false;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -18,7 +18,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xf0613c18: {  // echo_char
-      char value{};
+      char value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -26,7 +26,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xf6cc2816: {  // echo_byte
-      std::uint8_t value{};
+      std::uint8_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -34,7 +34,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x8a8732a8: {  // echo_short
-      std::int16_t value{};
+      std::int16_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -42,7 +42,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x3073f5bc: {  // echo_unsigned_short
-      std::uint16_t value{};
+      std::uint16_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -50,7 +50,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x0111ba03: {  // echo_int
-      std::int32_t value{};
+      std::int32_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -58,7 +58,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xe04e2251: {  // echo_unsigned_int
-      std::uint32_t value{};
+      std::uint32_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -66,7 +66,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x1927bca2: {  // echo_long
-      std::int64_t value{};
+      std::int64_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -74,7 +74,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xecc6335e: {  // echo_unsigned_long
-      std::uint64_t value{};
+      std::uint64_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -82,7 +82,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x0f36c344: {  // echo_float
-      float value{};
+      float value = 0.0f;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -90,7 +90,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x610b30e3: {  // echo_double
-      double value{};
+      double value = 0.0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -98,7 +98,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xb95f9c77: {  // echo_string
-      std::string value{};
+      std::string value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -106,7 +106,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x18fd3283: {  // echo_singles
-      Singles value{};
+      Singles value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -114,7 +114,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x219a97df: {  // echo_lists
-      Lists value{};
+      Lists value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -122,7 +122,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x23470084: {  // echo_fixed
-      Fixed value{};
+      Fixed value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -130,7 +130,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xa7b3a992: {  // echo_ranges
-      Ranges value{};
+      Ranges value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -138,7 +138,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xdcc586cd: {  // echo_flags
-      armature::ride::Flags value{};
+      armature::ride::Flags value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -146,7 +146,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x3db91c32: {  // echo_two_flags
-      std::array<bool, 2> value{};
+      std::array<bool, 2> value = {};
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -154,7 +154,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x97d4d168: {  // echo_strings
-      std::vector<std::string> value{};
+      std::vector<std::string> value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -162,7 +162,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x2a062a9f: {  // echo_inners
-      std::vector<Inner> value{};
+      std::vector<Inner> value;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -170,8 +170,8 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xb0018182: {  // echo_ranged
-      std::vector<Ranges> value{};
-      std::vector<std::uint8_t> small{};
+      std::vector<Ranges> value;
+      std::vector<std::uint8_t> small;
       if (!parameters.take(value) || !parameters.take(small) || !parameters.ended() ||
           !armature::ride::within(small, 0, 3)) {
         return armature::ride::Executed::kMalformed;
@@ -180,12 +180,12 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0x023e0dfc: {  // delete
-      std::int32_t priority_{};
-      std::int32_t options_{};
-      std::int32_t operation_{};
-      std::int32_t d{};
-      std::int32_t delete_{};
-      std::int32_t a{};
+      std::int32_t priority_ = 0;
+      std::int32_t options_ = 0;
+      std::int32_t operation_ = 0;
+      std::int32_t d = 0;
+      std::int32_t delete_ = 0;
+      std::int32_t a = 0;
       if (!parameters.take(priority_) || !parameters.take(options_) ||
           !parameters.take(operation_) || !parameters.take(d) || !parameters.take(delete_) ||
           !parameters.take(a) || !parameters.ended()) {
@@ -195,8 +195,8 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xbe1a1d70: {  // request
-      std::string name{};
-      float part{};
+      std::string name;
+      float part = 0.0f;
       if (!parameters.take(name) || !parameters.take(part) || !parameters.ended() ||
           !armature::ride::within(part, 0.25f, 0.75f)) {
         return armature::ride::Executed::kMalformed;

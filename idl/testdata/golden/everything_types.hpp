@@ -103,19 +103,19 @@ inline bool decode(armature::ride::Decoder& from, Lists& value) {
 }
 
 struct Fixed {
-  std::array<bool, 3> b{};
-  std::array<char, 3> c{};
-  std::array<std::uint8_t, 3> o{};
-  std::array<std::int16_t, 3> s{};
-  std::array<std::uint16_t, 3> us{};
-  std::array<std::int32_t, 3> i{};
-  std::array<std::uint32_t, 3> ui{};
-  std::array<std::int64_t, 3> l{};
-  std::array<std::uint64_t, 3> ul{};
-  std::array<float, 3> f{};
-  std::array<double, 3> d{};
-  std::array<std::string, 2> text{};
-  std::array<Inner, 2> inner{};
+  std::array<bool, 3> b = {};
+  std::array<char, 3> c = {};
+  std::array<std::uint8_t, 3> o = {};
+  std::array<std::int16_t, 3> s = {};
+  std::array<std::uint16_t, 3> us = {};
+  std::array<std::int32_t, 3> i = {};
+  std::array<std::uint32_t, 3> ui = {};
+  std::array<std::int64_t, 3> l = {};
+  std::array<std::uint64_t, 3> ul = {};
+  std::array<float, 3> f = {};
+  std::array<double, 3> d = {};
+  std::array<std::string, 2> text = {};
+  std::array<Inner, 2> inner = {};
 };
 ARMATURE_STRUCT(Fixed, b, c, o, s, us, i, ui, l, ul, f, d, text, inner);
 inline void encode(armature::ride::Encoder& to, const Fixed& value) {
@@ -177,7 +177,7 @@ struct Ranges {
   /// 0 to 9
   std::vector<std::int32_t> list;
   /// 0 to 9
-  std::array<std::int32_t, 2> fixed{};
+  std::array<std::int32_t, 2> fixed = {};
   std::vector<Later> later;
 };
 ARMATURE_STRUCT(Ranges, whole, c, o, s, us, i, ui, l, ul, f, d, list, fixed, later);

@@ -17,9 +17,9 @@ armature::ride::Executed VisionService::execute(armature::ride::Number operation
       return armature::ride::Executed::kDone;
     }
     case 0x22f17958: {  // setThreshold
-      std::uint32_t a{};
-      std::uint32_t b{};
-      std::uint32_t c{};
+      std::uint32_t a = 0;
+      std::uint32_t b = 0;
+      std::uint32_t c = 0;
       if (!parameters.take(a) || !parameters.take(b) || !parameters.take(c) ||
           !parameters.ended() || !armature::ride::within(a, 0, 255) ||
           !armature::ride::within(b, 0, 255) || !armature::ride::within(c, 0, 255)) {
