@@ -18,7 +18,7 @@ std::string_view scalar(Basic basic) {
     case Basic::kBool:
       return "bool";
     case Basic::kChar:
-      return "char";
+      return "std::int8_t";  // char is unsigned on some machines
     case Basic::kByte:
       return "std::uint8_t";
     case Basic::kShort:

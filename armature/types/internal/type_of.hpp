@@ -110,11 +110,11 @@ template <typename T>
 inline constexpr bool kNever = false;
 
 template <typename T>
-concept WideCharacter = std::is_same_v<T, wchar_t> || std::is_same_v<T, char8_t> ||
-    std::is_same_v<T, char16_t> || std::is_same_v<T, char32_t>;
+concept CharacterType = std::is_same_v<T, char> || std::is_same_v<T, wchar_t> ||
+    std::is_same_v<T, char8_t> || std::is_same_v<T, char16_t> || std::is_same_v<T, char32_t>;
 
 template <typename T>
-concept Number = std::is_arithmetic_v<T> && sizeof(T) <= 8 && !WideCharacter<T>;
+concept Number = std::is_arithmetic_v<T> && sizeof(T) <= 8 && !CharacterType<T>;
 
 template <typename T>
 concept StructWithDescription = requires(const T* none) {
@@ -126,7 +126,6 @@ constexpr Kind scalar_kind() {
   if (std::is_same_v<T, bool>) return Kind::kBool;
   if (std::is_same_v<T, float>) return Kind::kFloat;
   if (std::is_same_v<T, double>) return Kind::kDouble;
-  if (std::is_same_v<T, char>) return Kind::kInt8;  // The same on every machine.
   constexpr bool kSigned = std::is_signed_v<T>;
   switch (sizeof(T)) {
     case 1:
