@@ -65,7 +65,7 @@ constexpr std::size_t kBehindOnlyArgument = 59;
 constexpr Prices kDeclaration{0, 41, 140};
 constexpr Prices kDeclarationBelowResult{200, 41, 140};
 constexpr Prices kCall{0, 41, 41};
-constexpr Prices kDeeper{0, 61, 61};
+constexpr Prices kDeeper{0, 61, 80};
 
 void consider(std::optional<Way>& best, const Packed& packed, const std::string& before,
               std::size_t penalty) {
@@ -144,7 +144,18 @@ std::string call_with_call(std::size_t indent, const Call& outer, const Call& in
   const Packed aligned = pack(inside, inside, inner.arguments, ",", tail);
   consider(best, aligned, blanks(indent) + head + inner.head,
            kFirstBreak + aligned.breaks * kDeeper.each);
-  return best ? best->text : call(indent, outer.head, arguments, tail);
+  if (best) return best->text;
+  // Both are divided: the inner one on a line of its own, if need be the outer arguments below.
+  const std::size_t column = indent + columns_of(outer.head);
+  for (const std::size_t begin : {column, indent + 4}) {
+    const std::size_t inner_column = begin + columns_of(inner.head);
+    const Packed parts = pack(inner_column, inner_column, inner.arguments, ",", tail);
+    std::string text = blanks(indent) + outer.head + (begin == column ? "" : "\n" + blanks(begin));
+    for (const std::string& each : outer.arguments) text += each + ",\n" + blanks(begin);
+    consider(best, parts, text + inner.head, parts.breaks * kDeeper.each);
+  }
+  if (best) return best->text;
+  return call(indent, outer.head, arguments, tail);
 }
 
 std::string nested_call(std::size_t indent, const std::string& outer, const std::string& inner,
