@@ -60,7 +60,7 @@ struct NodeOptions {
   Limits limits;
   Reconnection reconnection;
   /// Every refusal, loss and failure; called by the I/O thread or the one that found it. A kind of
-  /// message is told at most ten times a second; the rest is counted.
+  /// message is told at most ten times a second; the rest is counted. It must not call ride back.
   std::function<void(const rt::LogRecord&)> log;
   /// Who may do what; without, everyone may do everything.
   std::function<bool(const AccessQuestion&)> allows;

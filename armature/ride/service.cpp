@@ -10,6 +10,7 @@ namespace armature::ride {
 
 PendingReply::PendingReply(PendingReply&& other) noexcept
     : link_(std::exchange(other.link_, nullptr)),
+      connection_(other.connection_),
       call_(other.call_),
       priority_(other.priority_),
       operation_(other.operation_),
@@ -18,6 +19,7 @@ PendingReply::PendingReply(PendingReply&& other) noexcept
 PendingReply& PendingReply::operator=(PendingReply&& other) noexcept {
   PendingReply taken(std::move(other));
   std::swap(link_, taken.link_);
+  std::swap(connection_, taken.connection_);
   std::swap(call_, taken.call_);
   std::swap(priority_, taken.priority_);
   std::swap(operation_, taken.operation_);
@@ -29,16 +31,20 @@ PendingReply::~PendingReply() { fail("the component has let the request go witho
 
 void PendingReply::answer(const Fields& result) {
   if (link_ == nullptr) return;
-  link_->send(priority_, Type::kReply, internal::Recipient(call_), {}, result,
-              internal::Link::Flush::kNow);
+  if (link_->connection_number() == connection_) {
+    link_->send(priority_, Type::kReply, internal::Recipient(call_), {}, result,
+                internal::Link::Flush::kNow);
+  }
   link_->kept_replies.fetch_sub(1, std::memory_order_relaxed);
   link_ = nullptr;
 }
 
 void PendingReply::fail(std::string_view text) {
   if (link_ == nullptr) return;
-  link_->send_control(call_, {Code::kFailed, static_cast<std::uint32_t>(Type::kRequest), component_,
-                              operation_, text});
+  if (link_->connection_number() == connection_) {
+    link_->send_control(call_, {Code::kFailed, static_cast<std::uint32_t>(Type::kRequest),
+                                component_, operation_, text});
+  }
   link_->kept_replies.fetch_sub(1, std::memory_order_relaxed);
   link_ = nullptr;
 }
@@ -53,6 +59,7 @@ PendingReply Reply::keep() {
   PendingReply kept;
   if (std::exchange(settled_, true) || link_ == nullptr) return kept;
   kept.link_ = link_->shared_from_this();
+  kept.connection_ = link_->connection_number();
   kept.call_ = call_;
   kept.priority_ = priority_;
   kept.operation_ = operation_;

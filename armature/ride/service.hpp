@@ -56,6 +56,7 @@ class PendingReply {
   void answer(const Fields& result);
 
   std::shared_ptr<internal::Link> link_;
+  std::uint32_t connection_ = 0;  ///< which of the link's: the call is none of a later one
   std::uint32_t call_ = 0;
   Priority priority_;
   Number operation_ = 0;

@@ -14,6 +14,7 @@ Link::Link(LinkHost& host, platform::Poller& poller, const Limits& limits)
 void Link::begin(std::unique_ptr<Connection> connection) {
   const std::lock_guard lock(mutex_);
   connection_ = std::move(connection);
+  connections_.fetch_add(1, std::memory_order_relaxed);
   problem_.clear();
   establishing_ = Progress::kWantWrite;
   interest_ = {.write = true};

@@ -121,6 +121,8 @@ class Link : public std::enable_shared_from_this<Link> {
   void break_off(const std::string& why);
 
   bool open() const { return open_.load(std::memory_order_acquire); }
+  /// Counts the connections that it has had.
+  std::uint32_t connection_number() const { return connections_.load(std::memory_order_relaxed); }
   std::string other_end() const;
   std::string identity() const;
   std::string problem() const;
@@ -171,6 +173,7 @@ class Link : public std::enable_shared_from_this<Link> {
   mutable std::mutex mutex_;
   std::unique_ptr<Connection> connection_;
   std::atomic<bool> open_{false};
+  std::atomic<std::uint32_t> connections_{0};
   Assembler assembler_;
   Body out_;
   bool blocked_ = false;    ///< the other side has not taken what was sent
