@@ -189,7 +189,7 @@ void NodeState::accept(Listener& listener) {
       accept_from_ = now_ + kNoDescriptors;
       return wake_at(accept_from_);
     }
-    if (links_.size() >= options_.limits.connections) {
+    if (links_.size() >= options_.limits.connections && !make_room()) {
       counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
       journal_.tell(rt::LogLevel::kWarning,
                     "{} was sent away: there are {} connections, as many as may be",
@@ -288,6 +288,7 @@ void NodeState::dispatch_pending() {
 void NodeState::look_after(Link& link) {
   if (link.open() || link.problem().empty()) return;
   const std::string why = link.problem();
+  if (link.peer == nullptr && !link.established) tell_refused(link, why);
   for (Hosted& hosted : hosted_) {
     if (hosted.service != nullptr) ServiceAccess::publisher(*hosted.service).remove(link);
   }
@@ -344,6 +345,7 @@ void NodeState::look_at_link(Link& link) {
   if (link.incomplete_since == base::Time::max()) return;
   const base::Time end = base::later(link.incomplete_since, options_.limits.time_to_complete);
   if (now_ < end) return wake_at(end);
+  if (!link.established) return link.break_off("the handshake did not end in time");
   journal_.tell(rt::LogLevel::kWarning, "{} is disconnected: its message did not end in time",
                 link.other_end());
   link.break_off("a message did not end in time");

@@ -105,6 +105,8 @@ class NodeState final : public LinkHost {
   void take_letters();
   void dispatch_pending();
   void accept(Listener& listener);
+  bool make_room();
+  void tell_refused(const Link& link, std::string_view why);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
   void look_after(Link& link);
