@@ -62,7 +62,8 @@ Progress TlsConnection::gone(std::string problem) {
 /// What the session says of an attempt that has not succeeded.
 Progress TlsConnection::after(int result) {
   const int error = SSL_get_error(ssl_.get(), result);
-  if (error == SSL_ERROR_WANT_READ) return Progress::kWantRead;
+  const bool is_hopeless = state_ != State::kUp && !may_speak_tls(wire_);
+  if (error == SSL_ERROR_WANT_READ && !is_hopeless) return Progress::kWantRead;
   if (error == SSL_ERROR_WANT_WRITE) return Progress::kWantWrite;
   return gone(state_ == State::kUp ? why_ended(wire_, error) : why_refused(wire_, verdict_));
 }

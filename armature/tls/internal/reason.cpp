@@ -99,13 +99,13 @@ unsigned long take_error() {
   return first;
 }
 
-bool speaks_tls(const Wire& wire) {
+}  // namespace
+
+bool may_speak_tls(const Wire& wire) {
   constexpr unsigned char kAlert = 21;
   constexpr unsigned char kHandshake = 22;
   return !wire.first || *wire.first == kAlert || *wire.first == kHandshake;
 }
-
-}  // namespace
 
 void note_verdict(SSL& ssl, Verdict& verdict) {
   SSL_set_app_data(&ssl, &verdict);
@@ -115,7 +115,7 @@ void note_verdict(SSL& ssl, Verdict& verdict) {
 std::string why_refused(const Wire& wire, const Verdict& verdict) {
   const unsigned long error = take_error();
   if (!verdict.reason.empty()) return verdict.reason;
-  if (!speaks_tls(wire)) return "what it sent is not TLS";
+  if (!may_speak_tls(wire)) return "what it sent is not TLS";
   if (is_alert(error)) return why_it_refuses(error);
   if (wire.failed) return wire.socket->problem();
   if (wire.ended) return "it ended the connection before the handshake was done";

@@ -21,6 +21,9 @@ struct Verdict {
 /// @param verdict  outlives the session
 void note_verdict(SSL& ssl, Verdict& verdict);
 
+/// False once something came that no handshake begins with.
+bool may_speak_tls(const Wire& wire);
+
 /// Why a handshake has failed, by the thread's queue of errors, which is empty then.
 std::string why_refused(const Wire& wire, const Verdict& verdict);
 
