@@ -56,6 +56,10 @@ struct AccessQuestion {
   Access access;
 };
 
+/// Who asks, as policies and logs say it: `operator@tls` for an identity and the transport that has
+/// proven it, `local` for a process of this machine, which proves nothing.
+std::string who(const AccessQuestion& question);
+
 struct NodeOptions {
   std::string name = "node";
   Limits limits;

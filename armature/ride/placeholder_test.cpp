@@ -81,6 +81,7 @@ class PlaceholderTest : public testing::TestWithParam<const char*> {
 
   void serve() {
     server_.emplace(server_options_);
+    EXPECT_EQ(server_->add("camera", camera_).value(), 1u);  // Before anybody can look for it.
     const bool tcp = std::string(GetParam()) == "tcp";
     if (address_.empty()) {
       address_ =
@@ -90,7 +91,6 @@ class PlaceholderTest : public testing::TestWithParam<const char*> {
     const auto got = server_->listen(address_);
     ASSERT_TRUE(got.ok()) << got.error();
     address_ = got.value().text();
-    EXPECT_EQ(server_->add("camera", camera_).value(), 1u);
   }
   Peer& peer() { return client_.connect(address_); }
 

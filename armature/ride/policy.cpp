@@ -165,26 +165,6 @@ bool speaks_of(std::string_view rule, std::string_view who) {
 
 }  // namespace
 
-std::string who(const AccessQuestion& question) {
-  if (question.identity.empty()) {
-    const bool here = question.transport == "unix" || question.transport == "tcp";
-    return here ? "local" : "nobody@" + std::string(question.transport);
-  }
-  return std::string(question.identity) + "@" + std::string(question.transport);
-}
-
-std::string_view name_of(Access access) {
-  switch (access) {
-    case Access::kRead:
-      return "read";
-    case Access::kCommand:
-      return "command";
-    case Access::kConfigure:
-      return "configure";
-  }
-  return "nothing";
-}
-
 Policy Policy::parse(std::string_view text, const std::string& file,
                      base::Diagnostics& diagnostics) {
   Policy policy;

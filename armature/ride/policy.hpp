@@ -13,13 +13,6 @@
 
 namespace armature::ride {
 
-/// Whom the rules speak of: `operator@tls` for an identity and the transport that has proven it,
-/// `local` for a process of this machine, which proves nothing.
-std::string who(const AccessQuestion& question);
-
-/// `read`, `command`, `configure`.
-std::string_view name_of(Access access);
-
 /// A line of a policy file: `allow operator@tls read,command Vision`.
 struct PolicyRule {
   std::string who;                      ///< as `who` has it, `*@tls` for all of a transport, or `*`

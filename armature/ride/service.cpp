@@ -45,14 +45,14 @@ void PendingReply::fail(std::string_view text) {
 
 void Reply::answer(const Fields& result) {
   if (std::exchange(settled_, true) || link_ == nullptr) return;
-  (*link_)->send(priority_, Type::kReply, internal::Recipient(call_), {}, result,
-                 internal::Link::Flush::kNow);
+  link_->send(priority_, Type::kReply, internal::Recipient(call_), {}, result,
+              internal::Link::Flush::kNow);
 }
 
 PendingReply Reply::keep() {
   PendingReply kept;
   if (std::exchange(settled_, true) || link_ == nullptr) return kept;
-  kept.link_ = *link_;
+  kept.link_ = link_->shared_from_this();
   kept.call_ = call_;
   kept.priority_ = priority_;
   kept.operation_ = operation_;

@@ -67,8 +67,8 @@ class PendingReply {
 class Reply {
  public:
   /// @param call, operation, component  of the request; `link` is none for a command
-  Reply(std::shared_ptr<internal::Link>* link, std::uint32_t call, Priority priority,
-        Number operation, std::uint32_t component)
+  Reply(internal::Link* link, std::uint32_t call, Priority priority, Number operation,
+        std::uint32_t component)
       : link_(link),
         call_(call),
         priority_(priority),
@@ -92,7 +92,7 @@ class Reply {
  private:
   void answer(const Fields& result);
 
-  std::shared_ptr<internal::Link>* link_;
+  internal::Link* link_;
   std::uint32_t call_;
   Priority priority_;
   Number operation_;

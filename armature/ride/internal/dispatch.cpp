@@ -7,7 +7,6 @@
 #include "armature/ride/internal/node_state.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 #include "armature/ride/internal/publisher.hpp"
-#include "armature/ride/policy.hpp"
 
 namespace armature::ride::internal {
 namespace {
@@ -116,10 +115,8 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
 
 void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
                             std::uint32_t call, bool is_request, Decoder& parameters) {
-  std::shared_ptr<Link> requester;
-  if (is_request) requester = link.shared_from_this();
   const Priority priority{static_cast<std::uint8_t>(message.header.priority)};
-  Reply reply(is_request ? &requester : nullptr, call, priority, operation, hosted.identifier);
+  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier);
   try {
     switch (ServiceAccess::execute(*hosted.service, operation, parameters, reply)) {
       case Executed::kDone:
@@ -243,6 +240,8 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
                                             options_.limits.events_per_subscription);
   {
     const std::lock_guard lock(link.mutex());
+    // It may have gone with this message still here: nobody would ever end the subscription.
+    if (!link.open()) return refusal(Code::kShuttingDown);
     if (link.event_queues.size() >= options_.limits.subscriptions) return refusal(Code::kBusy);
     const bool taken = std::ranges::any_of(
         link.event_queues, [&](const auto& other) { return other->subscription == chosen; });

@@ -56,7 +56,7 @@ void Link::refuse_locked(Code code, const Message& message, std::string_view tex
 Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
                        std::initializer_list<std::uint32_t> head, const Fields& fields,
                        Flush flush) {
-  if (out_.size() >= limits_.unsent_bytes) {
+  if (blocked_ && out_.size() >= limits_.unsent_bytes) {
     if (type == Type::kReply || type == Type::kControl) {
       break_off_locked("it does not take what it is sent");
     }
@@ -110,7 +110,7 @@ void Link::transmit() {
 void Link::send_event(EventQueue& queue, std::span<const std::byte> message) {
   const std::lock_guard lock(mutex_);
   if (!open()) return;
-  if (!blocked_ && out_.size() < limits_.unsent_bytes) {
+  if (!blocked_) {
     append_event(queue, message);
     return dispatch_out(Flush::kGather);
   }
@@ -166,8 +166,9 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
       lock.lock();
       reads = std::exchange(call.promoted, false);
     }
+    if (call.done) break;
     limit = deadline - platform::monotonic_now();
-    if (!call.done && limit <= base::Duration::zero()) {
+    if (limit <= base::Duration::zero()) {
       remove_call(call.id);
       call.refused(Code::kDeadline, "no answer came before the deadline");
     }

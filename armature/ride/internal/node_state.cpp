@@ -121,15 +121,30 @@ void NodeState::count(std::uint64_t messages) {
 }
 
 void NodeState::deliver(Link& link, const Message& message) {
-  if (in_io_thread()) return pending_.push(link, message);
+  if (in_io_thread()) {
+    // What a caller has received before comes first.
+    if (has_handed_over_.load(std::memory_order_acquire)) take_handed_over();
+    return pending_.push(link, message);
+  }
   bool full = false;
   leave_letter([&](Letters& letters) {
     full = letters.messages.full();
     if (!full) letters.messages.push(link, message);
+    has_handed_over_.store(true, std::memory_order_release);
   });
   if (!full) return;
   counters_.events_dropped.fetch_add(1, std::memory_order_relaxed);
   journal_.tell(rt::LogLevel::kWarning, "messages were dropped: the node's thread is too slow");
+}
+
+void NodeState::take_handed_over() {
+  const std::lock_guard lock(letters_mutex_);
+  has_handed_over_.store(false);
+  while (!letters_.messages.empty()) {
+    const Pending::Entry entry = letters_.messages.pop();
+    pending_.push(*entry.link, entry.message);
+  }
+  letters_.messages.settle();
 }
 
 void NodeState::attend(Link& link) {
@@ -152,23 +167,30 @@ void NodeState::event_dropped(const EventQueue& queue) {
 }
 
 void NodeState::step(base::Duration limit) {
-  now_ = platform::monotonic_now();
-  if (pending_.empty() && !has_letters_.load()) {
-    const base::Time next = std::min({due_, flush_at_, return_at_});
-    if (next != base::Time::max()) limit = std::min(limit, next - now_);
-  } else {
-    limit = {};
+  if (!pending_.empty() || has_letters_.load()) limit = {};
+  for (const platform::Ready& ready : poller_->wait(std::min(limit, time_left()))) {
+    take_ready(ready);
   }
-  for (const platform::Ready& ready : poller_->wait(limit)) take_ready(ready);
-  if (has_letters_.exchange(false)) take_letters();
+  if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
+  if (next_timer() != base::Time::max()) look_at_clock();
+  if (!pending_.empty()) return;
+  pending_.settle();
+  departed_.clear();
+}
+
+base::Time NodeState::next_timer() const { return std::min({due_, flush_at_, return_at_}); }
+
+base::Duration NodeState::time_left() const {
+  const base::Time next = next_timer();
+  return next == base::Time::max() ? base::Duration::max() : next - platform::monotonic_now();
+}
+
+void NodeState::look_at_clock() {
   now_ = platform::monotonic_now();
   if (now_ >= flush_at_) flush_gathered();
   if (now_ >= return_at_) take_back_lent();
   if (now_ >= due_) look_at_timers();
-  if (!pending_.empty()) return;
-  pending_.settle();
-  departed_.clear();
 }
 
 /// Listeners are known by their place, links by where they are.
@@ -178,6 +200,7 @@ void NodeState::take_ready(const platform::Ready& ready) {
 }
 
 void NodeState::accept(Listener& listener) {
+  now_ = platform::monotonic_now();
   constexpr int kMostAtOnce = 16;
   for (int i = 0; i < kMostAtOnce; ++i) {
     auto connection = listener.accept();
@@ -208,8 +231,8 @@ std::shared_ptr<Link> NodeState::adopt(std::unique_ptr<Connection> connection,
   link->incomplete_since = now_;
   link->begin(std::move(connection));
   counters_.connections.store(links_.size(), std::memory_order_relaxed);
-  wake_at(base::later(now_, options_.limits.time_to_complete));
   service_link(*link, {});
+  if (!link->established) wake_at(base::later(now_, options_.limits.time_to_complete));
   return link;
 }
 
@@ -225,39 +248,40 @@ void NodeState::service_link(Link& link, const platform::Ready& ready) {
   if (ready.read && !pending_.full()) receive(link);
 }
 
+/// Asks what time it is only where that matters.
 void NodeState::receive(Link& link) {
-  constexpr base::Duration kWindow = std::chrono::seconds(1);
-  const Limits& limits = options_.limits;
   const std::uint64_t before = link.received();
   if (!link.read()) {
     link.incomplete_since = base::Time::max();
   } else if (link.incomplete_since == base::Time::max()) {
-    link.incomplete_since = now_;
-    wake_at(base::later(now_, limits.time_to_complete));
-  }
-  if (now_ >= link.window_end) {
-    link.window_end = now_ + kWindow;
-    link.window_messages = 0;
+    link.incomplete_since = platform::monotonic_now();
+    wake_at(base::later(link.incomplete_since, options_.limits.time_to_complete));
   }
   link.window_messages += link.received() - before;
-  if (link.window_messages <= limits.messages_per_second) return;
+  if (link.window_messages > options_.limits.messages_per_second) throttle(link);
+}
+
+/// The window may have been over long ago.
+void NodeState::throttle(Link& link) {
+  constexpr base::Duration kWindow = std::chrono::seconds(1);
+  const base::Time now = platform::monotonic_now();
+  link.window_messages = 0;
+  if (now >= std::exchange(link.window_end, now + kWindow)) return;
   counters_.throttled.fetch_add(1, std::memory_order_relaxed);
   journal_.tell(rt::LogLevel::kWarning, "{} sends more than {} messages a second: it has to wait",
-                link.other_end(), limits.messages_per_second);
+                link.other_end(), options_.limits.messages_per_second);
   link.set_throttled(true);
   wake_at(link.window_end);
 }
 
 void NodeState::take_letters() {
+  now_ = platform::monotonic_now();
+  take_handed_over();
   {
     const std::lock_guard lock(letters_mutex_);
-    std::swap(opened_, letters_);
+    has_letters_.store(false);
+    opened_.swap(letters_);
   }
-  while (!opened_.messages.empty()) {
-    const Pending::Entry entry = opened_.messages.pop();
-    pending_.push(*entry.link, entry.message);
-  }
-  opened_.messages.settle();
   for (auto& link : opened_.flushes) {
     flushed_.push_back(std::move(link));
     flush_at_ = std::min(flush_at_, now_ + kGathering);
@@ -276,11 +300,14 @@ void NodeState::take_letters() {
 
 void NodeState::dispatch_pending() {
   constexpr int kBetweenLooks = 16;
-  const base::Time end = now_ + kRound;
+  base::Time end{};
   for (int i = 1; !pending_.empty(); ++i) {
     const Pending::Entry entry = pending_.pop();
     dispatch(*entry.link, entry.message);
-    if (i % kBetweenLooks == 0 && platform::monotonic_now() >= end) return;
+    if (i % kBetweenLooks != 0) continue;
+    const base::Time now = platform::monotonic_now();
+    if (end == base::Time{}) end = now + kRound;
+    if (now >= end) return;
   }
 }
 

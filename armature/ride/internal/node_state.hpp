@@ -99,17 +99,30 @@ class NodeState final : public LinkHost {
     std::vector<std::shared_ptr<Link>> flushes;
     std::vector<std::shared_ptr<Link>> returns;
     Pending messages;
+
+    /// All but the messages.
+    void swap(Letters& other) {
+      tasks.swap(other.tasks);
+      attention.swap(other.attention);
+      flushes.swap(other.flushes);
+      returns.swap(other.returns);
+    }
   };
 
   void run_loop();
   void take_ready(const platform::Ready& ready);
   void take_letters();
+  void take_handed_over();
   void dispatch_pending();
   void accept(Listener& listener);
   bool make_room();
   void tell_refused(const Link& link, std::string_view why);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
+  void throttle(Link& link);
+  base::Time next_timer() const;
+  base::Duration time_left() const;
+  void look_at_clock();
   void look_after(Link& link);
   void end(Link& link);
   template <typename Write>
@@ -155,7 +168,7 @@ class NodeState final : public LinkHost {
   base::Time return_at_ = base::Time::max();
   base::Time due_ = base::Time::max();
   base::Time accept_from_{};
-  base::Time now_{};  ///< when this round began
+  base::Time now_{};  ///< when the clock was last looked at
   Pending pending_;
   Counters counters_;
 
@@ -163,6 +176,7 @@ class NodeState final : public LinkHost {
   Letters letters_;
   Letters opened_;
   std::atomic<bool> has_letters_{false};
+  std::atomic<bool> has_handed_over_{false};
   std::atomic<bool> stopping_{false};
   bool stopped_ = false;  ///< with the letters' lock
   std::unique_ptr<platform::Thread> thread_;
