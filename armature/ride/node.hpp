@@ -33,8 +33,9 @@ struct Limits {
   std::size_t pending_replies = 256;  ///< of one connection; further requests are refused: BUSY
   std::size_t subscriptions = 1024;   ///< of one connection
   std::size_t events_per_subscription = 64;  ///< that wait to be sent; the oldest is dropped
-  std::size_t unsent_bytes = 1024 * 1024;  ///< of one connection; a command then is kQueueFull, and
-                                           ///< who does not take its replies is disconnected
+  /// Of one connection, that the other side has not taken. Beyond, a command is kQueueFull, and who
+  /// does not take its answers is not read until it does.
+  std::size_t unsent_bytes = 1024 * 1024;
 };
 
 /// How a peer comes back.

@@ -317,6 +317,22 @@ TEST_F(NodeTest, WhoSendsTooManyMessagesHasToWaitAndLosesNone) {
   for (int i = 0; i < 40; ++i) ASSERT_EQ(raw.receive_control().text, std::to_string(i));
 }
 
+TEST_F(NodeTest, WhoDoesNotTakeItsAnswersIsNotReadUntilItDoes) {
+  options_.limits.unsent_bytes = 4096;
+  auto raw = client();
+  constexpr std::uint32_t kCount = 2000;
+  std::thread sending([&] {
+    for (std::uint32_t i = 1; i <= kCount; ++i) {
+      raw.send({}, Type::kRequest, 1, kEcho, i, std::string(10'000, 'x'));
+    }
+  });
+  while (node_->statistics().messages < 100) std::this_thread::yield();
+  for (std::uint32_t i = 1; i <= kCount; ++i) {
+    ASSERT_EQ(raw.receive_reply<std::string>(i).value_or("").size(), 10'000u) << i;
+  }
+  sending.join();
+}
+
 TEST_F(NodeTest, WhenTooManyAnswersAreOwedItIsBusy) {
   options_.limits.pending_replies = 1;
   auto raw = client();

@@ -245,9 +245,10 @@ void Link::leave_reading() {
 void Link::update_interest() {
   if (!connection_ || !problem_.empty()) return;
   const bool flows = establishing_ == Progress::kDone;
-  const platform::Interest wanted{
-      flows ? reader_ == Reader::kIo && !throttled : establishing_ == Progress::kWantRead,
-      flows ? blocked_ : establishing_ == Progress::kWantWrite};
+  const bool takes_nothing = peer == nullptr && is_backed_up();
+  const platform::Interest wanted{flows ? reader_ == Reader::kIo && !throttled && !takes_nothing
+                                        : establishing_ == Progress::kWantRead,
+                                  flows ? blocked_ : establishing_ == Progress::kWantWrite};
   if (wanted.read == interest_.read && wanted.write == interest_.write) return;
   interest_ = wanted;
   poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), wanted);

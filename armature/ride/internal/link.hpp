@@ -147,6 +147,8 @@ class Link : public std::enable_shared_from_this<Link> {
   Sent send_locked(Priority priority, Type type, std::uint32_t recipient,
                    std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush);
   void append_event(EventQueue& queue, std::span<const std::byte> message);
+  bool too_much_for(Type type);
+  bool is_backed_up() const;
   void dispatch_out(Flush flush);
   void transmit();
   void drain_event_queues();

@@ -53,15 +53,21 @@ void Link::refuse_locked(Code code, const Message& message, std::string_view tex
   send_locked({}, Type::kControl, call, {}, Fields(fields), Flush::kNow);
 }
 
+/// What is owed is sent as long as memory stays bounded: who does not take it is not read either.
+bool Link::too_much_for(Type type) {
+  if (!is_backed_up()) return false;
+  if (type != Type::kReply && type != Type::kControl) return true;
+  if (out_.size() < limits_.unsent_bytes + limits_.body_bytes) return false;
+  break_off_locked("it does not take what it is sent");
+  return true;
+}
+
+bool Link::is_backed_up() const { return blocked_ && out_.size() >= limits_.unsent_bytes; }
+
 Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
                        std::initializer_list<std::uint32_t> head, const Fields& fields,
                        Flush flush) {
-  if (blocked_ && out_.size() >= limits_.unsent_bytes) {
-    if (type == Type::kReply || type == Type::kControl) {
-      break_off_locked("it does not take what it is sent");
-    }
-    return open() ? Sent::kQueueFull : Sent::kNotConnected;
-  }
+  if (too_much_for(type)) return open() ? Sent::kQueueFull : Sent::kNotConnected;
   const std::size_t start = out_.size();
   out_.extend(Header::kSize);
   Encoder body(out_);
@@ -74,7 +80,7 @@ Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
 
 /// Sends what was appended: now, or with what follows.
 void Link::dispatch_out(Flush flush) {
-  if (blocked_) return;
+  if (blocked_) return update_interest();
   if (flush == Flush::kNow) return transmit();
   const base::Time now = platform::monotonic_now();
   const bool alone = !flush_due_ && now - last_sent_ >= kMoment;

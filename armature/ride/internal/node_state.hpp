@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -108,6 +109,11 @@ class NodeState final : public LinkHost {
       returns.swap(other.returns);
     }
   };
+
+  /// How old gathered messages get.
+  static constexpr base::Duration kFlushAge = std::chrono::microseconds(40);
+  /// After so long without a call the node reads again what a caller has read.
+  static constexpr base::Duration kLending = std::chrono::milliseconds(5);
 
   void run_loop();
   void take_ready(const platform::Ready& ready);
