@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <openssl/ec.h>
 #include <openssl/pem.h>
 #include <openssl/x509v3.h>
-#include <unistd.h>
 
 #include "armature/tls/internal/openssl.hpp"
 #include "armature/tls/transport.hpp"
@@ -75,9 +75,9 @@ inline Issued make_authority(const std::string& name = "test authority") {
 class Folder {
  public:
   Folder() {
-    static int count = 0;
+    std::random_device random;
     path_ = std::filesystem::path(testing::TempDir()) /
-            ("tls_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+            ("tls_" + std::to_string(random()) + "_" + std::to_string(random()));
     std::filesystem::create_directory(path_);
   }
   Folder(const Folder&) = delete;
