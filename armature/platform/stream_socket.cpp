@@ -192,6 +192,14 @@ StreamStatus StreamSocket::wait_and_receive(std::span<std::byte> room, std::size
   return after_receiving(::recv(socket_, room.data(), room.size(), 0), size);
 }
 
+StreamStatus StreamSocket::wait_until_readable(base::Duration limit) const {
+  const std::int64_t ns = std::max<std::int64_t>(limit.count(), 0);
+  const timespec most{static_cast<time_t>(ns / 1'000'000'000),
+                      static_cast<long>(ns % 1'000'000'000)};
+  pollfd polled{.fd = socket_, .events = POLLIN, .revents = 0};
+  return ::ppoll(&polled, 1, &most, nullptr) > 0 ? StreamStatus::kDone : StreamStatus::kLater;
+}
+
 void StreamSocket::shut_down() { ::shutdown(socket_, SHUT_RDWR); }
 
 std::string StreamSocket::problem() const {

@@ -40,6 +40,8 @@ class StreamSocket {
   /// The same, but waits; kLater once `limit` (> 0) has passed. One system call as long as the
   /// limit is the one of the call before.
   StreamStatus wait_and_receive(std::span<std::byte> room, std::size_t& size, base::Duration limit);
+  /// kLater if nothing can be received before `limit` (> 0) has passed.
+  StreamStatus wait_until_readable(base::Duration limit) const;
   /// Ends the connection both ways and whoever waits for it; the handle stays valid.
   void shut_down();
 

@@ -15,6 +15,7 @@ struct Address {
   std::string scheme;
   std::string host;        ///< of `unix` the path of the socket file
   std::uint16_t port = 0;  ///< 0: any that is free, of `unix` always 0
+  std::string name = {};   ///< of a host that was looked up, where its name has to be proven
 
   std::string text() const;
   /// The error says what was expected.

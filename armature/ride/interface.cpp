@@ -7,6 +7,18 @@
 
 namespace armature::ride {
 
+std::string_view name_of(Access access) {
+  switch (access) {
+    case Access::kRead:
+      return "read";
+    case Access::kCommand:
+      return "command";
+    case Access::kConfigure:
+      return "configure";
+  }
+  return "nothing";
+}
+
 std::uint32_t digest(const Interface& interface) {
   std::vector<std::string_view> sorted;
   for (const Declaration& declaration : interface.declarations) {

@@ -13,6 +13,9 @@ namespace armature::ride {
 /// What a peer has to be allowed to use an operation or event.
 enum class Access : std::uint8_t { kRead, kCommand, kConfigure };
 
+/// `read`, `command`, `configure`.
+std::string_view name_of(Access access);
+
 /// An operation or event in its canonical form, such as `void setVelocity(float,float)` or
 /// `event ObjectPosition{int,int}`.
 struct Declaration {

@@ -7,6 +7,14 @@
 
 namespace armature::ride {
 
+std::string who(const AccessQuestion& question) {
+  if (question.identity.empty()) {
+    const bool here = question.transport == "unix" || question.transport == "tcp";
+    return here ? "local" : "nobody@" + std::string(question.transport);
+  }
+  return std::string(question.identity) + "@" + std::string(question.transport);
+}
+
 Node::Node(NodeOptions options)
     : state_(std::make_shared<internal::NodeState>(std::move(options))) {
   state_->start();

@@ -23,7 +23,9 @@ namespace armature::ride {
 
 /// What one connection, and all together, may take of a node.
 struct Limits {
-  std::size_t connections = 64;               ///< accepted ones; who comes later is sent away
+  /// Accepted ones. Who comes later takes the place of one whose handshake is not done, or is sent
+  /// away.
+  std::size_t connections = 64;
   std::size_t body_bytes = 16 * 1024 * 1024;  ///< of one message, all its parts together
   /// Of one connection. Beyond, it is not read until the second is over; nothing is lost.
   std::uint64_t messages_per_second = 20'000'000;
@@ -55,6 +57,10 @@ struct AccessQuestion {
   Access access;
 };
 
+/// Who asks, as policies and logs say it: `operator@tls` for an identity and the transport that has
+/// proven it, `local` for a process of this machine, which proves nothing.
+std::string who(const AccessQuestion& question);
+
 struct NodeOptions {
   std::string name = "node";
   Limits limits;
@@ -70,10 +76,10 @@ struct NodeOptions {
 
 /// What a node has done and refused since it began.
 struct NodeStatistics {
-  std::uint64_t connections = 0;  ///< accepted ones that are there now
-  std::uint64_t connections_refused = 0;
-  std::uint64_t messages = 0;  ///< received, of all types
-  std::uint64_t refusals = 0;  ///< CONTROL messages sent because of a message at fault
+  std::uint64_t connections = 0;          ///< accepted ones that are there now
+  std::uint64_t connections_refused = 0;  ///< too many, or their handshake failed
+  std::uint64_t messages = 0;             ///< received, of all types
+  std::uint64_t refusals = 0;             ///< CONTROL messages sent because of a message at fault
   std::uint64_t commands_failed = 0;
   std::uint64_t events_dropped = 0;  ///< oldest of a subscription whose queue was full
   std::uint64_t throttled = 0;       ///< times that a connection was too fast
@@ -95,7 +101,8 @@ class Node {
 
   /// Listens at `address`, such as "tcp://127.0.0.1:0" or "unix:/run/robot.sock".
   /// @return the address with the port that was got; the error says what is in the way. Addresses
-  ///   that other machines reach are refused where the transport does not prove who connects
+  ///   that other machines reach are refused where the transport does not prove who connects, or
+  ///   without NodeOptions::allows
   base::Result<Address> listen(const std::string& address);
 
   /// Hosts `service` as `name`.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What a connection-oriented, reliable transport is to the protocol. A further one (TLS, say, in a
-// library of its own) implements these three, passes internal/conformance.hpp, and is given to the
-// node in its options.
+// What a connection-oriented, reliable transport is to the protocol. A further one (as that of
+// armature/tls) implements these three, passes armature/testing/transport_conformance.hpp, and is
+// given to the node in its options.
 
 #include <cstddef>
 #include <memory>
@@ -35,7 +35,8 @@ class Connection {
   /// @param sent  bytes taken
   /// @return kDone if at least one byte was taken
   virtual Progress send(std::span<const std::byte> bytes, std::size_t& sent) = 0;
-  /// Receives what is there, without waiting.
+  /// Receives what is there, without waiting. A transport may keep back what is left of 16 KiB that
+  /// came together, and no poller tells of it: who watches the handle gives that much room.
   /// @return kDone if at least one byte was received
   virtual Progress receive(std::span<std::byte> room, std::size_t& size) = 0;
   /// The same, but waits for it: kWantRead if nothing came within `limit` (> 0).
@@ -45,7 +46,7 @@ class Connection {
   virtual void shut_down() = 0;
   /// Who the other end is, for the log.
   virtual std::string other_end() const = 0;
-  /// Who the other end has proven to be; empty where the transport proves nothing.
+  /// Who the other end has proven to be, without a space; empty where the transport proves nothing.
   virtual std::string identity() const { return {}; }
   /// Why it is gone.
   virtual std::string problem() const = 0;
@@ -70,7 +71,7 @@ class Transport {
   virtual std::string scheme() const = 0;
   /// True if nobody but processes of this machine, or peers that prove who they are, can connect.
   virtual bool safe(const Address& address) const = 0;
-  /// The address without names that have to be asked for; may wait for a name service.
+  /// The address with a host that need not be asked for; may wait for a name service.
   virtual base::Result<Address> look_up(const Address& address) { return address; }
   /// @param address  as `look_up` gave it
   virtual base::Result<std::unique_ptr<Listener>> listen(const Address& address) = 0;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "armature/ride/internal/conformance.hpp"
+#include "armature/testing/transport_conformance.hpp"
 
 namespace armature::ride {
 namespace {

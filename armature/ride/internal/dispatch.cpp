@@ -103,8 +103,8 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
   if (hosted == nullptr) {
     return link.refuse(Code::kNoSuchComponent, message, "no component has this identifier");
   }
-  if (options_.allows && !is_allowed(link, *hosted, operation)) {
-    return link.refuse(Code::kNotAllowed, message, "the policy does not allow it");
+  if (const auto access = access_to_refuse(link, *hosted, operation)) {
+    return link.refuse(Code::kNotAllowed, message, not_allowed(link, *hosted, *access));
   }
   if (is_request &&
       link.kept_replies.load(std::memory_order_relaxed) >= options_.limits.pending_replies) {
@@ -152,9 +152,19 @@ void NodeState::fail(Link& link, const Message& message, Hosted& hosted, Number 
 }
 
 /// What is no operation is refused as such, by who is to execute it.
-bool NodeState::is_allowed(Link& link, const Hosted& hosted, Number operation) const {
+std::optional<Access> NodeState::access_to_refuse(Link& link, const Hosted& hosted,
+                                                  Number operation) const {
+  if (!options_.allows) return std::nullopt;
   const Declaration* const declaration = find_declaration(hosted.service->interface(), operation);
-  return declaration == nullptr || is_allowed(link, hosted, declaration->access);
+  if (declaration == nullptr || is_allowed(link, hosted, declaration->access)) return std::nullopt;
+  return declaration->access;
+}
+
+/// `operator@tls may not command 'Vision'`.
+std::string NodeState::not_allowed(Link& link, const Hosted& hosted, Access access) const {
+  const std::string identity = link.identity();
+  return who({link.scheme, identity, hosted.name, access}) + " may not " +
+         std::string(name_of(access)) + " '" + hosted.name + "'";
 }
 
 bool NodeState::is_allowed(Link& link, const Hosted& hosted, Access access) const {
@@ -220,7 +230,12 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
   if (hosted == nullptr) return refusal(Code::kNoSuchComponent);
   Publisher& publisher = ServiceAccess::publisher(*hosted->service);
   if (!publisher.has_event(event)) return refusal(Code::kNoSuchOperation);
-  if (!is_allowed(link, *hosted, Access::kRead)) return refusal(Code::kNotAllowed);
+  if (!is_allowed(link, *hosted, Access::kRead)) {
+    counters_.refusals.fetch_add(1, std::memory_order_relaxed);
+    journal_.tell(rt::LogLevel::kWarning, "{} was refused a subscription: NOT_ALLOWED ({})",
+                  link.other_end(), not_allowed(link, *hosted, Access::kRead));
+    return refusal(Code::kNotAllowed);
+  }
   auto queue = std::make_shared<EventQueue>(link.shared_from_this(), chosen, event, identifier,
                                             options_.limits.events_per_subscription);
   {

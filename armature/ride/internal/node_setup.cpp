@@ -3,11 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/platform/stream_socket.hpp"
 #include "armature/ride/internal/node_state.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 #include "armature/ride/internal/publisher.hpp"
 
 namespace armature::ride::internal {
+namespace {
+
+bool is_of_this_machine(const Address& address) {
+  return address.scheme == "unix" || platform::is_loopback(address.host);
+}
+
+}  // namespace
 
 base::Result<Address> NodeState::listen(const std::string& text) {
   auto address = Address::parse(text);
@@ -24,6 +32,12 @@ base::Result<Address> NodeState::listen(const std::string& text) {
                        "': other machines would reach this address and nobody would have to prove "
                        "who they are; listen at 127.0.0.1, ::1 or a unix: socket, or use tls"};
   }
+  if (!options_.allows && !is_of_this_machine(numeric.value())) {
+    return base::Error{"'" + text +
+                       "': other machines would reach this address, and nothing says what they may "
+                       "do; give node '" +
+                       options_.name + "' a policy, or listen at 127.0.0.1, ::1 or a unix: socket"};
+  }
   base::Result<Address> got = base::Error{};
   run([&] { got = listen_at(numeric.value()); });
   return got;
@@ -36,6 +50,21 @@ base::Result<Address> NodeState::listen_at(const Address& address) {
   const Listener& added = *listeners_.back();
   poller_->add(added.handle(), listeners_.size() - 1, {.read = true});
   return added.address();
+}
+
+/// Who has proven nothing yet makes room for others, the oldest first: connections that are only
+/// begun keep nobody out.
+bool NodeState::make_room() {
+  const auto half_open = std::ranges::find_if(
+      links_, [](const auto& link) { return !link->established && link->problem().empty(); });
+  if (half_open == links_.end()) return false;
+  (*half_open)->break_off("others came before its handshake was done");
+  return true;
+}
+
+void NodeState::tell_refused(const Link& link, std::string_view why) {
+  counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
+  journal_.tell(rt::LogLevel::kWarning, "{} was refused: {}", link.other_end(), why);
 }
 
 base::Result<std::uint32_t> NodeState::add(std::string name, Service& service) {

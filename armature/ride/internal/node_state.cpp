@@ -194,7 +194,7 @@ void NodeState::accept(Listener& listener) {
       accept_from_ = now_ + kNoDescriptors;
       return wake_at(accept_from_);
     }
-    if (links_.size() >= options_.limits.connections) {
+    if (links_.size() >= options_.limits.connections && !make_room()) {
       counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
       journal_.tell(rt::LogLevel::kWarning,
                     "{} was sent away: there are {} connections, as many as may be",
@@ -284,6 +284,7 @@ void NodeState::dispatch_pending() {
 void NodeState::look_after(Link& link) {
   if (link.open() || link.problem().empty()) return;
   const std::string why = link.problem();
+  if (link.peer == nullptr && !link.established) tell_refused(link, why);
   for (Hosted& hosted : hosted_) {
     if (hosted.service != nullptr) ServiceAccess::publisher(*hosted.service).remove(link);
   }

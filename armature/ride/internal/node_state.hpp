@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -120,6 +121,8 @@ class NodeState final : public LinkHost {
   void take_handed_over();
   void dispatch_pending();
   void accept(Listener& listener);
+  bool make_room();
+  void tell_refused(const Link& link, std::string_view why);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
   void throttle(Link& link);
@@ -145,7 +148,8 @@ class NodeState final : public LinkHost {
                    std::uint32_t call, bool is_request, Decoder& parameters);
   void fail(Link& link, const Message& message, Hosted& hosted, Number operation,
             std::string_view what);
-  bool is_allowed(Link& link, const Hosted& hosted, Number operation) const;
+  std::optional<Access> access_to_refuse(Link& link, const Hosted& hosted, Number operation) const;
+  std::string not_allowed(Link& link, const Hosted& hosted, Access access) const;
   bool is_allowed(Link& link, const Hosted& hosted, Access access) const;
   std::int32_t subscribe(Link& link, std::int32_t component, Number event,
                          std::int32_t subscription);

@@ -77,6 +77,7 @@ void NodeState::look_at_link(Link& link) {
   if (link.incomplete_since == base::Time::max()) return;
   const base::Time end = base::later(link.incomplete_since, options_.limits.time_to_complete);
   if (now_ < end) return wake_at(end);
+  if (!link.established) return link.break_off("the handshake did not end in time");
   journal_.tell(rt::LogLevel::kWarning, "{} is disconnected: its message did not end in time",
                 link.other_end());
   link.break_off("a message did not end in time");

@@ -50,7 +50,9 @@ void PeerState::connect(base::Time now) {
   connect_at_ = base::Time::max();
   auto connection = transport_->connect(address_);
   if (!connection) return try_later(now, connection.error());
+  link_->incomplete_since = now;
   link_->begin(std::move(connection).value());
+  node_->wake_at(base::later(now, node_->options().limits.time_to_complete));
 }
 
 void PeerState::try_later(base::Time now, const std::string& why) {
@@ -79,7 +81,14 @@ void PeerState::established() {
   link_->send_control(0, {Code::kHello, 0, 0, 0, node_->options().name + " armature"});
   open_questions_ = 1;
   for (const auto& component : components_) look_up(component);
+  if (components_.empty()) ask_whether_it_is_there();
   answered();
+}
+
+/// That data can flow does not say that the other side takes any: with TLS it refuses after that.
+void PeerState::ask_whether_it_is_there() {
+  const std::tuple<std::string_view> nobody("");
+  ask_the_directory(kFind, Fields(nobody), [](Code, std::string_view, auto) {});
 }
 
 /// Once all that was asked for has been answered, the peer is there.

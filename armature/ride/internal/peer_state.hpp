@@ -78,6 +78,7 @@ class PeerState : public std::enable_shared_from_this<PeerState> {
     std::function<void(const PeerChange&)> call;
   };
 
+  void ask_whether_it_is_there();
   void look_up(const std::shared_ptr<RemoteComponent>& component);
   void found(const std::shared_ptr<RemoteComponent>& component, const ComponentEntry& entry);
   void send_subscription(WireSubscription& subscription);
