@@ -60,11 +60,6 @@ ARMATURE_STRUCT(AtGlobalScope, a);
 namespace armature::types {
 namespace {
 
-TEST(TypeOf, CharIsASignedNumberOnEveryMachine) {
-  EXPECT_EQ(type_of<char>().kind, Kind::kInt8);
-  EXPECT_EQ(type_of<std::vector<char>>().element->kind, Kind::kInt8);
-}
-
 TEST(TypeOf, NamesEveryKind) {
   EXPECT_EQ(type_of<bool>().name, "bool");
   EXPECT_EQ(type_of<std::int8_t>().name, "int8");
