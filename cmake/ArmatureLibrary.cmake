@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# armature_library() for the folders of armature/, armature_robot() for those of robots/, and
-# armature_test() for everything else.
+# armature_library() for the folders of armature/, armature_static_library() for those beside them,
+# and armature_test() for everything else.
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
 
 find_package(GTest REQUIRED)
@@ -74,32 +74,43 @@ function(armature_library)
   endforeach()
 endfunction()
 
-# armature_robot(NAME janus USES sim can SOURCES ... TESTS ...)
+# armature_static_library(NAME janus LAYER robots USES sim can LINK ... SOURCES ... TESTS ...)
 #
-# What one robot is made of beside its components: drivers, firmware, plant. Target armature::janus,
-# static, since the robot's component library and its tests are all that use it; not installed.
-#   USES             libraries of armature/, as far as cmake/layers.cmake allows robots
+# A library beside those of armature/: target armature::janus, static and not installed.
+#   LAYER            its line in cmake/layers.cmake
+#   USES             libraries of armature/, as far as that allows
+#   LINK             third-party targets; private
 #   TESTS            each file becomes the executable and test <NAME>_<file>
 #   TEST_USES        what the tests need beyond that
-function(armature_robot)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "USES;SOURCES;TESTS;TEST_USES")
+#   TEST_DEFINITIONS for their preprocessor
+function(armature_static_library)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;LAYER"
+                        "USES;LINK;SOURCES;TESTS;TEST_USES;TEST_DEFINITIONS")
   if(arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "armature_robot(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
+    message(FATAL_ERROR "armature_static_library(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
-  armature_check_uses(robots ${arg_USES})
+  armature_check_uses(${arg_LAYER} ${arg_USES})
   set(target armature_${arg_NAME})
   list(TRANSFORM arg_USES PREPEND armature::)
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(armature::${arg_NAME} ALIAS ${target})
-  target_link_libraries(${target} PUBLIC ${arg_USES})
+  target_link_libraries(${target} PUBLIC ${arg_USES} PRIVATE ${arg_LINK})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   armature_warnings(${target})
   foreach(test IN LISTS arg_TESTS)
     cmake_path(GET test STEM stem)
     armature_test(NAME ${arg_NAME}_${stem} SOURCES ${test} USES ${arg_NAME} ${arg_TEST_USES})
-    target_compile_definitions(${arg_NAME}_${stem}
-                               PRIVATE ROBOT_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}")
+    target_compile_definitions(${arg_NAME}_${stem} PRIVATE ${arg_TEST_DEFINITIONS})
   endforeach()
+endfunction()
+
+# armature_robot(NAME janus USES sim can SOURCES ... TESTS ... TEST_USES ...)
+#
+# What one robot is made of beside its components: drivers, firmware, plant; static, since the
+# robot's component library and its tests are all that use it.
+function(armature_robot)
+  armature_static_library(LAYER robots ${ARGV}
+                          TEST_DEFINITIONS ROBOT_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}")
 endfunction()
 
 # Calls inside the library and accesses to its thread-local variables cost no detour.
@@ -125,15 +136,19 @@ endfunction()
 
 # armature_program(NAME armature SOURCES main.cpp USES cli LINK CLI11::CLI11)
 #
-# An executable that is installed into bin/; the package knows it as armature::program.
+# An executable that is installed into bin/; the package knows it as armature::program, or by the
+# name in EXPORT.
 function(armature_program)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;EXPORT" "SOURCES;USES;LINK")
+  if(NOT arg_EXPORT)
+    set(arg_EXPORT program)
+  endif()
   list(TRANSFORM arg_USES PREPEND armature::)
   add_executable(${arg_NAME} ${arg_SOURCES})
-  add_executable(armature::program ALIAS ${arg_NAME})
+  add_executable(armature::${arg_EXPORT} ALIAS ${arg_NAME})
   target_link_libraries(${arg_NAME} PRIVATE ${arg_USES} ${arg_LINK})
   armature_warnings(${arg_NAME})
-  set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME program)
+  set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT})
   install(TARGETS ${arg_NAME} EXPORT armature)
   add_dependencies(demo ${arg_NAME})
 endfunction()

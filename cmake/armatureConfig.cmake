@@ -1,3 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
 include(${CMAKE_CURRENT_LIST_DIR}/armatureTargets.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/ArmatureComponentLibrary.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/ArmatureIdl.cmake)

@@ -7,6 +7,7 @@ usage: check_layers.py SOURCE_DIR
 - a library includes only libraries that layers.cmake allows, its tests also testing;
 - internal/ headers are included only by their own library;
 - one robot does not include another, and no library includes a robot;
+- the interface compiler, idl/, is a library like those of armature/, which do not include it;
 - public headers include the standard library, Eigen and Armature, nothing else;
 - headers of the operating system are included only by platform/, and by guard/, which stands in
   front of the C library.
@@ -48,8 +49,10 @@ class Tree:
     def __init__(self, source_dir):
         self.layers = read_layers(source_dir)
         self.includes = {}
-        for top in ("armature", "robots", "examples", "benchmarks", "tests"):
+        for top in ("armature", "idl", "robots", "examples", "benchmarks", "tests"):
             for path in sorted((source_dir / top).rglob("*.?pp")):
+                if "idl/testdata" in path.as_posix():
+                    continue  # what the interface compiler is to write
                 self.includes[path.relative_to(source_dir).as_posix()] = parse(path.read_text())
         self.public = self.find_public_headers()
 
@@ -72,16 +75,16 @@ class Tree:
                     yield f"{path}:{line}: error: {path} may not include {name}: {reason}"
 
     def check(self, path, bracket, name):
-        if name.startswith("armature/"):
+        if name.startswith(("armature/", "idl/")):
             return self.check_own(path, name)
         if name.startswith("robots/"):
             return self.check_robot(path, name)
-        if path.startswith("armature/") and not is_test_code(path):
+        if path.startswith(("armature/", "idl/")) and not is_test_code(path):
             return self.check_foreign(path, bracket, name)
         return None
 
     def check_own(self, path, name):
-        user, used = library_of(path), name.split("/")[1]
+        user, used = library_of(path), library_of(name)
         if user == used:
             return None
         if "/internal/" in name:
@@ -128,6 +131,8 @@ def library_of(path):
     top, _, rest = path.partition("/")
     if top == "armature":
         return rest.split("/")[0]
+    if top == "idl":
+        return top
     return "robots" if top == "robots" and not path.endswith("_test.cpp") else None
 
 
@@ -136,7 +141,7 @@ def is_test_code(path):
 
 
 def is_public_header(path):
-    return (path.startswith("armature/") and path.endswith(".hpp") and "/internal/" not in path
+    return (path.startswith(("armature/", "idl/")) and path.endswith(".hpp") and "/internal/" not in path
             and not is_test_code(path))
 
 

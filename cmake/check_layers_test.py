@@ -71,6 +71,18 @@ class CheckLayers(unittest.TestCase):
     def test_a_library_includes_its_own_internal_headers(self):
         self.assert_accepted("armature/rt/ring.cpp", '"armature/rt/internal/futex.hpp"')
 
+    def test_the_interface_compiler_includes_only_base(self):
+        self.assert_refused("idl/parser.hpp", '"armature/platform/file.hpp"', "idl may use only base")
+
+    def test_the_interface_compiler_includes_itself(self):
+        self.assert_accepted("idl/parser.cpp", '"idl/internal/token_reader.hpp"')
+
+    def test_a_library_does_not_include_the_interface_compiler(self):
+        self.assert_refused("armature/ride/node.hpp", '"idl/model.hpp"', "ride may use only")
+
+    def test_a_public_header_of_the_interface_compiler_includes_no_third_party_header(self):
+        self.assert_refused("idl/json_backend.hpp", "<nlohmann/json.hpp>", "internal/")
+
     def test_a_library_without_a_place_is_refused(self):
         self.assert_refused("armature/magic/wand.hpp", '"armature/base/unit.hpp"',
                             "not in cmake/layers.cmake")

@@ -9,9 +9,11 @@ set(ARMATURE_LAYERS
     "rt: base platform"
     "control: base"
     "guard: base rt"
+    "idl: base"
     "component: base rt types"
     "can: base platform rt"
     "ride: base platform rt types"
+    "tls: base platform ride"
     "exec: base component rt platform"
     "record: base exec component types rt platform"
     "deploy: base exec component types platform"
@@ -22,5 +24,5 @@ set(ARMATURE_LAYERS
     "sim: base exec component can control"
     "robots: base platform rt library component can control sim"
     "studio: base remote record"
-    "cli: base platform types rt control component can ride exec record deploy report script remote library sim studio"
-    "testing: base platform types rt guard control component can ride exec record deploy report script remote library sim studio")
+    "cli: base platform types rt control component can ride tls exec record deploy report script remote library sim studio"
+    "testing: base platform types rt guard control component can ride tls exec record deploy report script remote library sim studio")

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <ctime>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -14,35 +13,23 @@
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include "armature/platform/clock.hpp"
 #include "armature/platform/internal/descriptor.hpp"
 #include "armature/platform/internal/edge_events.hpp"
+#include "armature/platform/internal/socket_file.hpp"
 
 namespace armature::platform {
 namespace {
 
+using internal::address_of;
 using internal::Descriptor;
+using internal::no_address;
 
 base::Error failed(const std::string& path, const std::string& what, int error) {
   return base::Error{"'" + path + "': " + what + ": " + std::generic_category().message(error)};
-}
-
-std::optional<sockaddr_un> address_of(const std::string& path) {
-  sockaddr_un address{};
-  if (path.empty() || path.size() >= sizeof address.sun_path) return std::nullopt;
-  address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, sizeof address.sun_path - 1);
-  return address;
-}
-
-base::Error no_address(const std::string& path) {
-  return base::Error{"'" + path + "': the path of a socket file is expected to have 1 to " +
-                     std::to_string(sizeof(sockaddr_un::sun_path) - 1) + " letters, but has " +
-                     std::to_string(path.size())};
 }
 
 int make_socket() { return ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0); }
@@ -81,18 +68,6 @@ void poll_until(pollfd* polled, std::size_t count, base::Time deadline) {
   timeout.tv_sec = static_cast<time_t>(left.count() / 1'000'000'000);
   timeout.tv_nsec = static_cast<long>(left.count() % 1'000'000'000);
   ::ppoll(polled, static_cast<nfds_t>(count), &timeout, nullptr);
-}
-
-/// Removes what a server has left that is no more.
-base::Result<void> make_room(const std::string& path) {
-  struct stat status {};
-  if (::lstat(path.c_str(), &status) != 0) return {};
-  if (!S_ISSOCK(status.st_mode)) return failed(path, "is no socket file", EEXIST);
-  const Descriptor probe(make_socket());
-  const int error = connect_to(probe.get(), path);
-  if (error != ECONNREFUSED) return failed(path, "another process serves there", EADDRINUSE);
-  ::unlink(path.c_str());
-  return {};
 }
 
 }  // namespace
@@ -167,7 +142,8 @@ base::Result<std::unique_ptr<PacketServer>> PacketServer::listen(const std::stri
   constexpr int kMostThatWait = 16;
   const auto address = address_of(path);
   if (!address) return no_address(path);
-  if (auto room = make_room(path); !room) return base::Error{room.error()};
+  if (auto room = internal::make_room(path, SOCK_SEQPACKET); !room)
+    return base::Error{room.error()};
   Descriptor listener(make_socket());
   if (::bind(listener.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
     return failed(path, "cannot be made", errno);

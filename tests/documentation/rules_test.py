@@ -10,7 +10,8 @@ import os
 import re
 import sys
 
-LEAST_RULES = {"docs/can.md": 15, "docs/promises.md": 40, "docs/rules.md": 30, "docs/robot.md": 15}
+LEAST_RULES = {"docs/can.md": 15, "docs/promises.md": 40, "docs/ride.md": 20, "docs/rules.md": 30, "docs/robot.md": 15,
+               "docs/security.md": 15}
 
 
 def existing_tests(source):

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
+
+namespace armature::platform {
+
+/// What became of an attempt: kLater: nothing was possible yet; kGone: the connection has ended.
+enum class StreamStatus { kDone, kLater, kGone };
+
+/// One end of a connection over TCP or a socket file: bytes in their order, both ways.
+/// @thread one may send while another receives; `shut_down` from any
+class StreamSocket {
+ public:
+  /// Begins to connect; `finish_connect` tells when it is done.
+  /// @param host  a numeric address
+  static base::Result<std::unique_ptr<StreamSocket>> connect_tcp(const std::string& host,
+                                                                 std::uint16_t port);
+  static base::Result<std::unique_ptr<StreamSocket>> connect_file(const std::string& path);
+  StreamSocket(const StreamSocket&) = delete;
+  StreamSocket& operator=(const StreamSocket&) = delete;
+  ~StreamSocket();
+
+  int handle() const { return socket_; }
+  /// kLater until the handle can be written.
+  StreamStatus finish_connect();
+
+  /// Sends what can be sent without waiting; one system call.
+  StreamStatus send(std::span<const std::byte> bytes, std::size_t& sent);
+  /// Receives what is there; one system call that does not wait.
+  StreamStatus receive(std::span<std::byte> room, std::size_t& size);
+  /// The same, but waits; kLater once `limit` (> 0) has passed. One system call as long as the
+  /// limit is the one of the call before.
+  StreamStatus wait_and_receive(std::span<std::byte> room, std::size_t& size, base::Duration limit);
+  /// kLater if nothing can be received before `limit` (> 0) has passed.
+  StreamStatus wait_until_readable(base::Duration limit) const;
+  /// Ends the connection both ways and whoever waits for it; the handle stays valid.
+  void shut_down();
+
+  const std::string& other_end() const { return other_end_; }
+  /// Why it is gone.
+  std::string problem() const;
+
+ private:
+  friend class StreamListener;
+  StreamSocket(int socket, std::string other_end, bool connected)
+      : socket_(socket), other_end_(std::move(other_end)), connected_(connected) {}
+  StreamStatus after_receiving(std::ptrdiff_t received, std::size_t& size);
+  void begin_to_flow();
+
+  const int socket_;
+  const std::string other_end_;
+  bool connected_;
+  int error_ = 0;
+  base::Duration limit_{};  ///< how long the socket waits to receive; 0: forever
+};
+
+/// Where others connect to.
+/// @thread one at a time
+class StreamListener {
+ public:
+  /// @param host  a numeric address
+  /// @param port  0: any that is free
+  static base::Result<std::unique_ptr<StreamListener>> listen_tcp(const std::string& host,
+                                                                  std::uint16_t port);
+  /// Makes the socket file, in place of one that a process left which is no more.
+  static base::Result<std::unique_ptr<StreamListener>> listen_file(const std::string& path);
+  StreamListener(const StreamListener&) = delete;
+  StreamListener& operator=(const StreamListener&) = delete;
+  /// Removes the socket file.
+  ~StreamListener();
+
+  int handle() const { return socket_; }
+  /// The next who waits; none if there is none, or no descriptor for it.
+  std::unique_ptr<StreamSocket> accept();
+  std::uint16_t port() const { return port_; }
+
+ private:
+  StreamListener(int socket, std::string path, std::uint16_t port)
+      : socket_(socket), path_(std::move(path)), port_(port) {}
+
+  const int socket_;
+  const std::string path_;  ///< of a socket file, else empty
+  const std::uint16_t port_;
+};
+
+/// The numeric address of a host; waits for the name service if it is not numeric.
+base::Result<std::string> look_up(const std::string& host);
+
+/// True if `host` is a numeric address that only this machine reaches.
+bool is_loopback(const std::string& host);
+
+}  // namespace armature::platform

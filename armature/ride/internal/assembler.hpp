@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <memory>
+#include <span>
+
+#include "armature/ride/body.hpp"
+#include "armature/ride/wire.hpp"
+
+namespace armature::ride::internal {
+
+/// A whole message; its body lies in the assembler until more is received.
+struct Message {
+  Header header;
+  std::span<const std::byte> body;
+};
+
+enum class Found {
+  kMessage,
+  kNothing,   ///< more has to be received first
+  kTooLarge,  ///< a message that was too large has ended; `body` is how it began
+  kBadMagic,  ///< these three are the end: nobody knows where the next message begins
+  kBadLength,
+  kTooMany,  ///< more messages go on at the same time than are kept
+};
+
+/// Makes messages of the bytes of a connection. Its memory is bounded: what was received and not
+/// looked at, and `most_body` for all bodies that go on.
+/// @thread one at a time
+class Assembler {
+ public:
+  explicit Assembler(std::size_t most_body) : most_body_(most_body) {}
+
+  /// Where to receive to: at least one message's length. Ends the life of the messages found.
+  std::span<std::byte> room();
+  void received(std::size_t size) { end_ += size; }
+  /// The next message; call until it finds nothing.
+  Found next(Message& message);
+  /// True if a message has begun that has not ended.
+  bool incomplete() const { return begin_ != end_ || !parts_.empty(); }
+  void reset();
+  /// Bytes of bodies that go on.
+  std::size_t kept() const { return kept_; }
+
+ private:
+  static constexpr std::size_t kRoom = 128 * 1024;
+  static constexpr std::size_t kMostParts = 16;
+  static constexpr std::size_t kBeginning = 8;  ///< operation and call
+
+  /// A body that goes on in later messages.
+  struct Parts {
+    Header header;
+    Body body;
+    bool too_large = false;
+  };
+
+  Found join(Message& message);
+  std::list<Parts>::iterator find(const Header& header);
+  void add(Parts& parts, std::span<const std::byte> body);
+
+  const std::size_t most_body_;
+  std::unique_ptr<std::byte[]> bytes_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::list<Parts> parts_;
+  std::list<Parts> whole_;  ///< the one that was found last, as long as it is looked at
+  std::size_t kept_ = 0;
+};
+
+}  // namespace armature::ride::internal

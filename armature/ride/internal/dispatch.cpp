@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of NodeState: what a message does.
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "armature/ride/internal/node_state.hpp"
+#include "armature/ride/internal/peer_state.hpp"
+#include "armature/ride/internal/publisher.hpp"
+
+namespace armature::ride::internal {
+namespace {
+
+/// `setVelocity` of `void setVelocity(float,float)`.
+std::string_view operation_name(std::string_view canonical) {
+  const std::size_t end = canonical.find_last_of('(') == std::string_view::npos
+                              ? canonical.size()
+                              : canonical.find('(', 0);
+  const std::size_t begin = canonical.rfind(' ', end);
+  return begin == std::string_view::npos ? canonical.substr(0, end)
+                                         : canonical.substr(begin + 1, end - begin - 1);
+}
+
+const Declaration* find_declaration(const Interface& interface, Number number) {
+  const auto found = std::ranges::find_if(
+      interface.declarations,
+      [&](const Declaration& declaration) { return declaration.number() == number; });
+  return found == interface.declarations.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void NodeState::refused(const Link& link, Code code, const Message& message,
+                        std::string_view text) {
+  counters_.refusals.fetch_add(1, std::memory_order_relaxed);
+  journal_.tell(rt::LogLevel::kWarning, "{} was refused a {}: {} ({})", link.end_locked(),
+                name_of(message.header.type), name_of(code), text);
+}
+
+void NodeState::dispatch(Link& link, const Message& message) {
+  constexpr std::uint32_t kMostUrgent = 255;
+  if (message.header.priority > kMostUrgent) {
+    return link.refuse(Code::kMalformed, message, "a priority above 255");
+  }
+  switch (message.header.type) {
+    case Type::kCommand:
+      return execute(link, message, false);
+    case Type::kRequest:
+      return execute(link, message, true);
+    case Type::kReply:
+      return;  // Too late: whoever has asked has given up.
+    case Type::kEvent:
+      if (link.peer != nullptr) return link.peer->take_event(message);
+      return link.refuse(Code::kNoSuchComponent, message, "nobody has subscribed to it");
+    case Type::kControl:
+      return take_control(link, message);
+  }
+  link.refuse(Code::kMalformed, message, "no type of message");
+}
+
+void NodeState::take_control(Link& link, const Message& message) {
+  Decoder from(message.body);
+  Control control;
+  if (!from.take(control) || !from.ended()) {
+    return link.refuse(Code::kMalformed, message, "no body of a CONTROL message");
+  }
+  switch (control.code) {
+    case Code::kHello:
+      if (link.peer != nullptr) return link.peer->take_hello(control.text);
+      if (!std::exchange(link.greeted, true)) {
+        link.send_control(0, {Code::kHello, 0, 0, 0, options_.name + " armature"});
+      }
+      return;
+    case Code::kPing:
+      link.send_control(0, {Code::kPong, 0, 0, 0, control.text});
+      return;
+    case Code::kPong:
+      return;
+    default:
+      break;
+  }
+  journal_.tell(rt::LogLevel::kWarning, "{} says: {} {}: {}", link.other_end(),
+                name_of(control.code), static_cast<std::uint32_t>(control.code), control.text);
+}
+
+NodeState::Hosted* NodeState::find_hosted(std::uint32_t identifier) {
+  if (identifier == 0 || identifier > hosted_.size()) return nullptr;
+  Hosted& hosted = hosted_[identifier - 1];
+  return hosted.service != nullptr ? &hosted : nullptr;
+}
+
+void NodeState::execute(Link& link, const Message& message, bool is_request) {
+  Decoder parameters(message.body);
+  Number operation = 0;
+  std::uint32_t call = 0;
+  if (!parameters.take(operation) || (is_request && !parameters.take(call))) {
+    return link.refuse(Code::kMalformed, message, "no operation in its body");
+  }
+  if (message.header.identifier == kDirectory) {
+    return execute_directory(link, message, operation, call, is_request, parameters);
+  }
+  Hosted* const hosted = find_hosted(message.header.identifier);
+  if (hosted == nullptr) {
+    return link.refuse(Code::kNoSuchComponent, message, "no component has this identifier");
+  }
+  if (const auto access = access_to_refuse(link, *hosted, operation)) {
+    return link.refuse(Code::kNotAllowed, message, not_allowed(link, *hosted, *access));
+  }
+  if (is_request &&
+      link.kept_replies.load(std::memory_order_relaxed) >= options_.limits.pending_replies) {
+    return link.refuse(Code::kBusy, message, "as many answers are owed as may be");
+  }
+  run_service(link, message, *hosted, operation, call, is_request, parameters);
+}
+
+void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
+                            std::uint32_t call, bool is_request, Decoder& parameters) {
+  const Priority priority{static_cast<std::uint8_t>(message.header.priority)};
+  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier);
+  try {
+    switch (ServiceAccess::execute(*hosted.service, operation, parameters, reply)) {
+      case Executed::kDone:
+        if (!reply.settled()) reply.done();
+        return;
+      case Executed::kNoSuchOperation:
+        return link.refuse(Code::kNoSuchOperation, message,
+                           "'" + hosted.name + "' has no operation of this number");
+      case Executed::kMalformed:
+        return link.refuse(Code::kMalformed, message,
+                           "its parameters are not those of the operation, or out of range");
+    }
+  } catch (const std::exception& failure) {
+    if (!reply.settled()) fail(link, message, hosted, operation, failure.what());
+  }
+}
+
+/// Who has sent a command gets no answer: whoever listens to the component is told.
+void NodeState::fail(Link& link, const Message& message, Hosted& hosted, Number operation,
+                     std::string_view what) {
+  if (message.header.type == Type::kRequest) return link.refuse(Code::kFailed, message, what);
+  counters_.commands_failed.fetch_add(1, std::memory_order_relaxed);
+  const Declaration* const declaration = find_declaration(hosted.service->interface(), operation);
+  const Failed failed{
+      std::string(declaration != nullptr ? operation_name(declaration->canonical) : "?"),
+      std::string(what)};
+  journal_.tell(rt::LogLevel::kWarning, "the command '{}' of '{}' failed: {}", failed.operation,
+                hosted.name, failed.text);
+  const auto members = std::tie(failed);
+  ServiceAccess::publisher(*hosted.service)
+      .publish(kFailedDeclaration.number(), Fields(members),
+               {static_cast<std::uint8_t>(message.header.priority)});
+}
+
+/// What is no operation is refused as such, by who is to execute it.
+std::optional<Access> NodeState::access_to_refuse(Link& link, const Hosted& hosted,
+                                                  Number operation) const {
+  if (!options_.allows) return std::nullopt;
+  const Declaration* const declaration = find_declaration(hosted.service->interface(), operation);
+  if (declaration == nullptr || is_allowed(link, hosted, declaration->access)) return std::nullopt;
+  return declaration->access;
+}
+
+/// `operator@tls may not command 'Vision'`.
+std::string NodeState::not_allowed(Link& link, const Hosted& hosted, Access access) const {
+  const std::string identity = link.identity();
+  return who({link.scheme, identity, hosted.name, access}) + " may not " +
+         std::string(name_of(access)) + " '" + hosted.name + "'";
+}
+
+bool NodeState::is_allowed(Link& link, const Hosted& hosted, Access access) const {
+  if (!options_.allows) return true;
+  return options_.allows({link.scheme, link.identity(), hosted.name, access});
+}
+
+ComponentEntry NodeState::entry_of(const Hosted& hosted) const {
+  return {static_cast<std::int32_t>(hosted.identifier), hosted.name,
+          std::string(hosted.service->interface().name), hosted.digest};
+}
+
+void NodeState::execute_directory(Link& link, const Message& message, Number operation,
+                                  std::uint32_t call, bool is_request, Decoder& parameters) {
+  const auto answer = [&](const auto& result) {
+    const auto fields = std::tie(result);
+    if (!is_request) return;
+    link.send({static_cast<std::uint8_t>(message.header.priority)}, Type::kReply, Recipient(call),
+              {}, Fields(fields), Link::Flush::kNow);
+  };
+  const auto take = [&](auto&... values) {
+    const bool taken = (parameters.take(values) && ...) && parameters.ended();
+    if (!taken) link.refuse(Code::kMalformed, message, "parameters of the directory expected");
+    return taken;
+  };
+  std::int32_t component = 0;
+  std::int32_t subscription = 0;
+  Number event = 0;
+  std::string name;
+  switch (operation) {
+    case kFind: {
+      if (!take(name)) return;
+      const auto found = std::ranges::find_if(hosted_, [&](const Hosted& hosted) {
+        return hosted.service != nullptr && hosted.name == name;
+      });
+      return answer(found != hosted_.end() ? entry_of(*found) : ComponentEntry{});
+    }
+    case kList: {
+      if (!take()) return;
+      std::vector<ComponentEntry> all;
+      for (const Hosted& hosted : hosted_) {
+        if (hosted.service != nullptr) all.push_back(entry_of(hosted));
+      }
+      return answer(all);
+    }
+    case kSubscribe:
+      if (!take(component, event, subscription)) return;
+      return answer(subscribe(link, component, event, subscription));
+    case kUnsubscribe:
+      if (!take(subscription)) return;
+      return answer(unsubscribe(link, subscription));
+    default:
+      link.refuse(Code::kNoSuchOperation, message, "the directory has no such operation");
+  }
+}
+
+std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number event,
+                                  std::int32_t subscription) {
+  const auto refusal = [](Code code) { return static_cast<std::int32_t>(code); };
+  const auto identifier = static_cast<std::uint32_t>(component);
+  const auto chosen = static_cast<std::uint32_t>(subscription);
+  Hosted* const hosted = find_hosted(identifier);
+  if (hosted == nullptr) return refusal(Code::kNoSuchComponent);
+  Publisher& publisher = ServiceAccess::publisher(*hosted->service);
+  if (!publisher.has_event(event)) return refusal(Code::kNoSuchOperation);
+  if (!is_allowed(link, *hosted, Access::kRead)) {
+    counters_.refusals.fetch_add(1, std::memory_order_relaxed);
+    journal_.tell(rt::LogLevel::kWarning, "{} was refused a subscription: NOT_ALLOWED ({})",
+                  link.other_end(), not_allowed(link, *hosted, Access::kRead));
+    return refusal(Code::kNotAllowed);
+  }
+  auto queue = std::make_shared<EventQueue>(link.shared_from_this(), chosen, event, identifier,
+                                            options_.limits.events_per_subscription);
+  {
+    const std::lock_guard lock(link.mutex());
+    // It may have gone with this message still here: nobody would ever end the subscription.
+    if (!link.open()) return refusal(Code::kShuttingDown);
+    if (link.event_queues.size() >= options_.limits.subscriptions) return refusal(Code::kBusy);
+    const bool taken = std::ranges::any_of(
+        link.event_queues, [&](const auto& other) { return other->subscription == chosen; });
+    if (taken) return refusal(Code::kMalformed);
+    link.event_queues.push_back(queue);
+  }
+  publisher.add(std::move(queue));
+  return 0;
+}
+
+std::int32_t NodeState::unsubscribe(Link& link, std::int32_t subscription) {
+  const auto chosen = static_cast<std::uint32_t>(subscription);
+  std::shared_ptr<EventQueue> queue;
+  {
+    const std::lock_guard lock(link.mutex());
+    const auto at = std::ranges::find_if(
+        link.event_queues, [&](const auto& other) { return other->subscription == chosen; });
+    if (at == link.event_queues.end()) return static_cast<std::int32_t>(Code::kNoSuchComponent);
+    queue = std::move(*at);
+    link.event_queues.erase(at);
+  }
+  if (Hosted* const hosted = find_hosted(queue->component); hosted != nullptr) {
+    ServiceAccess::publisher(*hosted->service).remove(link, chosen);
+  }
+  return 0;
+}
+
+}  // namespace armature::ride::internal

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/internal/link.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "armature/platform/clock.hpp"
+
+namespace armature::ride::internal {
+
+Link::Link(LinkHost& host, platform::Poller& poller, const Limits& limits)
+    : host_(host), poller_(poller), limits_(limits), assembler_(limits.body_bytes) {}
+
+void Link::begin(std::unique_ptr<Connection> connection) {
+  const std::lock_guard lock(mutex_);
+  connection_ = std::move(connection);
+  connections_.fetch_add(1, std::memory_order_relaxed);
+  problem_.clear();
+  establishing_ = Progress::kWantWrite;
+  interest_ = {.write = true};
+  reader_ = Reader::kIo;
+  poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
+}
+
+bool Link::establish() {
+  const std::lock_guard lock(mutex_);
+  if (!connection_ || !problem_.empty()) return false;
+  if (establishing_ == Progress::kDone) return true;
+  establishing_ = connection_->establish();
+  if (establishing_ == Progress::kGone) {
+    break_off_locked(connection_->problem());
+    return false;
+  }
+  if (establishing_ == Progress::kDone) open_.store(true, std::memory_order_release);
+  update_interest();
+  return establishing_ == Progress::kDone;
+}
+
+bool Link::read() {
+  const std::lock_guard lock(mutex_);
+  if (!open() || reader_ == Reader::kCaller) return false;
+  if (reader_ == Reader::kNobody) {
+    reader_ = Reader::kIo;
+    update_interest();
+  }
+  std::size_t size = 0;
+  const Progress progress = connection_->receive(assembler_.room(), size);
+  if (progress == Progress::kGone) break_off_locked(connection_->problem());
+  if (progress == Progress::kDone) {
+    assembler_.received(size);
+    take_messages();
+  }
+  return open() && assembler_.incomplete();
+}
+
+void Link::write() {
+  const std::lock_guard lock(mutex_);
+  if (!open() || !blocked_) return;
+  blocked_ = false;
+  transmit();
+  drain_event_queues();
+  update_interest();
+}
+
+bool Link::flush(base::Time now, base::Duration age) {
+  const std::lock_guard lock(mutex_);
+  if (!open() || out_.empty() || blocked_) {
+    flush_due_ = false;
+    return false;
+  }
+  if (now - gathered_since_ >= age) transmit();
+  return true;
+}
+
+bool Link::take_back() {
+  const std::lock_guard lock(mutex_);
+  if (reader_ == Reader::kNobody && takeovers_ == takeovers_seen_) {
+    reader_ = Reader::kIo;
+    update_interest();
+  }
+  takeovers_seen_ = takeovers_;
+  return reader_ == Reader::kIo;
+}
+
+bool Link::close() {
+  const std::lock_guard lock(mutex_);
+  if (reader_ == Reader::kCaller) return false;
+  connection_.reset();
+  assembler_.reset();
+  out_.clear();
+  blocked_ = false;
+  flush_due_ = false;
+  establishing_ = Progress::kDone;
+  reader_ = Reader::kIo;
+  event_queues.clear();
+  established = false;
+  greeted = false;
+  incomplete_since = base::Time::max();
+  throttled = false;
+  return true;
+}
+
+void Link::set_throttled(bool on) {
+  const std::lock_guard lock(mutex_);
+  throttled = on;
+  update_interest();
+}
+
+void Link::set_listens(bool listens) {
+  const std::lock_guard lock(mutex_);
+  listens_ = listens;
+}
+
+void Link::break_off(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  break_off_locked(why);
+}
+
+void Link::break_off_locked(const std::string& why) {
+  if (!connection_ || !problem_.empty()) return;
+  problem_ = why;
+  open_.store(false, std::memory_order_release);
+  poller_.remove(connection_->handle());
+  connection_->shut_down();
+  for (OpenCall* const call : std::exchange(calls_, {})) {
+    call->refused(Code::kConnectionLost, why);
+  }
+  host_.attend(*this);
+}
+
+std::string Link::other_end() const {
+  const std::lock_guard lock(mutex_);
+  return connection_ ? connection_->other_end() : std::string("nobody");
+}
+
+std::string Link::identity() const {
+  const std::lock_guard lock(mutex_);
+  return connection_ ? connection_->identity() : std::string();
+}
+
+std::string Link::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+/// What was received: answers go to their calls, all else to the node.
+void Link::take_messages() {
+  Message message;
+  std::uint64_t count = 0;
+  for (Found found = assembler_.next(message); found != Found::kNothing && open();
+       found = assembler_.next(message)) {
+    ++count;
+    switch (found) {
+      case Found::kMessage:
+        take_message(message);
+        break;
+      case Found::kTooLarge:
+        refuse_locked(Code::kTooLarge, message, "the body is larger than this node takes");
+        break;
+      case Found::kBadMagic:
+        return end_with(Code::kBadMagic, {}, "what came is no message: no 'RIDE'");
+      case Found::kBadLength:
+        return end_with(Code::kMalformed, message, "a length below that of the header");
+      case Found::kTooMany:
+        return end_with(Code::kTooLarge, message, "too many bodies go on at once");
+      case Found::kNothing:
+        break;
+    }
+  }
+  received_.fetch_add(count, std::memory_order_relaxed);
+  host_.count(count);
+}
+
+/// Nobody knows where the next message begins.
+void Link::end_with(Code code, const Message& message, const std::string& text) {
+  refuse_locked(code, message, text);
+  break_off_locked(text);
+}
+
+void Link::take_message(const Message& message) {
+  const bool may_be_answer =
+      message.header.type == Type::kReply ||
+      (message.header.type == Type::kControl && message.header.identifier != 0);
+  if (!may_be_answer || !complete(message)) host_.deliver(*this, message);
+}
+
+/// False if no call is open that it answers.
+bool Link::complete(const Message& message) {
+  if (message.header.type == Type::kReply) {
+    OpenCall* const call = remove_call(message.header.identifier);
+    if (call != nullptr) call->answered(message.body);
+    return call != nullptr;
+  }
+  Decoder from(message.body);
+  Control control;
+  if (!from.take(control) || !from.ended()) return false;
+  OpenCall* const call = remove_call(message.header.identifier);
+  if (call != nullptr) call->refused(control.code, control.text);
+  return call != nullptr;
+}
+
+OpenCall* Link::remove_call(std::uint32_t id) {
+  const auto at = std::ranges::find(calls_, id, &OpenCall::id);
+  if (at == calls_.end()) return nullptr;
+  OpenCall* const call = *at;
+  calls_.erase(at);
+  return call;
+}
+
+void Link::receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock) {
+  const std::span<std::byte> room = assembler_.room();
+  std::size_t size = 0;
+  lock.unlock();
+  const Progress progress = connection_->wait_and_receive(room, size, limit);
+  lock.lock();
+  if (progress == Progress::kGone) return break_off_locked(connection_->problem());
+  if (progress != Progress::kDone) return;
+  assembler_.received(size);
+  take_messages();
+}
+
+bool Link::take_reading() {
+  if (!open() || reader_ == Reader::kCaller) return false;
+  ++takeovers_;
+  const bool was_the_nodes = reader_ == Reader::kIo;
+  reader_ = Reader::kCaller;
+  update_interest();
+  if (was_the_nodes && !listens_) host_.return_soon(*this);
+  return true;
+}
+
+/// Another caller who waits goes on reading; otherwise the node does, at once or later.
+void Link::leave_reading() {
+  const auto next = std::ranges::find_if(calls_, [](const OpenCall* call) { return call->waits; });
+  if (next != calls_.end() && open()) {
+    auto* const call = static_cast<WaitingCall*>(*next);
+    call->promoted = true;
+    call->notify();
+    return;
+  }
+  reader_ = listens_ || !open() ? Reader::kIo : Reader::kNobody;
+  update_interest();
+  if (!open()) host_.attend(*this);
+}
+
+void Link::update_interest() {
+  if (!connection_ || !problem_.empty()) return;
+  const bool flows = establishing_ == Progress::kDone;
+  const bool takes_nothing = peer == nullptr && is_backed_up();
+  const platform::Interest wanted{flows ? reader_ == Reader::kIo && !throttled && !takes_nothing
+                                        : establishing_ == Progress::kWantRead,
+                                  flows ? blocked_ : establishing_ == Progress::kWantWrite};
+  if (wanted.read == interest_.read && wanted.write == interest_.write) return;
+  interest_ = wanted;
+  poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), wanted);
+}
+
+}  // namespace armature::ride::internal

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/platform/poller.hpp"
+#include "armature/ride/answer.hpp"
+#include "armature/ride/internal/assembler.hpp"
+#include "armature/ride/internal/event_queue.hpp"
+#include "armature/ride/internal/open_call.hpp"
+#include "armature/ride/node.hpp"
+#include "armature/ride/transport.hpp"
+
+namespace armature::ride::internal {
+
+class Link;
+class PeerState;
+
+/// Whom a message is for: known, or looked up anew for each connection (0: not yet).
+class Recipient {
+ public:
+  explicit Recipient(std::uint32_t known) : known_(known) {}
+  explicit Recipient(const std::atomic<std::uint32_t>& looked_up) : looked_up_(&looked_up) {}
+
+  /// With the link's lock held, under which it changes.
+  std::optional<std::uint32_t> identifier() const {
+    if (looked_up_ == nullptr) return known_;
+    const std::uint32_t found = looked_up_->load(std::memory_order_relaxed);
+    return found != 0 ? std::optional(found) : std::nullopt;
+  }
+
+ private:
+  std::uint32_t known_ = 0;
+  const std::atomic<std::uint32_t>* looked_up_ = nullptr;
+};
+
+/// What a link needs of its node. Called with the link's lock held, by any thread.
+class LinkHost {
+ public:
+  virtual ~LinkHost() = default;
+  /// So many messages came.
+  virtual void count(std::uint64_t messages) = 0;
+  /// A message that is not the answer to a call.
+  virtual void deliver(Link& link, const Message& message) = 0;
+  /// Its connection has ended.
+  virtual void attend(Link& link) = 0;
+  /// Messages were gathered that the I/O thread is to send.
+  virtual void flush_soon(Link& link) = 0;
+  /// A subscriber that is too slow has lost its oldest event.
+  virtual void event_dropped(const EventQueue& queue) = 0;
+  /// A caller has taken over reading, and will not say when it is over.
+  virtual void return_soon(Link& link) = 0;
+  /// The other side was told that what it has sent is at fault.
+  virtual void refused(const Link& link, Code code, const Message& message,
+                       std::string_view text) = 0;
+};
+
+/// A connection with its messages: what is to be sent, what was received, the calls that are open.
+/// That of a peer is used again for each of its connections.
+///
+/// One thread reads at a time: the I/O thread, or a caller who waits for its answer. A caller takes
+/// over without a word and gives back lazily, so that calls in a row cost no system call but their
+/// own; where events are subscribed it gives back at once.
+class Link : public std::enable_shared_from_this<Link> {
+ public:
+  enum class Flush { kNow, kGather };
+
+  Link(LinkHost& host, platform::Poller& poller, const Limits& limits);
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  // What the I/O thread does.
+
+  /// Begins with a connection that is yet to be established.
+  void begin(std::unique_ptr<Connection> connection);
+  /// True once data can flow; false as long as it cannot. A failure breaks it off.
+  bool establish();
+  /// Receives what is there and delivers it.
+  /// @return true if a message has begun that has not ended
+  bool read();
+  /// Sends what could not be sent before.
+  void write();
+  /// Sends what was gathered `age` ago; false if there is nothing.
+  bool flush(base::Time now, base::Duration age);
+  /// Takes reading back from a caller who has gone; false if there still is one.
+  bool take_back();
+  /// Forgets a connection that has ended; false if a caller has yet to notice.
+  bool close();
+  /// Stops or resumes reading.
+  void set_throttled(bool throttled);
+  /// Whether events are subscribed.
+  void set_listens(bool listens);
+
+  // What any thread does.
+
+  /// Sends a message. `head`: operation or event, as the type has it.
+  Sent send(Priority priority, Type type, const Recipient& recipient,
+            std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush);
+  Sent send_control(std::uint32_t call, const Control& control);
+  /// Answers a message that is at fault.
+  void refuse(Code code, const Message& message, std::string_view text);
+  /// Why the connection has ended, or who the other end is; with the lock held.
+  std::string end_locked() const { return connection_ ? connection_->other_end() : "nobody"; }
+  /// Sends an event that was encoded before, or puts it into the queue.
+  void send_event(EventQueue& queue, std::span<const std::byte> message);
+  /// Sends a request and waits.
+  void call(Number operation, const Recipient& recipient, const CallOptions& options,
+            const Fields& parameters, WaitingCall& call);
+  /// Sends a request; `call` is told of the answer.
+  void call(Number operation, std::uint32_t recipient, const Fields& parameters,
+            std::unique_ptr<CallbackCall> call);
+  /// Ends the connection; calls that are open fail.
+  void break_off(const std::string& why);
+
+  bool open() const { return open_.load(std::memory_order_acquire); }
+  /// Counts the connections that it has had.
+  std::uint32_t connection_number() const { return connections_.load(std::memory_order_relaxed); }
+  std::string other_end() const;
+  std::string identity() const;
+  std::string problem() const;
+  std::mutex& mutex() { return mutex_; }
+
+  // Bookkeeping of the I/O thread.
+  PeerState* peer = nullptr;  ///< whose link it is, if this side has connected
+  std::string scheme;
+  bool established = false;
+  bool greeted = false;
+  base::Time incomplete_since = base::Time::max();
+  base::Time window_end{};
+  std::uint64_t window_messages = 0;
+  bool throttled = false;
+  std::atomic<std::size_t> kept_replies{0};
+  std::vector<std::shared_ptr<EventQueue>> event_queues;  ///< with the lock held
+
+  /// Messages since it began.
+  std::uint64_t received() const { return received_.load(std::memory_order_relaxed); }
+
+ private:
+  enum class Reader { kIo, kCaller, kNobody };
+
+  Sent send_locked(Priority priority, Type type, std::uint32_t recipient,
+                   std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush);
+  void append_event(EventQueue& queue, std::span<const std::byte> message);
+  bool too_much_for(Type type);
+  bool is_backed_up() const;
+  void dispatch_out(Flush flush);
+  void transmit();
+  void drain_event_queues();
+  void take_messages();
+  void take_message(const Message& message);
+  bool complete(const Message& message);
+  void refuse_locked(Code code, const Message& message, std::string_view text);
+  void end_with(Code code, const Message& message, const std::string& text);
+  void break_off_locked(const std::string& why);
+  void receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock);
+  bool take_reading();
+  void leave_reading();
+  void update_interest();
+  OpenCall* remove_call(std::uint32_t id);
+
+  LinkHost& host_;
+  platform::Poller& poller_;
+  const Limits& limits_;
+
+  mutable std::mutex mutex_;
+  std::unique_ptr<Connection> connection_;
+  std::atomic<bool> open_{false};
+  std::atomic<std::uint32_t> connections_{0};
+  Assembler assembler_;
+  Body out_;
+  bool blocked_ = false;    ///< the other side has not taken what was sent
+  bool flush_due_ = false;  ///< the I/O thread looks after what was gathered
+  base::Time last_sent_{};
+  base::Time gathered_since_{};
+  std::vector<OpenCall*> calls_;
+  std::uint32_t last_call_ = 0;
+  Reader reader_ = Reader::kIo;
+  bool listens_ = false;
+  std::uint32_t takeovers_ = 0;
+  std::uint32_t takeovers_seen_ = 0;
+  Progress establishing_ = Progress::kDone;
+  platform::Interest interest_;
+  std::string problem_;
+  std::atomic<std::uint64_t> received_{0};
+};
+
+}  // namespace armature::ride::internal

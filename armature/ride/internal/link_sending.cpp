@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of Link: what is sent, and calls.
+#include <algorithm>
+#include <utility>
+
+#include "armature/platform/clock.hpp"
+#include "armature/ride/internal/link.hpp"
+
+namespace armature::ride::internal {
+namespace {
+
+/// A message that comes so soon after another waits for those that follow.
+constexpr base::Duration kMoment = std::chrono::microseconds(20);
+/// So much is sent by the one who gathers.
+constexpr std::size_t kMostGathered = 8 * 1024;
+/// What one large message took is given back.
+constexpr std::size_t kMostKept = 256 * 1024;
+
+}  // namespace
+
+Sent Link::send(Priority priority, Type type, const Recipient& recipient,
+                std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush) {
+  const std::lock_guard lock(mutex_);
+  const auto identifier = recipient.identifier();
+  if (!open() || !identifier) return Sent::kNotConnected;
+  return send_locked(priority, type, *identifier, head, fields, flush);
+}
+
+Sent Link::send_control(std::uint32_t call, const Control& control) {
+  const auto fields = std::tie(control);
+  return send({}, Type::kControl, Recipient(call), {}, Fields(fields), Flush::kNow);
+}
+
+void Link::refuse(Code code, const Message& message, std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  refuse_locked(code, message, text);
+}
+
+/// Of a request the operation and the call are the first words of its body.
+void Link::refuse_locked(Code code, const Message& message, std::string_view text) {
+  if (!open()) return;
+  host_.refused(*this, code, message, text);
+  if (message.header.type == Type::kControl && code != Code::kBadMagic) return;  // No ping-pong.
+  const bool is_request = message.header.type == Type::kRequest;
+  const bool has_operation = is_request || message.header.type == Type::kCommand;
+  Decoder from(message.body);
+  Control control{code, static_cast<std::uint32_t>(message.header.type), message.header.identifier,
+                  0, text};
+  std::uint32_t call = 0;
+  if (code == Code::kBadMagic) control.type = 0;
+  if (has_operation && from.take(control.operation) && is_request) from.take(call);
+  const auto fields = std::tie(control);
+  send_locked({}, Type::kControl, call, {}, Fields(fields), Flush::kNow);
+}
+
+/// What is owed is sent as long as memory stays bounded: who does not take it is not read either.
+bool Link::too_much_for(Type type) {
+  if (!is_backed_up()) return false;
+  if (type != Type::kReply && type != Type::kControl) return true;
+  if (out_.size() < limits_.unsent_bytes + limits_.body_bytes) return false;
+  break_off_locked("it does not take what it is sent");
+  return true;
+}
+
+bool Link::is_backed_up() const { return blocked_ && out_.size() >= limits_.unsent_bytes; }
+
+Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
+                       std::initializer_list<std::uint32_t> head, const Fields& fields,
+                       Flush flush) {
+  if (too_much_for(type)) return open() ? Sent::kQueueFull : Sent::kNotConnected;
+  const std::size_t start = out_.size();
+  out_.extend(Header::kSize);
+  Encoder body(out_);
+  for (const std::uint32_t word : head) body.put(word);
+  fields.put(body);
+  finish_message(out_, start, priority, type, recipient);
+  dispatch_out(flush);
+  return open() ? Sent::kYes : Sent::kNotConnected;
+}
+
+/// Sends what was appended: now, or with what follows.
+void Link::dispatch_out(Flush flush) {
+  if (blocked_) return update_interest();
+  if (flush == Flush::kNow) return transmit();
+  const base::Time now = platform::monotonic_now();
+  const bool alone = !flush_due_ && now - last_sent_ >= kMoment;
+  if (alone || out_.size() >= kMostGathered) {
+    transmit();
+    last_sent_ = now;
+    gathered_since_ = now;
+    return;
+  }
+  if (flush_due_) return;
+  flush_due_ = true;
+  gathered_since_ = now;
+  host_.flush_soon(*this);
+}
+
+void Link::transmit() {
+  std::size_t done = 0;
+  while (done < out_.size()) {
+    std::size_t sent = 0;
+    const Progress progress = connection_->send(out_.bytes().subspan(done), sent);
+    if (progress == Progress::kGone) return break_off_locked(connection_->problem());
+    if (progress != Progress::kDone) {
+      blocked_ = true;
+      update_interest();
+      break;
+    }
+    done += sent;
+  }
+  out_.erase_front(done);
+  out_.shrink(kMostKept);
+}
+
+void Link::send_event(EventQueue& queue, std::span<const std::byte> message) {
+  const std::lock_guard lock(mutex_);
+  if (!open()) return;
+  if (!blocked_) {
+    append_event(queue, message);
+    return dispatch_out(Flush::kGather);
+  }
+  if (!queue.push(message)) host_.event_dropped(queue);
+}
+
+/// The subscriber's identifier goes into the header of each part.
+void Link::append_event(EventQueue& queue, std::span<const std::byte> message) {
+  const std::size_t start = out_.size();
+  out_.append(message);
+  for (std::size_t at = start; at < out_.size();) {
+    std::byte* const header = out_.data() + at;
+    store(header + 12, queue.subscription);
+    at += load<std::uint16_t>(header + 10);
+  }
+}
+
+void Link::drain_event_queues() {
+  for (const auto& queue : event_queues) {
+    while (open() && !blocked_ && !queue->empty()) {
+      append_event(*queue, queue->front());
+      queue->pop();
+      transmit();
+    }
+  }
+}
+
+void Link::call(Number operation, const Recipient& recipient, const CallOptions& options,
+                const Fields& parameters, WaitingCall& call) {
+  const base::Time deadline = base::later(platform::monotonic_now(), options.deadline);
+  std::unique_lock lock(mutex_);
+  const auto identifier = recipient.identifier();
+  if (!open() || !identifier) {
+    return call.refused(Code::kNotConnected, "there is no connection to it");
+  }
+  call.id = ++last_call_ != 0 ? last_call_ : ++last_call_;
+  call.waits = true;
+  calls_.push_back(&call);
+  const Sent sent = send_locked(options.priority, Type::kRequest, *identifier, {operation, call.id},
+                                parameters, Flush::kNow);
+  if (sent == Sent::kQueueFull) {
+    remove_call(call.id);
+    return call.refused(Code::kBusy, "the other side has not taken what was sent before");
+  }
+  bool reads = !call.done && take_reading();
+  base::Duration limit = options.deadline;
+  while (!call.done) {
+    if (reads) {
+      receive_once(limit, lock);
+    } else {
+      lock.unlock();
+      call.wakeup.wait_until(deadline);
+      lock.lock();
+      reads = std::exchange(call.promoted, false);
+    }
+    if (call.done) break;
+    limit = deadline - platform::monotonic_now();
+    if (limit <= base::Duration::zero()) {
+      remove_call(call.id);
+      call.refused(Code::kDeadline, "no answer came before the deadline");
+    }
+  }
+  if (reads || call.promoted) leave_reading();
+}
+
+void Link::call(Number operation, std::uint32_t recipient, const Fields& parameters,
+                std::unique_ptr<CallbackCall> call) {
+  constexpr Priority kMostUrgent{255};
+  const std::lock_guard lock(mutex_);
+  OpenCall* const open_call = call.release();
+  if (!open()) return open_call->refused(Code::kNotConnected, "there is no connection");
+  open_call->id = ++last_call_ != 0 ? last_call_ : ++last_call_;
+  calls_.push_back(open_call);
+  const Sent sent = send_locked(kMostUrgent, Type::kRequest, recipient, {operation, open_call->id},
+                                parameters, Flush::kNow);
+  if (sent != Sent::kQueueFull) return;
+  remove_call(open_call->id);
+  open_call->refused(Code::kBusy, "the other side has not taken what was sent before");
+}
+
+}  // namespace armature::ride::internal

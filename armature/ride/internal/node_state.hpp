@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "armature/platform/poller.hpp"
+#include "armature/platform/thread.hpp"
+#include "armature/ride/internal/directory.hpp"
+#include "armature/ride/internal/journal.hpp"
+#include "armature/ride/internal/link.hpp"
+#include "armature/ride/internal/pending.hpp"
+#include "armature/ride/node.hpp"
+
+namespace armature::ride::internal {
+
+class PeerState;
+class Publisher;
+
+/// A node's I/O thread and all that it looks after. Functions without a word about threads are
+/// called by that thread only.
+class NodeState final : public LinkHost {
+ public:
+  explicit NodeState(NodeOptions options);
+  ~NodeState() override;
+
+  const NodeOptions& options() const { return options_; }
+  platform::Poller& poller() { return *poller_; }
+  Journal& journal() { return journal_; }
+  Transport* find_transport(const std::string& scheme);
+  std::mt19937& random() { return random_; }
+
+  /// Begins; without its thread if a test drives it by `step`.
+  void start();
+  /// Tells everyone and ends the thread.
+  /// @thread the node's owner
+  void stop();
+  bool in_io_thread() const;
+  /// Has the I/O thread do it; returns when it is done.
+  /// @thread any
+  void run(const std::function<void()>& task);
+  /// The same without waiting.
+  /// @thread any
+  void post(std::function<void()> task);
+  /// One round: waits at most until `limit` has passed, receives, dispatches.
+  void step(base::Duration limit);
+
+  base::Result<Address> listen(const std::string& text);
+  base::Result<std::uint32_t> add(std::string name, Service& service);
+  void remove(Service& service);
+  Peer& connect(const std::string& address);
+  /// @thread any
+  NodeStatistics statistics() const;
+
+  /// Looks after a connection that is there.
+  std::shared_ptr<Link> adopt(std::unique_ptr<Connection> connection, const std::string& scheme);
+  /// Has the timers looked at no later than then.
+  void wake_at(base::Time time) { due_ = std::min(due_, time); }
+
+  void count(std::uint64_t messages) override;
+  void deliver(Link& link, const Message& message) override;
+  void attend(Link& link) override;
+  void flush_soon(Link& link) override;
+  void return_soon(Link& link) override;
+  void refused(const Link& link, Code code, const Message& message, std::string_view text) override;
+  void event_dropped(const EventQueue& queue) override;
+
+  /// Executes a message (internal/dispatch.cpp).
+  void dispatch(Link& link, const Message& message);
+
+ private:
+  struct Hosted {
+    std::uint32_t identifier;
+    std::string name;
+    std::uint32_t digest;
+    Service* service;  ///< none once it was removed
+  };
+  struct Counters {
+    std::atomic<std::uint64_t> connections_refused{0};
+    std::atomic<std::uint64_t> messages{0};
+    std::atomic<std::uint64_t> refusals{0};
+    std::atomic<std::uint64_t> commands_failed{0};
+    std::atomic<std::uint64_t> events_dropped{0};
+    std::atomic<std::uint64_t> throttled{0};
+    std::atomic<std::uint64_t> connections{0};
+  };
+  /// What other threads have left for this one.
+  struct Letters {
+    std::vector<std::function<void()>> tasks;
+    std::vector<std::shared_ptr<Link>> attention;
+    std::vector<std::shared_ptr<Link>> flushes;
+    std::vector<std::shared_ptr<Link>> returns;
+    Pending messages;
+
+    /// All but the messages.
+    void swap(Letters& other) {
+      tasks.swap(other.tasks);
+      attention.swap(other.attention);
+      flushes.swap(other.flushes);
+      returns.swap(other.returns);
+    }
+  };
+
+  /// How old gathered messages get.
+  static constexpr base::Duration kFlushAge = std::chrono::microseconds(40);
+  /// After so long without a call the node reads again what a caller has read.
+  static constexpr base::Duration kLending = std::chrono::milliseconds(5);
+
+  void run_loop();
+  void take_ready(const platform::Ready& ready);
+  void take_letters();
+  void take_handed_over();
+  void dispatch_pending();
+  void accept(Listener& listener);
+  bool make_room();
+  void tell_refused(const Link& link, std::string_view why);
+  void service_link(Link& link, const platform::Ready& ready);
+  void receive(Link& link);
+  void throttle(Link& link);
+  base::Time next_timer() const;
+  base::Duration time_left() const;
+  void look_at_clock();
+  void look_after(Link& link);
+  void end(Link& link);
+  template <typename Write>
+  void leave_letter(const Write& write);
+  void flush_gathered();
+  void take_back_lent();
+  void look_at_timers();
+  void look_at_link(Link& link);
+  void accept_again();
+  void say_goodbye();
+  base::Result<Address> listen_at(const Address& address);
+
+  void execute(Link& link, const Message& message, bool is_request);
+  void execute_directory(Link& link, const Message& message, Number operation, std::uint32_t call,
+                         bool is_request, Decoder& parameters);
+  void run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
+                   std::uint32_t call, bool is_request, Decoder& parameters);
+  void fail(Link& link, const Message& message, Hosted& hosted, Number operation,
+            std::string_view what);
+  std::optional<Access> access_to_refuse(Link& link, const Hosted& hosted, Number operation) const;
+  std::string not_allowed(Link& link, const Hosted& hosted, Access access) const;
+  bool is_allowed(Link& link, const Hosted& hosted, Access access) const;
+  std::int32_t subscribe(Link& link, std::int32_t component, Number event,
+                         std::int32_t subscription);
+  std::int32_t unsubscribe(Link& link, std::int32_t subscription);
+  void take_control(Link& link, const Message& message);
+  ComponentEntry entry_of(const Hosted& hosted) const;
+  Hosted* find_hosted(std::uint32_t identifier);
+
+  const NodeOptions options_;
+  Journal journal_;
+  std::vector<std::shared_ptr<Transport>> transports_;
+  std::unique_ptr<platform::Poller> poller_;
+  std::mt19937 random_;
+  std::deque<Hosted> hosted_;
+  std::vector<std::unique_ptr<Listener>> listeners_;
+  std::vector<std::shared_ptr<Link>> links_;     ///< those that others have made
+  std::vector<std::shared_ptr<Link>> departed_;  ///< until nothing speaks of them any more
+  std::vector<std::unique_ptr<Peer>> peers_;
+  std::vector<std::shared_ptr<Link>> flushed_;
+  base::Time flush_at_ = base::Time::max();
+  std::vector<std::shared_ptr<Link>> lent_;  ///< to callers
+  base::Time return_at_ = base::Time::max();
+  base::Time due_ = base::Time::max();
+  base::Time accept_from_{};
+  base::Time now_{};  ///< when the clock was last looked at
+  Pending pending_;
+  Counters counters_;
+
+  std::mutex letters_mutex_;
+  Letters letters_;
+  Letters opened_;
+  std::atomic<bool> has_letters_{false};
+  std::atomic<bool> has_handed_over_{false};
+  std::atomic<bool> stopping_{false};
+  bool stopped_ = false;  ///< with the letters' lock
+  std::unique_ptr<platform::Thread> thread_;
+};
+
+}  // namespace armature::ride::internal

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of NodeState: what its time has come for.
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "armature/platform/clock.hpp"
+#include "armature/ride/internal/node_state.hpp"
+#include "armature/ride/internal/peer_state.hpp"
+
+namespace armature::ride::internal {
+
+base::Time NodeState::next_timer() const { return std::min({due_, flush_at_, return_at_}); }
+
+base::Duration NodeState::time_left() const {
+  const base::Time next = next_timer();
+  return next == base::Time::max() ? base::Duration::max() : next - platform::monotonic_now();
+}
+
+void NodeState::look_at_clock() {
+  now_ = platform::monotonic_now();
+  if (now_ >= flush_at_) flush_gathered();
+  if (now_ >= return_at_) take_back_lent();
+  if (now_ >= due_) look_at_timers();
+}
+
+/// The window may have been over long ago.
+void NodeState::throttle(Link& link) {
+  constexpr base::Duration kWindow = std::chrono::seconds(1);
+  const base::Time now = platform::monotonic_now();
+  link.window_messages = 0;
+  if (now >= std::exchange(link.window_end, now + kWindow)) return;
+  counters_.throttled.fetch_add(1, std::memory_order_relaxed);
+  journal_.tell(rt::LogLevel::kWarning, "{} sends more than {} messages a second: it has to wait",
+                link.other_end(), options_.limits.messages_per_second);
+  link.set_throttled(true);
+  wake_at(link.window_end);
+}
+
+void NodeState::flush_gathered() {
+  std::erase_if(flushed_, [&](const auto& link) { return !link->flush(now_, kFlushAge); });
+  flush_at_ = flushed_.empty() ? base::Time::max() : now_ + kFlushAge;
+}
+
+void NodeState::take_back_lent() {
+  std::erase_if(lent_, [](const auto& link) { return link->take_back(); });
+  return_at_ = lent_.empty() ? base::Time::max() : now_ + kLending;
+}
+
+void NodeState::look_at_timers() {
+  due_ = base::Time::max();
+  if (accept_from_ != base::Time{}) accept_again();
+  const auto links = links_;  // One that ends is taken from the list.
+  for (const auto& link : links) look_at_link(*link);
+  for (const auto& peer : peers_) {
+    look_at_link(peer->state()->link());
+    wake_at(peer->state()->look_at_timers(now_));
+  }
+}
+
+void NodeState::accept_again() {
+  if (now_ < accept_from_) return wake_at(accept_from_);
+  accept_from_ = {};
+  for (std::size_t k = 0; k < listeners_.size(); ++k) {
+    poller_->change(listeners_[k]->handle(), k, {.read = true});
+  }
+}
+
+void NodeState::look_at_link(Link& link) {
+  if (link.throttled) {
+    if (now_ >= link.window_end) {
+      link.set_throttled(false);
+    } else {
+      wake_at(link.window_end);
+    }
+  }
+  if (link.incomplete_since == base::Time::max()) return;
+  const base::Time end = base::later(link.incomplete_since, options_.limits.time_to_complete);
+  if (now_ < end) return wake_at(end);
+  if (!link.established) return link.break_off("the handshake did not end in time");
+  journal_.tell(rt::LogLevel::kWarning, "{} is disconnected: its message did not end in time",
+                link.other_end());
+  link.break_off("a message did not end in time");
+}
+
+}  // namespace armature::ride::internal

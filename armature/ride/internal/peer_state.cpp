@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/internal/peer_state.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <tuple>
+#include <utility>
+
+#include "armature/platform/clock.hpp"
+#include "armature/ride/internal/node_state.hpp"
+
+namespace armature::ride::internal {
+namespace {
+
+/// What is not there yet is looked for so often.
+constexpr base::Duration kAskAgain = std::chrono::seconds(1);
+
+}  // namespace
+
+PeerState::PeerState(NodeState& node, std::string text)
+    : node_(&node),
+      text_(std::move(text)),
+      link_(std::make_shared<Link>(node, node.poller(), node.options().limits)) {
+  link_->peer = this;
+}
+
+void PeerState::detach() { node_ = nullptr; }
+
+bool PeerState::run(const std::function<void()>& task) {
+  if (node_ == nullptr) return false;
+  node_->run(task);
+  return true;
+}
+
+void PeerState::start(Transport* transport, base::Result<Address> address) {
+  if (!address) {
+    set_problem(address.error());
+    node_->journal().tell(rt::LogLevel::kError, "{}", address.error());
+    return;
+  }
+  transport_ = transport;
+  address_ = std::move(address).value();
+  link_->scheme = address_.scheme;
+  pause_ = node_->options().reconnection.first;
+  connect(platform::monotonic_now());
+}
+
+void PeerState::connect(base::Time now) {
+  connect_at_ = base::Time::max();
+  auto connection = transport_->connect(address_);
+  if (!connection) return try_later(now, connection.error());
+  link_->incomplete_since = now;
+  link_->begin(std::move(connection).value());
+  node_->wake_at(base::later(now, node_->options().limits.time_to_complete));
+}
+
+void PeerState::try_later(base::Time now, const std::string& why) {
+  const Reconnection& how = node_->options().reconnection;
+  if (why != problem_) {
+    node_->journal().tell(rt::LogLevel::kInfo, "{} cannot be reached: {}", text_, why);
+  }
+  set_problem(why);
+  std::uniform_real_distribution<double> spread(1.0 - how.jitter, 1.0 + how.jitter);
+  const auto part = [](base::Duration time, double factor) {
+    return base::Duration(static_cast<std::int64_t>(static_cast<double>(time.count()) * factor));
+  };
+  connect_at_ = now + part(pause_, spread(node_->random()));
+  pause_ = std::min(part(pause_, how.factor), how.most);
+  node_->wake_at(connect_at_);
+}
+
+void PeerState::established() {
+  ++generation_;
+  up_ = true;
+  heard_at_ = platform::monotonic_now();
+  heard_ = link_->received();
+  if (node_->options().reconnection.silence > base::Duration::zero()) {
+    node_->wake_at(heard_at_ + node_->options().reconnection.silence);
+  }
+  link_->send_control(0, {Code::kHello, 0, 0, 0, node_->options().name + " armature"});
+  open_questions_ = 1;
+  for (const auto& component : components_) look_up(component);
+  if (components_.empty()) ask_whether_it_is_there();
+  answered();
+}
+
+/// That data can flow does not say that the other side takes any: with TLS it refuses after that.
+void PeerState::ask_whether_it_is_there() {
+  const std::tuple<std::string_view> nobody("");
+  ask_the_directory(kFind, Fields(nobody), [](Code, std::string_view, auto) {});
+}
+
+/// Once all that was asked for has been answered, the peer is there.
+void PeerState::answered() {
+  if (--open_questions_ != 0 || !up_ || connected()) return;
+  pause_ = node_->options().reconnection.first;
+  {
+    const std::lock_guard lock(mutex_);
+    connected_.store(true, std::memory_order_release);
+    problem_.clear();
+  }
+  changed_.notify_all();
+  node_->journal().tell(rt::LogLevel::kInfo, "connected to {}", text_);
+  tell({true, greeting_});
+}
+
+void PeerState::lost(const std::string& why) {
+  const bool was_connected = connected();
+  up_ = false;
+  {
+    const std::lock_guard lock(link_->mutex());
+    for (const auto& component : components_) {
+      component->identifier.store(0, std::memory_order_relaxed);
+      component->state.store(RemoteComponent::State::kUnknown);
+    }
+  }
+  for (auto& subscription : subscriptions_) subscription->sent = false;
+  connected_.store(false, std::memory_order_release);
+  changed_.notify_all();
+  try_later(platform::monotonic_now(), why);
+  if (!was_connected) return;
+  losses_.fetch_add(1, std::memory_order_relaxed);
+  node_->journal().tell(rt::LogLevel::kWarning, "lost {}: {}", text_, why);
+  tell({false, why});
+}
+
+void PeerState::set_problem(const std::string& problem) {
+  const std::lock_guard lock(mutex_);
+  problem_ = problem;
+}
+
+void PeerState::take_hello(std::string_view text) { greeting_ = text; }
+
+base::Time PeerState::look_at_timers(base::Time now) {
+  if (!up_) {
+    if (now >= connect_at_) connect(now);
+    return connect_at_;
+  }
+  base::Time next = base::Time::max();
+  if (now >= ask_at_) {
+    ask_at_ = base::Time::max();
+    for (const auto& component : components_) {
+      if (component->state.load() == RemoteComponent::State::kMissing) look_up(component);
+    }
+  }
+  next = std::min(next, ask_at_);
+  const base::Duration silence = node_->options().reconnection.silence;
+  if (silence <= base::Duration::zero()) return next;
+  if (const std::uint64_t heard = link_->received(); heard != heard_) {
+    heard_ = heard;
+    heard_at_ = now;
+  }
+  if (now - heard_at_ >= 3 * silence) {
+    link_->break_off("nothing was heard from it for three times as long as it may be silent");
+    return next;
+  }
+  if (now - heard_at_ >= silence) link_->send_control(0, {Code::kPing, 0, 0, 0, {}});
+  return std::min(next, now + silence);
+}
+
+/// The answer comes to whichever thread reads, and is handed to this one.
+void PeerState::ask_the_directory(Number operation, const Fields& parameters,
+                                  CallbackCall::Then then) {
+  ++open_questions_;
+  auto hand_over = [self = weak_from_this(), generation = generation_, then = std::move(then)](
+                       Code code, std::string_view text, std::span<const std::byte> result) {
+    const auto here = self.lock();
+    if (here == nullptr || here->node_ == nullptr) return;
+    here->node_->post([self, generation, then, code, text = std::string(text),
+                       bytes = std::vector<std::byte>(result.begin(), result.end())] {
+      const auto peer = self.lock();
+      if (peer == nullptr || !peer->up_ || peer->generation_ != generation) return;
+      then(code, text, bytes);
+      peer->answered();
+    });
+  };
+  link_->call(operation, kDirectory, parameters,
+              std::make_unique<CallbackCall>(std::move(hand_over)));
+}
+
+void PeerState::look_up(const std::shared_ptr<RemoteComponent>& component) {
+  const auto parameters = std::tie(component->name);
+  ask_the_directory(
+      kFind, Fields(parameters),
+      [this, component](Code code, std::string_view text, std::span<const std::byte> result) {
+        ComponentEntry entry;
+        Decoder from(result);
+        if (code == Code::kNone && from.take(entry) && from.ended()) {
+          return found(component, entry);
+        }
+        node_->journal().tell(rt::LogLevel::kError, "{}: its directory does not answer: {} {}",
+                              text_, name_of(code), text);
+      });
+}
+
+void PeerState::found(const std::shared_ptr<RemoteComponent>& component,
+                      const ComponentEntry& entry) {
+  const Interface& expected = *component->interface;
+  const bool right = entry.identifier != 0 && entry.interface == expected.name;
+  if (entry.identifier == 0) {
+    node_->journal().tell(rt::LogLevel::kWarning, "{} has no component '{}'", text_,
+                          component->name);
+  } else if (!right) {
+    node_->journal().tell(rt::LogLevel::kError,
+                          "'{}' at {} has the interface {}, but {} was expected", component->name,
+                          text_, entry.interface, expected.name);
+  } else if (entry.digest != digest(expected)) {
+    node_->journal().tell(
+        rt::LogLevel::kWarning,
+        "'{}' at {} has another definition of {}: operations that differ are refused there",
+        component->name, text_, expected.name);
+  }
+  {
+    const std::lock_guard lock(link_->mutex());
+    component->identifier.store(right ? static_cast<std::uint32_t>(entry.identifier) : 0);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    component->state.store(right ? RemoteComponent::State::kFound
+                                 : RemoteComponent::State::kMissing);
+  }
+  changed_.notify_all();
+  if (!right) {
+    ask_at_ = std::min(ask_at_, platform::monotonic_now() + kAskAgain);
+    return node_->wake_at(ask_at_);
+  }
+  for (const auto& subscription : subscriptions_) {
+    if (subscription->component == component) send_subscription(*subscription);
+  }
+}
+
+}  // namespace armature::ride::internal

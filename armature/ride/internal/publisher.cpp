@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/internal/publisher.hpp"
+
+#include <algorithm>
+
+#include "armature/ride/internal/link.hpp"
+
+namespace armature::ride::internal {
+
+void Publisher::publish(Number event, const Fields& members, Priority priority) {
+  const std::lock_guard lock(mutex_);
+  bool encoded = false;
+  for (const auto& subscriber : subscribers_) {
+    if (subscriber->event != event) continue;
+    if (!encoded) {
+      message_.clear();
+      message_.extend(Header::kSize);
+      Encoder body(message_);
+      body.put(event);
+      members.put(body);
+      finish_message(message_, 0, priority, Type::kEvent, 0);
+      encoded = true;
+    }
+    subscriber->link->send_event(*subscriber, message_.bytes());
+  }
+}
+
+bool Publisher::has_event(Number event) const {
+  return event == kFailedDeclaration.number() ||
+         std::ranges::any_of(interface_.declarations, [&](const Declaration& declaration) {
+           return declaration.is_event() && declaration.number() == event;
+         });
+}
+
+void Publisher::add(std::shared_ptr<EventQueue> subscriber) {
+  const std::lock_guard lock(mutex_);
+  subscribers_.push_back(std::move(subscriber));
+}
+
+template <typename Is>
+std::size_t Publisher::remove_if(Is is) {
+  const std::lock_guard lock(mutex_);
+  return std::erase_if(subscribers_, is);
+}
+
+bool Publisher::remove(const Link& link, std::uint32_t subscription) {
+  return remove_if([&](const auto& subscriber) {
+           return subscriber->link.get() == &link && subscriber->subscription == subscription;
+         }) != 0;
+}
+
+void Publisher::remove(const Link& link) {
+  remove_if([&](const auto& subscriber) { return subscriber->link.get() == &link; });
+}
+
+void Publisher::remove_all() {
+  remove_if([](const auto&) { return true; });
+}
+
+std::size_t Publisher::count() const {
+  const std::lock_guard lock(mutex_);
+  return subscribers_.size();
+}
+
+}  // namespace armature::ride::internal

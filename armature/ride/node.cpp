@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/node.hpp"
+
+#include <utility>
+
+#include "armature/ride/internal/node_state.hpp"
+
+namespace armature::ride {
+
+std::string who(const AccessQuestion& question) {
+  if (question.identity.empty()) {
+    const bool here = question.transport == "unix" || question.transport == "tcp";
+    return here ? "local" : "nobody@" + std::string(question.transport);
+  }
+  return std::string(question.identity) + "@" + std::string(question.transport);
+}
+
+Node::Node(NodeOptions options)
+    : state_(std::make_shared<internal::NodeState>(std::move(options))) {
+  state_->start();
+}
+
+Node::~Node() { state_->stop(); }
+
+base::Result<Address> Node::listen(const std::string& address) { return state_->listen(address); }
+
+base::Result<std::uint32_t> Node::add(std::string name, Service& service) {
+  return state_->add(std::move(name), service);
+}
+
+void Node::remove(Service& service) { state_->remove(service); }
+
+Peer& Node::connect(const std::string& address) { return state_->connect(address); }
+
+NodeStatistics Node::statistics() const { return state_->statistics(); }
+
+}  // namespace armature::ride

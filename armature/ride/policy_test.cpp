@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/policy.hpp"
+
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "armature/ride/internal/test_vision.hpp"
+
+namespace armature::ride {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+Policy policy_of(std::string_view text) {
+  base::Diagnostics diagnostics;
+  Policy policy = Policy::parse(text, "policy.txt", diagnostics);
+  EXPECT_TRUE(diagnostics.empty()) << diagnostics.to_text();
+  return policy;
+}
+
+std::string mistakes_of(std::string_view text) {
+  base::Diagnostics diagnostics;
+  EXPECT_TRUE(Policy::parse(text, "policy.txt", diagnostics).rules().empty());
+  EXPECT_FALSE(diagnostics.ok());
+  return diagnostics.to_text();
+}
+
+AccessQuestion by_tls(std::string_view identity, Access access, std::string_view component) {
+  return {"tls", identity, component, access};
+}
+
+TEST(Policy, WithoutARuleNothingIsAllowed) {
+  EXPECT_FALSE(policy_of("").allows({"unix", "", "Vision", Access::kRead}));
+  EXPECT_FALSE(policy_of("# allow * read *\n\n").allows({"unix", "", "Vision", Access::kRead}));
+}
+
+TEST(Policy, ARuleAllowsWhatItSaysAndNothingElse) {
+  const Policy policy = policy_of("allow operator@tls  read,command   Vision,Arm  # the day shift");
+  EXPECT_TRUE(policy.allows(by_tls("operator", Access::kRead, "Vision")));
+  EXPECT_TRUE(policy.allows(by_tls("operator", Access::kCommand, "Arm")));
+  EXPECT_FALSE(policy.allows(by_tls("operator", Access::kConfigure, "Vision")));
+  EXPECT_FALSE(policy.allows(by_tls("operator", Access::kRead, "Visio")));
+  EXPECT_FALSE(policy.allows(by_tls("operator", Access::kRead, "vision")));
+  EXPECT_FALSE(policy.allows(by_tls("Operator", Access::kRead, "Vision")));
+  EXPECT_FALSE(policy.allows(by_tls("operator2", Access::kRead, "Vision")));
+  EXPECT_FALSE(policy.allows({"unix", "operator", "Vision", Access::kRead}));
+}
+
+TEST(Policy, LocalIsWhoProvesNothingOnThisMachine) {
+  const Policy policy = policy_of("allow local read,command,configure *");
+  EXPECT_TRUE(policy.allows({"unix", "", "Vision", Access::kConfigure}));
+  EXPECT_TRUE(policy.allows({"tcp", "", "Vision", Access::kConfigure}));
+  EXPECT_FALSE(policy.allows({"tls", "", "Vision", Access::kRead}));
+  EXPECT_FALSE(policy.allows(by_tls("local", Access::kRead, "Vision")));
+}
+
+TEST(Policy, AStarIsEveryoneOfATransportOrEveryone) {
+  const Policy of_tls = policy_of("allow *@tls read *");
+  EXPECT_TRUE(of_tls.allows(by_tls("anna", Access::kRead, "Vision")));
+  EXPECT_FALSE(of_tls.allows({"unix", "", "Vision", Access::kRead}));
+  const Policy of_all = policy_of("allow * read Vision");
+  EXPECT_TRUE(of_all.allows(by_tls("anna", Access::kRead, "Vision")));
+  EXPECT_TRUE(of_all.allows({"unix", "", "Vision", Access::kRead}));
+}
+
+TEST(Policy, AnyRuleThatAllowsItIsEnoughInWhateverOrder) {
+  for (const char* const text : {"allow *@tls read *\nallow anna@tls command Arm\n",
+                                 "allow anna@tls command Arm\r\nallow *@tls read *\r\n"}) {
+    const Policy policy = policy_of(text);
+    EXPECT_TRUE(policy.allows(by_tls("anna", Access::kRead, "Vision")));
+    EXPECT_TRUE(policy.allows(by_tls("anna", Access::kCommand, "Arm")));
+    EXPECT_FALSE(policy.allows(by_tls("anna", Access::kCommand, "Vision")));
+    EXPECT_FALSE(policy.allows(by_tls("berta", Access::kCommand, "Arm")));
+  }
+}
+
+TEST(Policy, TellsAllMistakesInOneRunWithTheirPlaces) {
+  EXPECT_EQ(mistakes_of("alow local read *\n"
+                        "deny local read *\n"
+                        "allow opertor read *\n"
+                        "allow anna@tsl read *\n"
+                        "allow loca read *\n"
+                        "  allow local red,comand Vision\n"
+                        "allow local read Vision, Arm\n"
+                        "allow local read\n"
+                        "allow\n"
+                        "allow local read,read Vision,*\n"),
+            "policy.txt:1:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'alow' "
+            "(did you mean 'allow'?)\n"
+            "policy.txt:2:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'deny' "
+            "(leave it out: what no rule allows is not allowed)\n"
+            "policy.txt:3:7: error: expected NAME@tls, *@tls, local or *, found 'opertor' "
+            "(did you mean 'opertor@tls'?)\n"
+            "policy.txt:4:7: error: expected NAME@tls, *@tls, local or *, found 'anna@tsl' "
+            "(did you mean 'anna@tls'?)\n"
+            "policy.txt:5:7: error: expected NAME@tls, *@tls, local or *, found 'loca' "
+            "(did you mean 'local'?)\n"
+            "policy.txt:6:15: error: expected read, command or configure, found 'red' "
+            "(did you mean 'read'?)\n"
+            "policy.txt:6:19: error: expected read, command or configure, found 'comand' "
+            "(did you mean 'command'?)\n"
+            "policy.txt:7:25: error: expected a component's name at the comma "
+            "(write Vision,Arm or *)\n"
+            "policy.txt:7:26: error: expected the end of the rule, found 'Arm' "
+            "(a list is written with commas and no space: Vision,Arm)\n"
+            "policy.txt:8:17: error: the rule does not say the components that it is about "
+            "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
+            "Vision)\n"
+            "policy.txt:9:6: error: the rule does not say who it is for "
+            "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
+            "Vision)\n"
+            "policy.txt:10:18: error: 'read' is there twice (once is enough)\n"
+            "policy.txt:10:23: error: expected names or *, found both in 'Vision,*' "
+            "(* alone is all components)\n");
+}
+
+TEST(Policy, WithOneMistakeNothingIsAllowed) {
+  mistakes_of("allow local read *\nallow locl read *\n");
+}
+
+TEST(Policy, WhatIsFoundInAFileCommandsNoTerminal) {
+  EXPECT_THAT(mistakes_of("\x1b[2J local read *"), HasSubstr("found '?[2J'"));
+}
+
+TEST(Policy, AFileThatIsNotThereIsAMistake) {
+  base::Diagnostics diagnostics;
+  EXPECT_TRUE(Policy::load("/no/such/policy", diagnostics).rules().empty());
+  EXPECT_THAT(diagnostics.to_text(),
+              HasSubstr("/no/such/policy: error: the policy cannot be read"));
+}
+
+TEST(Policy, WarnsOfComponentsThatAreNotThere) {
+  base::Diagnostics diagnostics;
+  policy_of("allow local read Vison,Arm\nallow * read *\n").check({"Vision", "Arm"}, diagnostics);
+  EXPECT_TRUE(diagnostics.ok());
+  EXPECT_EQ(diagnostics.to_text(),
+            "policy.txt:1:18: warning: there is no component 'Vison' (did you mean 'Vision'?)\n");
+}
+
+TEST(Policy, WrittenAndReadItIsTheSame) {
+  const char* const text = "allow anna@tls read,command Vision,Arm\nallow local configure *\n";
+  EXPECT_EQ(policy_of(text).to_text(), text);
+}
+
+/// Answers and tells whether it was commanded.
+class Watched : public VisionService {
+ public:
+  void start() override { started = true; }
+  std::atomic<bool> started{false};
+};
+
+TEST(PolicyOfANode, ACommandThatIsNotAllowedIsRefusedLoggedAndNotExecuted) {
+  std::mutex mutex;
+  std::condition_variable told;
+  std::string log;
+  NodeOptions options;
+  options.allows = [policy = policy_of("allow local read Vision")](const AccessQuestion& question) {
+    return policy.allows(question);
+  };
+  options.log = [&](const rt::LogRecord& record) {
+    const std::lock_guard lock(mutex);
+    log += record.message() + "\n";
+    told.notify_all();
+  };
+  Watched vision;
+  Watched other;
+  Node server(options);
+  ASSERT_TRUE(server.add("Vision", vision).ok());
+  ASSERT_TRUE(server.add("Other", other).ok());
+  const std::string file =
+      "unix:" + testing::TempDir() + "ride_policy_" + std::to_string(::getpid());
+  ASSERT_TRUE(server.listen(file).ok());
+  Node client;
+  VisionPlaceholder at_vision(client.connect(file), "Vision");
+  VisionPlaceholder at_other(client.connect(file), "Other");
+
+  EXPECT_EQ(at_vision.start(), Sent::kYes);
+  const auto told_by_other = at_other.on_ObjectPosition([](const ObjectPosition&) {});
+  const CallOptions patient{.deadline = 20s, .priority = {}};
+  EXPECT_EQ(at_vision.echo("hello", patient).value(), "hello");
+  const auto refused = at_vision.initialize(patient);
+  EXPECT_EQ(refused.code(), Code::kNotAllowed);
+  EXPECT_THAT(refused.error(), HasSubstr("local may not configure 'Vision'"));
+  EXPECT_EQ(at_other.echo("hello", patient).code(), Code::kNotAllowed);
+  EXPECT_FALSE(vision.started);
+
+  std::unique_lock lock(mutex);
+  for (const char* const line :
+       {"was refused a COMMAND: NOT_ALLOWED (local may not command 'Vision')",
+        "was refused a REQUEST: NOT_ALLOWED (local may not configure 'Vision')",
+        "was refused a REQUEST: NOT_ALLOWED (local may not read 'Other')",
+        "was refused a subscription: NOT_ALLOWED (local may not read 'Other')"}) {
+    EXPECT_TRUE(told.wait_for(lock, 20s, [&] { return log.find(line) != std::string::npos; }))
+        << line << "\n"
+        << log;
+  }
+}
+
+TEST(PolicyOfANode, WhereOtherMachinesReachItANodeNeedsOne) {
+  class Proving final : public Transport {
+   public:
+    std::string scheme() const override { return "proving"; }
+    bool safe(const Address&) const override { return true; }
+    base::Result<std::unique_ptr<Listener>> listen(const Address&) override {
+      return base::Error{"this one never listens"};
+    }
+    base::Result<std::unique_ptr<Connection>> connect(const Address&) override {
+      return base::Error{"this one never connects"};
+    }
+  };
+  NodeOptions options;
+  options.transports.push_back(std::make_shared<Proving>());
+  Node open(options);
+  EXPECT_THAT(open.listen("proving://0.0.0.0:1").error(), HasSubstr("nothing says what they may"));
+  EXPECT_EQ(open.listen("proving://127.0.0.1:1").error(), "this one never listens");
+  options.allows = [](const AccessQuestion&) { return false; };
+  Node with_policy(options);
+  EXPECT_EQ(with_policy.listen("proving://0.0.0.0:1").error(), "this one never listens");
+}
+
+}  // namespace
+}  // namespace armature::ride

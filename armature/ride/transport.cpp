@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/ride/transport.hpp"
+
+#include <utility>
+
+#include "armature/platform/stream_socket.hpp"
+
+namespace armature::ride {
+namespace {
+
+using platform::StreamListener;
+using platform::StreamSocket;
+using platform::StreamStatus;
+
+Progress progress_of(StreamStatus status, Progress later) {
+  if (status == StreamStatus::kDone) return Progress::kDone;
+  return status == StreamStatus::kLater ? later : Progress::kGone;
+}
+
+class SocketConnection final : public Connection {
+ public:
+  explicit SocketConnection(std::unique_ptr<StreamSocket> socket) : socket_(std::move(socket)) {}
+
+  int handle() const override { return socket_->handle(); }
+  Progress establish() override {
+    return progress_of(socket_->finish_connect(), Progress::kWantWrite);
+  }
+  Progress send(std::span<const std::byte> bytes, std::size_t& sent) override {
+    return progress_of(socket_->send(bytes, sent), Progress::kWantWrite);
+  }
+  Progress receive(std::span<std::byte> room, std::size_t& size) override {
+    return progress_of(socket_->receive(room, size), Progress::kWantRead);
+  }
+  Progress wait_and_receive(std::span<std::byte> room, std::size_t& size,
+                            base::Duration limit) override {
+    return progress_of(socket_->wait_and_receive(room, size, limit), Progress::kWantRead);
+  }
+  void shut_down() override { socket_->shut_down(); }
+  std::string other_end() const override { return socket_->other_end(); }
+  std::string problem() const override { return socket_->problem(); }
+
+ private:
+  std::unique_ptr<StreamSocket> socket_;
+};
+
+class SocketListener final : public Listener {
+ public:
+  SocketListener(std::unique_ptr<StreamListener> listener, Address address)
+      : listener_(std::move(listener)), address_(std::move(address)) {}
+
+  int handle() const override { return listener_->handle(); }
+  std::unique_ptr<Connection> accept() override {
+    auto socket = listener_->accept();
+    if (!socket) return nullptr;
+    return std::make_unique<SocketConnection>(std::move(socket));
+  }
+  const Address& address() const override { return address_; }
+
+ private:
+  std::unique_ptr<StreamListener> listener_;
+  Address address_;
+};
+
+base::Result<std::unique_ptr<Listener>> wrap(base::Result<std::unique_ptr<StreamListener>> made,
+                                             Address address) {
+  if (!made) return base::Error{made.error()};
+  address.port = made.value()->port();
+  return std::unique_ptr<Listener>(
+      std::make_unique<SocketListener>(std::move(made).value(), std::move(address)));
+}
+
+base::Result<std::unique_ptr<Connection>> wrap(base::Result<std::unique_ptr<StreamSocket>> made) {
+  if (!made) return base::Error{made.error()};
+  return std::unique_ptr<Connection>(std::make_unique<SocketConnection>(std::move(made).value()));
+}
+
+class TcpTransport final : public Transport {
+ public:
+  std::string scheme() const override { return "tcp"; }
+  bool safe(const Address& address) const override {
+    const auto host = platform::look_up(address.host);
+    return host && platform::is_loopback(host.value());
+  }
+  base::Result<Address> look_up(const Address& address) override {
+    const auto host = platform::look_up(address.host);
+    if (!host) return base::Error{host.error()};
+    return Address{address.scheme, host.value(), address.port};
+  }
+  base::Result<std::unique_ptr<Listener>> listen(const Address& address) override {
+    return wrap(StreamListener::listen_tcp(address.host, address.port), address);
+  }
+  base::Result<std::unique_ptr<Connection>> connect(const Address& address) override {
+    return wrap(StreamSocket::connect_tcp(address.host, address.port));
+  }
+};
+
+class UnixTransport final : public Transport {
+ public:
+  std::string scheme() const override { return "unix"; }
+  bool safe(const Address&) const override { return true; }
+  base::Result<std::unique_ptr<Listener>> listen(const Address& address) override {
+    return wrap(StreamListener::listen_file(address.host), address);
+  }
+  base::Result<std::unique_ptr<Connection>> connect(const Address& address) override {
+    return wrap(StreamSocket::connect_file(address.host));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> make_tcp_transport() { return std::make_unique<TcpTransport>(); }
+std::unique_ptr<Transport> make_unix_transport() { return std::make_unique<UnixTransport>(); }
+
+}  // namespace armature::ride

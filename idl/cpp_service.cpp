@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "idl/canonical.hpp"
+#include "idl/internal/cpp_text.hpp"
+
+namespace armature::idl::internal {
+namespace {
+
+const std::string kMalformed = "return armature::ride::Executed::kMalformed;\n";
+
+class ServiceWriter {
+ public:
+  explicit ServiceWriter(const CppText& text) : text_(text), names_(text.names()) {}
+
+  std::string header() const {
+    std::string text = text_.head(true) + text_.include_flags() +
+                       "#include \"armature/ride/service.hpp\"\n" + "#include \"" +
+                       text_.main().name + "_types.hpp\"\n\n" + text_.begin_name_space();
+    for (const Interface& interface : text_.main().interfaces) text += "\n" + declared(interface);
+    return text + text_.end_name_space();
+  }
+
+  std::string source() const {
+    std::string text = text_.head(false) + "#include \"" + text_.main().name +
+                       "_service.hpp\"\n\n" + text_.begin_name_space();
+    for (const Interface& interface : text_.main().interfaces) text += "\n" + defined(interface);
+    return text + text_.end_name_space();
+  }
+
+ private:
+  std::string declared(const Interface& interface) const {
+    const std::string name = names_.service(interface);
+    std::vector<std::string> doc{"The frame of a component with the interface " + interface.name +
+                                 ": derive, fill in the operations, give it to a Node."};
+    if (!interface.doc.empty()) doc.emplace_back();
+    doc.insert(doc.end(), interface.doc.begin(), interface.doc.end());
+    std::string text = comment(0, doc) + class_head(name, "armature::ride::Service") +
+                       " public:\n  " + name + "();\n";
+    for (const Operation& operation : interface.operations) {
+      text += "\n" + text_.documentation(operation) + function(2, head(operation));
+    }
+    text += "\n";
+    if (!interface.events.empty()) text += " protected:\n";
+    for (const EventName& event : interface.events) text += raise(event) + "\n";
+    return text + " private:\n" + function(2, execute_head("", !interface.operations.empty())) +
+           "};\n";
+  }
+
+  Function head(const Operation& operation) const {
+    return {"virtual " + text_.result_type(operation), "", names_.operation(operation.name),
+            text_.parameters(operation), " = 0;"};
+  }
+
+  std::string raise(const EventName& event) const {
+    const std::string type = text_.event_type(event.name);
+    return comment(2, {"Tells all subscribers.  @thread any"}) +
+           short_function(2, {"void", "", "raise", {"const " + type + "& event"}, " {"},
+                          "publish(event);");
+  }
+
+  static Function execute_head(const std::string& owner, bool named) {
+    const auto parameter = [&](std::string type, const std::string& name) {
+      return named ? type + " " + name : type;
+    };
+    return {"armature::ride::Executed",
+            owner,
+            "execute",
+            {parameter("armature::ride::Number", "operation"),
+             parameter("armature::ride::Decoder&", "parameters"),
+             parameter("armature::ride::Reply&", "reply")},
+            owner.empty() ? " override;" : " {"};
+  }
+
+  std::string defined(const Interface& interface) const {
+    const std::string name = names_.service(interface);
+    const std::string constructor =
+        short_constructor(name, "Service(" + names_.constant(interface) + ")");
+    const bool has_operations = !interface.operations.empty();
+    std::string text = constructor + "\n" + function(0, execute_head(name + "::", has_operations));
+    if (!has_operations) return text + "  return armature::ride::Executed::kNoSuchOperation;\n}\n";
+    text += "  switch (operation) {\n";
+    for (const Operation& operation : interface.operations) text += branch(operation);
+    return text +
+           "    default:\n      return armature::ride::Executed::kNoSuchOperation;\n  }\n}\n";
+  }
+
+  static std::string short_constructor(const std::string& name, const std::string& base) {
+    const std::string line = name + "::" + name + "() : " + base + " {}\n";
+    if (line.size() <= kColumns + 1) return line;
+    return name + "::" + name + "()\n    : " + base + " {}\n";
+  }
+
+  /// What one operation does with its message.
+  std::string branch(const Operation& operation) const {
+    const Items names = text_.parameter_names(operation);
+    std::string text = "    case " + hexadecimal(number_of(canonical(text_.program(), operation))) +
+                       ": {  // " + operation.name + "\n";
+    Items problems;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Type& type = operation.parameters[i].type;
+      text +=
+          "      " + text_.variable_type(type) + " " + names[i] + CppText::initial(type) + ";\n";
+      problems.push_back("!parameters.take(" + names[i] + ")");
+    }
+    problems.emplace_back("!parameters.ended()");
+    for (std::size_t i = 0; i < names.size(); ++i)
+      add_range(problems, operation.parameters[i], names[i]);
+    return text + chain(6, "if (", problems, "||", ") {") + "        " + kMalformed + "      }\n" +
+           execution(operation, names) + "      return armature::ride::Executed::kDone;\n    }\n";
+  }
+
+  /// Ranges of a struct's members are looked at where it is decoded.
+  void add_range(Items& problems, const Field& parameter, const std::string& name) const {
+    if (!parameter.range) return;
+    const Items bounds = text_.bounds(*parameter.range, parameter.type.basic);
+    problems.push_back("!armature::ride::within(" + name + ", " + bounds[0] + ", " + bounds[1] +
+                       ")");
+  }
+
+  std::string execution(const Operation& operation, const Items& names) const {
+    const std::string name = names_.operation(operation.name);
+    // A variable of execute() may have the operation's name.
+    const bool hidden = std::find(names.begin(), names.end(), name) != names.end() ||
+                        name == "operation" || name == "parameters" || name == "reply";
+    const std::string begin = (hidden ? "this->" : "") + name + "(";
+    if (operation.is_command()) return call(6, begin, names, ");") + "      reply.done();\n";
+    return nested_call(6, "reply.put(", begin, names, "));");
+  }
+
+  const CppText& text_;
+  const CppNames& names_;
+};
+
+}  // namespace
+
+std::string write_service_header(const CppText& text) { return ServiceWriter(text).header(); }
+std::string write_service_source(const CppText& text) { return ServiceWriter(text).source(); }
+
+}  // namespace armature::idl::internal

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "idl/compile.hpp"
+
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUse = 2 };
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("rcidl: C++ placeholders and services from interface definitions", "rcidl");
+  app.set_version_flag("--version", "rcidl " ARMATURE_VERSION);
+  armature::idl::CompileOptions options;
+  app.add_option("file", options.file, "the interface definition, NAME.idl")->required();
+  app.add_option("--out", options.output_folder, "where files are written; made if need be")
+      ->type_name("FOLDER")
+      ->required();
+  app.add_option("--namespace", options.name_space,
+                 "of the generated C++, also of imported files; otherwise each file's name")
+      ->type_name("NAME");
+  app.add_flag("--json", options.json, "writes the interface as NAME.json, too");
+  app.add_option("--depends", options.depends, "writes which files were read, for ninja and make")
+      ->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_help = error.get_exit_code() == 0;
+    app.exit(error);
+    return asked_for_help ? kDone : kWrongUse;
+  }
+  const std::string findings = armature::idl::compile(options);
+  std::fputs(findings.c_str(), stderr);
+  return findings.empty() ? kDone : kFailed;
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// A generated placeholder calls a generated service through two nodes.
+#include <chrono>
+#include <future>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/ride/node.hpp"
+#include "armature/types/type.hpp"
+#include "chassis_client.hpp"
+#include "chassis_service.hpp"
+#include "everything_client.hpp"
+#include "everything_service.hpp"
+
+namespace armature::idl {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+constexpr ride::CallOptions kPatient{.deadline = 20s, .priority = {}};
+
+class Echo final : public everything::EchoService {
+ public:
+  bool echo_bool(bool value) override { return value; }
+  char echo_char(char value) override { return value; }
+  std::uint8_t echo_byte(std::uint8_t value) override { return value; }
+  std::int16_t echo_short(std::int16_t value) override { return value; }
+  std::uint16_t echo_unsigned_short(std::uint16_t value) override { return value; }
+  std::int32_t echo_int(std::int32_t value) override { return value; }
+  std::uint32_t echo_unsigned_int(std::uint32_t value) override { return value; }
+  std::int64_t echo_long(std::int64_t value) override { return value; }
+  std::uint64_t echo_unsigned_long(std::uint64_t value) override { return value; }
+  float echo_float(float value) override { return value; }
+  double echo_double(double value) override { return value; }
+  std::string echo_string(const std::string& value) override { return value; }
+  everything::Singles echo_singles(const everything::Singles& value) override { return value; }
+  everything::Lists echo_lists(const everything::Lists& value) override { return value; }
+  everything::Fixed echo_fixed(const everything::Fixed& value) override { return value; }
+  everything::Ranges echo_ranges(const everything::Ranges& value) override { return value; }
+  ride::Flags echo_flags(const ride::Flags& value) override { return value; }
+  std::array<bool, 2> echo_two_flags(const std::array<bool, 2>& value) override { return value; }
+  std::vector<std::string> echo_strings(const std::vector<std::string>& value) override {
+    return value;
+  }
+  std::vector<everything::Inner> echo_inners(const std::vector<everything::Inner>& value) override {
+    return value;
+  }
+  std::vector<everything::Ranges> echo_ranged(const std::vector<everything::Ranges>& value,
+                                              const std::vector<std::uint8_t>& small) override {
+    return {value.begin(), value.begin() + static_cast<std::ptrdiff_t>(small.size())};
+  }
+  std::int32_t delete_(std::int32_t priority_, std::int32_t options_, std::int32_t operation_,
+                       std::int32_t d, std::int32_t delete_, std::int32_t a) override {
+    return ((((priority_ * 10 + options_) * 10 + operation_) * 10 + d) * 10 + delete_) * 10 + a;
+  }
+  void request_(const std::string& name, float part) override {
+    requested.set_value(name + " " + std::to_string(part));
+  }
+  void nothing() override { raise({}); }
+
+  std::promise<std::string> requested;
+};
+
+class Calls : public ::testing::Test {
+ protected:
+  Calls() : echo_(peer(), "echo") { EXPECT_TRUE(peer().wait_until_connected(20s).ok()); }
+
+  ride::Peer& peer() {
+    if (address_.empty()) {
+      address_ = server_.listen("tcp://127.0.0.1:0").value().text();
+      EXPECT_TRUE(server_.add("echo", service_).ok());
+    }
+    return client_.connect(address_);
+  }
+
+  template <typename T>
+  static std::string text_of(const T& value) {
+    return types::to_text(types::type_of<T>(), &value);
+  }
+
+  std::string address_;
+  Echo service_;
+  ride::Node server_;
+  ride::Node client_;
+  everything::EchoPlaceholder echo_;
+};
+
+everything::Ranges good() {
+  everything::Ranges value;
+  value.o = 1;
+  value.ui = 3;
+  value.l = -1;
+  value.ul = 1ull << 63;
+  value.d = 0.5;
+  return value;
+}
+
+TEST_F(Calls, EverySingleTypeComesBack) {
+  EXPECT_TRUE(echo_.echo_bool(true, kPatient).value());
+  EXPECT_EQ(echo_.echo_char('x', kPatient).value(), 'x');
+  EXPECT_EQ(echo_.echo_byte(255, kPatient).value(), 255);
+  EXPECT_EQ(echo_.echo_short(-32768, kPatient).value(), -32768);
+  EXPECT_EQ(echo_.echo_unsigned_short(65535, kPatient).value(), 65535);
+  EXPECT_EQ(echo_.echo_int(-2000000000, kPatient).value(), -2000000000);
+  EXPECT_EQ(echo_.echo_unsigned_int(4000000000, kPatient).value(), 4000000000);
+  EXPECT_EQ(echo_.echo_long(-(1ll << 62), kPatient).value(), -(1ll << 62));
+  EXPECT_EQ(echo_.echo_unsigned_long(1ull << 63, kPatient).value(), 1ull << 63);
+  EXPECT_EQ(echo_.echo_float(0.1f, kPatient).value(), 0.1f);
+  EXPECT_EQ(echo_.echo_double(0.1, kPatient).value(), 0.1);
+  EXPECT_EQ(echo_.echo_string("grüße", kPatient).value(), "grüße");
+}
+
+TEST_F(Calls, StructsAndArraysComeBack) {
+  everything::Lists lists;
+  lists.b = {1, 0};
+  lists.text = {"a", "b"};
+  lists.inner = {{true, 2.0}};
+  EXPECT_EQ(text_of(echo_.echo_lists(lists, kPatient).value()), text_of(lists));
+  everything::Fixed fixed;
+  fixed.d = {1.0, 2.0, 3.0};
+  EXPECT_EQ(text_of(echo_.echo_fixed(fixed, kPatient).value()), text_of(fixed));
+  everything::Singles singles;
+  singles.text = "x";
+  EXPECT_EQ(text_of(echo_.echo_singles(singles, kPatient).value()), text_of(singles));
+  EXPECT_EQ(echo_.echo_strings({"a", ""}, kPatient).value(), (std::vector<std::string>{"a", ""}));
+  EXPECT_EQ(echo_.echo_inners({{true, 3.0}}, kPatient).value().at(0).value, 3.0);
+  EXPECT_EQ(echo_.echo_two_flags({true, false}, kPatient).value(),
+            (std::array<bool, 2>{true, false}));
+}
+
+TEST_F(Calls, FlagsAreZeroOrOne) {
+  EXPECT_EQ(echo_.echo_flags({0, 1, 9}, kPatient).value(), (ride::Flags{0, 1, 1}));
+}
+
+TEST_F(Calls, ParametersKeepTheirPlacesWhateverTheyAreCalled) {
+  EXPECT_EQ(echo_.delete_(1, 2, 3, 4, 5, 6, kPatient).value(), 123456);
+}
+
+TEST_F(Calls, ACommandArrives) {
+  EXPECT_EQ(echo_.request_("half", 0.5f), ride::Sent::kYes);
+  auto requested = service_.requested.get_future();
+  ASSERT_EQ(requested.wait_for(20s), std::future_status::ready);
+  EXPECT_EQ(requested.get(), "half 0.500000");
+}
+
+TEST_F(Calls, ACommandOutsideItsRangeIsNotSent) {
+  EXPECT_EQ(echo_.request_("most", 0.8f), ride::Sent::kMalformed);
+}
+
+TEST_F(Calls, ARequestOutsideItsRangeIsNotSent) {
+  const auto elements = echo_.echo_ranged({good()}, {4}, kPatient);
+  EXPECT_EQ(elements.code(), ride::Code::kMalformed);
+  EXPECT_THAT(elements.error(), HasSubstr("echo_ranged"));
+  EXPECT_THAT(elements.error(),
+              HasSubstr("parameter small has an element outside its range, expected 0 to 3"));
+  everything::Ranges bad = good();
+  bad.c = 6;
+  EXPECT_THAT(echo_.echo_ranges(bad, kPatient).error(),
+              HasSubstr("parameter value has a member outside its range"));
+  EXPECT_THAT(echo_.echo_ranged({bad}, {}, kPatient).error(), HasSubstr("outside its range"));
+  EXPECT_EQ(echo_.echo_ranged({good()}, {3}, kPatient).value().size(), 1u);
+}
+
+TEST_F(Calls, AnEventReachesItsSubscriber) {
+  std::promise<everything::Everything> raised;
+  const auto told =
+      echo_.on_Everything([&](const everything::Everything& event) { raised.set_value(event); });
+  EXPECT_TRUE(echo_.echo_bool(true, kPatient).ok());  // behind the subscription
+  EXPECT_EQ(echo_.nothing(), ride::Sent::kYes);
+  auto event = raised.get_future();
+  ASSERT_EQ(event.wait_for(20s), std::future_status::ready);
+  EXPECT_EQ(text_of(event.get()), text_of(everything::Everything{}));
+}
+
+class Wheels final : public chassis::ChassisService {
+ public:
+  void setVelocity(float, float) override { ADD_FAILURE() << "outside its range"; }
+  std::int32_t follow(const chassis::Route&, double) override { return 0; }
+  geometry::Pose where() override { return {1.0, 2.0, 0.5}; }
+};
+
+/// What a service says to a message as another implementation could send it.
+template <typename... Parameters>
+ride::Executed executed(ride::Service& service, ride::Number number, const Parameters&... all) {
+  ride::Body body;
+  ride::Encoder to(body);
+  (to.put(all), ...);
+  ride::Decoder from(body.bytes());
+  ride::Reply reply(nullptr, 0, {}, number, 1);
+  return ride::ServiceAccess::execute(service, number, from, reply);
+}
+
+TEST(GeneratedService, RefusesWhatIsOutsideItsRange) {
+  Wheels wheels;
+  EXPECT_EQ(executed(wheels, 0x66e299df, 0.5f, 1.6f), ride::Executed::kMalformed);
+  EXPECT_EQ(executed(wheels, 0x66e299df, -1.6f, 0.0f), ride::Executed::kMalformed);
+}
+
+TEST(GeneratedService, RefusesWhatIsTooShortOrTooLong) {
+  Wheels wheels;
+  EXPECT_EQ(executed(wheels, 0x66e299df, 0.5f), ride::Executed::kMalformed);
+  EXPECT_EQ(executed(wheels, 0x66e299df, 0.5f, 0.5f, true), ride::Executed::kMalformed);
+}
+
+TEST(GeneratedService, RefusesAMemberOutsideItsRange) {
+  Wheels wheels;
+  const chassis::Route route{"", {{0.0, 0.0, 4.0}}};
+  EXPECT_EQ(executed(wheels, chassis::kChassisDeclarations[1].number(), route, 0.5),
+            ride::Executed::kMalformed);
+}
+
+TEST(GeneratedService, KnowsOnlyItsOwnOperations) {
+  Wheels wheels;
+  EXPECT_EQ(executed(wheels, 0x12345678), ride::Executed::kNoSuchOperation);
+}
+
+}  // namespace
+}  // namespace armature::idl
