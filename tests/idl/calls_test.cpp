@@ -26,7 +26,7 @@ constexpr ride::CallOptions kPatient{.deadline = 20s, .priority = {}};
 class Echo final : public everything::EchoService {
  public:
   bool echo_bool(bool value) override { return value; }
-  char echo_char(char value) override { return value; }
+  std::int8_t echo_char(std::int8_t value) override { return value; }
   std::uint8_t echo_byte(std::uint8_t value) override { return value; }
   std::int16_t echo_short(std::int16_t value) override { return value; }
   std::uint16_t echo_unsigned_short(std::uint16_t value) override { return value; }

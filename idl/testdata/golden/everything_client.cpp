@@ -8,9 +8,9 @@ armature::ride::Answer<bool> EchoPlaceholder::echo_bool(bool value,
   return request<bool>(0x05f13d14, "echo_bool", options, value);
 }
 
-armature::ride::Answer<char> EchoPlaceholder::echo_char(char value,
-                                                        armature::ride::CallOptions options) {
-  return request<char>(0xf0613c18, "echo_char", options, value);
+armature::ride::Answer<std::int8_t> EchoPlaceholder::echo_char(
+    std::int8_t value, armature::ride::CallOptions options) {
+  return request<std::int8_t>(0xf0613c18, "echo_char", options, value);
 }
 
 armature::ride::Answer<std::uint8_t> EchoPlaceholder::echo_byte(

@@ -21,7 +21,8 @@ class EchoPlaceholder : public armature::ride::Placeholder {
 
   armature::ride::Answer<bool> echo_bool(bool value, armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<char> echo_char(char value, armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int8_t> echo_char(std::int8_t value,
+                                                armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::uint8_t> echo_byte(std::uint8_t value,
                                                  armature::ride::CallOptions options = {});

@@ -18,7 +18,7 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       return armature::ride::Executed::kDone;
     }
     case 0xf0613c18: {  // echo_char
-      char value = 0;
+      std::int8_t value = 0;
       if (!parameters.take(value) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }

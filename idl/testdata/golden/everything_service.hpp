@@ -15,7 +15,7 @@ class EchoService : public armature::ride::Service {
 
   virtual bool echo_bool(bool value) = 0;
 
-  virtual char echo_char(char value) = 0;
+  virtual std::int8_t echo_char(std::int8_t value) = 0;
 
   virtual std::uint8_t echo_byte(std::uint8_t value) = 0;
 

@@ -28,7 +28,7 @@ inline bool decode(armature::ride::Decoder& from, Inner& value) {
 
 struct Singles {
   bool b = false;
-  char c = 0;
+  std::int8_t c = 0;
   std::uint8_t o = 0;
   std::int16_t s = 0;
   std::uint16_t us = 0;
@@ -66,7 +66,7 @@ inline bool decode(armature::ride::Decoder& from, Singles& value) {
 
 struct Lists {
   std::vector<std::uint8_t> b;
-  std::vector<char> c;
+  std::vector<std::int8_t> c;
   std::vector<std::uint8_t> o;
   std::vector<std::int16_t> s;
   std::vector<std::uint16_t> us;
@@ -104,7 +104,7 @@ inline bool decode(armature::ride::Decoder& from, Lists& value) {
 
 struct Fixed {
   std::array<bool, 3> b = {};
-  std::array<char, 3> c = {};
+  std::array<std::int8_t, 3> c = {};
   std::array<std::uint8_t, 3> o = {};
   std::array<std::int16_t, 3> s = {};
   std::array<std::uint16_t, 3> us = {};
@@ -153,9 +153,9 @@ inline bool in_range(const Later& value) { return armature::ride::within(value.b
 
 struct Ranges {
   /// -128 to 127
-  char whole = 0;
+  std::int8_t whole = 0;
   /// -5 to 5
-  char c = 0;
+  std::int8_t c = 0;
   /// 1 to 255
   std::uint8_t o = 0;
   /// -32768 to 0
