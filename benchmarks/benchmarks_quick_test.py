@@ -30,6 +30,10 @@ OTHERS = (
     [f"{what}_per_component/{n}" for what in ("start", "load", "memory") for n in COMPONENTS]
     + ["resident_two_joints", "resident_two_joints/locked", "compile_time", "queries/p99.9"]
 )
+CPUS = ("one_cpu", "two_cpus") if os.cpu_count() > 1 else ("one_cpu",)
+OTHERS += [f"{call}/{where}" for call in ("remote_call", "remote_call_1KiB") for where in CPUS]
+if os.cpu_count() > 1:
+    OTHERS += ["remote_command", "remote_event/16"]
 WITHOUT_REFERENCE = (
     [f"{what}_per_component/100" for what in ("start", "load", "memory")]
     + ["periods_exact", "resident_two_joints", "resident_two_joints/locked"]

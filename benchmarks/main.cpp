@@ -22,6 +22,7 @@ void add_all(const armature::benchmarks::Suite& suite) {
   add_latency(suite);
   add_queries(suite);
   add_deployments(suite);
+  add_remote(suite);
   add_footprints(suite);
 }
 
