@@ -137,11 +137,7 @@ void SharedBus::close() {
   if (socket_ == nullptr) return;
   socket_->interrupt();
   watcher_.reset();
-  Arrival unread;
-  while (receive(unread) == ReceiveStatus::kReceived) {
-    tally_.received.fetch_sub(1, std::memory_order_relaxed);
-    internal::Tally::add(tally_.lost);
-  }
+  tally_.lose_unread(*this);
   internal::Tally::add(tally_.discarded, waiting());
   socket_.reset();
   state_ = BusState::kClosed;

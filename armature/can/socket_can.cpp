@@ -106,11 +106,7 @@ void SocketCan::close() {
   if (socket_ == nullptr) return;
   socket_->interrupt();
   watcher_.reset();
-  Arrival unread;
-  while (receive(unread) == ReceiveStatus::kReceived) {
-    tally_.received.fetch_sub(1, std::memory_order_relaxed);
-    internal::Tally::add(tally_.lost);
-  }
+  tally_.lose_unread(*this);
   socket_.reset();
   state_ = BusState::kClosed;
 }

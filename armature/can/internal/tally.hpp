@@ -28,6 +28,14 @@ struct Tally {
   static void add(Counter& counter, std::uint64_t by = 1) {
     counter.fetch_add(by, std::memory_order_relaxed);
   }
+  /// What `bus` has received and nobody took, when it is closed.
+  void lose_unread(Bus& bus) {
+    Arrival unread;
+    while (bus.receive(unread) == ReceiveStatus::kReceived) {
+      received.fetch_sub(1, std::memory_order_relaxed);
+      add(lost);
+    }
+  }
   BusCounters now() const {
     const auto read = [](const Counter& counter) {
       return counter.load(std::memory_order_relaxed);
