@@ -19,7 +19,7 @@ set(ARMATURE_LAYERS
     "deploy: base exec component types platform"
     "report: base platform types control component exec record"
     "script: base deploy exec component rt types platform"
-    "remote: base ride deploy component types"
+    "remote: base ride deploy exec component rt types platform"
     "library: base component control record rt types"
     "sim: base exec component can control"
     "robots: base platform rt library component can control sim"

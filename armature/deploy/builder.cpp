@@ -49,7 +49,7 @@ void check_supported(const Document& document, base::Diagnostics& diagnostics) {
 }
 
 /// A grant that grants nothing would be found out when the script runs.
-void check_grants(const Document& document, const exec::Blueprint& blueprint,
+void check_grants(const std::vector<Grant>& grants, const exec::Blueprint& blueprint,
                   base::Diagnostics& diagnostics) {
   std::unordered_map<std::string_view, const component::Component*> made;
   std::vector<std::string> names;
@@ -57,7 +57,7 @@ void check_grants(const Document& document, const exec::Blueprint& blueprint,
     made.emplace(entry.component->name(), entry.component.get());
     names.push_back(entry.component->name());
   }
-  for (const Grant& grant : document.script_grants) {
+  for (const Grant& grant : grants) {
     if (blueprint.absent.count(grant.component) > 0) continue;
     const auto found = made.find(grant.component);
     if (found == made.end()) {
@@ -113,7 +113,8 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   for (const Component& component : document.components) components.build(component, blueprint);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
-  check_grants(document, blueprint, diagnostics);
+  check_grants(document.script_grants, blueprint, diagnostics);
+  check_grants(document.remote_grants, blueprint, diagnostics);
   return blueprint;
 }
 
@@ -127,6 +128,9 @@ exec::ApplicationOptions application_options(const Document& document) {
   if (box.memory_kb) options.black_box.memory = static_cast<std::size_t>(*box.memory_kb) * 1000;
   for (const Grant& grant : document.script_grants) {
     options.grants.push_back({exec::Caller::kScript, grant.component, grant.operation});
+  }
+  for (const Grant& grant : document.remote_grants) {
+    options.grants.push_back({exec::Caller::kRemote, grant.component, grant.operation});
   }
   return options;
 }

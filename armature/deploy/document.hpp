@@ -84,6 +84,7 @@ struct PropertyFile {
 struct Component {
   std::string name;  ///< parts of composites: `instance.part`
   std::string model;
+  Reference remote;  ///< `tcp://host:port/Name`: the component lives in another process
   Activity activity;
   std::vector<Property> properties;
   std::vector<Peer> peers;
@@ -158,11 +159,20 @@ struct Script {
   base::Location where;
 };
 
-/// An act of the operator that scripts may do in the operator's stead.
+/// An act of the operator that scripts, or other processes, may do in the operator's stead.
 struct Grant {
   std::string component;  ///< full name
   std::string operation;
   base::Location where;
+};
+
+/// How the application is reached from other processes, and reaches them.
+struct Network {
+  std::vector<Reference> listen;  ///< addresses, such as `tcp://127.0.0.1:4242`
+  Reference policy;               ///< file that says who may do what; empty: this machine may read
+  Reference certificate;          ///< files of TLS: all of them, or none
+  Reference key;
+  Reference authority;
 };
 
 /// Components that run together; what no mode names runs in all.
@@ -198,9 +208,11 @@ struct Document {
   std::vector<Composite> composites;
   std::vector<Script> scripts;
   std::vector<Grant> script_grants;
+  std::vector<Grant> remote_grants;  ///< to other processes
   std::vector<Mode> modes;
   Reference mode;  ///< in which it starts; empty: the first
   BlackBox black_box;
+  Network network;
   Value recorder;  ///< kNone if the document has none
 };
 

@@ -262,6 +262,10 @@ Component read_component(const std::string& name, const base::Location& where, c
     assign(reader.text(*model, "model"), component.model);
     component.model_where = model->where;
   }
+  if (const Value* remote = fields.take("remote")) {
+    assign(reader.text(*remote, "remote"), component.remote.name);
+    component.remote.where = remote->where;
+  }
   if (const Value* activity = fields.take("activity")) {
     read_activity(*activity, reader, component.activity);
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "armature/deploy/internal/document_network.hpp"
 #include "armature/deploy/internal/document_reader.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 
@@ -19,9 +20,9 @@ std::string path_from(const Document& document, std::string_view path) {
 namespace internal {
 namespace {
 
-constexpr std::array<std::string_view, 10> kHeadKeys = {
-    "application", "on_fault", "black_box", "libraries", "scripts",
-    "grants",      "modes",    "mode",      "recorder",  "composed"};
+constexpr std::array<std::string_view, 11> kHeadKeys = {
+    "application", "on_fault", "black_box", "libraries", "scripts", "grants",
+    "modes",       "mode",     "recorder",  "composed",  "network"};
 
 std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
   Script script{{}, {}, value.where};
@@ -44,9 +45,9 @@ std::optional<Script> read_script(const Value& value, const ValueReader& reader)
   return script;
 }
 
-void read_grants(const Value& value, const ValueReader& reader, Document& document) {
-  Fields fields(value, reader);
-  for (const Value* grant : items_of(fields.take("script"))) {
+std::vector<Grant> read_grants(const Value* list, const ValueReader& reader) {
+  std::vector<Grant> grants;
+  for (const Value* grant : items_of(list)) {
     const auto whole = reader.dotted_name(*grant, "grant");
     if (!whole) continue;
     auto [component, operation] = split_last_dot(*whole);
@@ -55,8 +56,15 @@ void read_grants(const Value& value, const ValueReader& reader, Document& docume
                    "grant must be component.operation, found " + in_quotes(operation));
       continue;
     }
-    document.script_grants.push_back({std::move(component), std::move(operation), grant->where});
+    grants.push_back({std::move(component), std::move(operation), grant->where});
   }
+  return grants;
+}
+
+void read_grants(const Value& value, const ValueReader& reader, Document& document) {
+  Fields fields(value, reader);
+  document.script_grants = read_grants(fields.take("script"), reader);
+  document.remote_grants = read_grants(fields.take("remote"), reader);
   fields.refuse_others();
 }
 
@@ -138,8 +146,9 @@ bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
 }
 
 std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
-  constexpr std::array<std::pair<const char*, Value::Kind>, 7> kKinds = {
+  constexpr std::array<std::pair<const char*, Value::Kind>, 8> kKinds = {
       {{"parameters", Value::Kind::kMap},
+       {"network", Value::Kind::kMap},
        {"grants", Value::Kind::kMap},
        {"modes", Value::Kind::kMap},
        {"components", Value::Kind::kMap},
@@ -225,6 +234,9 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     if (auto one = read_script(*script, reader)) document.scripts.push_back(std::move(*one));
   }
   if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
+  if (const Value* network = fields.take("network")) {
+    document.network = read_network(*network, reader);
+  }
   if (const Value* modes = fields.take("modes")) read_modes(*modes, reader, document);
   if (const Value* mode = fields.take("mode")) {
     document.mode.where = mode->where;
@@ -243,6 +255,11 @@ void rebase_paths(Document& document) {
   }
   for (Script& script : document.scripts) {
     script.path = rebased(script.path, script.where.file, document.file);
+  }
+  Network& network = document.network;
+  for (Reference* file :
+       {&network.policy, &network.certificate, &network.key, &network.authority}) {
+    if (!file->name.empty()) file->name = rebased(file->name, file->where.file, document.file);
   }
   for (Component& component : document.components) {
     for (PropertyFile& file : component.property_files) {

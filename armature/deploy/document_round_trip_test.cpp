@@ -33,6 +33,7 @@ components:
                  s: {x: "a\tb\n", y: [], z: "<&>"}, e: "", n: "null", d: 10.0, q: 5 deg,
                  list: [[1, 2], {a: -1}], texts: [a, "b c"], kinds: [!char 1, 2, b],
                  chars: !strings [!char 1, 2], f: !KDL.Frame {x: .5}}
+  R: {model: Motor, remote: tcp://robot/Motor}
   C: {model: Card, activity: {triggered: true, scheduler: other, priority: 3}, autostart: false}
   left: {model: Chassis, properties: {size: 3}}
 composites:
@@ -54,7 +55,8 @@ connections:
   - {from: J2.many, to: C.all, fan_in: true}
   - {name: bus, ports: [S.x, C.x, J1.x], policy: {fifo: 2}}
 scripts: [a.lua, {file: b.lua, component: S}]
-grants: {script: [S.arm, left.d.go]}
+grants: {script: [S.arm, left.d.go], remote: [S.arm]}
+network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, tls: {certificate: c.pem, key: k.pem, authority: a.pem}}
 modes: {one: ["J{1..2}", left], two: [C, J1]}
 mode: two
 recorder: {to: x.csv, ports: ["J{1..2}.Position", S.a], every: 10, nothing: }

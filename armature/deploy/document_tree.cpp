@@ -137,6 +137,7 @@ Value reference_tree(const Reference& reference) { return make_text(reference.na
 Value component_tree(const Component& component) {
   Value map = make_map();
   add(map, "model", component.model);
+  if (!component.remote.name.empty()) add(map, "remote", component.remote.name);
   add(map, "activity", activity_tree(component.activity));
   add_items(map, "peers", converted(component.peers, peer_tree));
   if (!component.bindings.empty()) {
@@ -195,11 +196,31 @@ Value script_tree(const Script& script) {
   return map;
 }
 
-Value grants_tree(const std::vector<Grant>& to_scripts) {
+Value grants_tree(const Document& document) {
   Value map = make_map();
-  add_items(map, "script", converted(to_scripts, [](const Grant& grant) {
-              return make_text(grant.component + "." + grant.operation);
-            }));
+  const auto add_grants = [&map](const char* to, const std::vector<Grant>& grants) {
+    if (grants.empty()) return;
+    add_items(map, to, converted(grants, [](const Grant& grant) {
+                return make_text(grant.component + "." + grant.operation);
+              }));
+  };
+  add_grants("script", document.script_grants);
+  add_grants("remote", document.remote_grants);
+  return map;
+}
+
+Value network_tree(const Network& network) {
+  Value map = make_map();
+  add_items(map, "listen", converted(network.listen, reference_tree));
+  const auto add_path = [](Value& to, const char* key, const Reference& path) {
+    if (!path.name.empty()) add(to, key, path.name);
+  };
+  add_path(map, "policy", network.policy);
+  Value tls = make_map();
+  add_path(tls, "certificate", network.certificate);
+  add_path(tls, "key", network.key);
+  add_path(tls, "authority", network.authority);
+  if (!tls.entries.empty()) add(map, "tls", std::move(tls));
   return map;
 }
 
@@ -272,7 +293,12 @@ Value to_tree(const Document& document) {
   add_items(tree, "connections", std::move(connections));
   add_section(tree, "composed", document.composites, composite_tree);
   add_items(tree, "scripts", converted(document.scripts, script_tree));
-  if (!document.script_grants.empty()) add(tree, "grants", grants_tree(document.script_grants));
+  if (Value grants = grants_tree(document); !grants.entries.empty()) {
+    add(tree, "grants", std::move(grants));
+  }
+  if (Value network = network_tree(document.network); !network.entries.empty()) {
+    add(tree, "network", std::move(network));
+  }
   add_section(tree, "modes", document.modes, mode_tree);
   if (!document.mode.name.empty()) add(tree, "mode", document.mode.name);
   if (document.recorder.kind != Value::Kind::kNone) add(tree, "recorder", document.recorder);

@@ -84,7 +84,7 @@ class DeployerWriter {
   Attributes root_attributes() {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
     for (const char* key : {"application", "on_fault", "black_box", "parameters", "composed",
-                            "scripts", "grants", "modes", "mode", "recorder"}) {
+                            "scripts", "grants", "network", "modes", "mode", "recorder"}) {
       extend(attributes, tree_, key);
     }
     return attributes;
@@ -175,7 +175,7 @@ class DeployerWriter {
 
   void write_component(const Component& component, const Value& tree) {
     Attributes attributes = {{"name", component.name}, {"type", component.model}};
-    for (const char* key : {"bind", "delays"}) extend(attributes, tree, key);
+    for (const char* key : {"remote", "bind", "delays"}) extend(attributes, tree, key);
     writer_.open("struct", attributes);
     write_activity(component.activity, find(tree.entries, "activity")->value);
     write_flag("AutoConf", component.autoconf);

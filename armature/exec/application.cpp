@@ -150,7 +150,8 @@ RunEnd Application::run_threads_until(base::Time end, const std::function<bool()
                                       const platform::StopSignal* stop) {
   constexpr base::Duration kLogPeriod = std::chrono::milliseconds(20);
   constexpr base::Duration kConditionPeriod = std::chrono::milliseconds(1);
-  const base::Duration period = condition ? kConditionPeriod : kLogPeriod;
+  const bool often = condition || options_.attend;
+  const base::Duration period = often ? kConditionPeriod : kLogPeriod;
   while (true) {
     drain_logs();
     if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
@@ -158,6 +159,7 @@ RunEnd Application::run_threads_until(base::Time end, const std::function<bool()
     const base::Time at = now();
     say(black_boxes_.write_if_due(*incidents_, at));
     logs_.tell_losses_now_and_then(at);
+    if (options_.attend) options_.attend();
     if (condition && condition()) return RunEnd::kConditionMet;
     if (at >= end) return RunEnd::kTimeUp;
     const base::Time next = std::min(end, at + period);
@@ -180,6 +182,7 @@ RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& 
     }
     say(black_boxes_.write_if_due(*incidents_, simulated_now_));
     logs_.tell_losses_now_and_then(simulated_now_);
+    if (options_.attend) options_.attend();
     if (condition && condition()) return RunEnd::kConditionMet;
     if (simulated_now_ >= end) return RunEnd::kTimeUp;
     simulated_now_ = std::min(end, simulation_->next_due());

@@ -58,6 +58,7 @@ enum class OnFault : std::uint8_t {
 enum class Caller : std::uint8_t {
   kOperator,  ///< the operator's own program
   kScript,
+  kRemote,  ///< another process
 };
 
 /// An act of the operator (`component::by_operator`) that a caller may do in the operator's stead.
@@ -84,6 +85,9 @@ struct ApplicationOptions {
   BlackBoxOptions black_box;
   /// Called by `start` when all is in place, before the first cycle; if it throws, nothing starts.
   std::function<void()> ready;
+  /// Called by the controlling thread while it lets the application run, which it may use: in
+  /// simulated time whenever all that is due at an instant is done, else every millisecond.
+  std::function<void()> attend;
 };
 
 /// Why a run ended.

@@ -181,10 +181,11 @@ base::Result<component::OperationBase*> Application::operation_for(std::string_v
   }
   if (!granted(*operation, caller)) {
     const std::string whole = component->name() + "." + std::string(operation_name);
+    const bool script = caller == Caller::kScript;
     return base::Error{quoted(whole) +
-                       " is an act of the operator: a script may do it only where the deployment "
-                       "says so (grants: {script: [" +
-                       whole + "]})"};
+                       " is an act of the operator: " + (script ? "a script" : "another process") +
+                       " may do it only where the deployment says so (grants: {" +
+                       (script ? "script" : "remote") + ": [" + whole + "]})"};
   }
   return operation;
 }
