@@ -47,7 +47,7 @@ bool ends_in(const std::string& path, const std::string& ending) {
 
 int check(const CheckArguments& arguments, const Console& console) {
   NetworkOnDemand network(console);
-  const deploy::Deployment deployment = load(arguments.load, network.placeholders());
+  const deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) {
     const std::size_t errors = deployment.diagnostics.error_count();
@@ -68,7 +68,7 @@ int check(const CheckArguments& arguments, const Console& console) {
 
 int graph(const GraphArguments& arguments, const Console& console) {
   NetworkOnDemand network(console);
-  const deploy::Deployment deployment = load(arguments.load, network.placeholders());
+  const deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
   std::string picture;

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <utility>
-
 #include "armature/cli/arguments.hpp"
+#include "armature/cli/network.hpp"
 #include "armature/deploy/deployment.hpp"
 
 namespace armature::cli {
 
 /// Loads and checks the deployment that a command was given.
-/// @param make_placeholder  for components that live in other processes
-inline deploy::Deployment load(const LoadArguments& arguments,
-                               deploy::MakePlaceholder make_placeholder) {
+/// @param network  for what lives in other processes, or is open to them
+inline deploy::Deployment load(const LoadArguments& arguments, NetworkOnDemand& network) {
   deploy::DeploymentOptions options;
-  options.make_placeholder = std::move(make_placeholder);
+  options.make_placeholder = network.placeholders();
+  options.make_inlets = network.inlets();
   options.document.overrides = arguments.overrides;
   options.library_folders = arguments.library_folders;
   options.mode = arguments.mode;

@@ -33,6 +33,16 @@ deploy::MakePlaceholder NetworkOnDemand::placeholders() {
   };
 }
 
+deploy::MakeInlets NetworkOnDemand::inlets() {
+  return [this](const std::vector<component::InputPortBase*>& inputs) {
+    using Made = base::Result<std::unique_ptr<component::Component>>;
+    base::Diagnostics problems;
+    remote::Network* const network = load(problems);
+    if (network == nullptr) return Made(base::Error{problems.to_text()});
+    return Made(network->make_inlets(inputs));
+  };
+}
+
 bool NetworkOnDemand::open(const deploy::Document& document, const RunArguments& arguments) {
   const bool listens = !document.network.listen.empty() || !arguments.listen.empty();
   if (!listens && network_ == nullptr) return true;

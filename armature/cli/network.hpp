@@ -19,6 +19,8 @@ class NetworkOnDemand {
 
   /// For `load`: placeholders of components in other processes.
   deploy::MakePlaceholder placeholders();
+  /// For `load`: what writes the inputs that are open to others.
+  deploy::MakeInlets inlets();
 
   /// Makes the node and listens, if the deployment or the command line asks for it.
   /// @return false after an error, which was told

@@ -217,7 +217,7 @@ void let_run(exec::Application& application, const Companions& companions,
 int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
   NetworkOnDemand network(console);
-  deploy::Deployment deployment = load(arguments.load, network.placeholders());
+  deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
 

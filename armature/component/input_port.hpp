@@ -128,9 +128,11 @@ class InputPortBase : public PortBase {
   /// made of, which outlives it.
   /// @thread configuration only
   virtual std::unique_ptr<InputPortBase> twin(StandIn& owner) const = 0;
-  /// An output of `owner`, of the same name and type: for who writes this input from elsewhere.
+  /// An output of `owner` of the same type: for who writes this input from elsewhere. It keeps what
+  /// this one is made of, which outlives it.
   /// @thread configuration only
-  virtual std::unique_ptr<OutputPortBase> make_writer(Component& owner) const = 0;
+  virtual std::unique_ptr<OutputPortBase> make_writer(Component& owner,
+                                                      std::string_view name) const = 0;
 
  protected:
   using Arrived = void (*)(InputPortBase&, ExecutionContext&) noexcept;
@@ -289,7 +291,8 @@ class InputPort final : public InputPortBase {
   void set_shape(const T& shape);
   void drain(internal::ChannelBase& channel) override;
   std::unique_ptr<InputPortBase> twin(StandIn& owner) const override;
-  std::unique_ptr<OutputPortBase> make_writer(Component& owner) const override;
+  std::unique_ptr<OutputPortBase> make_writer(Component& owner,
+                                              std::string_view name) const override;
   /// Runs the handler on a sample that came by `channel`.
   void receive(internal::Channel<T>& channel, const Sample<T>& sample);
 

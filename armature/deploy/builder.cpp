@@ -48,6 +48,61 @@ void check_supported(const Document& document, base::Diagnostics& diagnostics) {
   }
 }
 
+component::InputPortBase* find_input(const exec::Blueprint& blueprint, const Endpoint& end,
+                                     base::Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    if (entry.component->name() != end.component) {
+      names.push_back(entry.component->name());
+      continue;
+    }
+    std::vector<std::string> ports;
+    for (component::InputPortBase* const port : entry.component->interface().inputs) {
+      if (port->name() == end.port) return port;
+      ports.push_back(port->name());
+    }
+    diagnostics.error(end.where, in_quotes(end.component) + " has no input " + in_quotes(end.port),
+                      base::suggestion(end.port, ports));
+    return nullptr;
+  }
+  if (blueprint.absent.count(end.component) == 0) {
+    diagnostics.error(end.where, "there is no component " + in_quotes(end.component),
+                      base::suggestion(end.component, names));
+  }
+  return nullptr;
+}
+
+/// The component that writes what others send. What comes from elsewhere may stop coming: so each
+/// of the inputs has an age.
+void add_inlets(const Document& document, const BuildOptions& options, exec::Blueprint& blueprint,
+                base::Diagnostics& diagnostics) {
+  if (document.network.inputs.empty()) return;
+  std::vector<component::InputPortBase*> inputs;
+  for (const Connection& connection : document.network.inputs) {
+    component::InputPortBase* const input = find_input(blueprint, connection.to, diagnostics);
+    if (input == nullptr) continue;
+    inputs.push_back(input);
+    if (connection.policy.max_age || input->ages()) continue;
+    diagnostics.error(connection.where,
+                      in_quotes(connection.to.component + "." + connection.to.port) +
+                          " is written by other processes, which may stop at any time, but its "
+                          "data may be as old as it likes",
+                      "for example {to: " + connection.to.component + "." + connection.to.port +
+                          ", max_age: 100 ms}");
+  }
+  const base::Location& where = document.network.inputs.front().where;
+  if (!options.make_inlets) {
+    diagnostics.error(where, "inputs are for other processes, and this program reaches none");
+    return;
+  }
+  auto inlets = options.make_inlets(inputs);
+  if (!inlets) return diagnostics.error(where, inlets.error());
+  exec::Activity activity;
+  activity.kind = exec::Activity::Kind::kTriggered;
+  blueprint.components.push_back(
+      {std::move(inlets).value(), "Inlets", std::move(activity), {}, {}, where});
+}
+
 /// A grant that grants nothing would be found out when the script runs.
 void check_grants(const std::vector<Grant>& grants, const exec::Blueprint& blueprint,
                   base::Diagnostics& diagnostics) {
@@ -111,6 +166,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   blueprint.components.reserve(document.components.size());
   internal::ComponentBuilder components(document, registry, options, diagnostics);
   for (const Component& component : document.components) components.build(component, blueprint);
+  add_inlets(document, options, blueprint, diagnostics);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
   check_grants(document.script_grants, blueprint, diagnostics);

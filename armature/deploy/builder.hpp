@@ -15,10 +15,16 @@ namespace armature::deploy {
 using MakePlaceholder = std::function<base::Result<std::unique_ptr<component::Component>>(
     const Component& written, std::unique_ptr<component::Component> prototype)>;
 
+/// Makes the component `kNetworkName`, which writes `inputs`; each of its outputs is called
+/// `component.port`.
+using MakeInlets = std::function<base::Result<std::unique_ptr<component::Component>>(
+    const std::vector<component::InputPortBase*>& inputs)>;
+
 struct BuildOptions {
   FileReader read;              ///< of property files; empty: from disk
   bool models_missing = false;  ///< a library could not be loaded, so unknown models may be its own
   MakePlaceholder make_placeholder{};  ///< none: components of other processes are refused
+  MakeInlets make_inlets{};            ///< none: inputs for other processes are refused
 };
 
 /// Makes the document's components from the models of `registry`, sets their properties, from

@@ -173,7 +173,11 @@ struct Network {
   Reference certificate;          ///< files of TLS: all of them, or none
   Reference key;
   Reference authority;
+  std::vector<Connection> inputs;  ///< that others may write, from `kNetworkName`
 };
+
+/// The component that writes what others send.
+inline constexpr const char* kNetworkName = "network";
 
 /// Components that run together; what no mode names runs in all.
 struct Mode {

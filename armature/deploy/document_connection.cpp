@@ -222,4 +222,25 @@ std::optional<std::variant<Connection, NamedConnection>> read_connection(
   return directed;
 }
 
+std::optional<Connection> read_input(const Value& value, const ValueReader& reader) {
+  Connection connection;
+  const Value* to = &value;
+  if (value.kind == Value::Kind::kMap) {
+    Fields fields(value, reader);
+    to = fields.take("to");
+    connection.policy = read_policy(fields, reader);
+    fields.refuse_others();
+  }
+  if (to == nullptr) {
+    reader.error(value.where, "it has no 'to'", "for example {to: Arm.reference, max_age: 100 ms}");
+    return std::nullopt;
+  }
+  std::optional<Endpoint> input = read_endpoint(*to, "inputs", reader);
+  if (!input) return std::nullopt;
+  connection.from = {kNetworkName, text_of(*input), value.where};
+  connection.to = std::move(*input);
+  connection.where = value.where;
+  return connection;
+}
+
 }  // namespace armature::deploy::internal

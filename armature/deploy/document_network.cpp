@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "armature/deploy/internal/document_reader.hpp"
+
 namespace armature::deploy::internal {
 namespace {
 
@@ -39,6 +41,11 @@ Network read_network(const Value& value, const ValueReader& reader) {
   for (const Value* address : items_of(fields.take("listen"))) {
     if (auto text = reader.text(*address, "listen")) {
       network.listen.push_back({std::move(*text), address->where});
+    }
+  }
+  for (const Value* input : items_of(fields.take("inputs"))) {
+    if (auto connection = read_input(*input, reader)) {
+      network.inputs.push_back(std::move(*connection));
     }
   }
   read_path(fields.take("policy"), "policy", reader, network.policy);

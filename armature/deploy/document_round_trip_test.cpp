@@ -56,7 +56,8 @@ connections:
   - {name: bus, ports: [S.x, C.x, J1.x], policy: {fifo: 2}}
 scripts: [a.lua, {file: b.lua, component: S}]
 grants: {script: [S.arm, left.d.go], remote: [S.arm]}
-network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, tls: {certificate: c.pem, key: k.pem, authority: a.pem}}
+network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, tls: {certificate: c.pem, key: k.pem, authority: a.pem},
+  inputs: [S.b, {to: left.d.c, max_age: 100 ms, on_old: zero}]}
 modes: {one: ["J{1..2}", left], two: [C, J1]}
 mode: two
 recorder: {to: x.csv, ports: ["J{1..2}.Position", S.a], every: 10, nothing: }

@@ -209,21 +209,6 @@ Value grants_tree(const Document& document) {
   return map;
 }
 
-Value network_tree(const Network& network) {
-  Value map = make_map();
-  add_items(map, "listen", converted(network.listen, reference_tree));
-  const auto add_path = [](Value& to, const char* key, const Reference& path) {
-    if (!path.name.empty()) add(to, key, path.name);
-  };
-  add_path(map, "policy", network.policy);
-  Value tls = make_map();
-  add_path(tls, "certificate", network.certificate);
-  add_path(tls, "key", network.key);
-  add_path(tls, "authority", network.authority);
-  if (!tls.entries.empty()) add(map, "tls", std::move(tls));
-  return map;
-}
-
 Value mode_tree(const Mode& mode) {
   Value list = make_list();
   for (const Reference& component : mode.components) {
@@ -275,6 +260,30 @@ Value to_tree(const Connection& connection) {
   add(whole, "to", text_of(connection.to));
   for (Property& entry : map.entries) whole.entries.push_back(std::move(entry));
   return whole;
+}
+
+static Value network_tree(const Network& network) {
+  Value map = make_map();
+  add_items(map, "listen", converted(network.listen, reference_tree));
+  const auto add_path = [](Value& to, const char* key, const Reference& path) {
+    if (!path.name.empty()) add(to, key, path.name);
+  };
+  add_path(map, "policy", network.policy);
+  add_items(map, "inputs", converted(network.inputs, [](const Connection& input) {
+              Value policy = make_map();
+              add_policy(input.policy, policy);
+              if (policy.entries.empty()) return make_text(text_of(input.to));
+              Value whole = make_map();
+              add(whole, "to", text_of(input.to));
+              for (Property& entry : policy.entries) whole.entries.push_back(std::move(entry));
+              return whole;
+            }));
+  Value tls = make_map();
+  add_path(tls, "certificate", network.certificate);
+  add_path(tls, "key", network.key);
+  add_path(tls, "authority", network.authority);
+  if (!tls.entries.empty()) add(map, "tls", std::move(tls));
+  return map;
 }
 
 Value to_tree(const Document& document) {

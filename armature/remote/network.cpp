@@ -6,6 +6,7 @@
 
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
+#include "armature/remote/inlets.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/policy.hpp"
@@ -53,6 +54,13 @@ class RideNetwork final : public Network {
         [this, address = there.peer]() -> ride::Peer& { return node().connect(address); }));
   }
 
+  std::unique_ptr<component::Component> make_inlets(
+      const std::vector<component::InputPortBase*>& inputs) override {
+    auto inlets = std::make_unique<Inlets>(inputs);
+    inlets_ = inlets.get();
+    return inlets;
+  }
+
   void open(const deploy::Document& document, const std::vector<std::string>& listen,
             base::Diagnostics& diagnostics) override {
     ride::NodeOptions options;
@@ -82,8 +90,8 @@ class RideNetwork final : public Network {
       auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
       auto service = std::make_unique<ExportedComponent>(
           *numbers, *entry.component, application, queue_,
-          [](component::InputPortBase& input, const types::Value&) -> base::Result<void> {
-            return base::Error{"the input '" + input.name() + "' is not open to other processes"};
+          [this, &application](component::InputPortBase& input, const types::Value& value) {
+            return write_input(application, input, value);
           });
       if (const auto added = node().add(entry.component->name(), *service); !added) {
         diagnostics.error(entry.where, added.error());
@@ -163,6 +171,14 @@ class RideNetwork final : public Network {
     }
   }
 
+  base::Result<void> write_input(exec::Application& application,
+                                 const component::InputPortBase& input, const types::Value& value) {
+    if (inlets_ != nullptr) return inlets_->write(application, input, value);
+    return base::Error{"'" + input.owner().name() + "." + input.name() +
+                       "' is not open to other processes: its deployment has no network: {inputs: "
+                       "[...]}"};
+  }
+
   void say(const std::string& component, std::uint64_t dropped) {
     rt::LogRecord record;
     record.level = rt::LogLevel::kWarning;
@@ -191,6 +207,7 @@ class RideNetwork final : public Network {
   }
 
   NetworkOptions options_;
+  Inlets* inlets_ = nullptr;
   exec::Application* application_ = nullptr;
   std::mutex log_mutex_;
   std::vector<rt::LogRecord> log_;  ///< since `serve` was called last

@@ -35,6 +35,10 @@ class Network {
   virtual base::Result<std::unique_ptr<component::Component>> make_placeholder(
       const deploy::Component& written, std::unique_ptr<component::Component> prototype) = 0;
 
+  /// What writes the inputs that a deployment opens for others.
+  virtual std::unique_ptr<component::Component> make_inlets(
+      const std::vector<component::InputPortBase*>& inputs) = 0;
+
   /// Makes the node and listens. After an error nothing listens.
   /// @param listen  addresses beside those of the document
   virtual void open(const deploy::Document& document, const std::vector<std::string>& listen,

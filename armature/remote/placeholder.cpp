@@ -198,18 +198,16 @@ void Placeholder::Bell::deliver(rt::Message& message) {
 }
 
 void Placeholder::look_at_arrivals() {
+  const rt::PermitScope permit;
   std::vector<Arrival> taken;
   std::uint64_t overflowed = 0;
   {
-    const rt::PermitScope permit;
     const std::lock_guard lock(mailbox_->mutex);
     taken.swap(mailbox_->arrivals);
     overflowed = std::exchange(mailbox_->overflowed, 0);
   }
   if (overflowed != 0) count(missed, overflowed);
   for (Arrival& arrival : taken) handle(arrival);
-  const rt::PermitScope permit;
-  taken = {};
 }
 
 void Placeholder::handle(Arrival& arrival) {
@@ -221,8 +219,7 @@ void Placeholder::handle(Arrival& arrival) {
     case Arrival::Kind::kEvent: {
       const auto event =
           std::ranges::find(events_, arrival.index, [](const auto& entry) { return entry.second; });
-      std::vector<const void*> places{nullptr};
-      places.clear();
+      std::vector<const void*> places;
       for (const types::Value& value : arrival.values) places.push_back(value.data());
       event->first->raise_from(places.data());
       return;

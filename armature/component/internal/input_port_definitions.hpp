@@ -89,8 +89,9 @@ std::unique_ptr<InputPortBase> InputPort<T>::twin(StandIn& owner) const {
 }
 
 template <typename T>
-std::unique_ptr<OutputPortBase> InputPort<T>::make_writer(Component& owner) const {
-  std::unique_ptr<OutputPort<T>> made(new OutputPort<T>(owner, name(), doc(), unit()));
+std::unique_ptr<OutputPortBase> InputPort<T>::make_writer(Component& owner,
+                                                          std::string_view name) const {
+  std::unique_ptr<OutputPort<T>> made(new OutputPort<T>(owner, name, doc(), unit()));
   made->apply(declared_size());
   return made;
 }

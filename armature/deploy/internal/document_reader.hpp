@@ -27,6 +27,10 @@ std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagn
 std::optional<std::variant<Connection, NamedConnection>> read_connection(
     const Value& map, base::Diagnostics& diagnostics);
 
+/// An input that other processes may write: its name, or a map with `to`; a connection from
+/// `kNetworkName`, of a port that is called as the input with its component.
+std::optional<Connection> read_input(const Value& value, const ValueReader& reader);
+
 /// Refuses connections that are there twice, leaving one, and names with less than two ports; puts
 /// the ports of a name into the order of their components.
 void check_connections(Document& document, base::Diagnostics& diagnostics);

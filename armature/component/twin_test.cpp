@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twins: what a component that stands for another one has in place of the other's members.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/component/author.hpp"
+#include "armature/component/internal/test_thread.hpp"
+#include "armature/component/stand_in.hpp"
+#include "armature/rt/guard.hpp"
+
+namespace armature::component {
+namespace {
+
+using testing::ElementsAre;
+
+class Original final : public Component {
+ public:
+  using Component::Component;
+  Property<int> joints{this, "joints", 2, ""};
+  OutputPort<double> position{this, "Position", "where it is", "rad"};
+  OutputPort<std::vector<double>> all{this, "All", "", "", size_of(joints)};
+  InputPort<double> reference{this, "Reference", "where to go", "rad", on_data<&Original::handle>};
+  Operation<double(double)> twice{this, "twice", serve<&Original::serve_twice>, "doubles",
+                                  args("x")};
+  Operation<void()> arm{this, "arm", serve<&Original::serve_arm>, "", by_operator};
+  Command<double> travel{this, "travel", serve<&Original::serve_travel>, "", args("target [m]")};
+  Event<int, double> reached{this, "Reached", "", {"number", "place [m]"}};
+
+ private:
+  void handle(double) {}
+  double serve_twice(double x) { return 2.0 * x; }
+  void serve_arm() {}
+  Outcome serve_travel(double) { return accepted(); }
+};
+
+/// Notes what it is to pass on.
+class Notes final : public StandIn {
+ public:
+  using StandIn::StandIn;
+  std::vector<std::string> notes;
+  CallStatus answer = CallStatus::kDone;
+
+  void pass_on(InputPortBase& input, const void* value) override {
+    notes.push_back(input.name() + "=" + std::to_string(*static_cast<const double*>(value)));
+  }
+  CallStatus call(OperationBase& operation, const void* const* arguments, void* result) override {
+    notes.push_back(std::string(operation.name()));
+    if (result != nullptr) {
+      *static_cast<double*>(result) = 10.0 * *static_cast<const double*>(arguments[0]);
+    }
+    return answer;
+  }
+  Outcome begin(CommandBase& command, const void* const* arguments) override {
+    notes.push_back(std::string(command.name()) + " " +
+                    std::to_string(*static_cast<const double*>(arguments[0])));
+    return accepted();
+  }
+  void cancel(CommandBase& command) override {
+    notes.push_back("cancel " + std::string(command.name()));
+  }
+};
+
+class User final : public Component {
+ public:
+  using Component::Component;
+  OutputPort<double> wish{this, "Wish", ""};
+  InputPort<double> position{this, "Position", ""};
+  OperationCaller<double(double)> twice{this, "twice", ""};
+  CommandCaller<double> travel{this, "travel", ""};
+  EventHandler<int, double> reached{this, "Reached", serve<&User::note>, ""};
+  std::vector<double> heard;
+
+ private:
+  void note(int number, double place) { heard.push_back(number + place); }
+};
+
+struct Twins : testing::Test {
+  Twins() {
+    thread.add(notes, user);
+    output = original.position.twin(notes);
+    all = original.all.twin(notes);
+    input = original.reference.twin(notes);
+    twice = original.twice.twin(notes);
+    arm = original.arm.twin(notes);
+    travel = original.travel.twin(notes);
+    reached = original.reached.twin(notes);
+    output->prepare();
+    all->prepare();
+    output->connect(user.position, {});
+    user.wish.connect(*input, {});
+    user.twice.connect(*twice);
+    user.travel.connect(*travel);
+    reached->subscribe(user.reached);
+    for (Component* each : {static_cast<Component*>(&notes), static_cast<Component*>(&user)}) {
+      EXPECT_TRUE(each->configure());
+      EXPECT_TRUE(each->activate());
+      EXPECT_TRUE(each->start());
+    }
+  }
+  TestThread thread;
+  Original original{"Original"};
+  Notes notes{"Notes"};
+  User user{"User"};
+  std::unique_ptr<OutputPortBase> output;
+  std::unique_ptr<OutputPortBase> all;
+  std::unique_ptr<InputPortBase> input;
+  std::unique_ptr<OperationBase> twice;
+  std::unique_ptr<OperationBase> arm;
+  std::unique_ptr<OperationBase> travel;
+  std::unique_ptr<EventBase> reached;
+};
+
+TEST_F(Twins, AreKnownByTheSameNames) {
+  EXPECT_EQ(output->name(), "Position");
+  EXPECT_EQ(output->unit(), "rad");
+  EXPECT_EQ(twice->signature().text(), original.twice.signature().text());
+  EXPECT_EQ(travel->signature().text(), original.travel.signature().text());
+  EXPECT_EQ(reached->signature().text(), original.reached.signature().text());
+  EXPECT_TRUE(travel->is_command());
+  EXPECT_TRUE(arm->is_by_operator());
+  EXPECT_TRUE(twice->is_elsewhere());
+  EXPECT_FALSE(original.twice.is_elsewhere());
+  EXPECT_EQ(notes.interface().outputs.size(), 2u);
+  EXPECT_EQ(notes.interface().inputs.size(), 1u);
+  EXPECT_TRUE(input->stays_open());
+}
+
+TEST_F(Twins, OfAnOutputWriteWhatTheyAreGiven) {
+  const double value = 1.5;
+  EXPECT_EQ(output->write_from(&value), WriteStatus::kWritten);
+  EXPECT_EQ(user.position.read().value, 1.5);
+  const std::vector<double> three(3);
+  EXPECT_EQ(all->write_from(&three), WriteStatus::kWrongSize);  // the original has two joints
+}
+
+TEST_F(Twins, OfAnInputPassOnWhatComes) {
+  user.wish.write(0.25);
+  EXPECT_THAT(notes.notes, ElementsAre("Reference=0.250000"));
+}
+
+TEST_F(Twins, OfAnOperationPassOnTheCallAndBringTheAnswer) {
+  const CallResult<double> result = user.twice(3.0);
+  EXPECT_EQ(result.status, CallStatus::kDone);
+  EXPECT_EQ(result.value, 30.0);
+  notes.answer = CallStatus::kUnreachable;
+  EXPECT_EQ(user.twice(3.0).status, CallStatus::kUnreachable);
+  EXPECT_EQ(notes.state(), State::kRunning);  // it is nobody's fault here
+}
+
+TEST_F(Twins, OfAnOperationLetNoRealTimeThreadWait) {
+  thread.context.real_time = true;
+  EXPECT_EQ(user.twice(3.0).status, CallStatus::kWouldWait);
+  EXPECT_THAT(notes.notes, ElementsAre());
+}
+
+TEST_F(Twins, OfACommandEndWhenTheStandInSaysSo) {
+  CommandHandle first = user.travel.send(2.0);
+  thread.deliver();
+  EXPECT_EQ(first.stage(), CommandStage::kAccepted);
+  auto& command = static_cast<CommandBase&>(*travel);
+  command.report(0.5);
+  EXPECT_EQ(first.progress(), 0.5);
+  command.complete();
+  EXPECT_EQ(first.stage(), CommandStage::kDone);
+  CommandHandle second = user.travel.send(3.0);
+  thread.deliver();
+  second.cancel();
+  thread.deliver();
+  EXPECT_EQ(second.stage(), CommandStage::kCancelled);
+  EXPECT_THAT(notes.notes, ElementsAre("travel 2.000000", "travel 3.000000", "cancel travel"));
+}
+
+TEST_F(Twins, OfAnEventRaiseWhatTheyAreGiven) {
+  const int number = 2;
+  const double place = 0.5;
+  const void* const arguments[] = {&number, &place};
+  EXPECT_EQ(reached->raise_from(arguments), RaiseStatus::kDelivered);
+  EXPECT_THAT(user.heard, ElementsAre(2.5));
+}
+
+TEST(AttachedTap, TakesWhatIsWrittenWhileItIsAttached) {
+  Original original("Original");
+  const double shape = 0.0;
+  const auto tap = original.position.make_tap(4, &shape);
+  original.position.write(1.0);
+  {
+    const rt::RealtimeScope real_time;
+    original.position.attach(*tap);
+    original.position.write(2.0);
+    original.position.detach(*tap);
+  }
+  original.position.write(3.0);
+  TappedSample sample;
+  ASSERT_TRUE(tap->take(sample));
+  EXPECT_EQ(sample.sequence, 2u);
+  EXPECT_FALSE(tap->take(sample));
+  EXPECT_FALSE(original.position.is_tapped());
+}
+
+TEST(Writer, IsAnOutputForAnInputWrittenFromElsewhere) {
+  Original original("Original");
+  User user("User");
+  const auto writer = original.reference.make_writer(user, "Original.Reference");
+  EXPECT_EQ(writer->name(), "Original.Reference");
+  writer->connect(original.reference, {});
+  const double value = 4.0;
+  writer->write_from(&value);
+  EXPECT_EQ(original.reference.read().value, 4.0);
+}
+
+}  // namespace
+}  // namespace armature::component

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/remote/inlets.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "armature/deploy/document.hpp"
+
+namespace armature::remote {
+namespace {
+
+std::string path_of(const component::InputPortBase& input) {
+  return input.owner().name() + "." + input.name();
+}
+
+}  // namespace
+
+Inlets::Inlets(const std::vector<component::InputPortBase*>& inputs)
+    : Component(deploy::kNetworkName) {
+  for (const component::InputPortBase* const input : inputs) {
+    inlets_.push_back({input, input->make_writer(*this, path_of(*input))});
+  }
+}
+
+base::Result<void> Inlets::write(exec::Application& application,
+                                 const component::InputPortBase& input, const types::Value& value) {
+  const auto inlet = std::ranges::find(inlets_, &input, &Inlet::input);
+  if (inlet == inlets_.end()) {
+    return base::Error{"'" + path_of(input) +
+                       "' is not open to other processes: its deployment says network: {inputs: "
+                       "[...]} for those that are"};
+  }
+  // Shared: a thread that answers too late still uses it.
+  struct Writing {
+    types::Value value;
+    component::WriteStatus status = component::WriteStatus::kNotConnected;
+  };
+  const auto writing = std::make_shared<Writing>(Writing{value});
+  component::OutputPortBase& writer = *inlet->writer;
+  const bool done = application.run_in_thread_of(
+      *this, [writing, &writer] { writing->status = writer.write_from(writing->value.data()); });
+  if (!done) return base::Error{"the thread that writes '" + path_of(input) + "' does not answer"};
+  if (writing->status == component::WriteStatus::kWrongSize) {
+    return base::Error{"the value for '" + path_of(input) + "' has not the size that it takes"};
+  }
+  if (writing->status == component::WriteStatus::kFull) {
+    return base::Error{"'" + path_of(input) + "' has not taken what was written before"};
+  }
+  return {};
+}
+
+}  // namespace armature::remote
