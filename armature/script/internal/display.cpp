@@ -132,8 +132,11 @@ std::string inked(const Paper& paper, Ink ink, std::string_view text) {
 
 std::string value_text(const Type& type, const void* value, std::string_view unit,
                        std::size_t most_elements) {
-  const std::string text = plain_text(type, value, most_elements);
-  return unit.empty() ? text : text + " " + std::string(unit);
+  return with_unit(plain_text(type, value, most_elements), unit);
+}
+
+std::string with_unit(std::string_view text, std::string_view unit) {
+  return unit.empty() ? std::string(text) : std::string(text) + " " + std::string(unit);
 }
 
 std::size_t columns_of(std::string_view text) {
