@@ -6,6 +6,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/load.hpp"
+#include "armature/cli/network.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/loader.hpp"
 #include "armature/deploy/model_catalogue.hpp"
@@ -45,7 +46,8 @@ bool ends_in(const std::string& path, const std::string& ending) {
 }  // namespace
 
 int check(const CheckArguments& arguments, const Console& console) {
-  const deploy::Deployment deployment = load(arguments.load);
+  NetworkOnDemand network(console);
+  const deploy::Deployment deployment = load(arguments.load, network.placeholders());
   console.show(deployment.diagnostics);
   if (!deployment.ok()) {
     const std::size_t errors = deployment.diagnostics.error_count();
@@ -65,7 +67,8 @@ int check(const CheckArguments& arguments, const Console& console) {
 }
 
 int graph(const GraphArguments& arguments, const Console& console) {
-  const deploy::Deployment deployment = load(arguments.load);
+  NetworkOnDemand network(console);
+  const deploy::Deployment deployment = load(arguments.load, network.placeholders());
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
   std::string picture;

@@ -113,6 +113,11 @@ class CommandLine {
         {"off", exec::RealtimeMode::kOff},
         {"prefer", exec::RealtimeMode::kPrefer},
         {"require", exec::RealtimeMode::kRequire}};
+    command
+        ->add_option("--listen", run_.listen,
+                     "where other processes reach it: tcp://127.0.0.1:4242, unix:/run/robot.sock")
+        ->type_name("ADDRESS")
+        ->allow_extra_args(false);
     command->add_option("--realtime", run_.realtime, "off, prefer (default) or require")
         ->transform(CLI::CheckedTransformer(kModes).description(""))
         ->type_name("MODE");

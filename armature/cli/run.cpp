@@ -11,6 +11,7 @@
 #include "armature/cli/commands.hpp"
 #include "armature/cli/companions.hpp"
 #include "armature/cli/load.hpp"
+#include "armature/cli/network.hpp"
 #include "armature/cli/report.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/deploy/deployment.hpp"
@@ -170,10 +171,10 @@ report::RunFacts facts_of(const RunArguments& arguments) {
   return facts;
 }
 
-/// @param companions, facts  outlive the application
+/// @param companions, network, facts  outlive the application
 exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArguments& arguments,
-                                    const Companions& companions, const Console& console,
-                                    report::RunFacts& facts) {
+                                    const Companions& companions, remote::Network* network,
+                                    const Console& console, report::RunFacts& facts) {
   exec::ApplicationOptions options = std::move(deployment.options);
   options.simulated = arguments.simulated;
   options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
@@ -192,6 +193,7 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
     };
   }
   options.ready = release_what_loads;
+  if (network != nullptr) options.attend = [network] { network->serve(); };
   return options;
 }
 
@@ -214,7 +216,8 @@ void let_run(exec::Application& application, const Companions& companions,
 
 int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
-  deploy::Deployment deployment = load(arguments.load);
+  NetworkOnDemand network(console);
+  deploy::Deployment deployment = load(arguments.load, network.placeholders());
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
 
@@ -225,16 +228,21 @@ int run(const RunArguments& arguments, Console& console) {
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
 
+  if (!network.open(deployment.document, arguments)) return kFailed;
+
   report::RunFacts facts = facts_of(arguments);
   if (!arguments.simulated) console.set_begin(facts.begin);
   const platform::StopSignal stop;
-  exec::Application application(std::move(deployment.blueprint),
-                                options_of(deployment, arguments, companions, console, facts));
+  exec::Application application(
+      std::move(deployment.blueprint),
+      options_of(deployment, arguments, companions, network.get(), console, facts));
   if (const int failed = start(application, arguments, console); failed != kDone) {
     if (application.hangs()) platform::exit_now(failed);
     return failed;
   }
+  if (network.get() != nullptr) network.get()->host(application, mistakes);
   let_run(application, companions, arguments, stop, mistakes, facts);
+  if (network.get() != nullptr) network.get()->leave();
   console.show(mistakes);
   tell_casualties(application, console);
   base::Diagnostics ended = application.stop();

@@ -23,8 +23,10 @@ enum class CallStatus : std::uint8_t {
   kNotReady,      ///< the operation's component is not configured, or in an exception
   kFailed,        ///< an exception escaped from the operation; its component has faulted
   kCancelled,
-  kQueueFull,  ///< too many calls of this caller are under way; this one was not taken
-  kTimeout,    ///< the operation's thread did not answer in time
+  kQueueFull,    ///< too many calls of this caller are under way; this one was not taken
+  kTimeout,      ///< the operation's thread did not answer in time
+  kUnreachable,  ///< the operation's component lives elsewhere, and there is no way to it now
+  kWouldWait,    ///< it lives elsewhere, and a real-time thread does not wait for it: send the call
 };
 
 std::string_view name_of(CallStatus status);

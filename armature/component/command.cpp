@@ -70,7 +70,14 @@ void CommandBase::cancel(const CommandTicket& ticket) {
 }
 
 void CommandBase::step() {
-  if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(owner())) complete();
+  if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(*this)) complete();
+}
+
+void CommandBase::mark_twin(CommandBase& twin) const {
+  OperationBase::mark_twin(twin);
+  twin.cancelled_ = [](CommandBase& command) {
+    static_cast<StandIn&>(command.owner()).cancel(command);
+  };
 }
 
 Outcome CommandBase::admit(CommandTicket* ticket) {
@@ -115,7 +122,7 @@ void CommandBase::cancel(std::string_view reason) {
   note(owner(), Noted::kCancelled, name(), reason);
   CommandTicket* const ticket = std::exchange(ticket_, nullptr);
   phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
-  if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(owner()); });
+  if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(*this); });
   if (ticket != nullptr) ticket->end(CommandStage::kCancelled, reason);
 }
 

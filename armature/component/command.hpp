@@ -152,18 +152,21 @@ class CommandBase : public OperationBase, public Step {
   using OperationBase::apply;
   template <auto Predicate>
   void apply(DoneWhen<Predicate>) noexcept {
-    done_ = [](Component& component) -> bool {
+    done_ = [](CommandBase& command) -> bool {
       using Owner = internal::OwnerOf<Predicate>;
-      return (static_cast<Owner&>(component).*Predicate)();
+      return (static_cast<Owner&>(command.owner()).*Predicate)();
     };
   }
   template <auto Function>
   void apply(CancelledBy<Function>) noexcept {
-    cancelled_ = [](Component& component) {
+    cancelled_ = [](CommandBase& command) {
       using Owner = internal::OwnerOf<Function>;
-      (static_cast<Owner&>(component).*Function)();
+      (static_cast<Owner&>(command.owner()).*Function)();
     };
   }
+
+  /// `twin` is one of this command.
+  void mark_twin(CommandBase& twin) const;
 
   /// Begins, or refuses because it cannot now; `ticket` is told of a refusal, if there is one.
   Outcome admit(CommandTicket* ticket);
@@ -176,8 +179,8 @@ class CommandBase : public OperationBase, public Step {
   void cancel(std::string_view reason);
   void end(CommandStage stage, std::string_view reason);
 
-  bool (*done_)(Component&) = nullptr;
-  void (*cancelled_)(Component&) = nullptr;
+  bool (*done_)(CommandBase&) = nullptr;
+  void (*cancelled_)(CommandBase&) = nullptr;
   Phase phase_ = Phase::kIdle;
   CommandStage ended_early_ = CommandStage::kDone;  ///< while it was begun
   Reason early_reason_;
@@ -194,11 +197,12 @@ class Command final : public CommandBase {
   template <auto Function, typename... Options>
   Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
           Options... options) noexcept
-      : Command(*owner, name, doc, [](Component& component, Args... arguments) -> Outcome {
+      : Command(*owner, name, doc, [](Command& command, Args... arguments) -> Outcome {
           using Owner = internal::OwnerOf<Function>;
           static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
                         "a command is served by Outcome f(arguments of the command)");
-          return (static_cast<Owner&>(component).*Function)(static_cast<Args>(arguments)...);
+          auto& component = static_cast<Owner&>(command.owner());
+          return (component.*Function)(static_cast<Args>(arguments)...);
         }) {
     (apply(options), ...);
   }
@@ -210,8 +214,10 @@ class Command final : public CommandBase {
   base::Result<void> begin_with(CommandTicket* ticket,
                                 const std::vector<types::Value>& arguments) override;
 
+  std::unique_ptr<OperationBase> twin(StandIn& owner) const override;
+
  private:
-  using Function = Outcome (*)(Component&, Args...);
+  using Function = Outcome (*)(Command&, Args...);
 
   Command(Component& owner, std::string_view name, std::string_view doc,
           Function function) noexcept;

@@ -70,6 +70,7 @@ struct ExecutionContext {
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};
   bool simulated = false;  ///< several contexts take turns in one thread
+  bool real_time = false;  ///< it asks for a real-time scheduler: its components wait for nobody
   std::atomic<bool> wakes_on_messages{false};
   rt::Inbox inbox;       ///< empty when components of this context are disconnected or destroyed
   rt::Inbox next_cycle;  ///< to be delivered first in the next cycle

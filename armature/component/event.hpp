@@ -20,12 +20,15 @@
 #include "armature/component/port.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component {
 
 class EventHandlerBase;
+
+enum class RaiseStatus : std::uint8_t { kDelivered, kNobodyListens, kQueueFull };
 
 /// What a component itself does at once when it raises one of its events.
 class EventListener {
@@ -66,6 +69,15 @@ class EventBase {
   void add_tap(EventTap& tap);
   void remove_tap(EventTap& tap);
 
+  /// An event of the same name and arguments, which `owner` raises by `raise_from`; it keeps the
+  /// names of this one, which outlives it.
+  /// @thread configuration only
+  virtual std::unique_ptr<EventBase> twin(StandIn& owner) const = 0;
+  /// Raises it with arguments that are where `arguments` says, as its signature describes them.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  virtual RaiseStatus raise_from(const void* const* arguments) noexcept = 0;
+
  protected:
   EventBase(Component& owner, std::string_view name, std::string_view doc,
             Signature signature) noexcept;
@@ -76,6 +88,8 @@ class EventBase {
 
   bool is_tapped() const { return first_tap_ != nullptr; }
   void tell_taps(const void* const* arguments) noexcept;
+
+  void mark_twin(EventBase& twin) const { twin.signature_ = signature_; }
 
   std::uint64_t raised_ = 0;
   std::vector<EventHandlerBase*> subscribers_;
@@ -144,8 +158,6 @@ class EventHandlerBase : public Requirement {
   bool inside_ = false;  ///< it runs
 };
 
-enum class RaiseStatus : std::uint8_t { kDelivered, kNobodyListens, kQueueFull };
-
 template <typename... Args>
 class EventHandler;
 
@@ -186,6 +198,8 @@ class Event final : public EventBase {
 
   void subscribe(EventHandlerBase& base) override;
   void unsubscribe_all() override;
+  std::unique_ptr<EventBase> twin(StandIn& owner) const override;
+  RaiseStatus raise_from(const void* const* arguments) noexcept override;
 
  private:
   struct Queue;

@@ -13,6 +13,7 @@
 #include "armature/component/entrance.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/signature.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/rt/inbox.hpp"
 
 namespace armature::component {
@@ -45,6 +46,8 @@ struct InputCounters {
 };
 
 class OutputPortBase;
+template <typename T>
+class OutputPort;
 
 /// Option of an input port: a write runs the component's update.
 struct OnDataUpdate {};
@@ -121,6 +124,14 @@ class InputPortBase : public PortBase {
   /// Takes what `channel` holds, one handler call for each sample.
   virtual void drain(internal::ChannelBase& channel) = 0;
 
+  /// An input of the same name and type, whose values `owner` passes on; it keeps what this one is
+  /// made of, which outlives it.
+  /// @thread configuration only
+  virtual std::unique_ptr<InputPortBase> twin(StandIn& owner) const = 0;
+  /// An output of `owner`, of the same name and type: for who writes this input from elsewhere.
+  /// @thread configuration only
+  virtual std::unique_ptr<OutputPortBase> make_writer(Component& owner) const = 0;
+
  protected:
   using Arrived = void (*)(InputPortBase&, ExecutionContext&) noexcept;
 
@@ -160,6 +171,8 @@ class InputPortBase : public PortBase {
   void apply(FanIn) noexcept { about().fan_in = true; }
   void apply(const LeadsTo& effects) noexcept { about().leads_to = effects; }
   void apply(OnDataUpdate) noexcept;
+  /// What its twin has of this one besides name and type.
+  void mark_twin(InputPortBase& twin) const;
 
   /// `writer` and its channels are no more.
   void forget_writer(OutputPortBase& writer);
@@ -275,6 +288,8 @@ class InputPort final : public InputPortBase {
   /// Zeros in the shape of `shape`: what is read before the first write.
   void set_shape(const T& shape);
   void drain(internal::ChannelBase& channel) override;
+  std::unique_ptr<InputPortBase> twin(StandIn& owner) const override;
+  std::unique_ptr<OutputPortBase> make_writer(Component& owner) const override;
   /// Runs the handler on a sample that came by `channel`.
   void receive(internal::Channel<T>& channel, const Sample<T>& sample);
 

@@ -21,8 +21,19 @@ std::string_view name_of(CallStatus status) {
       return "queue full";
     case CallStatus::kTimeout:
       return "timeout";
+    case CallStatus::kUnreachable:
+      return "unreachable";
+    case CallStatus::kWouldWait:
+      return "would wait for another process";
   }
   return "unknown";
+}
+
+void OperationBase::mark_twin(OperationBase& twin) const {
+  twin.about_->signature = about_->signature;
+  twin.about_->own_thread = true;
+  twin.about_->by_operator = about_->by_operator;
+  twin.about_->elsewhere = true;
 }
 
 OperationBase::About::About(std::string_view its_name, std::string_view its_doc,

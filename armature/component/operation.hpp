@@ -18,6 +18,7 @@
 #include "armature/component/component.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
+#include "armature/component/stand_in.hpp"
 
 namespace armature::component {
 
@@ -53,6 +54,8 @@ class OperationBase {
   Component& owner() const { return owner_; }
   bool runs_in_own_thread() const { return about_->own_thread; }
   bool is_by_operator() const { return about_->by_operator; }
+  /// Its component stands for one that lives elsewhere.
+  bool is_elsewhere() const { return about_->elsewhere; }
   /// True if accepting it is not the end of it: it has progress and completion.
   virtual bool is_command() const { return false; }
 
@@ -60,6 +63,11 @@ class OperationBase {
   /// @thread the component's own
   virtual base::Result<std::optional<types::Value>> invoke(
       const std::vector<types::Value>& arguments) = 0;
+
+  /// An operation of the same name and signature that `owner` passes on; it keeps the names of this
+  /// one, which outlives it.
+  /// @thread configuration only
+  virtual std::unique_ptr<OperationBase> twin(StandIn& owner) const = 0;
 
  protected:
   /// What is seldom needed lies apart, as for ports.
@@ -73,6 +81,7 @@ class OperationBase {
     Signature signature;
     bool own_thread;
     bool by_operator = false;
+    bool elsewhere = false;
   };
 
   OperationBase(Component& owner, std::unique_ptr<About> about) noexcept;
@@ -80,6 +89,8 @@ class OperationBase {
   void apply(InOwnThread) noexcept { about_->own_thread = true; }
   void apply(ByOperator) noexcept { about_->by_operator = true; }
   void apply(const ArgumentNames& given) noexcept;
+  /// What its twin has of this one besides name and arguments.
+  void mark_twin(OperationBase& twin) const;
   /// What is wrong with `arguments`, empty if nothing.
   std::string mismatch(const std::vector<types::Value>& arguments) const;
   std::string refusal_of_sealed() const;
@@ -136,6 +147,8 @@ class Operation<R(Args...)> final : public OperationBase {
 
   base::Result<std::optional<types::Value>> invoke(
       const std::vector<types::Value>& arguments) override;
+
+  std::unique_ptr<OperationBase> twin(StandIn& owner) const override;
 
  private:
   using Execute = CallResult<R> (*)(Operation&, ExecutionContext&, Args...) noexcept;

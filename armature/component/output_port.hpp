@@ -12,6 +12,7 @@
 
 #include "armature/component/input_port.hpp"
 #include "armature/component/port.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/component/tap.hpp"
 
 namespace armature::component {
@@ -19,6 +20,7 @@ namespace armature::component {
 namespace internal {
 class PortTapBase;
 }  // namespace internal
+using AttachedTap = internal::PortTapBase;
 
 /// What losses an output saw.
 struct OutputCounters {
@@ -53,7 +55,27 @@ class OutputPortBase : public PortBase {
   /// @param capacity  samples that it holds
   /// @thread configuration only, once the port has its shape
   Tap& tap(std::size_t capacity, std::uint64_t every = 1);
-  bool is_tapped() const { return !about().taps.empty(); }
+  bool is_tapped() const { return !about().taps.empty() || about().first_attached != nullptr; }
+
+  /// A tap to be attached: for who comes and goes while the application runs.
+  /// @param shape  a value of the port's type, of the shape that the port has
+  /// @thread any
+  virtual std::unique_ptr<AttachedTap> make_tap(std::size_t capacity, const void* shape) const = 0;
+  /// From now on every sample goes to `tap` as well, until it is detached, which it is before it
+  /// goes.
+  /// @rt nonblocking, no allocation, O(taps)
+  /// @thread the component's own
+  void attach(AttachedTap& tap);
+  void detach(AttachedTap& tap);
+
+  /// An output of the same name and type, which `owner` writes by `write_from`; it keeps what this
+  /// one is made of, which outlives it.
+  /// @thread configuration only
+  virtual std::unique_ptr<OutputPortBase> twin(StandIn& owner) const = 0;
+  /// Writes a value of the port's type.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  virtual WriteStatus write_from(const void* value) noexcept = 0;
 
   /// Gives vectors their declared size; the number of elements of the current value otherwise.
   virtual void prepare() = 0;
@@ -69,6 +91,7 @@ class OutputPortBase : public PortBase {
     std::vector<InputPortBase*> triggered;  ///< readers in this thread whose handlers run now
     std::vector<internal::ChannelBase*> channels;
     std::vector<std::unique_ptr<internal::PortTapBase>> taps;
+    AttachedTap* first_attached = nullptr;
     const OutputPortBase* predecessor = nullptr;
   };
   OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
@@ -95,8 +118,8 @@ class OutputPortBase : public PortBase {
   WriteStatus unread_ = WriteStatus::kNotConnected;  ///< what a write that has nothing to do says
 
  private:
-  virtual std::unique_ptr<internal::PortTapBase> make_tap(std::size_t capacity,
-                                                          std::uint64_t every) = 0;
+  virtual std::unique_ptr<internal::PortTapBase> make_own_tap(std::size_t capacity,
+                                                              std::uint64_t every) = 0;
   void choose_delivery();
   void note(rt::PushResult result, WriteStatus& status);
 };
@@ -154,18 +177,23 @@ class OutputPort final : public OutputPortBase {
   void prepare() override;
   bool fits(const InputPortBase& input) const override;
   void connect(InputPortBase& base, const ConnectionPolicy& policy) override;
+  std::unique_ptr<AttachedTap> make_tap(std::size_t capacity, const void* shape) const override;
+  std::unique_ptr<OutputPortBase> twin(StandIn& owner) const override;
+  WriteStatus write_from(const void* value) noexcept override;
 
  private:
   template <typename Port>
   friend class PortArray;
+  template <typename Other>
+  friend class InputPort;
   OutputPort(Component& owner, std::string_view name, std::string_view doc,
              std::string_view unit) noexcept;
 
   std::unique_ptr<internal::ChannelBase> make_channel(InputPortBase& input,
                                                       const ConnectionPolicy& policy,
                                                       bool same_thread);
-  std::unique_ptr<internal::PortTapBase> make_tap(std::size_t capacity,
-                                                  std::uint64_t every) override;
+  std::unique_ptr<internal::PortTapBase> make_own_tap(std::size_t capacity,
+                                                      std::uint64_t every) override;
   [[gnu::noinline]] WriteStatus write_shaped(const T& value) noexcept;
 
   [[gnu::always_inline]] WriteStatus tell() noexcept {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "armature/component/input_port.hpp"
-#include "armature/component/internal/channel.hpp"
 #include "armature/component/internal/port_tap.hpp"
 #include "armature/component/output_port.hpp"
 
@@ -123,6 +122,15 @@ void InputPortBase::note_taken(internal::ChannelBase& channel, std::uint64_t seq
   set(kZeroed, false);
 }
 
+void InputPortBase::mark_twin(InputPortBase& twin) const {
+  About& its = twin.about();
+  its.size = declared_size();
+  its.may_stay_open = true;  // whoever feeds the original
+  its.fan_in = allows_fan_in();
+  its.leads_to = leads_to_nothing();
+  twin.triggers_ = true;
+}
+
 OutputPortBase::About::~About() = default;
 
 OutputPortBase::OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept
@@ -144,9 +152,26 @@ void OutputPortBase::disconnect_all() {
 
 Tap& OutputPortBase::tap(std::size_t capacity, std::uint64_t every) {
   auto& taps = about().taps;
-  taps.push_back(make_tap(capacity, every));
+  taps.push_back(make_own_tap(capacity, every));
   choose_delivery();
   return *taps.back();
+}
+
+void OutputPortBase::attach(AttachedTap& tap) {
+  AttachedTap** end = &about().first_attached;
+  while (*end != nullptr) end = &(*end)->next;
+  *end = &tap;
+  tap.next = nullptr;
+  choose_delivery();
+}
+
+void OutputPortBase::detach(AttachedTap& tap) {
+  for (AttachedTap** place = &about().first_attached; *place != nullptr; place = &(*place)->next) {
+    if (*place != &tap) continue;
+    *place = tap.next;
+    break;
+  }
+  choose_delivery();
 }
 
 void OutputPortBase::forget(InputPortBase& input) {
@@ -186,7 +211,7 @@ void OutputPortBase::add_reader(InputPortBase& input,
 void OutputPortBase::choose_delivery() {
   const About& mine = about();
   only_ = {};
-  if (!mine.taps.empty() || mine.channels.size() + mine.triggered.size() > 1) {
+  if (is_tapped() || mine.channels.size() + mine.triggered.size() > 1) {
     delivery_ = Delivery::kSeveral;
   } else if (!mine.triggered.empty()) {
     delivery_ = Delivery::kHandler;
@@ -209,6 +234,7 @@ WriteStatus OutputPortBase::deliver(const void* sample) noexcept {
   const About& mine = about();
   // First, since a handler may have this port written again.
   for (const auto& tap : mine.taps) tap->push(sample);
+  for (AttachedTap* tap = mine.first_attached; tap != nullptr; tap = tap->next) tap->push(sample);
   for (internal::ChannelBase* channel : mine.channels) note(channel->send(sample), status);
   for (InputPortBase* input : mine.triggered) run_measured(*input);
   return status;

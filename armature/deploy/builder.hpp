@@ -10,9 +10,15 @@
 
 namespace armature::deploy {
 
+/// Makes what stands for a component of another process.
+/// @param prototype  a component of its model with the properties that the document gives
+using MakePlaceholder = std::function<base::Result<std::unique_ptr<component::Component>>(
+    const Component& written, std::unique_ptr<component::Component> prototype)>;
+
 struct BuildOptions {
   FileReader read;              ///< of property files; empty: from disk
   bool models_missing = false;  ///< a library could not be loaded, so unknown models may be its own
+  MakePlaceholder make_placeholder{};  ///< none: components of other processes are refused
 };
 
 /// Makes the document's components from the models of `registry`, sets their properties, from

@@ -70,6 +70,14 @@ exec::Activity activity_of(const Activity& written) {
   return activity;
 }
 
+/// What lives in another process has a thread here that waits for it, and is never real-time.
+exec::Activity activity_of(const Component& written) {
+  if (written.remote.name.empty()) return activity_of(written.activity);
+  exec::Activity activity;
+  activity.kind = exec::Activity::Kind::kTriggered;
+  return activity;
+}
+
 component::PropertyBase* find_property(const component::Component& component,
                                        std::string_view name) {
   for (component::PropertyBase* property : component.interface().properties) {
@@ -127,16 +135,39 @@ void add_peers(const Component& written, exec::ComponentEntry& entry) {
 void ComponentBuilder::build(const Component& written, exec::Blueprint& blueprint) {
   std::unique_ptr<component::Component> component = make(written);
   const bool whole = component != nullptr && set_properties(written, *component);
-  if (!whole) {
+  if (whole) component = settle(written, std::move(component));
+  if (!whole || component == nullptr) {
     blueprint.absent.insert(written.name);
     return;
   }
-  exec::ComponentEntry entry{
-      std::move(component), written.model, activity_of(written.activity), {}, {}, written.where};
+  exec::ComponentEntry entry{std::move(component), written.model, activity_of(written), {}, {},
+                             written.where};
   entry.autoconfigure = written.autoconf;
   entry.autostart = written.autostart;
   add_peers(written, entry);
   blueprint.components.push_back(std::move(entry));
+}
+
+std::unique_ptr<component::Component> ComponentBuilder::settle(
+    const Component& written, std::unique_ptr<component::Component> component) {
+  if (written.remote.name.empty()) return component;
+  const Activity& activity = written.activity;
+  if (activity.kind != ActivityKind::kSequential) {
+    diagnostics_.error(activity.where,
+                       in_quotes(written.name) + " lives in another process: its activity is there",
+                       "leave out activity");
+  }
+  if (!options_.make_placeholder) {
+    diagnostics_.error(written.remote.where, in_quotes(written.name) +
+                                                 " lives in another process, and this program "
+                                                 "reaches none");
+    return nullptr;
+  }
+  auto placeholder = options_.make_placeholder(written, std::move(component));
+  if (placeholder) return std::move(placeholder).value();
+  diagnostics_.error(written.remote.where,
+                     in_quotes(written.name) + ", remote: " + placeholder.error());
+  return nullptr;
 }
 
 std::unique_ptr<component::Component> ComponentBuilder::make(const Component& written) {

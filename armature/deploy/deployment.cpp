@@ -49,8 +49,9 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
       load_libraries(document.libraries, library_folders(options.library_folders, document.file),
                      deployment.models, diagnostics);
   deployment.options = application_options(document);
-  deployment.blueprint = build_blueprint(document, deployment.models,
-                                         {options.document.read, !all_loaded}, diagnostics);
+  deployment.blueprint =
+      build_blueprint(document, deployment.models,
+                      {options.document.read, !all_loaded, options.make_placeholder}, diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
   if (diagnostics.ok() && deployment.blueprint.components.empty()) {
     diagnostics.error({document.file, 0, 0}, "the file has no components");

@@ -8,6 +8,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/registry.hpp"
+#include "armature/deploy/builder.hpp"
 #include "armature/deploy/document.hpp"
 #include "armature/deploy/document_files.hpp"
 #include "armature/deploy/schedule.hpp"
@@ -21,9 +22,10 @@ struct DeploymentOptions {
   LoadOptions document;                      ///< overrides of the command line, how files are read
   std::vector<std::string> library_folders;  ///< looked through before all others
   std::function<void(component::Registry&)> models;  ///< adds models of the program itself
-  std::string mode;        ///< in which it starts, whatever the document says
-  std::string times_file;  ///< measured execution times (see schedule.hpp); empty: none
-  int cpus = 0;            ///< of the machine that is to run it; 0: as many as this one has
+  MakePlaceholder make_placeholder;  ///< none: components of other processes are refused
+  std::string mode;                  ///< in which it starts, whatever the document says
+  std::string times_file;            ///< measured execution times (see schedule.hpp); empty: none
+  int cpus = 0;  ///< of the machine that is to run it; 0: as many as this one has
 };
 
 /// An application as its files describe it, loaded and checked; nothing of it has moved. Run it

@@ -120,6 +120,7 @@ void Application::make_engines() {
     engine.context().limit_depth(thread.depth + component::kLeastDepthLimit);
     engine.context().supervisor = incidents_.get();
     engine.context().simulated = options_.simulated;
+    engine.context().real_time = thread.activity.scheduler != Activity::Scheduler::kOther;
     engine.context().cycle_time = now();
     engines.push_back(&engine);
   }

@@ -12,6 +12,11 @@ bool ControlQueue::post(Work work) {
   return true;
 }
 
+bool ControlQueue::has_room() const {
+  const std::lock_guard lock(mutex_);
+  return !closed_ && waiting_.size() < kCapacity;
+}
+
 void ControlQueue::run() {
   {
     const std::lock_guard lock(mutex_);

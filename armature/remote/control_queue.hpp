@@ -20,6 +20,9 @@ class ControlQueue {
   /// @thread any
   [[nodiscard]] bool post(Work work);
 
+  /// False if `post` would refuse.
+  bool has_room() const;
+
   /// Does, in its order, what waited when it began.
   /// @thread the controlling one
   void run();
@@ -29,7 +32,7 @@ class ControlQueue {
   void close();
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<Work> waiting_;
   std::vector<Work> taken_;  ///< by `run`; kept for its memory
   bool closed_ = false;

@@ -60,7 +60,8 @@ class Peer {
   /// Waits until it is connected; the error says what is in the way.
   /// @thread any but the node's own
   base::Result<void> wait_until_connected(base::Duration limit) const;
-  /// Calls `handler` at each loss and recovery, by the node's I/O thread.
+  /// Calls `handler` at each loss and recovery, and when a component is there that was missing; by
+  /// the node's I/O thread.
   Subscription on_change(std::function<void(const PeerChange&)> handler);
   /// How often the connection was lost.
   std::uint64_t losses() const;

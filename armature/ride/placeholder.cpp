@@ -30,6 +30,10 @@ Placeholder::~Placeholder() = default;
 const std::string& Placeholder::name() const { return component_->name; }
 const Interface& Placeholder::interface() const { return *component_->interface; }
 
+bool Placeholder::found() const {
+  return component_->state.load() == internal::RemoteComponent::State::kFound;
+}
+
 Code Placeholder::call(Number number, std::string_view operation, const CallOptions& options,
                        const Fields& parameters, const Place& result, std::string& error) {
   internal::WaitingCall call(result);
@@ -44,6 +48,11 @@ Sent Placeholder::send(Number number, Priority priority, const Fields& parameter
   return peer_.state()->link().send(priority, Type::kCommand,
                                     internal::Recipient(component_->identifier), {number},
                                     parameters, internal::Link::Flush::kGather);
+}
+
+void Placeholder::ask(Number number, const Fields& parameters, Then then) {
+  peer_.state()->link().call(number, internal::Recipient(component_->identifier), parameters,
+                             std::make_unique<internal::CallbackCall>(std::move(then)));
 }
 
 Subscription Placeholder::subscribe(Number event, std::function<bool(Decoder&)> handler) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -32,6 +34,9 @@ class Placeholder {
   const std::string& name() const;
   const Interface& interface() const;
   Peer& peer() const { return peer_; }
+  /// The peer has a component of this name and interface.
+  /// @thread any
+  bool found() const;
 
   /// Calls `handler` for each command of the component that failed, until the Subscription goes.
   Subscription on_failed(std::function<void(const Failed&)> handler) {
@@ -84,6 +89,21 @@ class Placeholder {
                      });
   }
 
+  /// What `request`, `command` and `subscribe` come to, for who builds messages at run time.
+  Code call(Number number, std::string_view operation, const CallOptions& options,
+            const Fields& parameters, const Place& result, std::string& error);
+  Sent send(Number number, Priority priority, const Fields& parameters);
+  Subscription subscribe(Number event, std::function<bool(Decoder&)> handler);
+
+  /// Told what a request brought: why there is no answer, or the answer's body.
+  using Then =
+      std::function<void(Code code, std::string_view text, std::span<const std::byte> result)>;
+  /// Sends a request and returns at once. There is no deadline: an answer that does not come is
+  /// told when the connection is lost.
+  /// @param then  called once, by the node's I/O thread or this one; it must not wait
+  /// @thread any
+  void ask(Number number, const Fields& parameters, Then then);
+
   /// An answer for a parameter that is out of its range, which is never sent.
   template <typename Result>
   Answer<Result> refuse(std::string_view operation, std::string_view problem) const {
@@ -91,10 +111,6 @@ class Placeholder {
   }
 
  private:
-  Code call(Number number, std::string_view operation, const CallOptions& options,
-            const Fields& parameters, const Place& result, std::string& error);
-  Sent send(Number number, Priority priority, const Fields& parameters);
-  Subscription subscribe(Number event, std::function<bool(Decoder&)> handler);
   std::string error_text(std::string_view operation, std::string_view problem) const;
 
   Peer& peer_;

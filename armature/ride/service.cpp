@@ -77,4 +77,7 @@ void Service::publish(Number event, const Fields& members, Priority priority) {
   publisher_->publish(event, members, priority);
 }
 
+std::uint64_t Service::subscription_changes() const { return publisher_->changes(); }
+bool Service::has_subscribers(Number event) const { return publisher_->has_subscribers(event); }
+
 }  // namespace armature::ride

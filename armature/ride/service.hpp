@@ -43,8 +43,8 @@ class Sender {
   virtual std::string refusal(std::string_view component, Access access) const = 0;
 };
 
-/// What became of a message that a service was to execute.
-enum class Executed { kDone, kNoSuchOperation, kMalformed };
+/// What became of a message that a service was to execute; kBusy: no room for it now.
+enum class Executed { kDone, kNoSuchOperation, kMalformed, kBusy };
 
 /// The answer to a request that is given later, by any thread, once. Who lets it go without an
 /// answer tells the requester that the operation failed.
@@ -196,13 +196,18 @@ class Service {
   }
   void publish(Number event, const Fields& members, Priority priority);
 
+  /// Changes when somebody subscribes to one of its events, or does so no more.
+  /// @thread any
+  std::uint64_t subscription_changes() const;
+  bool has_subscribers(Number event) const;
+
  private:
   friend class internal::Publisher;
   friend class Node;
   friend class ServiceAccess;
 
   /// Executes an operation with its parameters.
-  /// @return kDone; kNoSuchOperation; kMalformed if the parameters are not the operation's
+  /// @return kDone; kNoSuchOperation; kMalformed if the parameters are not the operation's; kBusy
   virtual Executed execute(Number operation, Decoder& parameters, Reply& reply) = 0;
 
   const Interface& interface_;

@@ -88,3 +88,9 @@ std::unique_ptr<ride::Transport> make_transport(const Options& options,
 }
 
 }  // namespace armature::tls
+
+extern "C" __attribute__((visibility("default"))) armature::ride::Transport*
+armature_make_tls_transport(const armature::tls::Options& options,
+                            armature::base::Diagnostics& diagnostics) {
+  return armature::tls::make_transport(options, diagnostics).release();
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/component/internal/channel.hpp"
+#include "armature/component/input_port.hpp"
 
 namespace armature::component::internal {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// How samples travel where reader and writer do not simply share one place in memory.
+// How samples travel where reader and writer do not simply share one place in memory. Included by
+// input_port.hpp, behind what it declares.
 
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
 
-#include "armature/component/input_port.hpp"
 #include "armature/component/port.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/lane.hpp"

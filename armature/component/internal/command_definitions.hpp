@@ -3,6 +3,7 @@
 
 // What of commands and their callers is not in their header.
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -27,11 +28,22 @@ template <typename... Args>
 Command<Args...>::~Command() = default;
 
 template <typename... Args>
+std::unique_ptr<OperationBase> Command<Args...>::twin(StandIn& owner) const {
+  const auto pass_on = [](Command& command, Args... arguments) -> Outcome {
+    const std::array<const void*, sizeof...(Args)> places{&arguments...};
+    return static_cast<StandIn&>(command.owner()).begin(command, places.data());
+  };
+  std::unique_ptr<Command> made(new Command(owner, name(), doc(), Function(pass_on)));
+  mark_twin(*made);
+  return made;
+}
+
+template <typename... Args>
 Outcome Command<Args...>::begin(CommandTicket* ticket, Args... arguments) {
   Outcome outcome = admit(ticket);
   if (!outcome) return outcome;
   const bool completed = owner().run(
-      owner().context(), [&] { outcome = function_(owner(), static_cast<Args>(arguments)...); });
+      owner().context(), [&] { outcome = function_(*this, static_cast<Args>(arguments)...); });
   return begun(ticket, completed, outcome);
 }
 

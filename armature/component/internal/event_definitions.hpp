@@ -9,6 +9,7 @@
 #include <memory>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "armature/component/event.hpp"
@@ -55,6 +56,21 @@ struct Event<Args...>::Queue {
   std::vector<EventHandler<Args...>*> handlers;
   rt::EntryPool<Entry> entries;
 };
+
+template <typename... Args>
+std::unique_ptr<EventBase> Event<Args...>::twin(StandIn& owner) const {
+  auto made = std::make_unique<Event>(&owner, name(), doc());
+  mark_twin(*made);
+  return made;
+}
+
+template <typename... Args>
+RaiseStatus Event<Args...>::raise_from([[maybe_unused]] const void* const* arguments) noexcept {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return raise(*static_cast<const Args*>(arguments[I])...);
+  }
+  (std::index_sequence_for<Args...>{});
+}
 
 template <typename... Args>
 void Event<Args...>::subscribe(EventHandlerBase& base) {

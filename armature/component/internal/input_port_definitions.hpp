@@ -76,6 +76,26 @@ void InputPort<T>::drain(internal::ChannelBase& base) {
 }
 
 template <typename T>
+std::unique_ptr<InputPortBase> InputPort<T>::twin(StandIn& owner) const {
+  std::unique_ptr<InputPort> made(new InputPort(owner, name(), doc(), unit()));
+  mark_twin(*made);
+  made->arrived_ = [](InputPortBase& base, ExecutionContext& where) noexcept {
+    static_cast<InputPort&>(base).arrived_with_care(where, [](InputPort& port, const T& value) {
+      port.seen_ = port.source_->sequence;
+      static_cast<StandIn&>(port.owner()).pass_on(port, &value);
+    });
+  };
+  return made;
+}
+
+template <typename T>
+std::unique_ptr<OutputPortBase> InputPort<T>::make_writer(Component& owner) const {
+  std::unique_ptr<OutputPort<T>> made(new OutputPort<T>(owner, name(), doc(), unit()));
+  made->apply(declared_size());
+  return made;
+}
+
+template <typename T>
 void InputPort<T>::receive(internal::Channel<T>& channel, const Sample<T>& sample) {
   take(channel, sample);
   ExecutionContext& where = owner().context();
@@ -153,3 +173,5 @@ void InputPort<T>::look_for_newer() {
 }
 
 }  // namespace armature::component
+
+#include "armature/component/output_port.hpp"  // which InputPort::make_writer makes

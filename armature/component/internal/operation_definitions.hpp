@@ -4,6 +4,7 @@
 // What of operations and their callers is not in their header: nothing of this is needed at a call
 // within one thread.
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -44,6 +45,27 @@ Operation<R(Args...)>::Operation(Component& owner, std::string_view name, std::s
 
 template <typename R, typename... Args>
 Operation<R(Args...)>::~Operation() = default;
+
+template <typename R, typename... Args>
+std::unique_ptr<OperationBase> Operation<R(Args...)>::twin(StandIn& owner) const {
+  const auto pass_on = [](Operation& operation, ExecutionContext& where,
+                          Args... arguments) noexcept -> CallResult<R> {
+    if (where.real_time) return {CallStatus::kWouldWait};
+    auto& component = static_cast<StandIn&>(operation.owner());
+    if (!component.ready()) return {CallStatus::kNotReady};
+    CallResult<R> result{CallStatus::kFailed};
+    component.enter_hook(where, [&] {
+      const std::array<const void*, sizeof...(Args)> places{&arguments...};
+      void* place = nullptr;
+      if constexpr (!std::is_void_v<R>) place = &result.value;
+      result.status = component.call(operation, places.data(), place);
+    });
+    return result;
+  };
+  std::unique_ptr<Operation> made(new Operation(owner, name(), doc(), Execute(pass_on)));
+  mark_twin(*made);
+  return made;
+}
 
 template <typename R, typename... Args>
 CallResult<R> Operation<R(Args...)>::execute_by_message(Args... arguments) noexcept {
@@ -112,6 +134,7 @@ OperationCaller<R(Args...)>::~OperationCaller() = default;
 
 template <typename R, typename... Args>
 CallResult<R> OperationCaller<R(Args...)>::send_and_wait(Args... arguments) {
+  if (owner().context().real_time && operation_->is_elsewhere()) return {CallStatus::kWouldWait};
   return send(static_cast<Args>(arguments)...).wait(kCallLimit);
 }
 

@@ -96,9 +96,28 @@ std::unique_ptr<internal::ChannelBase> OutputPort<T>::make_channel(InputPortBase
 }
 
 template <typename T>
-std::unique_ptr<internal::PortTapBase> OutputPort<T>::make_tap(std::size_t capacity,
-                                                               std::uint64_t every) {
+std::unique_ptr<internal::PortTapBase> OutputPort<T>::make_own_tap(std::size_t capacity,
+                                                                   std::uint64_t every) {
   return std::make_unique<internal::PortTap<T>>(capacity, every, sample_);
+}
+
+template <typename T>
+std::unique_ptr<AttachedTap> OutputPort<T>::make_tap(std::size_t capacity,
+                                                     const void* shape) const {
+  return std::make_unique<internal::PortTap<T>>(capacity, 1,
+                                                Sample<T>{*static_cast<const T*>(shape), {}, 0});
+}
+
+template <typename T>
+std::unique_ptr<OutputPortBase> OutputPort<T>::twin(StandIn& owner) const {
+  std::unique_ptr<OutputPort> made(new OutputPort(owner, name(), doc(), unit()));
+  made->apply(declared_size());
+  return made;
+}
+
+template <typename T>
+WriteStatus OutputPort<T>::write_from(const void* value) noexcept {
+  return write(*static_cast<const T*>(value));
 }
 
 namespace internal {

@@ -17,6 +17,8 @@ class PortTapBase : public Tap {
   /// @param sample  a `Sample` of the port's type
   /// @thread the writer's
   virtual void push(const void* sample) noexcept = 0;
+
+  PortTapBase* next = nullptr;  ///< of those that are attached to a port
 };
 
 /// The writer copies its sample, and the reader brings it into its binary form.

@@ -27,6 +27,10 @@ class ComponentBuilder {
 
  private:
   std::unique_ptr<component::Component> make(const Component& written);
+  /// What stands for it here if it lives in another process, else the component itself; nullptr
+  /// after an error.
+  std::unique_ptr<component::Component> settle(const Component& written,
+                                               std::unique_ptr<component::Component> component);
   void report_units(const Component& written, const component::Registry::Model& model,
                     const component::Component& component);
   void report_machines(const Component& written, const component::Component& component);

@@ -146,6 +146,8 @@ void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, 
       case Executed::kMalformed:
         return link.refuse(Code::kMalformed, message,
                            "its parameters are not those of the operation, or out of range");
+      case Executed::kBusy:
+        return link.refuse(Code::kBusy, message, "'" + hosted.name + "' has too much to do");
     }
   } catch (const NotAllowed& refusal) {
     if (!reply.settled()) link.refuse(Code::kNotAllowed, message, refusal.what());

@@ -115,7 +115,7 @@ class Link : public std::enable_shared_from_this<Link> {
   void call(Number operation, const Recipient& recipient, const CallOptions& options,
             const Fields& parameters, WaitingCall& call);
   /// Sends a request; `call` is told of the answer.
-  void call(Number operation, std::uint32_t recipient, const Fields& parameters,
+  void call(Number operation, const Recipient& recipient, const Fields& parameters,
             std::unique_ptr<CallbackCall> call);
   /// Ends the connection; calls that are open fail.
   void break_off(const std::string& why);

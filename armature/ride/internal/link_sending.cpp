@@ -182,16 +182,19 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
   if (reads || call.promoted) leave_reading();
 }
 
-void Link::call(Number operation, std::uint32_t recipient, const Fields& parameters,
+void Link::call(Number operation, const Recipient& recipient, const Fields& parameters,
                 std::unique_ptr<CallbackCall> call) {
   constexpr Priority kMostUrgent{255};
   const std::lock_guard lock(mutex_);
   OpenCall* const open_call = call.release();
-  if (!open()) return open_call->refused(Code::kNotConnected, "there is no connection");
+  const auto identifier = recipient.identifier();
+  if (!open() || !identifier) {
+    return open_call->refused(Code::kNotConnected, "there is no connection to it");
+  }
   open_call->id = ++last_call_ != 0 ? last_call_ : ++last_call_;
   calls_.push_back(open_call);
-  const Sent sent = send_locked(kMostUrgent, Type::kRequest, recipient, {operation, open_call->id},
-                                parameters, Flush::kNow);
+  const Sent sent = send_locked(kMostUrgent, Type::kRequest, *identifier,
+                                {operation, open_call->id}, parameters, Flush::kNow);
   if (sent != Sent::kQueueFull) return;
   remove_call(open_call->id);
   open_call->refused(Code::kBusy, "the other side has not taken what was sent before");

@@ -175,7 +175,7 @@ void PeerState::ask_the_directory(Number operation, const Fields& parameters,
       peer->answered();
     });
   };
-  link_->call(operation, kDirectory, parameters,
+  link_->call(operation, Recipient(kDirectory), parameters,
               std::make_unique<CallbackCall>(std::move(hand_over)));
 }
 
@@ -215,6 +215,7 @@ void PeerState::found(const std::shared_ptr<RemoteComponent>& component,
     const std::lock_guard lock(link_->mutex());
     component->identifier.store(right ? static_cast<std::uint32_t>(entry.identifier) : 0);
   }
+  const bool was_missing = component->state.load() == RemoteComponent::State::kMissing;
   {
     const std::lock_guard lock(mutex_);
     component->state.store(right ? RemoteComponent::State::kFound
@@ -228,6 +229,7 @@ void PeerState::found(const std::shared_ptr<RemoteComponent>& component,
   for (const auto& subscription : subscriptions_) {
     if (subscription->component == component) send_subscription(*subscription);
   }
+  if (was_missing && connected()) tell({true, greeting_});
 }
 
 }  // namespace armature::ride::internal

@@ -35,12 +35,15 @@ bool Publisher::has_event(Number event) const {
 void Publisher::add(std::shared_ptr<EventQueue> subscriber) {
   const std::lock_guard lock(mutex_);
   subscribers_.push_back(std::move(subscriber));
+  changes_.fetch_add(1, std::memory_order_release);
 }
 
 template <typename Is>
 std::size_t Publisher::remove_if(Is is) {
   const std::lock_guard lock(mutex_);
-  return std::erase_if(subscribers_, is);
+  const std::size_t gone = std::erase_if(subscribers_, is);
+  if (gone != 0) changes_.fetch_add(1, std::memory_order_release);
+  return gone;
 }
 
 bool Publisher::remove(const Link& link, std::uint32_t subscription) {
@@ -55,6 +58,12 @@ void Publisher::remove(const Link& link) {
 
 void Publisher::remove_all() {
   remove_if([](const auto&) { return true; });
+}
+
+bool Publisher::has_subscribers(Number event) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(subscribers_,
+                             [&](const auto& subscriber) { return subscriber->event == event; });
 }
 
 std::size_t Publisher::count() const {

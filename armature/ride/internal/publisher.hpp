@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -29,6 +30,9 @@ class Publisher {
   void remove(const Link& link);
   void remove_all();
   std::size_t count() const;
+  bool has_subscribers(Number event) const;
+  /// Counts how often a subscriber came or went.
+  std::uint64_t changes() const { return changes_.load(std::memory_order_acquire); }
 
  private:
   template <typename Is>
@@ -37,6 +41,7 @@ class Publisher {
   const Interface& interface_;
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<EventQueue>> subscribers_;
+  std::atomic<std::uint64_t> changes_{0};
   Body message_;
 };
 

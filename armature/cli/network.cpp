@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/cli/network.hpp"
+
+#include <utility>
+
+#include "armature/cli/loaded.hpp"
+#include "armature/tls/transport.hpp"
+
+namespace armature::cli {
+namespace {
+
+constexpr const char* kRemoteLibrary = "libarmature_remote.so";
+constexpr const char* kTlsLibrary = "libarmature_tls.so";
+
+std::shared_ptr<ride::Transport> make_tls(const deploy::Network& network,
+                                          base::Diagnostics& diagnostics) {
+  void* const make = load_function(kTlsLibrary, tls::kMakeTransport, "tls needs", diagnostics);
+  if (make == nullptr) return nullptr;
+  const tls::Options files{network.certificate.name, network.key.name, network.authority.name};
+  return std::shared_ptr<ride::Transport>(
+      reinterpret_cast<tls::MakeTransport>(make)(files, diagnostics));
+}
+
+}  // namespace
+
+deploy::MakePlaceholder NetworkOnDemand::placeholders() {
+  return [this](const deploy::Component& written, std::unique_ptr<component::Component> prototype) {
+    using Made = base::Result<std::unique_ptr<component::Component>>;
+    base::Diagnostics problems;
+    remote::Network* const network = load(problems);
+    if (network == nullptr) return Made(base::Error{problems.to_text()});
+    return network->make_placeholder(written, std::move(prototype));
+  };
+}
+
+bool NetworkOnDemand::open(const deploy::Document& document, const RunArguments& arguments) {
+  const bool listens = !document.network.listen.empty() || !arguments.listen.empty();
+  if (!listens && network_ == nullptr) return true;
+  base::Diagnostics diagnostics;
+  if (remote::Network* const network = load(diagnostics)) {
+    network->open(document, arguments.listen, diagnostics);
+    for (const std::string& address : network->addresses()) {
+      console_.say(rt::LogLevel::kInfo, "listens at " + address);
+    }
+  }
+  console_.show(diagnostics);
+  return diagnostics.ok();
+}
+
+remote::Network* NetworkOnDemand::load(base::Diagnostics& diagnostics) {
+  if (network_ != nullptr) return network_.get();
+  void* const make =
+      load_function(kRemoteLibrary, remote::kMakeNetwork, "a part in a network needs", diagnostics);
+  if (make == nullptr) return nullptr;
+  remote::NetworkOptions options;
+  options.tls = make_tls;
+  options.log = [this](const rt::LogRecord& record) { console_.log(record); };
+  network_.reset(reinterpret_cast<remote::MakeNetwork>(make)(options));
+  return network_.get();
+}
+
+}  // namespace armature::cli

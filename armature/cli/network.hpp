@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "armature/cli/arguments.hpp"
+#include "armature/cli/console.hpp"
+#include "armature/deploy/builder.hpp"
+#include "armature/remote/network.hpp"
+
+namespace armature::cli {
+
+/// The process's part in a network, from a library that is loaded when something asks for it.
+/// It outlives the application.
+class NetworkOnDemand {
+ public:
+  /// @param console  outlives this
+  explicit NetworkOnDemand(const Console& console) : console_(console) {}
+
+  /// For `load`: placeholders of components in other processes.
+  deploy::MakePlaceholder placeholders();
+
+  /// Makes the node and listens, if the deployment or the command line asks for it.
+  /// @return false after an error, which was told
+  bool open(const deploy::Document& document, const RunArguments& arguments);
+
+  /// nullptr: it has no part in any
+  remote::Network* get() const { return network_.get(); }
+
+ private:
+  remote::Network* load(base::Diagnostics& diagnostics);
+
+  const Console& console_;
+  std::unique_ptr<remote::Network> network_;
+};
+
+}  // namespace armature::cli

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/remote/exported_component.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "armature/remote/value_codec.hpp"
+
+namespace armature::remote {
+namespace {
+
+/// Arguments of an event, to be sent.
+struct OutgoingEvent {
+  const component::Signature* signature;
+  const void* const* arguments;
+};
+void encode(ride::Encoder& to, const OutgoingEvent& event) {
+  for (std::size_t i = 0; i < event.signature->arguments.size(); ++i) {
+    encode(to, Outgoing{event.signature->arguments[i].type, event.arguments[i]});
+  }
+}
+
+/// So little progress is not told.
+constexpr double kLeastProgress = 0.01;
+
+}  // namespace
+
+ExportedComponent::ExportedComponent(const InterfaceNumbers& numbers,
+                                     component::Component& component,
+                                     exec::Application& application, ControlQueue& queue,
+                                     WriteInput write)
+    : Service(numbers.interface()),
+      numbers_(numbers),
+      component_(component),
+      application_(application),
+      queue_(queue),
+      write_(std::move(write)) {
+  const RunInThread run = [&application](component::Component& owner, std::function<void()> work) {
+    return application.run_in_thread_of(owner, std::move(work));
+  };
+  const component::Interface& interface = component.interface();
+  for (const Member& member : numbers.members()) {
+    if (member.kind == Member::Kind::kEvent) {
+      events_.emplace_back(
+          new Event{member.number, member.index, EventFeed(*interface.events[member.index], run)});
+    } else if (member.kind == Member::Kind::kOutput) {
+      outputs_.emplace_back(
+          new Output{member.number, member.index, PortFeed(*interface.outputs[member.index], run)});
+    }
+  }
+}
+
+ExportedComponent::~ExportedComponent() = default;
+
+// --- what peers ask for, as it arrives -----------------------------------------------------------
+
+std::vector<const types::Type*> ExportedComponent::parameters_of(const Member& member) const {
+  std::vector<const types::Type*> types;
+  const component::Interface& interface = component_.interface();
+  if (member.kind == Member::Kind::kInput) types.push_back(&interface.inputs[member.index]->type());
+  if (member.kind == Member::Kind::kOperation || member.kind == Member::Kind::kCommand) {
+    for (const auto& argument : interface.operations[member.index]->signature().arguments) {
+      types.push_back(argument.type);
+    }
+  }
+  return types;
+}
+
+ride::Executed ExportedComponent::execute(ride::Number number, ride::Decoder& parameters,
+                                          ride::Reply& reply) {
+  const Member* const member = numbers_.find(number);
+  const bool is_event = member != nullptr && (member->kind == Member::Kind::kEvent ||
+                                              member->kind == Member::Kind::kOutput ||
+                                              member->kind == Member::Kind::kProgress);
+  if (member == nullptr || is_event) return ride::Executed::kNoSuchOperation;
+  const auto request = std::make_shared<Request>(Request{*member, {}, {}});
+  for (const types::Type* const type : parameters_of(*member)) {
+    types::Value value(*type);
+    Incoming place{type, value.data()};
+    if (!parameters.take(place)) return ride::Executed::kMalformed;
+    request->arguments.push_back(std::move(value));
+  }
+  if (!parameters.ended()) return ride::Executed::kMalformed;
+  if (!queue_.has_room()) return ride::Executed::kBusy;
+  request->reply = reply.keep();
+  const bool posted = queue_.post([this, request] { perform(*request); });
+  return posted ? ride::Executed::kDone : ride::Executed::kBusy;
+}
+
+// --- by the controlling thread -------------------------------------------------------------------
+
+void ExportedComponent::perform(Request& request) {
+  switch (request.member.kind) {
+    case Member::Kind::kOperation:
+      return call(request);
+    case Member::Kind::kCommand:
+      return begin(request);
+    case Member::Kind::kInput:
+      return write(request);
+    case Member::Kind::kCancel:
+      for (UnderWay& command : under_way_) {
+        if (command.index == request.member.index) command.handle.cancel();
+      }
+      return request.reply.done();
+    default:
+      return;
+  }
+}
+
+void ExportedComponent::call(Request& request) {
+  const auto& operation = *component_.interface().operations[request.member.index];
+  const auto answer = application_.call(component_.name(), operation.name(),
+                                        std::move(request.arguments), exec::Caller::kRemote);
+  if (!answer) return fail(request, answer.error());
+  const std::optional<types::Value>& result = answer.value();
+  if (!result) return request.reply.done();
+  request.reply.put(Outgoing{&result->type(), result->data()});
+}
+
+void ExportedComponent::begin(Request& request) {
+  const auto& operation = *component_.interface().operations[request.member.index];
+  auto begun = application_.begin(component_.name(), operation.name(), std::move(request.arguments),
+                                  exec::Caller::kRemote);
+  if (!begun) return fail(request, begun.error());
+  under_way_.push_back({request.member.index, std::move(begun).value(), std::move(request.reply)});
+}
+
+void ExportedComponent::write(Request& request) {
+  component::InputPortBase& input = *component_.interface().inputs[request.member.index];
+  const base::Result<void> written = write_(input, request.arguments.front());
+  if (written) return request.reply.done();
+  if (request.reply) return request.reply.fail(written.error());
+  publish(ride::kFailedDeclaration.number(),
+          ride::Fields(std::tuple(ride::Failed{input.name(), written.error()})), {});
+}
+
+void ExportedComponent::fail(Request& request, std::string_view problem) {
+  fail(request.member.index, request.reply, problem);
+}
+
+/// Who has sent a command without asking for an answer is told by the event that says so.
+void ExportedComponent::fail(std::size_t operation, ride::PendingReply& reply,
+                             std::string_view problem) {
+  if (reply) return reply.fail(problem);
+  const std::tuple failed{ride::Failed{
+      std::string(component_.interface().operations[operation]->name()), std::string(problem)}};
+  publish(ride::kFailedDeclaration.number(), ride::Fields(failed), {});
+}
+
+std::uint64_t ExportedComponent::serve() {
+  if (const std::uint64_t changes = subscription_changes(); changes != changes_seen_) {
+    changes_seen_ = changes;
+    open_and_close_feeds();
+  }
+  follow_commands();
+  std::uint64_t dropped = 0;
+  for (const auto& event : events_) {
+    if (!event->feed.attached()) continue;
+    const component::Signature& signature =
+        component_.interface().events[event->index]->signature();
+    event->feed.take([&](const void* const* arguments) {
+      const std::tuple members{OutgoingEvent{&signature, arguments}};
+      publish(event->number, ride::Fields(members), {});
+    });
+    dropped += event->feed.take_dropped();
+  }
+  for (const auto& output : outputs_) {
+    if (!output->feed.attached()) continue;
+    const types::Type& type = component_.interface().outputs[output->index]->type();
+    output->feed.take([&](const component::TappedSample& sample, const void* value) {
+      publish_sample(output->number, sample.sequence, sample.time, type, value);
+    });
+    dropped += output->feed.take_dropped();
+  }
+  return dropped;
+}
+
+void ExportedComponent::publish_sample(ride::Number number, std::uint64_t sequence, base::Time time,
+                                       const types::Type& type, const void* value) {
+  const std::tuple members{sequence, static_cast<std::int64_t>(time.time_since_epoch().count()),
+                           Outgoing{&type, value}};
+  publish(number, ride::Fields(members), {});
+}
+
+/// Who comes to a port that was written before gets what it holds.
+void ExportedComponent::open_and_close_feeds() {
+  for (const auto& event : events_) {
+    if (has_subscribers(event->number)) {
+      event->feed.open();
+    } else {
+      event->feed.close();
+    }
+  }
+  for (const auto& output : outputs_) {
+    if (!has_subscribers(output->number)) {
+      output->feed.close();
+      continue;
+    }
+    output->feed.open();
+    const PortFeed::Present* const present = output->feed.present();
+    if (present == nullptr || present->sequence == 0) continue;
+    publish_sample(output->number, present->sequence, present->time, present->value.type(),
+                   present->value.data());
+  }
+}
+
+void ExportedComponent::follow_commands() {
+  std::erase_if(under_way_, [this](UnderWay& command) { return follow(command); });
+}
+
+/// @return true if it has ended
+bool ExportedComponent::follow(UnderWay& command) {
+  if (!command.handle.ended()) {
+    const double progress = command.handle.progress();
+    if (std::abs(progress - command.told) >= kLeastProgress) {
+      command.told = progress;
+      publish(numbers_.number(Member::Kind::kProgress, command.index),
+              ride::Fields(std::tuple(progress)), {});
+    }
+    return false;
+  }
+  const component::CommandStage stage = command.handle.stage();
+  if (stage == component::CommandStage::kDone) {
+    command.reply.done();
+    return true;
+  }
+  std::string problem(component::name_of(stage));
+  if (!command.handle.reason().empty()) problem += ": " + std::string(command.handle.reason());
+  fail(command.index, command.reply, problem);
+  return true;
+}
+
+}  // namespace armature::remote

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/remote/interface_numbers.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "armature/component/author.hpp"
+#include "armature/remote/value_codec.hpp"
+
+namespace armature::remote {
+namespace {
+
+using component::Signature;
+
+bool can_travel(const Signature& signature) {
+  if (signature.result != nullptr && !remote::can_travel(*signature.result)) return false;
+  return std::ranges::all_of(signature.arguments, [](const Signature::Argument& argument) {
+    return remote::can_travel(*argument.type);
+  });
+}
+
+std::string types_of(const Signature& signature) {
+  std::string text;
+  for (const Signature::Argument& argument : signature.arguments) {
+    if (!text.empty()) text += ",";
+    text += canonical(*argument.type);
+  }
+  return text;
+}
+
+}  // namespace
+
+InterfaceNumbers::InterfaceNumbers(std::string model, const component::Interface& interface)
+    : model_(std::move(model)) {
+  using ride::Access;
+  for (std::size_t i = 0; i < interface.operations.size(); ++i) {
+    const component::OperationBase& operation = *interface.operations[i];
+    if (!can_travel(operation.signature())) continue;
+    const std::string name(operation.name());
+    const types::Type* const result = operation.signature().result;
+    const std::string whole = (result == nullptr ? "void" : canonical(*result)) + " " + name + "(" +
+                              types_of(operation.signature()) + ")";
+    if (!operation.is_command()) {
+      add(whole, Member::Kind::kOperation, i, Access::kCommand);
+      continue;
+    }
+    add(whole, Member::Kind::kCommand, i, Access::kCommand);
+    add("void cancel_" + name + "()", Member::Kind::kCancel, i, Access::kCommand);
+    add("event " + name + "_progress{double}", Member::Kind::kProgress, i, Access::kRead);
+  }
+  for (std::size_t i = 0; i < interface.events.size(); ++i) {
+    const component::EventBase& event = *interface.events[i];
+    if (!can_travel(event.signature())) continue;
+    add("event " + std::string(event.name()) + "{" + types_of(event.signature()) + "}",
+        Member::Kind::kEvent, i, Access::kRead);
+  }
+  for (std::size_t i = 0; i < interface.outputs.size(); ++i) {
+    const component::OutputPortBase& port = *interface.outputs[i];
+    if (!remote::can_travel(port.type())) continue;
+    add("event " + port.name() + "{unsigned long,long," + canonical(port.type()) + "}",
+        Member::Kind::kOutput, i, Access::kRead);
+  }
+  for (std::size_t i = 0; i < interface.inputs.size(); ++i) {
+    const component::InputPortBase& port = *interface.inputs[i];
+    if (!remote::can_travel(port.type())) continue;
+    add("void " + port.name() + "(" + canonical(port.type()) + ")", Member::Kind::kInput, i,
+        Access::kCommand);
+  }
+  for (std::size_t i = 0; i < texts_.size(); ++i) declarations_[i].canonical = texts_[i];
+  interface_ = {model_, declarations_};
+}
+
+void InterfaceNumbers::add(std::string canonical, Member::Kind kind, std::size_t index,
+                           ride::Access access) {
+  members_.push_back({ride::number_of(canonical), kind, index});
+  texts_.push_back(std::move(canonical));
+  declarations_.push_back({{}, access});
+}
+
+const Member* InterfaceNumbers::find(ride::Number number) const {
+  const auto found = std::ranges::find(members_, number, &Member::number);
+  return found == members_.end() ? nullptr : &*found;
+}
+
+ride::Number InterfaceNumbers::number(Member::Kind kind, std::size_t index) const {
+  const auto found = std::ranges::find_if(
+      members_, [&](const Member& member) { return member.kind == kind && member.index == index; });
+  return found == members_.end() ? 0 : found->number;
+}
+
+}  // namespace armature::remote

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "armature/component/component.hpp"
+#include "armature/ride/interface.hpp"
+
+namespace armature::remote {
+
+/// What a number on the wire stands for.
+struct Member {
+  enum class Kind : std::uint8_t {
+    kOperation,
+    kCommand,   ///< begins it; the answer to a request comes when it has ended
+    kCancel,    ///< `void cancel_NAME()`
+    kProgress,  ///< `event NAME_progress{double}`, 0..1 while it is under way
+    kEvent,
+    kOutput,  ///< `event NAME{unsigned long,long,TYPE}`: sequence, time [ns], value
+    kInput,   ///< `void NAME(TYPE)`
+  };
+  ride::Number number;
+  Kind kind;
+  std::size_t index;  ///< among the operations, events, outputs or inputs of the component
+};
+
+/// The interface of a component as others see it over RIDE (docs/remote.md): the same for whoever
+/// has a component of that model, on either side.
+class InterfaceNumbers {
+ public:
+  /// @param model  the interface's name
+  InterfaceNumbers(std::string model, const component::Interface& interface);
+  InterfaceNumbers(const InterfaceNumbers&) = delete;
+  InterfaceNumbers& operator=(const InterfaceNumbers&) = delete;
+
+  /// Lives as long as this.
+  const ride::Interface& interface() const { return interface_; }
+  const std::vector<Member>& members() const { return members_; }
+  /// nullptr: nothing has that number
+  const Member* find(ride::Number number) const;
+  /// The number of what is there.
+  ride::Number number(Member::Kind kind, std::size_t index) const;
+
+ private:
+  void add(std::string canonical, Member::Kind kind, std::size_t index, ride::Access access);
+
+  std::string model_;
+  std::vector<std::string> texts_;
+  std::vector<ride::Declaration> declarations_;
+  std::vector<Member> members_;
+  ride::Interface interface_;
+};
+
+}  // namespace armature::remote

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/remote/network.hpp"
+
+#include <mutex>
+#include <utility>
+
+#include "armature/remote/control_queue.hpp"
+#include "armature/remote/exported_component.hpp"
+#include "armature/remote/placeholder.hpp"
+#include "armature/ride/node.hpp"
+#include "armature/ride/policy.hpp"
+
+namespace armature::remote {
+namespace {
+
+/// Of `tcp://host:port/Name`.
+struct RemoteAddress {
+  std::string peer;
+  std::string component;
+};
+
+base::Result<RemoteAddress> parse_remote(const std::string& text) {
+  const std::size_t slash = text.rfind('/');
+  const bool whole = slash != std::string::npos && slash + 1 < text.size() && slash > 0 &&
+                     text[slash - 1] != '/' && text.find(':') < slash;
+  if (!whole) {
+    return base::Error{"'" + text +
+                       "' must be the address of a process and the name of a component in it, such "
+                       "as tcp://127.0.0.1:4242/Generator"};
+  }
+  RemoteAddress remote{text.substr(0, slash), text.substr(slash + 1)};
+  if (const auto address = ride::Address::parse(remote.peer); !address) {
+    return base::Error{address.error()};
+  }
+  return remote;
+}
+
+/// More lines than that between two looks at them are left out.
+constexpr std::size_t kMostLogLines = 256;
+
+class RideNetwork final : public Network {
+ public:
+  explicit RideNetwork(const NetworkOptions& options) : options_(options) {}
+  ~RideNetwork() override { RideNetwork::leave(); }
+
+  base::Result<std::unique_ptr<component::Component>> make_placeholder(
+      const deploy::Component& written, std::unique_ptr<component::Component> prototype) override {
+    auto remote = parse_remote(written.remote.name);
+    if (!remote) return base::Error{remote.error()};
+    const RemoteAddress& there = remote.value();
+    return std::unique_ptr<component::Component>(std::make_unique<Placeholder>(
+        written.name, std::move(prototype), written.model, there.component, there.peer,
+        [this, address = there.peer]() -> ride::Peer& { return node().connect(address); }));
+  }
+
+  void open(const deploy::Document& document, const std::vector<std::string>& listen,
+            base::Diagnostics& diagnostics) override {
+    ride::NodeOptions options;
+    if (!document.application.empty()) options.name = document.application;
+    options.log = [this](const rt::LogRecord& record) { note(record); };
+    base::Diagnostics found;
+    set_transports(document, options, found);
+    set_policy(document, options, found);
+    if (found.ok()) {
+      node_ = std::make_unique<ride::Node>(std::move(options));
+      for (const deploy::Reference& each : document.network.listen) {
+        listen_at(each.name, each.where, found);
+      }
+      for (const std::string& each : listen) listen_at(each, {}, found);
+    }
+    if (!found.ok()) node_.reset();
+    diagnostics.append(found);
+    tell();
+  }
+
+  std::vector<std::string> addresses() const override { return addresses_; }
+
+  void host(exec::Application& application, base::Diagnostics& diagnostics) override {
+    if (addresses_.empty()) return;  // nobody could ask
+    application_ = &application;
+    for (const exec::ComponentEntry& entry : application.blueprint().components) {
+      auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
+      auto service = std::make_unique<ExportedComponent>(
+          *numbers, *entry.component, application, queue_,
+          [](component::InputPortBase& input, const types::Value&) -> base::Result<void> {
+            return base::Error{"the input '" + input.name() + "' is not open to other processes"};
+          });
+      if (const auto added = node().add(entry.component->name(), *service); !added) {
+        diagnostics.error(entry.where, added.error());
+        continue;
+      }
+      hosted_.push_back({std::move(numbers), std::move(service)});
+    }
+  }
+
+  void serve() override {
+    queue_.run();
+    for (const Hosted& hosted : hosted_) {
+      const std::uint64_t dropped = hosted.service->serve();
+      if (dropped == 0) continue;
+      say(hosted.service->component().name(), dropped);
+    }
+    tell();
+  }
+
+  void leave() override {
+    queue_.close();
+    for (const Hosted& hosted : hosted_) node().remove(*hosted.service);
+    hosted_.clear();
+    tell();
+  }
+
+ private:
+  struct Hosted {
+    std::unique_ptr<InterfaceNumbers> numbers;
+    std::unique_ptr<ExportedComponent> service;
+  };
+
+  ride::Node& node() {
+    if (node_ == nullptr) node_ = std::make_unique<ride::Node>();
+    return *node_;
+  }
+
+  void set_transports(const deploy::Document& document, ride::NodeOptions& options,
+                      base::Diagnostics& diagnostics) {
+    deploy::Network network = document.network;
+    if (network.certificate.name.empty()) return;
+    for (deploy::Reference* file : {&network.certificate, &network.key, &network.authority}) {
+      file->name = deploy::path_from(document, file->name);
+    }
+    if (auto transport = options_.tls(network, diagnostics)) {
+      options.transports.push_back(std::move(transport));
+    }
+  }
+
+  /// Without a policy whoever reaches the node may look, and do nothing.
+  static void set_policy(const deploy::Document& document, ride::NodeOptions& options,
+                         base::Diagnostics& diagnostics) {
+    const deploy::Reference& file = document.network.policy;
+    if (file.name.empty()) {
+      options.allows = [](const ride::AccessQuestion& question) {
+        return question.access == ride::Access::kRead;
+      };
+      return;
+    }
+    const ride::Policy policy =
+        ride::Policy::load(deploy::path_from(document, file.name), diagnostics);
+    std::vector<std::string> names;
+    for (const deploy::Component& each : document.components) names.push_back(each.name);
+    policy.check(names, diagnostics);
+    options.allows = [policy](const ride::AccessQuestion& question) {
+      return policy.allows(question);
+    };
+  }
+
+  void listen_at(const std::string& address, const base::Location& where,
+                 base::Diagnostics& diagnostics) {
+    const auto got = node().listen(address);
+    if (got) {
+      addresses_.push_back(got.value().text());
+    } else {
+      diagnostics.error(where, got.error());
+    }
+  }
+
+  void say(const std::string& component, std::uint64_t dropped) {
+    rt::LogRecord record;
+    record.level = rt::LogLevel::kWarning;
+    record.component = "network";
+    record.time = application_->now();
+    record.format = "{} events and samples of '{}' came faster than they could be sent";
+    record.arguments[0] = dropped;
+    record.arguments[1] = std::string_view(component);
+    note(record);
+  }
+
+  /// @thread any
+  void note(const rt::LogRecord& record) {
+    const std::lock_guard lock(log_mutex_);
+    if (log_.size() < kMostLogLines) log_.push_back(record);
+  }
+
+  void tell() {
+    std::vector<rt::LogRecord> lines;
+    {
+      const std::lock_guard lock(log_mutex_);
+      lines.swap(log_);
+    }
+    if (!options_.log) return;
+    for (const rt::LogRecord& line : lines) options_.log(line);
+  }
+
+  NetworkOptions options_;
+  exec::Application* application_ = nullptr;
+  std::mutex log_mutex_;
+  std::vector<rt::LogRecord> log_;  ///< since `serve` was called last
+  ControlQueue queue_;
+  std::unique_ptr<ride::Node> node_;
+  std::vector<std::string> addresses_;
+  std::vector<Hosted> hosted_;
+};
+
+}  // namespace
+}  // namespace armature::remote
+
+extern "C" __attribute__((visibility("default"))) armature::remote::Network* armature_make_network(
+    const armature::remote::NetworkOptions& options) {
+  return new armature::remote::RideNetwork(options);
+}

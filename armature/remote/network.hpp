@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/base/result.hpp"
+#include "armature/deploy/document.hpp"
+#include "armature/exec/application.hpp"
+#include "armature/ride/transport.hpp"
+#include "armature/rt/log.hpp"
+
+namespace armature::remote {
+
+struct NetworkOptions {
+  /// Makes the transport for `tls://`; what is wrong is added to the diagnostics.
+  std::function<std::shared_ptr<ride::Transport>(const deploy::Network&, base::Diagnostics&)> tls;
+  std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
+};
+
+/// A process's part in the network: its node, the placeholders of an application, and its
+/// components for others. It outlives the application. Functions are for the controlling thread.
+class Network {
+ public:
+  Network() = default;
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+  virtual ~Network() = default;
+
+  /// What stands for a component that a deployment says is `remote`; nothing is connected yet.
+  /// @param prototype  one of its model, with its properties
+  virtual base::Result<std::unique_ptr<component::Component>> make_placeholder(
+      const deploy::Component& written, std::unique_ptr<component::Component> prototype) = 0;
+
+  /// Makes the node and listens. After an error nothing listens.
+  /// @param listen  addresses beside those of the document
+  virtual void open(const deploy::Document& document, const std::vector<std::string>& listen,
+                    base::Diagnostics& diagnostics) = 0;
+  /// Where it listens, with the ports that it got.
+  virtual std::vector<std::string> addresses() const = 0;
+
+  /// Makes the components of `application`, which runs, known to others.
+  virtual void host(exec::Application& application, base::Diagnostics& diagnostics) = 0;
+  /// Does what others asked for since, and sends what they subscribed to.
+  virtual void serve() = 0;
+  /// Before the application stops: nothing is done for others any more.
+  virtual void leave() = 0;
+};
+
+/// For a program that loads this library only when it has a part in a network; the network is the
+/// caller's.
+using MakeNetwork = Network* (*)(const NetworkOptions& options);
+/// The name of the function in this library.
+inline constexpr const char* kMakeNetwork = "armature_make_network";
+
+}  // namespace armature::remote

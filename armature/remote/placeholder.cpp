@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/remote/placeholder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "armature/base/seconds.hpp"
+#include "armature/remote/value_codec.hpp"
+#include "armature/rt/guard.hpp"
+
+namespace armature::remote {
+namespace {
+
+using component::CallStatus;
+
+/// So much may wait for the component's thread; beyond, the oldest is dropped.
+constexpr std::size_t kMostArrivals = 1024;
+
+/// So long a start waits for the other process; then it goes on without it.
+constexpr base::Duration kStartPatience = std::chrono::seconds(2);
+
+/// Arguments where they are, to be sent.
+struct OutgoingArguments {
+  const component::Signature* signature;
+  const void* const* arguments;
+};
+void encode(ride::Encoder& to, const OutgoingArguments& all) {
+  for (std::size_t i = 0; i < all.signature->arguments.size(); ++i) {
+    encode(to, Outgoing{all.signature->arguments[i].type, all.arguments[i]});
+  }
+}
+
+CallStatus status_of(ride::Code code) {
+  switch (code) {
+    case ride::Code::kNone:
+      return CallStatus::kDone;
+    case ride::Code::kNotConnected:
+    case ride::Code::kConnectionLost:
+    case ride::Code::kNoSuchComponent:
+    case ride::Code::kShuttingDown:
+      return CallStatus::kUnreachable;
+    case ride::Code::kDeadline:
+      return CallStatus::kTimeout;
+    default:
+      return CallStatus::kFailed;
+  }
+}
+
+}  // namespace
+
+Placeholder::Placeholder(std::string name, std::unique_ptr<component::Component> prototype,
+                         std::string model, std::string remote_name, std::string peer_address,
+                         std::function<ride::Peer&()> where)
+    : StandIn(std::move(name)),
+      prototype_(std::move(prototype)),
+      numbers_(std::move(model), prototype_->interface()),
+      remote_name_(std::move(remote_name)),
+      where_(std::move(where)) {
+  address.assign(peer_address);
+  make_twins();
+}
+
+Placeholder::~Placeholder() { let_go(); }
+
+void Placeholder::make_twins() {
+  const component::Interface& original = prototype_->interface();
+  for (const Member& member : numbers_.members()) {
+    switch (member.kind) {
+      case Member::Kind::kOutput:
+        outputs_.push_back({original.outputs[member.index]->twin(*this), member.index});
+        break;
+      case Member::Kind::kInput:
+        inputs_.push_back(original.inputs[member.index]->twin(*this));
+        input_index_.push_back(member.index);
+        break;
+      case Member::Kind::kEvent:
+        events_.emplace_back(original.events[member.index]->twin(*this), member.index);
+        break;
+      case Member::Kind::kOperation:
+      case Member::Kind::kCommand:
+        operations_.push_back({original.operations[member.index]->twin(*this), member.index});
+        break;
+      case Member::Kind::kCancel:
+      case Member::Kind::kProgress:
+        break;
+    }
+  }
+}
+
+// --- life cycle ----------------------------------------------------------------------------------
+
+component::Outcome Placeholder::on_start() {
+  const rt::PermitScope permit;
+  ride::Peer& peer = where_();
+  {
+    const std::lock_guard lock(mailbox_->mutex);
+    mailbox_->owner = this;
+  }
+  link_ = std::make_unique<LinkTo>(peer, remote_name_, numbers_.interface());
+  subscribe();
+  const base::Result<void> reached = peer.wait_until_connected(kStartPatience);
+  mailbox_->put({.kind = Arrival::Kind::kConnection, .text = reached ? "" : reached.error()});
+  return component::accepted();
+}
+
+/// To what somebody uses here: what nobody does costs nothing there.
+void Placeholder::subscribe() {
+  for (const Output& output : outputs_) {
+    const bool used = !output.port->readers().empty() || output.port->is_tapped();
+    if (used) listen(Member::Kind::kOutput, output.index, Arrival::Kind::kSample);
+  }
+  for (const auto& [event, index] : events_) {
+    if (!event->subscribers().empty()) listen(Member::Kind::kEvent, index, Arrival::Kind::kEvent);
+  }
+  for (const Operation& operation : operations_) {
+    if (!operation.twin->is_command()) continue;
+    listen(Member::Kind::kProgress, operation.index, Arrival::Kind::kProgress);
+  }
+  subscriptions_.push_back(where_().on_change([mailbox = mailbox_](const ride::PeerChange& change) {
+    mailbox->put({.kind = Arrival::Kind::kConnection, .text = change.text});
+  }));
+}
+
+void Placeholder::listen(Member::Kind kind, std::size_t index, Arrival::Kind arrives_as) {
+  subscriptions_.push_back(link_->subscribe(
+      numbers_.number(kind, index), [this, kind, index, arrives_as](ride::Decoder& members) {
+        Arrival arrival{.kind = arrives_as, .index = index};
+        if (!take(kind, index, members, arrival)) return false;
+        mailbox_->put(std::move(arrival));
+        return true;
+      }));
+}
+
+bool Placeholder::take(Member::Kind kind, std::size_t index, ride::Decoder& members,
+                       Arrival& arrival) const {
+  const auto take_value = [&](const types::Type& type) {
+    types::Value value(type);
+    Incoming place{&type, value.data()};
+    if (!members.take(place)) return false;
+    arrival.values.push_back(std::move(value));
+    return true;
+  };
+  const component::Interface& original = prototype_->interface();
+  bool good = true;
+  if (kind == Member::Kind::kProgress) {
+    good = members.take(arrival.progress);
+  } else if (kind == Member::Kind::kOutput) {
+    std::int64_t time = 0;  // of a clock that is not this machine's
+    good = members.take(arrival.sequence) && members.take(time) &&
+           take_value(original.outputs[index]->type());
+  } else {
+    const auto& arguments = original.events[index]->signature().arguments;
+    good = std::ranges::all_of(arguments,
+                               [&](const auto& argument) { return take_value(*argument.type); });
+  }
+  return good && members.ended();
+}
+
+void Placeholder::on_stop() { let_go(); }
+void Placeholder::on_cleanup() { let_go(); }
+
+/// From now on nothing of the other process comes here any more.
+void Placeholder::let_go() {
+  const rt::PermitScope permit;
+  {
+    const std::lock_guard lock(mailbox_->mutex);
+    mailbox_->owner = nullptr;
+    mailbox_->arrivals.clear();
+  }
+  subscriptions_.clear();
+  link_.reset();
+  connected.assign(false);
+}
+
+// --- what comes from the other process -----------------------------------------------------------
+
+void Placeholder::Mailbox::put(Arrival arrival) {
+  const std::lock_guard lock(mutex);
+  if (owner == nullptr) return;
+  if (arrivals.size() >= kMostArrivals) {
+    const auto replaceable = std::ranges::find_if(arrivals, [](const Arrival& waiting) {
+      return waiting.kind == Arrival::Kind::kSample || waiting.kind == Arrival::Kind::kEvent;
+    });
+    if (replaceable != arrivals.end()) arrivals.erase(replaceable);
+    ++overflowed;
+  }
+  arrivals.push_back(std::move(arrival));
+  owner->context().raise(owner->bell_);
+}
+
+void Placeholder::Bell::deliver(rt::Message& message) {
+  auto& bell = static_cast<Bell&>(message);
+  bell.lower();
+  bell.self.run_handler(bell.self.context(), [&bell] { bell.self.look_at_arrivals(); });
+}
+
+void Placeholder::look_at_arrivals() {
+  std::vector<Arrival> taken;
+  std::uint64_t overflowed = 0;
+  {
+    const rt::PermitScope permit;
+    const std::lock_guard lock(mailbox_->mutex);
+    taken.swap(mailbox_->arrivals);
+    overflowed = std::exchange(mailbox_->overflowed, 0);
+  }
+  if (overflowed != 0) count(missed, overflowed);
+  for (Arrival& arrival : taken) handle(arrival);
+  const rt::PermitScope permit;
+  taken = {};
+}
+
+void Placeholder::handle(Arrival& arrival) {
+  switch (arrival.kind) {
+    case Arrival::Kind::kConnection:
+      return handle_connection(arrival.text);
+    case Arrival::Kind::kSample:
+      return handle_sample(arrival);
+    case Arrival::Kind::kEvent: {
+      const auto event =
+          std::ranges::find(events_, arrival.index, [](const auto& entry) { return entry.second; });
+      std::vector<const void*> places{nullptr};
+      places.clear();
+      for (const types::Value& value : arrival.values) places.push_back(value.data());
+      event->first->raise_from(places.data());
+      return;
+    }
+    case Arrival::Kind::kProgress:
+    case Arrival::Kind::kEnded: {
+      const auto operation = std::ranges::find(operations_, arrival.index, &Operation::index);
+      auto& command = static_cast<component::CommandBase&>(*operation->twin);
+      if (arrival.kind == Arrival::Kind::kProgress) return command.report(arrival.progress);
+      if (arrival.run != operation->run) return;  // it was cancelled here
+      if (arrival.good) return command.complete();
+      return command.fail(arrival.text);
+    }
+  }
+}
+
+/// The same sample comes again when others subscribe to the port.
+void Placeholder::handle_sample(const Arrival& arrival) {
+  Output& output = *std::ranges::find(outputs_, arrival.index, &Output::index);
+  if (arrival.sequence == output.sequence) return;
+  const bool goes_on = output.sequence != 0 && arrival.sequence > output.sequence;
+  if (goes_on) count(missed, arrival.sequence - output.sequence - 1);
+  output.sequence = arrival.sequence;
+  const component::WriteStatus written = output.port->write_from(arrival.values.front().data());
+  if (written == component::WriteStatus::kWrongSize) count(missed);
+}
+
+void Placeholder::handle_connection(const std::string& text) {
+  const bool was_connected = connected.get();
+  const bool reachable = link_ != nullptr && link_->peer().connected();
+  connected.assign(reachable && link_->found());
+  if (connected.get()) {
+    if (was_connected) return;
+    log_info("'{}' at {} is there", remote_name_, address.get());
+    if (state() == component::State::kRunTimeError) static_cast<void>(recover());
+    found.raise();
+    return;
+  }
+  const std::string problem = reachable ? "there is no such component of this model" : text;
+  log_warning("'{}' at {} cannot be used: {}", remote_name_, address.get(), problem);
+  error("'" + remote_name_ + "' at " + address.get() + " cannot be used: " + problem);
+  if (!was_connected) return;
+  count(losses);
+  for (Output& output : outputs_) {
+    output.sequence = 0;  // another life of it counts anew
+    for (component::InputPortBase* const reader : output.port->readers()) reader->tell_lost();
+  }
+  lost.raise();
+}
+
+// --- what goes there -----------------------------------------------------------------------------
+
+void Placeholder::pass_on(component::InputPortBase& input, const void* value) {
+  const rt::PermitScope permit;
+  const auto at = std::ranges::find(inputs_, &input, [](const auto& twin) { return twin.get(); });
+  const std::size_t index = input_index_[static_cast<std::size_t>(at - inputs_.begin())];
+  const std::tuple members{Outgoing{&input.type(), value}};
+  const bool sent = link_ != nullptr && link_->send(numbers_.number(Member::Kind::kInput, index),
+                                                    {}, ride::Fields(members)) == ride::Sent::kYes;
+  if (!sent) count(unsent);
+}
+
+Placeholder::Operation& Placeholder::operation_of(const component::OperationBase& twin) {
+  return *std::ranges::find(operations_, &twin,
+                            [](const Operation& operation) { return operation.twin.get(); });
+}
+
+component::CallStatus Placeholder::call(component::OperationBase& operation,
+                                        const void* const* arguments, void* result) {
+  const rt::PermitScope permit;
+  if (link_ == nullptr) return CallStatus::kUnreachable;
+  const component::Signature& signature = operation.signature();
+  const std::tuple members{OutgoingArguments{&signature, arguments}};
+  Incoming place{signature.result, result};
+  std::string problem;
+  const ride::CallOptions options{base::from_seconds(answer_limit.get()), {}};
+  const ride::Code code =
+      link_->call(numbers_.number(Member::Kind::kOperation, operation_of(operation).index),
+                  operation.name(), options, ride::Fields(members),
+                  result == nullptr ? ride::Place() : ride::Place(place), problem);
+  if (code != ride::Code::kNone) log_warning("{}", problem);
+  return status_of(code);
+}
+
+component::Outcome Placeholder::begin(component::CommandBase& command,
+                                      const void* const* arguments) {
+  const rt::PermitScope permit;
+  if (link_ == nullptr || !connected.get()) {
+    return component::refused("the component lives in another process, which is not there");
+  }
+  Operation& operation = operation_of(command);
+  const std::uint64_t run = ++operation.run;
+  const std::tuple members{OutgoingArguments{&command.signature(), arguments}};
+  link_->ask(numbers_.number(Member::Kind::kCommand, operation.index), ride::Fields(members),
+             [mailbox = mailbox_, index = operation.index, run](ride::Code code,
+                                                                std::string_view text, auto) {
+               Arrival arrival{.kind = Arrival::Kind::kEnded, .index = index};
+               arrival.run = run;
+               arrival.good = code == ride::Code::kNone;
+               arrival.text = text;
+               mailbox->put(std::move(arrival));
+             });
+  return component::accepted();
+}
+
+void Placeholder::cancel(component::CommandBase& command) {
+  const rt::PermitScope permit;
+  Operation& operation = operation_of(command);
+  ++operation.run;
+  if (link_ == nullptr) return;
+  const std::tuple<> nothing;
+  const auto sent = link_->send(numbers_.number(Member::Kind::kCancel, operation.index), {},
+                                ride::Fields(nothing));
+  if (sent != ride::Sent::kYes) count(unsent);
+}
+
+void Placeholder::count(component::Attribute<int>& counter, std::uint64_t more) {
+  if (more == 0) return;
+  const std::uint64_t room = static_cast<std::uint64_t>(std::numeric_limits<int>::max()) -
+                             static_cast<std::uint64_t>(counter.get());
+  counter.assign(counter.get() + static_cast<int>(std::min(more, room)));
+}
+
+}  // namespace armature::remote

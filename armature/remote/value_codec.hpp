@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Values on the wire that are known by their description only (docs/ride.md, "Body").
+
+#include <string>
+
+#include "armature/ride/codec.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::remote {
+
+/// The type as the interface language has it: `Array<double>`, `struct Pose{double,double}`. 8-bit
+/// integers are `char` and `byte`; texts of both kinds `String`.
+std::string canonical(const types::Type& type);
+
+/// False if values of the type are made by its own class only, so that no peer may send one.
+bool can_travel(const types::Type& type);
+
+/// A value somewhere in memory, to be sent.
+struct Outgoing {
+  const types::Type* type;
+  const void* data;
+};
+void encode(ride::Encoder& to, const Outgoing& value);
+
+/// A place for a value that is received.
+struct Incoming {
+  const types::Type* type;
+  void* data;
+};
+/// False if the body has no such value; a text is longer than there is room for. The place may hold
+/// a part of it then.
+bool decode(ride::Decoder& from, Incoming& value);
+
+}  // namespace armature::remote
