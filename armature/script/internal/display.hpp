@@ -29,6 +29,9 @@ inline constexpr std::size_t kUsualElements = 8;
 std::string value_text(const types::Type& type, const void* value, std::string_view unit,
                        std::size_t most_elements = kUsualElements);
 
+/// `"left"`; nothing that a component says moves the cursor or rings the bell.
+std::string in_quotes(std::string_view text);
+
 /// With a unit, if there is one: `0.25 rad`.
 std::string with_unit(std::string_view text, std::string_view unit);
 

@@ -20,6 +20,7 @@ struct Language {
   std::vector<Topic> examples;  ///< how values are shown and set, and operations called
   std::vector<Topic> commands;
   std::vector<Topic> functions;
+  std::string_view quitting;  ///< what `quit` does
   std::string_view in_names;  ///< what is in names of components and members beside letters
 };
 

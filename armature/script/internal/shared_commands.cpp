@@ -95,7 +95,8 @@ void SharedCommands::start(const Words& names) {
 
 void SharedCommands::stop_components(const Words& names) {
   if (names.empty()) {
-    mistake("stop takes the name of a component: stop Joint1; `quit` ends the application");
+    mistake("stop takes the name of a component: stop Joint1; `quit` " +
+            std::string(language_.quitting));
   }
   change(names, "stop");
 }

@@ -7,6 +7,7 @@
 
 #include "armature/exec/application.hpp"
 #include "armature/script/internal/completion.hpp"
+#include "armature/script/internal/console.hpp"
 #include "armature/script/internal/course.hpp"
 #include "armature/script/internal/interpreter.hpp"
 #include "armature/script/internal/local_robot.hpp"
@@ -18,24 +19,23 @@ namespace armature::script::internal {
 class Watch;
 
 /// What the operator's lines mean: commands of the browser, values to show, Lua. Knows no terminal.
-class TaskBrowser : public SharedCommands {
+class TaskBrowser final : public LineTaker, private SharedCommands {
  public:
   /// @param duration  of the application's run, in its own time
   TaskBrowser(exec::Application& application, base::Duration duration,
               const platform::StopSignal* stop, bool simulated, Surface& surface);
 
-  /// Does what a line says; waits as long as that takes.
-  void take(std::string_view line);
-  /// To be called while nobody has typed a line; false if the run has ended.
-  bool idle() { return interpreter_.catch_up(); }
-  /// The lines so far ask for more.
-  bool wants_more() const { return !lines_.empty(); }
-  void forget_lines() { lines_.clear(); }
-  std::string prompt() const;
-  Completion complete(std::string_view before_cursor);
+  void take(std::string_view line) override;
+  /// False if the run has ended.
+  bool idle() override { return interpreter_.catch_up(); }
+  bool wants_more() const override { return !lines_.empty(); }
+  void forget_lines() override { lines_.clear(); }
+  std::string prompt() const override;
+  Completion complete(std::string_view before_cursor) override;
 
-  void stop() { course_.stop(); }
-  bool has_ended() const { return course_.has_ended(); }
+  void stop() override { course_.stop(); }
+  bool has_ended() const override { return course_.has_ended(); }
+  std::size_t mistakes() const override { return SharedCommands::mistakes(); }
   exec::RunEnd end() const { return course_.end(); }
 
  private:

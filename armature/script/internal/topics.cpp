@@ -70,11 +70,46 @@ std::vector<Topic> lua_functions() {
       {"reason", "motion:reason()", "why a command failed or was cancelled, else \"\"", ""}};
 }
 
+std::vector<Topic> remote_examples() {
+  return {{"", "Joint1.Position", "shows a property, attribute or port with its unit", ""},
+          {"", "PID1.Kp = 300", "sets a property; also in another unit, PID1.UMax = 6000 mV", ""},
+          {"", "Generator:moveTo({1.0, 1.0}, 10)",
+           "calls an operation or begins a command; `wait` waits for its end", ""}};
+}
+
+/// What needs no Lua is the same as in the application's own process.
+std::vector<Topic> remote_commands() {
+  std::vector<Topic> all;
+  for (const Topic& topic : lua_commands()) {
+    const bool other = topic.name == "watch" || topic.name == "stop" || topic.name == "run" ||
+                       topic.name == "wait" || topic.name == "quit";
+    if (!other) all.push_back(topic);
+  }
+  all.push_back({"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
+                 "shows values as they change, until a key",
+                 "Where there is no terminal it writes a line for each step: ten of them unless "
+                 "`for` says more.\nwatch Joint1.Position Joint2.Position every 0.2"});
+  all.push_back({"stop", "stop COMPONENT ...", "stops a component", "stop Joint1"});
+  all.push_back({"wait", "wait [SECONDS]",
+                 "waits so long, or until the commands that were begun have ended",
+                 "Generator:moveTo({1.0, 1.0}, 10)\nwait\n"
+                 "Ctrl-C cancels the commands; a second one ends the waiting."});
+  all.push_back({"quit", "quit", "leaves; the application goes on; also Ctrl-D, exit", ""});
+  return all;
+}
+
 }  // namespace
 
+const Language& remote_language() {
+  static const Language language{
+      "Values and calls", remote_examples(), remote_commands(), {}, "leaves", "_.:-"};
+  return language;
+}
+
 const Language& lua_language() {
-  static const Language language{"Values and calls (Lua 5.4)", lua_examples(), lua_commands(),
-                                 lua_functions(), "_.:"};
+  static const Language language{
+      "Values and calls (Lua 5.4)", lua_examples(), lua_commands(), lua_functions(),
+      "stops the application",      "_.:"};
   return language;
 }
 
