@@ -26,7 +26,7 @@ class AttributeParser {
   void take_one() {
     const Token& name = reader_.now();
     if (name.kind != Token::Kind::kWord) {
-      reader_.fail(name, "expected an attribute, 'unit', 'range' or 'access', found " +
+      reader_.fail(name, "expected an attribute, 'unit', 'range', 'access' or 'later', found " +
                              TokenReader::shown(name));
     }
     reader_.take();
@@ -36,9 +36,11 @@ class AttributeParser {
       take_range(name);
     } else if (name.text == "access") {
       take_access(name);
+    } else if (name.text == "later") {
+      take_later(name);
     } else {
       reader_.fail(name, "there is no attribute " + TokenReader::shown(name),
-                   base::suggestion(name.text, {"unit", "range", "access"}));
+                   base::suggestion(name.text, {"unit", "range", "access", "later"}));
     }
   }
 
@@ -86,6 +88,12 @@ class AttributeParser {
       found_.access = Access::kCommand;
     }
     reader_.expect(")", "the access");
+  }
+
+  void take_later(const Token& name) {
+    refuse_second(name, found_.later != nullptr);
+    if (found_.of_operation == nullptr) found_.of_operation = &name;
+    found_.later = &name;
   }
 
   void refuse_second(const Token& name, bool there_is_one) {

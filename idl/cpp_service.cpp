@@ -48,8 +48,14 @@ class ServiceWriter {
   }
 
   Function head(const Operation& operation) const {
-    return {"virtual " + text_.result_type(operation), "", names_.operation(operation.name),
-            text_.parameters(operation), " = 0;"};
+    Items parameters = text_.parameters(operation);
+    if (operation.later) parameters.push_back(reply_type(operation) + " reply");
+    return {"virtual " + (operation.later ? "void" : text_.result_type(operation)), "",
+            names_.operation(operation.name), parameters, " = 0;"};
+  }
+
+  std::string reply_type(const Operation& operation) const {
+    return "armature::ride::ReplyOf<" + text_.result_type(operation) + ">";
   }
 
   std::string raise(const EventName& event) const {
@@ -125,7 +131,10 @@ class ServiceWriter {
                         name == "operation" || name == "parameters" || name == "reply";
     const std::string begin = (hidden ? "this->" : "") + name + "(";
     if (operation.is_command()) return call(6, begin, names, ");") + "      reply.done();\n";
-    return nested_call(6, "reply.put(", begin, names, "));");
+    if (!operation.later) return nested_call(6, "reply.put(", begin, names, "));");
+    Items given = names;
+    given.push_back(reply_type(operation) + "(reply)");
+    return call(6, begin, given, ");") + "      armature::ride::expect_settled(reply);\n";
   }
 
   const CppText& text_;

@@ -95,6 +95,7 @@ struct Operation {
   std::string name;
   std::vector<Field> parameters;
   Access access = Access::kCommand;
+  bool later = false;  ///< its service answers when it can, not when it returns
   Doc doc;
   base::Location where;
 

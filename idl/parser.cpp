@@ -139,8 +139,9 @@ class Parser {
   Field field(const std::string& what) {
     Attributes attributes = internal::parse_attributes(reader_);
     if (attributes.of_operation != nullptr) {
-      reader_.error(*attributes.of_operation,
-                    "'access' says who may call an operation; " + what + " has none");
+      reader_.error(*attributes.of_operation, TokenReader::shown(*attributes.of_operation) +
+                                                  " belongs to an operation; " + what +
+                                                  " has only 'unit' and 'range'");
     }
     Field result;
     result.type = types_.parse(what);
@@ -168,11 +169,16 @@ class Parser {
     if (attributes.of_field != nullptr) {
       reader_.error(*attributes.of_field, TokenReader::shown(*attributes.of_field) +
                                               " belongs to a member or parameter; an operation has"
-                                              " only 'access'");
+                                              " only 'access' and 'later'");
     }
     Operation result;
     result.access = attributes.access.value_or(Access::kCommand);
+    result.later = attributes.later != nullptr;
     result.result = types_.parse_or_void("an operation's result");
+    if (result.later && result.is_command()) {
+      reader_.error(*attributes.later, "'later' says when a result comes; a command has none",
+                    "leave it out, or give the operation a result");
+    }
     const Token& name = reader_.expect_inner_name("an operation");
     result.name = name.text;
     result.where = reader_.where(name);

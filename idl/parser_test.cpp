@@ -97,6 +97,11 @@ TEST(Parser, AccessIsCommandUnlessItIsGiven) {
   EXPECT_EQ(only_operation("[access(\"configure\")] int f();").access, Access::kConfigure);
 }
 
+TEST(Parser, AnOperationAnswersWhenItReturnsUnlessItIsDeclaredToDoSoLater) {
+  EXPECT_FALSE(only_operation("int f();").later);
+  EXPECT_TRUE(only_operation("[access(\"read\"), later] int f();").later);
+}
+
 TEST(Parser, AttributesMayShareBracketsOrHaveTheirOwn) {
   const auto parameter = [](const std::string& text) {
     return only_operation("void f(" + text + " double q);").parameters.at(0);

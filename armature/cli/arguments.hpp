@@ -46,6 +46,13 @@ struct RunArguments {
   bool statistics = false;
 };
 
+struct BrowseArguments {
+  std::string address;
+  std::string certificate;  ///< files in PEM form, for `tls://`
+  std::string key;
+  std::string authority;
+};
+
 struct CheckArguments {
   LoadArguments load;
   bool order = false;

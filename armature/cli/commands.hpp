@@ -13,6 +13,9 @@ namespace armature::cli {
 /// Runs a deployment until its time is up, it is stopped, or a fault or reaction ends it.
 int run(const RunArguments& arguments, Console& console);
 
+/// Commands an application of another process line by line.
+int browse(const BrowseArguments& arguments, const Console& console);
+
 /// Finds everything that can be known before start.
 int check(const CheckArguments& arguments, const Console& console);
 

@@ -33,6 +33,7 @@ class CommandLine {
         "--log-json", [this] { console_.use_json(); }, "messages as one JSON object a line");
     app_.fallthrough();
     add_run();
+    add_browse();
     add_check();
     add_graph();
     add_models();
@@ -139,6 +140,22 @@ class CommandLine {
     });
   }
 
+  void add_browse() {
+    CLI::App* command = app_.add_subcommand(
+        "browse", "commands a running application of another process or host line by line");
+    command
+        ->add_option(
+            "address", browse_.address,
+            "where it listens: tcp://127.0.0.1:4242, unix:/run/robot.sock, tls://robot:4243")
+        ->required();
+    command->add_option("--certificate", browse_.certificate, "of this side, for tls://")
+        ->type_name("FILE");
+    command->add_option("--key", browse_.key, "the certificate's private key")->type_name("FILE");
+    command->add_option("--authority", browse_.authority, "whose certificates are taken")
+        ->type_name("FILE");
+    command->callback([this] { chosen_ = [this] { return browse(browse_, console_); }; });
+  }
+
   void add_check() {
     CLI::App* command = app_.add_subcommand("check", "finds every mistake without running");
     add_load_options(*command, check_.load);
@@ -192,6 +209,7 @@ class CommandLine {
   CLI::App app_{"Armature: component-based real-time control of robots", "armature"};
   Console& console_;
   RunArguments run_;
+  BrowseArguments browse_;
   CheckArguments check_;
   GraphArguments graph_;
   ModelsArguments models_;

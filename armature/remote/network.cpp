@@ -7,6 +7,7 @@
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
 #include "armature/remote/inlets.hpp"
+#include "armature/remote/inspector.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/policy.hpp"
@@ -86,6 +87,10 @@ class RideNetwork final : public Network {
   void host(exec::Application& application, base::Diagnostics& diagnostics) override {
     if (addresses_.empty()) return;  // nobody could ask
     application_ = &application;
+    inspector_ = std::make_unique<Inspector>(application, queue_);
+    if (const auto added = node().add(Inspector::kName, inspector_->service()); !added) {
+      diagnostics.error({}, added.error());
+    }
     for (const exec::ComponentEntry& entry : application.blueprint().components) {
       auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
       auto service = std::make_unique<ExportedComponent>(
@@ -115,6 +120,8 @@ class RideNetwork final : public Network {
     queue_.close();
     for (const Hosted& hosted : hosted_) node().remove(*hosted.service);
     hosted_.clear();
+    if (inspector_ != nullptr) node().remove(inspector_->service());
+    inspector_.reset();
     tell();
   }
 
@@ -153,7 +160,7 @@ class RideNetwork final : public Network {
     }
     const ride::Policy policy =
         ride::Policy::load(deploy::path_from(document, file.name), diagnostics);
-    std::vector<std::string> names;
+    std::vector<std::string> names{Inspector::kName};
     for (const deploy::Component& each : document.components) names.push_back(each.name);
     policy.check(names, diagnostics);
     options.allows = [policy](const ride::AccessQuestion& question) {
@@ -215,6 +222,7 @@ class RideNetwork final : public Network {
   std::unique_ptr<ride::Node> node_;
   std::vector<std::string> addresses_;
   std::vector<Hosted> hosted_;
+  std::unique_ptr<Inspector> inspector_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
@@ -44,6 +45,12 @@ struct PeerChange {
   std::string text;  ///< why it was lost, or who the other side says it is
 };
 
+/// What a directory says of a component.
+struct PeerComponent {
+  std::string name;
+  std::string interface;  ///< the name of the one that it has
+};
+
 /// Another process, reached by a connection that comes back by itself. Made by Node::connect; lives
 /// as long as the node.
 class Peer {
@@ -60,6 +67,10 @@ class Peer {
   /// Waits until it is connected; the error says what is in the way.
   /// @thread any but the node's own
   base::Result<void> wait_until_connected(base::Duration limit) const;
+  /// The components that it hosts, as its directory lists them now; the error says what is in the
+  /// way, also that no answer came within `limit`.
+  /// @thread any but the node's own
+  base::Result<std::vector<PeerComponent>> components(base::Duration limit) const;
   /// Calls `handler` at each loss and recovery, and when a component is there that was missing; by
   /// the node's I/O thread.
   Subscription on_change(std::function<void(const PeerChange&)> handler);

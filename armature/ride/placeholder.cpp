@@ -18,6 +18,10 @@ base::Result<void> Peer::wait_until_connected(base::Duration limit) const {
   return state_->wait_until_connected(limit);
 }
 
+base::Result<std::vector<PeerComponent>> Peer::components(base::Duration limit) const {
+  return state_->components(limit);
+}
+
 Subscription Peer::on_change(std::function<void(const PeerChange&)> handler) {
   return state_->on_change(std::move(handler));
 }

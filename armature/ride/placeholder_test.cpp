@@ -166,6 +166,17 @@ TEST_P(PlaceholderTest, WhatIsNotThereIsRefused) {
   EXPECT_EQ(server_->statistics().refusals, 3u);
 }
 
+TEST_P(PlaceholderTest, APeerListsItsComponents) {
+  Camera second;
+  server_->add("second", second).value();
+  const auto listed = peer().components(20s);
+  ASSERT_TRUE(listed) << listed.error();
+  ASSERT_EQ(listed.value().size(), 2u);
+  EXPECT_EQ(listed.value()[0].name + listed.value()[1].name, "camerasecond");
+  EXPECT_EQ(listed.value()[0].interface, "Vision");
+  server_->remove(second);
+}
+
 TEST_P(PlaceholderTest, AnotherInterfaceIsNotTakenForTheRightOne) {
   static constexpr Interface kOther{"Microphone", kVisionDeclarations};
   VisionPlaceholder camera(peer(), "camera", kOther);

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "armature/ride/codec.hpp"
 #include "armature/ride/interface.hpp"
@@ -23,6 +25,22 @@ class Publisher;
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Thrown where the sender may not do what it has asked for: the answer is NOT_ALLOWED, with this
+/// text, and the node logs it.
+class NotAllowed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Who has sent the message that is executed.
+class Sender {
+ public:
+  virtual ~Sender() = default;
+  virtual bool allows(std::string_view component, Access access) const = 0;
+  /// Why not: `operator@tls may not command 'Vision'`.
+  virtual std::string refusal(std::string_view component, Access access) const = 0;
 };
 
 /// What became of a message that a service was to execute; kBusy: no room for it now.
@@ -68,13 +86,15 @@ class PendingReply {
 class Reply {
  public:
   /// @param call, operation, component  of the request; `link` is none for a command
+  /// @param sender  none: one that may do everything
   Reply(internal::Link* link, std::uint32_t call, Priority priority, Number operation,
-        std::uint32_t component)
+        std::uint32_t component, const Sender* sender = nullptr)
       : link_(link),
         call_(call),
         priority_(priority),
         operation_(operation),
-        component_(component) {}
+        component_(component),
+        sender_(sender) {}
   Reply(const Reply&) = delete;
   Reply& operator=(const Reply&) = delete;
 
@@ -90,6 +110,16 @@ class Reply {
   /// Answers without a value.
   void done() { answer(Fields(PendingReply::kNothing)); }
 
+  /// Whether the policy lets the sender do so to `component`, too, which the node need not host:
+  /// for an operation that acts on others.
+  bool allows(std::string_view component, Access access) const {
+    return sender_ == nullptr || sender_->allows(component, access);
+  }
+  /// Throws NotAllowed if it does not.
+  void demand(std::string_view component, Access access) const {
+    if (!allows(component, access)) throw NotAllowed(sender_->refusal(component, access));
+  }
+
  private:
   void answer(const Fields& result);
 
@@ -98,8 +128,48 @@ class Reply {
   Priority priority_;
   Number operation_;
   std::uint32_t component_;
+  const Sender* sender_;
   bool settled_ = false;
 };
+
+/// A PendingReply for a result of type `T`.
+template <typename T>
+class PendingReplyOf {
+ public:
+  explicit PendingReplyOf(PendingReply reply) : reply_(std::move(reply)) {}
+
+  void put(const T& result) { reply_.put(result); }
+  void fail(std::string_view text) { reply_.fail(text); }
+  explicit operator bool() const { return static_cast<bool>(reply_); }
+
+ private:
+  PendingReply reply_;
+};
+
+/// A Reply for a result of type `T`: what an operation that is declared `[later]` is given. It puts
+/// its result, now or later, or throws Failure or NotAllowed as any operation.
+/// @thread the one that executes, while it does
+template <typename T>
+class ReplyOf {
+ public:
+  explicit ReplyOf(Reply& reply) : reply_(reply) {}
+
+  void put(const T& result) { reply_.put(result); }
+  PendingReplyOf<T> keep() { return PendingReplyOf<T>(reply_.keep()); }
+  bool allows(std::string_view component, Access access) const {
+    return reply_.allows(component, access);
+  }
+  void demand(std::string_view component, Access access) const { reply_.demand(component, access); }
+
+ private:
+  Reply& reply_;
+};
+
+/// For generated code, behind an operation that is declared `[later]`: one that has neither
+/// answered nor kept its reply has failed.
+inline void expect_settled(const Reply& reply) {
+  if (!reply.settled()) throw Failure("the component has let the request go without an answer");
+}
 
 /// The frame of a component that others use through a node. rcidl derives one from it for each
 /// interface; the component's author derives from that and fills in the operations, which are

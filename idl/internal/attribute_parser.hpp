@@ -13,6 +13,7 @@ struct Attributes {
   std::string unit;
   std::optional<Range> range;
   std::optional<Access> access;
+  const Token* later = nullptr;         ///< where `later` is, if it is there
   const Token* of_field = nullptr;      ///< the first that only a member or parameter has
   const Token* of_operation = nullptr;  ///< the first that only an operation has
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A generated placeholder calls a generated service through two nodes.
+#include <atomic>
 #include <chrono>
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -181,6 +183,20 @@ class Wheels final : public chassis::ChassisService {
   void setVelocity(float, float) override { ADD_FAILURE() << "outside its range"; }
   std::int32_t follow(const chassis::Route&, double) override { return 0; }
   geometry::Pose where() override { return {1.0, 2.0, 0.5}; }
+  void whereItStands(double limit, ride::ReplyOf<geometry::Pose> reply) override {
+    if (limit == 0.0) throw ride::Failure("it is driving");
+    if (limit == 1.0) return;
+    kept.push_back(reply.keep());
+    if (limit == 2.0) kept.back().put({3.0, 0.0, 0.0});
+    if (limit == 3.0) kept.back().fail("it fell over");
+    if (limit == 4.0) kept.pop_back();
+  }
+  void touched(ride::ReplyOf<ride::Flags> reply) override {
+    reply.demand("bumper", ride::Access::kConfigure);
+    reply.put(reply.allows("bumper", ride::Access::kRead) ? ride::Flags{1} : ride::Flags{0});
+  }
+
+  std::vector<ride::PendingReplyOf<geometry::Pose>> kept;
 };
 
 /// What a service says to a message as another implementation could send it.
@@ -216,6 +232,55 @@ TEST(GeneratedService, RefusesAMemberOutsideItsRange) {
 TEST(GeneratedService, KnowsOnlyItsOwnOperations) {
   Wheels wheels;
   EXPECT_EQ(executed(wheels, 0x12345678), ride::Executed::kNoSuchOperation);
+}
+
+/// A Chassis whose operations answer later, and one who asks it.
+class LaterTest : public ::testing::Test {
+ protected:
+  LaterTest() {
+    ride::NodeOptions options;
+    options.allows = [this](const ride::AccessQuestion& question) {
+      return question.component == "wheels" || question.access <= most_;
+    };
+    server_.emplace(options);
+    EXPECT_TRUE(server_->add("wheels", wheels_).ok());
+    const std::string address = server_->listen("tcp://127.0.0.1:0").value().text();
+    wheels.emplace(client_.connect(address), "wheels");
+    EXPECT_TRUE(wheels->peer().wait_until_connected(20s).ok());
+  }
+
+  std::optional<chassis::ChassisPlaceholder> wheels;
+  std::atomic<ride::Access> most_{ride::Access::kConfigure};
+
+ private:
+  ride::Node client_;
+  Wheels wheels_;
+  std::optional<ride::Node> server_;
+};
+
+TEST_F(LaterTest, AnOperationAnswersWhenItCan) {
+  EXPECT_EQ(wheels->whereItStands(2.0, kPatient).value().x, 3.0);
+  EXPECT_THAT(wheels->touched(kPatient).value(), ::testing::ElementsAre(1));
+}
+
+TEST_F(LaterTest, WhyItFailedIsToldWheneverThatIs) {
+  EXPECT_THAT(wheels->whereItStands(0.0, kPatient).error(), HasSubstr("it is driving"));
+  EXPECT_THAT(wheels->whereItStands(3.0, kPatient).error(), HasSubstr("it fell over"));
+}
+
+TEST_F(LaterTest, WhoForgetsToAnswerHasFailed) {
+  for (const double limit : {1.0, 4.0}) {
+    const auto answer = wheels->whereItStands(limit, kPatient);
+    EXPECT_EQ(answer.code(), ride::Code::kFailed);
+    EXPECT_THAT(answer.error(), HasSubstr("has let the request go without an answer"));
+  }
+}
+
+TEST_F(LaterTest, ThePolicyIsAskedForOtherComponentsToo) {
+  most_ = ride::Access::kCommand;
+  const auto refused = wheels->touched(kPatient);
+  EXPECT_EQ(refused.code(), ride::Code::kNotAllowed);
+  EXPECT_THAT(refused.error(), HasSubstr("local may not configure 'bumper'"));
 }
 
 }  // namespace

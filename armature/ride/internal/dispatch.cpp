@@ -104,7 +104,7 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
     return link.refuse(Code::kNoSuchComponent, message, "no component has this identifier");
   }
   if (const auto access = access_to_refuse(link, *hosted, operation)) {
-    return link.refuse(Code::kNotAllowed, message, not_allowed(link, *hosted, *access));
+    return link.refuse(Code::kNotAllowed, message, not_allowed(link, hosted->name, *access));
   }
   if (is_request &&
       link.kept_replies.load(std::memory_order_relaxed) >= options_.limits.pending_replies) {
@@ -113,10 +113,28 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
   run_service(link, message, *hosted, operation, call, is_request, parameters);
 }
 
+/// The other end of a link, for an operation that asks what it may do to further components.
+class NodeState::SenderAt final : public Sender {
+ public:
+  SenderAt(const NodeState& node, const Link& link) : node_(node), link_(link) {}
+
+  bool allows(std::string_view component, Access access) const override {
+    return node_.is_allowed(link_, component, access);
+  }
+  std::string refusal(std::string_view component, Access access) const override {
+    return node_.not_allowed(link_, component, access);
+  }
+
+ private:
+  const NodeState& node_;
+  const Link& link_;
+};
+
 void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
                             std::uint32_t call, bool is_request, Decoder& parameters) {
   const Priority priority{static_cast<std::uint8_t>(message.header.priority)};
-  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier);
+  const SenderAt sender(*this, link);
+  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier, &sender);
   try {
     switch (ServiceAccess::execute(*hosted.service, operation, parameters, reply)) {
       case Executed::kDone:
@@ -131,6 +149,8 @@ void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, 
       case Executed::kBusy:
         return link.refuse(Code::kBusy, message, "'" + hosted.name + "' has too much to do");
     }
+  } catch (const NotAllowed& refusal) {
+    if (!reply.settled()) link.refuse(Code::kNotAllowed, message, refusal.what());
   } catch (const std::exception& failure) {
     if (!reply.settled()) fail(link, message, hosted, operation, failure.what());
   }
@@ -158,20 +178,22 @@ std::optional<Access> NodeState::access_to_refuse(Link& link, const Hosted& host
                                                   Number operation) const {
   if (!options_.allows) return std::nullopt;
   const Declaration* const declaration = find_declaration(hosted.service->interface(), operation);
-  if (declaration == nullptr || is_allowed(link, hosted, declaration->access)) return std::nullopt;
+  if (declaration == nullptr || is_allowed(link, hosted.name, declaration->access))
+    return std::nullopt;
   return declaration->access;
 }
 
 /// `operator@tls may not command 'Vision'`.
-std::string NodeState::not_allowed(Link& link, const Hosted& hosted, Access access) const {
+std::string NodeState::not_allowed(const Link& link, std::string_view component,
+                                   Access access) const {
   const std::string identity = link.identity();
-  return who({link.scheme, identity, hosted.name, access}) + " may not " +
-         std::string(name_of(access)) + " '" + hosted.name + "'";
+  return who({link.scheme, identity, component, access}) + " may not " +
+         std::string(name_of(access)) + " '" + std::string(component) + "'";
 }
 
-bool NodeState::is_allowed(Link& link, const Hosted& hosted, Access access) const {
+bool NodeState::is_allowed(const Link& link, std::string_view component, Access access) const {
   if (!options_.allows) return true;
-  return options_.allows({link.scheme, link.identity(), hosted.name, access});
+  return options_.allows({link.scheme, link.identity(), component, access});
 }
 
 ComponentEntry NodeState::entry_of(const Hosted& hosted) const {
@@ -232,10 +254,10 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
   if (hosted == nullptr) return refusal(Code::kNoSuchComponent);
   Publisher& publisher = ServiceAccess::publisher(*hosted->service);
   if (!publisher.has_event(event)) return refusal(Code::kNoSuchOperation);
-  if (!is_allowed(link, *hosted, Access::kRead)) {
+  if (!is_allowed(link, hosted->name, Access::kRead)) {
     counters_.refusals.fetch_add(1, std::memory_order_relaxed);
     journal_.tell(rt::LogLevel::kWarning, "{} was refused a subscription: NOT_ALLOWED ({})",
-                  link.other_end(), not_allowed(link, *hosted, Access::kRead));
+                  link.other_end(), not_allowed(link, hosted->name, Access::kRead));
     return refusal(Code::kNotAllowed);
   }
   auto queue = std::make_shared<EventQueue>(link.shared_from_this(), chosen, event, identifier,

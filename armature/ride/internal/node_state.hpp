@@ -93,6 +93,7 @@ class NodeState final : public LinkHost {
     std::atomic<std::uint64_t> throttled{0};
     std::atomic<std::uint64_t> connections{0};
   };
+  class SenderAt;
   /// What other threads have left for this one.
   struct Letters {
     std::vector<std::function<void()>> tasks;
@@ -149,8 +150,8 @@ class NodeState final : public LinkHost {
   void fail(Link& link, const Message& message, Hosted& hosted, Number operation,
             std::string_view what);
   std::optional<Access> access_to_refuse(Link& link, const Hosted& hosted, Number operation) const;
-  std::string not_allowed(Link& link, const Hosted& hosted, Access access) const;
-  bool is_allowed(Link& link, const Hosted& hosted, Access access) const;
+  std::string not_allowed(const Link& link, std::string_view component, Access access) const;
+  bool is_allowed(const Link& link, std::string_view component, Access access) const;
   std::int32_t subscribe(Link& link, std::int32_t component, Number event,
                          std::int32_t subscription);
   std::int32_t unsubscribe(Link& link, std::int32_t subscription);

@@ -42,6 +42,8 @@ class PeerState : public std::enable_shared_from_this<PeerState> {
   bool connected() const { return connected_.load(std::memory_order_acquire); }
   std::uint64_t losses() const { return losses_.load(std::memory_order_relaxed); }
   base::Result<void> wait_until_connected(base::Duration limit) const;
+  /// @thread any but the I/O thread
+  base::Result<std::vector<PeerComponent>> components(base::Duration limit);
   Subscription on_change(std::function<void(const PeerChange&)> handler);
   std::shared_ptr<RemoteComponent> component(std::string name, const Interface& interface);
   Subscription subscribe(std::shared_ptr<RemoteComponent> component, Number event,

@@ -2,6 +2,7 @@
 // Of PeerState: what threads of the program ask of it, and the events they get.
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +16,36 @@ base::Result<void> PeerState::wait_until_connected(base::Duration limit) const {
   if (changed_.wait_for(lock, limit, [this] { return connected(); })) return {};
   return base::Error{"'" + text_ + "' is not connected: " +
                      (problem_.empty() ? std::string("it has not answered yet") : problem_)};
+}
+
+base::Result<std::vector<PeerComponent>> PeerState::components(base::Duration limit) {
+  using Listed = base::Result<std::vector<PeerComponent>>;
+  if (const auto there = wait_until_connected(limit); !there) return base::Error{there.error()};
+  const auto listed = std::make_shared<std::promise<Listed>>();
+  std::future<Listed> answer = listed->get_future();
+  auto take = [listed, peer = text_](Code code, std::string_view text,
+                                     std::span<const std::byte> result) {
+    std::vector<ComponentEntry> entries;
+    Decoder from(result);
+    if (code != Code::kNone || !from.take(entries) || !from.ended()) {
+      return listed->set_value(base::Error{"'" + peer + "' does not list its components: " +
+                                           std::string(name_of(code)) + " " + std::string(text)});
+    }
+    std::vector<PeerComponent> components;
+    for (const ComponentEntry& entry : entries) components.push_back({entry.name, entry.interface});
+    listed->set_value(std::move(components));
+  };
+  run([&, take = std::move(take)]() mutable {
+    const std::tuple<> none;
+    ask_the_directory(kList, Fields(none), std::move(take));
+  });
+  const base::Error no_answer{"'" + text_ + "' does not list its components in time"};
+  if (answer.wait_for(limit) != std::future_status::ready) return no_answer;
+  try {
+    return answer.get();
+  } catch (const std::future_error&) {  // the connection was lost, and the question with it
+    return no_answer;
+  }
 }
 
 Subscription PeerState::on_change(std::function<void(const PeerChange&)> handler) {

@@ -5,20 +5,19 @@
 #include <cctype>
 #include <set>
 
-#include "armature/script/internal/help.hpp"
-#include "armature/script/internal/items.hpp"
-
 namespace armature::script::internal {
 namespace {
 
 using Names = std::function<std::vector<std::string>(const std::string&)>;
 
-bool is_part_of_word(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == ':';
+bool is_part_of_word(const Language& language, char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         language.in_names.find(c) != std::string_view::npos;
 }
 
 /// Where the word begins that ends at the cursor; `_G["aic-1"].Ga` is one.
-std::size_t begin_of_word(std::string_view text) {
+std::size_t begin_of_word(const Language& language, std::string_view text) {
+  const auto is_part = [&](char c) { return is_part_of_word(language, c); };
   const std::size_t indexed = text.rfind("_G[\"");
   if (indexed != std::string_view::npos) {
     const std::size_t name = indexed + 4;
@@ -26,60 +25,57 @@ std::size_t begin_of_word(std::string_view text) {
     const std::string_view rest =
         end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     const bool one_word =
-        rest.empty() ||
-        (rest.front() == ']' && std::all_of(rest.begin() + 1, rest.end(), is_part_of_word));
+        rest.empty() || (rest.front() == ']' && std::all_of(rest.begin() + 1, rest.end(), is_part));
     if (one_word) return indexed;
   }
   std::size_t begin = text.size();
-  while (begin > 0 && is_part_of_word(text[begin - 1])) --begin;
+  while (begin > 0 && is_part(text[begin - 1])) --begin;
   return begin;
 }
 
 /// The first word of the line if it is a command of the browser's, and the cursor is behind it.
-std::string_view command_before(std::string_view text, std::size_t begin) {
+std::string_view command_before(const Language& language, std::string_view text,
+                                std::size_t begin) {
   const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
   const std::size_t end = std::min(text.find(' ', first), text.size());
   if (begin <= first || begin < end) return {};
   const std::string_view word = text.substr(first, end - first);
   if (word == "list") return "ls";
-  for (const Topic& topic : command_topics()) {
+  for (const Topic& topic : language.commands) {
     if (topic.name == word) return topic.name;
   }
   return {};
 }
 
-void add_values(const component::Component& component, const std::string& before,
+void add_values(const remote::ComponentDetails& component, const std::string& before,
                 std::set<std::string>& words) {
-  const component::Interface& interface = component.interface();
-  for (const auto* one : interface.properties) words.insert(before + std::string(one->name()));
-  for (const auto* one : interface.inputs) words.insert(before + one->name());
-  for (const auto* one : interface.outputs) words.insert(before + one->name());
-  for (const auto* one : interface.events) words.insert(before + std::string(one->name()));
+  for (const auto& one : component.properties) words.insert(before + one.name);
+  for (const auto& one : component.inputs) words.insert(before + one.name);
+  for (const auto& one : component.outputs) words.insert(before + one.name);
+  for (const auto& one : component.events) words.insert(before + one.name);
 }
 
-void add_operations(const component::Component& component, const std::string& before,
+void add_operations(const remote::ComponentDetails& component, const std::string& before,
                     const char* behind, std::set<std::string>& words) {
-  for (const auto* one : component.interface().operations) {
-    words.insert(before + std::string(one->name()) + behind);
-  }
+  for (const auto& one : component.operations) words.insert(before + one.name + behind);
 }
 
 /// What may follow `Joint1.`, `Joint1:`, `left.`, `math.`, `motion:`.
-void add_members(const exec::Application& application, const Names& names_in,
-                 const std::string& owner, char separator, bool for_help,
-                 std::set<std::string>& words) {
+void add_members(Robot& robot, const Names& names_in, const std::string& owner, char separator,
+                 bool for_help, std::set<std::string>& words) {
   const std::string before = owner + separator;
-  const component::Component* const component = find_component(application, owner);
-  if (component != nullptr && separator == '.') add_values(*component, before, words);
-  if (component != nullptr && (separator == ':' || for_help)) {
-    add_operations(*component, before, for_help ? "" : "(", words);
+  const std::string component = robot.find(owner);
+  if (!component.empty()) {
+    const remote::ComponentDetails details = robot.interface_of(component);
+    if (separator == '.') add_values(details, before, words);
+    if (separator == ':' || for_help) add_operations(details, before, for_help ? "" : "(", words);
   }
-  for (const std::string& name : component_names(application)) {
+  for (const std::string& name : robot.component_names()) {
     if (separator == '.' && name.starts_with(before)) {
       words.insert(name.substr(0, name.find('.', before.size())));
     }
   }
-  if (!words.empty() || component != nullptr) return;
+  if (!words.empty() || !component.empty() || !names_in) return;
   if (separator == '.') {
     for (const std::string& name : names_in(owner)) words.insert(before + name);
   } else {
@@ -90,10 +86,9 @@ void add_members(const exec::Application& application, const Names& names_in,
   }
 }
 
-void add_components(const exec::Application& application, bool whole,
-                    std::set<std::string>& words) {
-  for (const std::string& name : component_names(application)) {
-    words.insert(whole ? name : in_lua(name.substr(0, name.find('.'))));
+void add_components(Robot& robot, bool whole, std::set<std::string>& words) {
+  for (const std::string& name : robot.component_names()) {
+    words.insert(whole ? name : robot.spelled(name.substr(0, name.find('.'))));
   }
 }
 
@@ -118,26 +113,26 @@ std::string Completion::common() const {
   return text;
 }
 
-Completion complete(const exec::Application& application, const Names& names_in,
+Completion complete(Robot& robot, const Language& language, const Names& names_in,
                     std::string_view before_cursor) {
   Completion completion;
-  completion.begin = begin_of_word(before_cursor);
+  completion.begin = begin_of_word(language, before_cursor);
   const std::string word(before_cursor.substr(completion.begin));
-  const std::string_view command = command_before(before_cursor, completion.begin);
+  const std::string_view command = command_before(language, before_cursor, completion.begin);
   const std::size_t separator = word.find_last_of(".:");
   std::set<std::string> words;
   if (names_components(command)) {
-    add_components(application, true, words);
+    add_components(robot, true, words);
   } else if (separator != std::string::npos) {
-    add_members(application, names_in, word.substr(0, separator), word[separator],
-                command == "help", words);
+    add_members(robot, names_in, word.substr(0, separator), word[separator], command == "help",
+                words);
   } else {
-    add_components(application, !command.empty(), words);
+    add_components(robot, !command.empty(), words);
     const bool first = before_cursor.find_first_not_of(' ') >= completion.begin;
-    if (first || command == "help") add_topics(command_topics(), words);
-    if (command == "help") add_topics(function_topics(), words);
+    if (first || command == "help") add_topics(language.commands, words);
+    if (command == "help") add_topics(language.functions, words);
     if (command == "watch") words.insert({"every", "for"});
-    if (command.empty()) {
+    if (command.empty() && names_in) {
       for (const std::string& name : names_in("")) words.insert(name);
     }
   }

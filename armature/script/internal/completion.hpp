@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/exec/application.hpp"
+#include "armature/script/internal/language.hpp"
+#include "armature/script/internal/robot.hpp"
 
 namespace armature::script::internal {
 
@@ -20,8 +21,9 @@ struct Completion {
   std::string common() const;
 };
 
-/// @param names_in  the names in a table of Lua's; of the global one for an empty name
-Completion complete(const exec::Application& application,
+/// @param names_in  the names in a table of Lua's; of the global one for an empty name; none: there
+///   is no Lua
+Completion complete(Robot& robot, const Language& language,
                     const std::function<std::vector<std::string>(const std::string&)>& names_in,
                     std::string_view before_cursor);
 

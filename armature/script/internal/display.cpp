@@ -29,24 +29,6 @@ const char* code_of(Ink ink) {
   return "";
 }
 
-/// Nothing that a component says moves the cursor or rings the bell.
-std::string quoted(std::string_view text) {
-  std::string safe = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '\n') {
-      safe += "\\n";
-    } else if (c == '"' || c == '\\') {
-      safe += std::string("\\") + c;
-    } else if (code < 0x20 || code == 0x7f) {
-      safe += "\\" + std::to_string(code);
-    } else {
-      safe += c;
-    }
-  }
-  return safe + "\"";
-}
-
 std::string scalar_text(const Type& type, const void* value) {
   return types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) -> std::string {
     T scalar{};
@@ -90,7 +72,7 @@ std::string struct_text(const Type& type, const void* value, std::size_t most_el
 }
 
 std::string plain_text(const Type& type, const void* value, std::size_t most_elements) {
-  if (types::is_text(type)) return quoted(type.text(value));
+  if (types::is_text(type)) return in_quotes(type.text(value));
   if (types::is_list(type)) return list_text(type, value, most_elements);
   if (type.kind == types::Kind::kStruct) return struct_text(type, value, most_elements);
   return scalar_text(type, value);
@@ -132,8 +114,28 @@ std::string inked(const Paper& paper, Ink ink, std::string_view text) {
 
 std::string value_text(const Type& type, const void* value, std::string_view unit,
                        std::size_t most_elements) {
-  const std::string text = plain_text(type, value, most_elements);
-  return unit.empty() ? text : text + " " + std::string(unit);
+  return with_unit(plain_text(type, value, most_elements), unit);
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string safe = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      safe += "\\n";
+    } else if (c == '"' || c == '\\') {
+      safe += std::string("\\") + c;
+    } else if (code < 0x20 || code == 0x7f) {
+      safe += "\\" + std::to_string(code);
+    } else {
+      safe += c;
+    }
+  }
+  return safe + "\"";
+}
+
+std::string with_unit(std::string_view text, std::string_view unit) {
+  return unit.empty() ? std::string(text) : std::string(text) + " " + std::string(unit);
 }
 
 std::size_t columns_of(std::string_view text) {

@@ -21,10 +21,19 @@ struct Paper {
 enum class Ink { kName, kHeading, kBad, kGood, kFaint };
 std::string inked(const Paper& paper, Ink ink, std::string_view text);
 
+/// Of a list that are shown.
+inline constexpr std::size_t kUsualElements = 8;
+
 /// For people: `0.25 rad`, `[1, 2, 3] V`, `{kp: 1 V/rad, steps: 2}`, `"left"`; of a long list the
 /// first elements and how many there are.
 std::string value_text(const types::Type& type, const void* value, std::string_view unit,
-                       std::size_t most_elements = 8);
+                       std::size_t most_elements = kUsualElements);
+
+/// `"left"`; nothing that a component says moves the cursor or rings the bell.
+std::string in_quotes(std::string_view text);
+
+/// With a unit, if there is one: `0.25 rad`.
+std::string with_unit(std::string_view text, std::string_view unit);
 
 /// Columns that a text takes in a terminal: of UTF-8 each character one, of colours none.
 std::size_t columns_of(std::string_view text);

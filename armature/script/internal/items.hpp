@@ -1,89 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What texts like `Joint1`, `Sensor.sensor[2]` and `Settings.Gains.kp` name in an application.
+// What texts like `Joint1`, `Sensor.sensor[2]` and `Settings.Gains.kp` name, also as Lua spells
+// them.
 
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
-#include <vector>
 
-#include "armature/base/result.hpp"
-#include "armature/component/author.hpp"
-#include "armature/exec/application.hpp"
+#include "armature/remote/items.hpp"
 
 namespace armature::script::internal {
+
+using remote::component_names;
+using remote::Item;
+using remote::Member;
+using remote::no_component;
+using remote::part_of;
+using remote::read_members;
+using remote::Reading;
 
 bool is_lua_name(std::string_view text);
 
 /// How Lua names a component: `Joint1`, `left.Finger`, `_G["aic-1"]`.
 std::string in_lua(std::string_view component);
 
+/// The other way round: `aic-1.Gain` of `_G["aic-1"].Gain`, `aic-1` of `"aic-1"`.
+std::string without_lua(std::string_view text);
+
 /// The text with what Lua needs for the component that it begins with, if that has a name which
 /// Lua would misread; `_G["aic-1"].Gain` for `aic-1.Gain`.
 std::string spelled_for_lua(const exec::Application& application, std::string_view text);
 
-std::vector<std::string> component_names(const exec::Application& application);
-
-/// The component whose name `text` is; `text` may be quoted or written as Lua has it.
+/// As those of `remote`; `text` may be quoted or written as Lua has it.
 component::Component* find_component(const exec::Application& application, std::string_view text);
-
-/// Why there is none, with the nearest name.
-std::string no_component(const exec::Application& application, std::string_view text);
-
-const exec::ComponentEntry& entry_of(const exec::Application& application,
-                                     const component::Component& component);
-
-/// The thread that runs it.
-const exec::ThreadPlan& thread_of(const exec::Application& application,
-                                  const component::Component& component);
-
-/// A member of a component; one of the pointers is set.
-struct Member {
-  const component::Component* component = nullptr;
-  const component::PropertyBase* property = nullptr;
-  const component::InputPortBase* input = nullptr;
-  const component::OutputPortBase* output = nullptr;
-  const component::OperationBase* operation = nullptr;
-  const component::EventBase* event = nullptr;
-
-  std::string name() const;  ///< with its component
-  bool has_value() const { return property != nullptr || port() != nullptr; }
-  const component::PortBase* port() const;
-  const types::Type& type() const;  ///< of its value
-  std::string_view unit() const;
-};
-
-/// The member that `text` names, `Component.member` or `Component:member`; else why there is none.
 base::Result<Member> find_member(const exec::Application& application, std::string_view text);
-
-/// A member's value or a part of it: `Sensor.sensor[2]`, `Settings.Gains.kp`.
-struct Item {
-  using Part = std::variant<std::size_t, const types::Field*>;  ///< counted from 0
-  std::string text;
-  Member member;
-  std::vector<Part> parts;
-  const types::Type* type = nullptr;
-  std::string unit;
-};
 base::Result<Item> find_item(const exec::Application& application, std::string_view text);
-
-/// A value as its component's thread had it at one moment.
-struct Reading {
-  types::Value whole;
-  bool written = true;  ///< false: nobody wrote the port yet
-  base::Duration age{};
-};
-/// Reads values of one component, all at one moment; nothing if its thread does not answer.
-std::optional<std::vector<Reading>> read_members(exec::Application& application,
-                                                 const std::vector<Member>& members);
-
-/// Where the part of `item` is in a reading of its member; nullptr if the list is not so long.
-const void* part_of(const Item& item, const types::Value& whole);
-
-/// Why a component is as it is; empty if it says nothing.
-std::string reason_of(exec::Application& application, component::Component& component);
 
 }  // namespace armature::script::internal

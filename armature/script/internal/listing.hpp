@@ -4,27 +4,28 @@
 // What the task browser lists: components, their members, threads, faults.
 
 #include <string>
+#include <vector>
 
-#include "armature/exec/application.hpp"
 #include "armature/script/internal/display.hpp"
 #include "armature/script/internal/machines.hpp"
+#include "inspection_types.hpp"
 
 namespace armature::script::internal {
 
 /// Every component with model, state and thread.
-std::string list_components(const Paper& paper, exec::Application& application);
+std::string list_components(const Paper& paper,
+                            const std::vector<remote::ComponentStatus>& components);
 
 /// Every state machine of the script with its state.
 std::string list_machines(const Paper& paper, const Machines& machines);
 
 /// One component with its values.
-std::string list_members(const Paper& paper, exec::Application& application,
-                         component::Component& component);
+std::string list_members(const Paper& paper, const remote::ComponentDetails& component);
 
 /// Each thread's cycles, times and load.
-std::string list_threads(const Paper& paper, const exec::Application& application);
+std::string list_threads(const Paper& paper, const std::vector<remote::ThreadStatus>& threads);
 
 /// Who is in an error, faulted or was stopped, and why.
-std::string list_faults(const Paper& paper, exec::Application& application);
+std::string list_faults(const Paper& paper, const remote::Faults& faults);
 
 }  // namespace armature::script::internal

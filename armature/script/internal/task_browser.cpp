@@ -19,30 +19,6 @@ namespace {
 using component::Component;
 using component::State;
 
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(kBlank) - begin + 1));
-}
-
-/// Separated by blanks and commas; quotes hold together what belongs together.
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  std::string word;
-  char quote = '\0';
-  for (const char c : text) {
-    if (quote != '\0' || (c != ' ' && c != ',' && c != '\t')) {
-      if (c == '"' || c == '\'') quote = quote == c ? '\0' : quote == '\0' ? c : quote;
-      word += c == '\'' ? '"' : c;
-    } else if (!word.empty()) {
-      words.push_back(std::exchange(word, {}));
-    }
-  }
-  if (!word.empty()) words.push_back(word);
-  return words;
-}
-
 std::string number_text(const char* format, double number) {
   char text[64];
   std::snprintf(text, sizeof text, format, number);
@@ -51,27 +27,17 @@ std::string number_text(const char* format, double number) {
 
 }  // namespace
 
-/// `Joint1.GearRatio = 0.02`.
-struct TaskBrowser::Assignment {
-  std::string target;
-  std::string value;
-  std::optional<Item> item;  ///< if the target is one
-
-  explicit Assignment(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    const bool one = equals != std::string::npos && equals > 0 && equals + 1 < text.size() &&
-                     text[equals + 1] != '=' &&
-                     std::string_view("<>~=").find(text[equals - 1]) == std::string_view::npos;
-    if (!one) return;
-    target = trimmed(text.substr(0, equals));
-    value = trimmed(text.substr(equals + 1));
-  }
+/// An assignment whose target may be an item.
+struct TaskBrowser::ItemAssignment : Assignment {
+  using Assignment::Assignment;
+  std::optional<Item> item;
 };
 
 TaskBrowser::TaskBrowser(exec::Application& application, base::Duration duration,
                          const platform::StopSignal* stop, bool simulated, Surface& surface)
-    : application_(application),
-      surface_(surface),
+    : SharedCommands(robot_here_, lua_language(), surface),
+      application_(application),
+      robot_here_(application),
       simulated_(simulated),
       begin_(application.now()),
       course_(application, duration, stop),
@@ -87,20 +53,14 @@ std::string TaskBrowser::prompt() const {
 
 Completion TaskBrowser::complete(std::string_view before_cursor) {
   return internal::complete(
-      application_, [this](const std::string& table) { return interpreter_.names_in(table); },
-      before_cursor);
-}
-
-void TaskBrowser::mistake(std::string_view text) {
-  const std::string error = "error: " + std::string(text);
-  surface_.complain(surface_.live() ? wrapped(paper(), error, 0, 0) : error);
-  ++mistakes_;
+      robot(), lua_language(),
+      [this](const std::string& table) { return interpreter_.names_in(table); }, before_cursor);
 }
 
 // --- lines ---------------------------------------------------------------------------------------
 
 void TaskBrowser::take(std::string_view line) {
-  surface_.take_interrupt();
+  surface().take_interrupt();
   if (wants_more()) {
     take_lua(lines_ + "\n" + std::string(line));
     return;
@@ -168,15 +128,15 @@ bool TaskBrowser::take_item(const std::string& line) {
     mistake("'" + line + "' is not there: it is " +
             value_text(item.value().member.type(), readings->front().whole.data(), {}));
   } else if (!readings->front().written) {
-    surface_.say("not yet written");
+    surface().say("not yet written");
   } else {
-    surface_.say(value_text(*item.value().type, part, item.value().unit));
+    surface().say(value_text(*item.value().type, part, item.value().unit));
   }
   return true;
 }
 
 /// What Lua would take without a word, or not at all: a part of a copy, a value with its unit.
-bool TaskBrowser::prepare(Assignment& assignment) {
+bool TaskBrowser::prepare(ItemAssignment& assignment) {
   const base::Result<Item> item = find_item(application_, assignment.target);
   if (!item) return true;
   assignment.item = item.value();
@@ -199,7 +159,7 @@ bool TaskBrowser::prepare(Assignment& assignment) {
 
 void TaskBrowser::take_lua(const std::string& text) {
   lines_.clear();
-  Assignment assignment(text);
+  ItemAssignment assignment(text);
   std::string lua = spelled_for_lua(application_, text);
   if (!assignment.target.empty()) {
     if (!prepare(assignment)) return;
@@ -212,11 +172,11 @@ void TaskBrowser::take_lua(const std::string& text) {
     return;
   }
   if (!interpreter_.run(lua)) {
-    ++mistakes_;
+    count_mistake();
   } else if (assignment.item) {
     const auto readings = read_members(application_, {assignment.item->member});
     if (!readings) return;
-    surface_.say(
+    surface().say(
         assignment.item->text + " = " +
         value_text(*assignment.item->type, readings->front().whole.data(), assignment.item->unit));
   }
@@ -225,62 +185,41 @@ void TaskBrowser::take_lua(const std::string& text) {
 // --- commands ------------------------------------------------------------------------------------
 
 void TaskBrowser::list(const Words& names) {
-  if (names.empty()) surface_.say(list_components(paper(), application_));
+  SharedCommands::list(names);
   if (names.empty() && !interpreter_.machines().all().empty()) {
-    surface_.say(list_machines(paper(), interpreter_.machines()));
-  }
-  for (const std::string& name : names) {
-    if (Component* const component = find_component(application_, name)) {
-      surface_.say(list_members(paper(), application_, *component));
-    } else if (const auto member = find_member(application_, name); member) {
-      help({name});
-    } else {
-      mistake(member.error());
-    }
-  }
-}
-
-void TaskBrowser::help(const Words& subjects) {
-  if (subjects.empty()) surface_.say(help_overview(paper()));
-  for (const std::string& subject : subjects) {
-    const base::Result<std::string> text = help_on(paper(), application_, subject);
-    if (text) {
-      surface_.say(text.value());
-    } else {
-      mistake(text.error());
-    }
+    surface().say(list_machines(paper(), interpreter_.machines()));
   }
 }
 
 void TaskBrowser::watch(const Words& words) {
-  const base::Result<Watch> watch = Watch::parse(application_, words);
+  const base::Result<Watch> watch = Watch::parse(robot(), words);
   if (!watch) {
     mistake(watch.error());
     return;
   }
-  surface_.begin_keys();
-  if (surface_.live() && !simulated_) {
+  surface().begin_keys();
+  if (surface().live() && !simulated_) {
     watch_in_place(watch.value());
   } else {
     watch_by_lines(watch.value());
   }
-  surface_.end_keys();
-  surface_.take_interrupt();
+  surface().end_keys();
+  surface().take_interrupt();
 }
 
 void TaskBrowser::watch_in_place(const Watch& watch) {
   const base::Time end =
       base::later(application_.now(), watch.limit().value_or(base::Duration::max()));
   bool key = false;
-  const auto key_came = [&] { return key = key || surface_.take_key(); };
+  const auto key_came = [&] { return key = key || surface().take_key(); };
   std::string picture;
   do {
-    picture = watch.picture(paper(), application_);
-    surface_.show(picture + "\n" + inked(paper(), Ink::kFaint, "any key ends it"));
+    picture = watch.picture(paper(), robot());
+    surface().show(picture + "\n" + inked(paper(), Ink::kFaint, "any key ends it"));
   } while (interpreter_.let_pass(std::min(watch.every(), end - application_.now()), key_came) &&
            application_.now() < end);
-  surface_.show("");
-  surface_.say(picture);
+  surface().show("");
+  surface().say(picture);
 }
 
 void TaskBrowser::watch_by_lines(const Watch& watch) {
@@ -288,79 +227,12 @@ void TaskBrowser::watch_by_lines(const Watch& watch) {
   const base::Time end =
       base::later(application_.now(), watch.limit().value_or(kUsualLines * watch.every()));
   bool key = false;
-  const auto key_came = [&] { return key = key || surface_.take_key(); };
-  if (const std::string heading = watch.heading(paper()); !heading.empty()) surface_.say(heading);
+  const auto key_came = [&] { return key = key || surface().take_key(); };
+  if (const std::string heading = watch.heading(paper()); !heading.empty()) surface().say(heading);
   while (application_.now() < end &&
          interpreter_.let_pass(std::min(watch.every(), end - application_.now()), key_came)) {
-    surface_.say(watch.line(paper(), application_, seconds()));
+    surface().say(watch.line(paper(), robot(), seconds()));
   }
-}
-
-bool TaskBrowser::takes_nothing(std::string_view command, const Words& arguments) {
-  if (arguments.empty()) return true;
-  mistake(std::string(command) + " takes nothing, found '" + arguments.front() + "'");
-  return false;
-}
-
-void TaskBrowser::threads(const Words& arguments) {
-  if (takes_nothing("threads", arguments)) surface_.say(list_threads(paper(), application_));
-}
-
-void TaskBrowser::faults(const Words& arguments) {
-  if (takes_nothing("faults", arguments)) surface_.say(list_faults(paper(), application_));
-}
-
-TaskBrowser::Words TaskBrowser::all_in(State state) const {
-  Words names;
-  for (const exec::ComponentEntry& entry : application_.blueprint().components) {
-    if (entry.component->state() == state) names.push_back(entry.component->name());
-  }
-  return names;
-}
-
-void TaskBrowser::change(const Words& names, Transition transition) {
-  for (const std::string& name : names) {
-    Component* const component = find_component(application_, name);
-    if (component == nullptr) {
-      mistake(no_component(application_, name));
-      continue;
-    }
-    const component::Outcome outcome = (application_.*transition)(component->name());
-    if (!outcome) mistake(component->name() + ": " + std::string(outcome.reason()));
-    surface_.say(component->name() + ": " + std::string(component::name_of(component->state())));
-  }
-}
-
-void TaskBrowser::start(const Words& names) {
-  Words all = names;
-  if (all.empty()) {
-    for (const exec::Index index : application_.plan().start_order) {
-      const exec::ComponentEntry& entry = application_.blueprint().components[index];
-      const bool rests = entry.component->state() == State::kStopped && entry.autostart;
-      if (rests) all.push_back(entry.component->name());
-    }
-    if (all.empty()) surface_.say("no component is stopped");
-  }
-  change(all, &exec::Application::start_component);
-}
-
-void TaskBrowser::stop_components(const Words& names) {
-  if (names.empty()) {
-    mistake("stop takes the name of a component: stop Joint1; `quit` ends the application");
-  }
-  change(names, &exec::Application::stop_component);
-}
-
-void TaskBrowser::reset(const Words& names) {
-  const Words all = names.empty() ? all_in(State::kException) : names;
-  if (all.empty()) surface_.say("no component is in an exception");
-  change(all, &exec::Application::reset_component);
-}
-
-void TaskBrowser::recover(const Words& names) {
-  const Words all = names.empty() ? all_in(State::kRunTimeError) : names;
-  if (all.empty()) surface_.say("no component is in a run-time error");
-  change(all, &exec::Application::recover_component);
 }
 
 void TaskBrowser::run(const Words& arguments) {
@@ -372,9 +244,9 @@ void TaskBrowser::run(const Words& arguments) {
     return;
   }
   const bool whole = interpreter_.let_pass(*time);
-  surface_.show("");
-  if (!whole && surface_.take_interrupt()) {
-    surface_.say("interrupted at " + number_text("%.9g s", seconds()));
+  surface().show("");
+  if (!whole && surface().take_interrupt()) {
+    surface().say("interrupted at " + number_text("%.9g s", seconds()));
   }
 }
 
@@ -388,7 +260,7 @@ void TaskBrowser::wait(const Words& arguments) {
 
 void TaskBrowser::cancel(const Words& arguments) {
   if (!takes_nothing("cancel", arguments)) return;
-  if (!interpreter_.cancel_commands()) surface_.say("no command is under way");
+  if (!interpreter_.cancel_commands()) surface().say("no command is under way");
 }
 
 void TaskBrowser::quit(const Words& arguments) {

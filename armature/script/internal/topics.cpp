@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of the task browser and the functions of its Lua, as help and completion know them.
-#include "armature/script/internal/help.hpp"
+// The commands of the task browsers and the functions of their Lua, as help and completion know
+// them.
+#include "armature/script/internal/language.hpp"
 
 namespace armature::script::internal {
+namespace {
 
-const std::vector<Topic>& command_topics() {
-  static const std::vector<Topic> all = {
+std::vector<Topic> lua_examples() {
+  return {{"", "Joint1.Position", "shows a property, attribute or port with its unit", ""},
+          {"", "Joint1.GearRatio = 0.02", "sets a property", ""},
+          {"", "Generator:moveTo(array(1.0, 1.0), 10)",
+           "calls an operation or begins a command; `wait` waits for its end", ""},
+          {"", "for i = 1, 3 do print(i) end", "any Lua; Ctrl-C interrupts it", ""}};
+}
+
+std::vector<Topic> lua_commands() {
+  return {
       {"ls", "ls [COMPONENT ...]",
        "lists the components and state machines, or one component with its values",
        "ls\nls Joint1\n`list` is the same."},
@@ -38,11 +48,10 @@ const std::vector<Topic>& command_topics() {
       {"cancel", "cancel", "cancels the commands that are under way",
        "Those that were begun here. One alone: motion:cancel()."},
       {"quit", "quit", "stops the application in order; also Ctrl-D, exit, stop()", ""}};
-  return all;
 }
 
-const std::vector<Topic>& function_topics() {
-  static const std::vector<Topic> all = {
+std::vector<Topic> lua_functions() {
+  return {
       {"at", "at(seconds, function)", "calls a function at a time, counted from the begin",
        "at(now() + 5, function() Generator:moveTo(array(1, 1), 10) end)"},
       {"on", "on(event, function)", "calls a function each time that an event is raised",
@@ -59,7 +68,49 @@ const std::vector<Topic>& function_topics() {
        "motion = Generator:moveTo(array(1, 1), 10)\nmotion:done()"},
       {"progress", "motion:progress()", "how far a command is, 0 to 1", ""},
       {"reason", "motion:reason()", "why a command failed or was cancelled, else \"\"", ""}};
+}
+
+std::vector<Topic> remote_examples() {
+  return {{"", "Joint1.Position", "shows a property, attribute or port with its unit", ""},
+          {"", "PID1.Kp = 300", "sets a property; also in another unit, PID1.UMax = 6000 mV", ""},
+          {"", "Generator:moveTo({1.0, 1.0}, 10)",
+           "calls an operation or begins a command; `wait` waits for its end", ""}};
+}
+
+/// What needs no Lua is the same as in the application's own process.
+std::vector<Topic> remote_commands() {
+  std::vector<Topic> all;
+  for (const Topic& topic : lua_commands()) {
+    const bool other = topic.name == "watch" || topic.name == "stop" || topic.name == "run" ||
+                       topic.name == "wait" || topic.name == "quit";
+    if (!other) all.push_back(topic);
+  }
+  all.push_back({"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
+                 "shows values as they change, until a key",
+                 "Where there is no terminal it writes a line for each step: ten of them unless "
+                 "`for` says more.\nwatch Joint1.Position Joint2.Position every 0.2"});
+  all.push_back({"stop", "stop COMPONENT ...", "stops a component", "stop Joint1"});
+  all.push_back({"wait", "wait [SECONDS]",
+                 "waits so long, or until the commands that were begun have ended",
+                 "Generator:moveTo({1.0, 1.0}, 10)\nwait\n"
+                 "Ctrl-C cancels the commands; a second one ends the waiting."});
+  all.push_back({"quit", "quit", "leaves; the application goes on; also Ctrl-D, exit", ""});
   return all;
+}
+
+}  // namespace
+
+const Language& remote_language() {
+  static const Language language{
+      "Values and calls", remote_examples(), remote_commands(), {}, "leaves", "_.:-"};
+  return language;
+}
+
+const Language& lua_language() {
+  static const Language language{
+      "Values and calls (Lua 5.4)", lua_examples(), lua_commands(), lua_functions(),
+      "stops the application",      "_.:"};
+  return language;
 }
 
 }  // namespace armature::script::internal

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
 #include "armature/base/seconds.hpp"
 #include "armature/base/unit.hpp"
@@ -40,14 +39,11 @@ std::optional<base::Duration> seconds_in(std::string_view text) {
   return base::from_seconds(seconds.value());
 }
 
-base::Result<Watch> Watch::parse(const exec::Application& application,
-                                 const std::vector<std::string>& words) {
+base::Result<Watch> Watch::parse(Robot& robot, const std::vector<std::string>& words) {
   Watch watch;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] != "every" && words[i] != "for") {
-      base::Result<Item> item = find_item(application, words[i]);
-      if (!item) return base::Error{item.error()};
-      watch.items_.push_back(std::move(item).value());
+      watch.items_.push_back({words[i], {}});
       continue;
     }
     const std::string found = i + 1 < words.size() ? words[i + 1] : "nothing";
@@ -59,38 +55,39 @@ base::Result<Watch> Watch::parse(const exec::Application& application,
   if (watch.items_.empty()) {
     return base::Error{"watch takes what to look at: watch Joint1.Position every 0.2"};
   }
+  const std::vector<remote::ItemValue> values = watch.read(robot);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // Without a type it is nothing that could ever be looked at.
+    if (values[i].type.empty()) return base::Error{values[i].error};
+    watch.items_[i] = {values[i].item, values[i].unit};
+  }
   return watch;
 }
 
-/// Of each component all at one moment.
-std::vector<std::string> Watch::values(exec::Application& application) const {
-  std::map<const component::Component*, std::vector<std::size_t>> by_component;
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    by_component[items_[i].member.component].push_back(i);
-  }
-  std::vector<std::string> texts(items_.size(), "no answer");
-  for (const auto& [component, indices] : by_component) {
-    std::vector<Member> members;
-    for (const std::size_t i : indices) members.push_back(items_[i].member);
-    const auto readings = read_members(application, members);
-    if (!readings) continue;
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-      const Item& item = items_[indices[k]];
-      const void* const part = part_of(item, (*readings)[k].whole);
-      texts[indices[k]] = !(*readings)[k].written ? "not yet"
-                          : part == nullptr       ? "none"
-                                                  : value_text(*item.type, part, {}, kFewElements);
-    }
+std::vector<remote::ItemValue> Watch::read(Robot& robot) const {
+  std::vector<std::string> items;
+  for (const Item& item : items_) items.push_back(item.text);
+  return robot.read(items, kFewElements);
+}
+
+std::vector<std::string> Watch::values(Robot& robot) const {
+  std::vector<std::string> texts;
+  for (const remote::ItemValue& value : read(robot)) {
+    const bool answered = value.written || value.error.empty();
+    texts.push_back(!answered              ? "no answer"
+                    : !value.written       ? "not yet"
+                    : !value.error.empty() ? "none"
+                                           : value.value);
   }
   return texts;
 }
 
-std::string Watch::name_of(const Item& item) const {
+std::string Watch::name_of(const Item& item) {
   return item.unit.empty() ? item.text : item.text + " [" + item.unit + "]";
 }
 
-std::string Watch::picture(const Paper& paper, exec::Application& application) const {
-  const std::vector<std::string> texts = values(application);
+std::string Watch::picture(const Paper& paper, Robot& robot) const {
+  const std::vector<std::string> texts = values(robot);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::string& unit = items_[i].unit;
@@ -115,8 +112,8 @@ std::string Watch::heading(const Paper& paper) const {
   return inked(paper, Ink::kHeading, text);
 }
 
-std::string Watch::line(const Paper& paper, exec::Application& application, double seconds) const {
-  const std::vector<std::string> texts = values(application);
+std::string Watch::line(const Paper& paper, Robot& robot, double seconds) const {
+  const std::vector<std::string> texts = values(robot);
   std::string text = padded(time_text(seconds), kTimeColumns);
   const bool columns = fits(paper);
   for (std::size_t i = 0; i < items_.size(); ++i) {

@@ -8,28 +8,33 @@
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
 #include "armature/script/internal/display.hpp"
-#include "armature/script/internal/items.hpp"
+#include "armature/script/internal/robot.hpp"
 
 namespace armature::script::internal {
 
 /// Values that are looked at again and again: `watch ITEM ... [every SECONDS] [for SECONDS]`.
 class Watch {
  public:
-  static base::Result<Watch> parse(const exec::Application& application,
-                                   const std::vector<std::string>& words);
+  static base::Result<Watch> parse(Robot& robot, const std::vector<std::string>& words);
 
   base::Duration every() const { return every_; }
   const std::optional<base::Duration>& limit() const { return limit_; }
 
   /// The items in lines of their own, to be shown in place.
-  std::string picture(const Paper& paper, exec::Application& application) const;
+  std::string picture(const Paper& paper, Robot& robot) const;
   /// One line for each moment, `seconds` behind which the values stand; and what is above them.
   std::string heading(const Paper& paper) const;
-  std::string line(const Paper& paper, exec::Application& application, double seconds) const;
+  std::string line(const Paper& paper, Robot& robot, double seconds) const;
 
  private:
-  std::vector<std::string> values(exec::Application& application) const;
-  std::string name_of(const Item& item) const;
+  /// What is looked at.
+  struct Item {
+    std::string text;
+    std::string unit;
+  };
+  std::vector<remote::ItemValue> read(Robot& robot) const;
+  std::vector<std::string> values(Robot& robot) const;
+  static std::string name_of(const Item& item);
   bool fits(const Paper& paper) const;
 
   std::vector<Item> items_;

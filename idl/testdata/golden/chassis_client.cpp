@@ -30,6 +30,20 @@ armature::ride::Answer<geometry::Pose> ChassisPlaceholder::where(
   return request<geometry::Pose>(0x77093b08, "where", options);
 }
 
+armature::ride::Answer<geometry::Pose> ChassisPlaceholder::whereItStands(
+    double limit, armature::ride::CallOptions options) {
+  if (!armature::ride::within(limit, 0.0, 60.0)) {
+    return refuse<geometry::Pose>("whereItStands",
+                                  armature::ride::outside("limit", limit, "0 to 60"));
+  }
+  return request<geometry::Pose>(0x809a053f, "whereItStands", options, limit);
+}
+
+armature::ride::Answer<armature::ride::Flags> ChassisPlaceholder::touched(
+    armature::ride::CallOptions options) {
+  return request<armature::ride::Flags>(0x4ab7e0f5, "touched", options);
+}
+
 armature::ride::Answer<std::int32_t> ChassisService_Placeholder::setGains(
     const std::array<double, 3>& left, const std::array<double, 3>& right,
     const std::vector<std::string>& names, armature::ride::CallOptions options) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/ride/flags.hpp"
 #include "armature/ride/placeholder.hpp"
 #include "chassis_types.hpp"
 
@@ -29,6 +30,13 @@ class ChassisPlaceholder : public armature::ride::Placeholder {
                                               armature::ride::CallOptions options = {});
 
   armature::ride::Answer<geometry::Pose> where(armature::ride::CallOptions options = {});
+
+  /// Where it came to stand, once it stands.
+  /// @param limit  [s], 0 to 60
+  armature::ride::Answer<geometry::Pose> whereItStands(double limit,
+                                                       armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<armature::ride::Flags> touched(armature::ride::CallOptions options = {});
 
   /// Calls `handler` for each Arrived until the Subscription is destroyed.
   armature::ride::Subscription on_Arrived(std::function<void(const Arrived&)> handler) {

@@ -38,6 +38,24 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
       reply.put(where());
       return armature::ride::Executed::kDone;
     }
+    case 0x809a053f: {  // whereItStands
+      double limit = 0.0;
+      if (!parameters.take(limit) || !parameters.ended() ||
+          !armature::ride::within(limit, 0.0, 60.0)) {
+        return armature::ride::Executed::kMalformed;
+      }
+      whereItStands(limit, armature::ride::ReplyOf<geometry::Pose>(reply));
+      armature::ride::expect_settled(reply);
+      return armature::ride::Executed::kDone;
+    }
+    case 0x4ab7e0f5: {  // touched
+      if (!parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      touched(armature::ride::ReplyOf<armature::ride::Flags>(reply));
+      armature::ride::expect_settled(reply);
+      return armature::ride::Executed::kDone;
+    }
     default:
       return armature::ride::Executed::kNoSuchOperation;
   }

@@ -53,12 +53,14 @@ inline bool decode(armature::ride::Decoder& from, Bumped& value) {
 }
 constexpr armature::ride::Number event_number(const Bumped*) { return 0xc274a65b; }
 
-/// What interface Chassis has; both sides compare its digest, 0xa7ee5972.
+/// What interface Chassis has; both sides compare its digest, 0xdda0ac72.
 inline constexpr armature::ride::Declaration kChassisDeclarations[] = {
     {"void setVelocity(float,float)", armature::ride::Access::kCommand},
     {"int follow(struct Route{String,Array<struct Pose{double,double,double}>},double)",
      armature::ride::Access::kCommand},
     {"struct Pose{double,double,double} where()", armature::ride::Access::kRead},
+    {"struct Pose{double,double,double} whereItStands(double)", armature::ride::Access::kRead},
+    {"Array<bool> touched()", armature::ride::Access::kCommand},
     {"event Arrived{struct Pose{double,double,double},long}", armature::ride::Access::kRead},
 };
 inline constexpr armature::ride::Interface kChassis{"Chassis", kChassisDeclarations};

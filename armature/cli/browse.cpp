@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/loaded.hpp"
+#include "armature/script/remote_browser.hpp"
+#include "armature/tls/transport.hpp"
+
+namespace armature::cli {
+namespace {
+
+constexpr const char* kTls = "tls://";
+constexpr const char* kSchemes[] = {"tcp://", "unix:", kTls};
+
+/// Why the arguments make no sense together; empty if they do.
+std::string wrong_use(const BrowseArguments& arguments) {
+  bool known = false;
+  for (const char* scheme : kSchemes) known |= arguments.address.starts_with(scheme);
+  if (!known) {
+    return "'" + arguments.address +
+           "' is no address: expected one such as tcp://127.0.0.1:4242, unix:/run/robot.sock or "
+           "tls://robot:4243";
+  }
+  const bool tls = arguments.address.starts_with(kTls);
+  const bool all =
+      !arguments.certificate.empty() && !arguments.key.empty() && !arguments.authority.empty();
+  if (tls && !all) return "a tls:// address needs --certificate, --key and --authority";
+  return {};
+}
+
+/// Nothing after an error.
+std::shared_ptr<ride::Transport> make_tls(const BrowseArguments& arguments,
+                                          base::Diagnostics& diagnostics) {
+  void* const make =
+      load_function("libarmature_tls.so", tls::kMakeTransport, "tls needs", diagnostics);
+  if (make == nullptr) return nullptr;
+  const tls::Options files{arguments.certificate, arguments.key, arguments.authority};
+  return std::shared_ptr<ride::Transport>(
+      reinterpret_cast<tls::MakeTransport>(make)(files, diagnostics));
+}
+
+}  // namespace
+
+int browse(const BrowseArguments& arguments, const Console& console) {
+  if (const std::string problem = wrong_use(arguments); !problem.empty()) {
+    console.say(rt::LogLevel::kError, problem);
+    return kWrongUse;
+  }
+  base::Diagnostics diagnostics;
+  script::RemoteBrowserOptions options;
+  options.address = arguments.address;
+  if (arguments.address.starts_with(kTls)) {
+    if (auto transport = make_tls(arguments, diagnostics)) options.transports = {transport};
+  }
+  void* const run = load_function("libarmature_script.so", script::kBrowseRemotely,
+                                  "the task browser needs", diagnostics);
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  std::string problem;
+  const std::size_t mistakes = reinterpret_cast<script::BrowseRemotely>(run)(options, problem);
+  if (!problem.empty()) console.say(rt::LogLevel::kError, problem);
+  return problem.empty() && mistakes == 0 ? kDone : kFailed;
+}
+
+}  // namespace armature::cli

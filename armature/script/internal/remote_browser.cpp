@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/script/internal/remote_browser.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include "armature/base/near_name.hpp"
+#include "armature/base/seconds.hpp"
+#include "armature/component/command.hpp"
+#include "armature/platform/clock.hpp"
+#include "armature/script/internal/help.hpp"
+#include "armature/script/internal/plain_values.hpp"
+#include "armature/script/internal/watch.hpp"
+
+namespace armature::script::internal {
+namespace {
+
+using namespace std::chrono_literals;
+using component::CommandStage;
+using remote::CommandStatus;
+
+/// Of commands that are under way, and of the connection.
+constexpr base::Duration kLookPeriod = 100ms;
+constexpr base::Duration kStep = 20ms;
+/// A command that has only to be accepted has ended so soon.
+constexpr base::Duration kSoon = 50ms;
+/// A line that is typed while there is no connection waits so long for it.
+constexpr base::Duration kReconnectionLimit = 3s;
+/// An older value is told with its age.
+constexpr double kOldSeconds = 1.0;
+
+std::string number_text(const char* format, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+std::string ended_text(const Paper& paper, const CommandStatus& command) {
+  if (command.stage == component::name_of(CommandStage::kDone)) {
+    return command.command + ": " + inked(paper, Ink::kGood, "done");
+  }
+  std::string reason = command.reason;
+  if (reason.starts_with(command.stage)) reason.erase(0, command.stage.size());
+  if (!reason.empty() && reason.front() != ' ') reason = ": " + reason;
+  return command.command + ": " + inked(paper, Ink::kBad, command.stage) + reason;
+}
+
+}  // namespace
+
+RemoteBrowser::RemoteBrowser(RemoteRobot& robot, Surface& surface, Pause pause)
+    : SharedCommands(robot, remote_language(), surface),
+      there_(robot),
+      pause_(std::move(pause)),
+      name_(robot.address()) {
+  there_.take_changes();
+  learn_name();
+}
+
+/// Whoever may not read the application's own name still sees where it is.
+void RemoteBrowser::learn_name() {
+  name_ = there_.address();
+  try {
+    if (there_.has_application()) {
+      name_ = there_.status().name;
+    } else {
+      surface().complain("note: a node answers at " + name_ +
+                         ", but no application that can be browsed; `list` shows what it hosts");
+    }
+  } catch (const NoAnswer& problem) {
+    surface().complain("warning: " + std::string(problem.what()));
+  }
+}
+
+Completion RemoteBrowser::complete(std::string_view before_cursor) {
+  try {
+    return internal::complete(robot(), remote_language(), {}, before_cursor);
+  } catch (const NoAnswer&) {
+    return {};
+  }
+}
+
+void RemoteBrowser::stop() {
+  ended_ = true;
+  for (const CommandStatus& command : begun_) {
+    surface().say(command.command + ": still under way");
+  }
+}
+
+bool RemoteBrowser::idle() {
+  note_connection();
+  follow_commands();
+  return !ended_;
+}
+
+void RemoteBrowser::note_connection() {
+  bool back = false;
+  for (const ride::PeerChange& change : there_.take_changes()) {
+    back = change.connected;
+    there_.forget();
+    surface().complain(change.connected ? "connected to " + there_.address() + " again"
+                                        : "the connection to " + there_.address() + " is lost: " +
+                                              harmless(change.text) + "; it is tried again");
+  }
+  if (back) learn_name();
+}
+
+// --- lines ---------------------------------------------------------------------------------------
+
+void RemoteBrowser::take(std::string_view line) {
+  surface().take_interrupt();
+  const std::string text = trimmed(line);
+  if (text.empty()) return;
+  const auto there = there_.wait_until_connected(kReconnectionLimit);
+  note_connection();
+  const bool leaves = text == "quit" || text == "exit";
+  if (!there && !leaves) return mistake(there.error());
+  try {
+    take_words(text);
+  } catch (const NoAnswer& problem) {
+    surface().end_keys();
+    surface().show("");
+    mistake(problem.what());
+  }
+  next_look_ = {};
+  follow_commands();
+}
+
+void RemoteBrowser::take_words(const std::string& line) {
+  if (take_command(line)) return;
+  if (is_call(line)) return take_call(line);
+  const Assignment assignment(line);
+  if (!assignment.target.empty()) return take_assignment(assignment);
+  take_item(line);
+}
+
+const RemoteBrowser::Command* RemoteBrowser::find_command(std::string_view name) {
+  static const Command kCommands[] = {{"ls", &RemoteBrowser::list},
+                                      {"list", &RemoteBrowser::list},
+                                      {"help", &RemoteBrowser::help},
+                                      {"?", &RemoteBrowser::help},
+                                      {"watch", &RemoteBrowser::watch},
+                                      {"threads", &RemoteBrowser::threads},
+                                      {"faults", &RemoteBrowser::faults},
+                                      {"start", &RemoteBrowser::start},
+                                      {"stop", &RemoteBrowser::stop_components},
+                                      {"reset", &RemoteBrowser::reset},
+                                      {"recover", &RemoteBrowser::recover},
+                                      {"wait", &RemoteBrowser::wait},
+                                      {"cancel", &RemoteBrowser::cancel},
+                                      {"quit", &RemoteBrowser::quit},
+                                      {"exit", &RemoteBrowser::quit}};
+  const auto* const found =
+      std::ranges::find(kCommands, name, [](const Command& one) { return one.name; });
+  return found == std::end(kCommands) ? nullptr : found;
+}
+
+bool RemoteBrowser::take_command(const std::string& line) {
+  const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+  const Command* const command = find_command(std::string_view(line).substr(0, end));
+  if (command == nullptr) return false;
+  (this->*command->act)(words_of(trimmed(std::string_view(line).substr(end))));
+  return true;
+}
+
+void RemoteBrowser::take_call(const std::string& line) {
+  const base::Result<TypedCall> typed = parse_call(line);
+  if (!typed) return mistake(typed.error());
+  const TypedCall& call = typed.value();
+  const std::string component = robot().find(call.component);
+  if (component.empty()) return mistake(no_component(robot(), call.component));
+  const remote::ComponentDetails details = robot().interface_of(component);
+  const auto operation =
+      std::ranges::find(details.operations, call.operation, &remote::OperationDetails::name);
+  if (operation == details.operations.end()) {
+    const auto member = member_in(robot(), component + ":" + call.operation);
+    return mistake(member ? "'" + component + "." + call.operation + "' is no operation"
+                          : member.error());
+  }
+  if (!operation->command) {
+    const std::string result = there_.call(component, call.operation, call.arguments);
+    if (!result.empty()) surface().say(result);
+    return;
+  }
+  CommandStatus command = there_.begin(component, call.operation, call.arguments);
+  for (base::Duration passed{}; !command.ended && passed < kSoon; passed += kStep) {
+    pause_(kStep);
+    command = there_.follow(command.handle);
+  }
+  if (command.ended) return surface().say(ended_text(paper(), command));
+  begun_.push_back(command);
+  surface().say(command.command + ": under way; `wait` waits for its end");
+}
+
+void RemoteBrowser::take_assignment(const Assignment& assignment) {
+  const base::Result<std::string> value = as_in_files(assignment.value);
+  if (!value) return mistake(assignment.target + ": " + value.error());
+  const remote::ItemValue now = there_.write(assignment.target, value.value());
+  surface().say(assignment.target + " = " + with_unit(now.value, now.unit));
+}
+
+void RemoteBrowser::take_item(const std::string& line) {
+  if (!robot().find(line).empty()) return list({line});
+  const auto member = member_in(robot(), line);
+  if (!member) {
+    if (line.find_first_of(".:") != std::string::npos) return mistake(member.error());
+    std::vector<std::string> known = robot().component_names();
+    for (const Topic& topic : remote_language().commands) known.emplace_back(topic.name);
+    const std::string near = base::near_name(line, known);
+    return mistake("there is no command and no component '" + line + "'" +
+                   (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+  }
+  const remote::ComponentDetails details = robot().interface_of(member.value().component);
+  const auto is_it = [&](const auto& one) { return one.name == member.value().member; };
+  const bool has_value = std::ranges::any_of(details.properties, is_it) ||
+                         std::ranges::any_of(details.inputs, is_it) ||
+                         std::ranges::any_of(details.outputs, is_it);
+  if (!has_value) return help({line});
+  const remote::ItemValue value = robot().read({line}, kUsualElements).at(0);
+  if (!value.error.empty()) return mistake(value.error);
+  if (!value.written) return surface().say("not yet written");
+  surface().say(with_unit(value.value, value.unit) +
+                (value.age >= kOldSeconds ? number_text(", %.3g s old", value.age) : ""));
+}
+
+// --- commands ------------------------------------------------------------------------------------
+
+void RemoteBrowser::watch(const Words& words) {
+  const base::Result<Watch> watch = Watch::parse(robot(), words);
+  if (!watch) return mistake(watch.error());
+  surface().begin_keys();
+  if (surface().live()) {
+    watch_in_place(watch.value());
+  } else {
+    watch_by_lines(watch.value());
+  }
+  surface().end_keys();
+  surface().take_interrupt();
+}
+
+void RemoteBrowser::watch_in_place(const Watch& watch) {
+  const base::Time end =
+      base::later(platform::monotonic_now(), watch.limit().value_or(base::Duration::max()));
+  const auto key_came = [&] { return surface().take_key(); };
+  std::string picture;
+  do {
+    picture = watch.picture(paper(), robot());
+    surface().show(picture + "\n" + inked(paper(), Ink::kFaint, "any key ends it"));
+  } while (let_pass(watch.every(), key_came) && platform::monotonic_now() < end);
+  surface().show("");
+  surface().say(picture);
+}
+
+void RemoteBrowser::watch_by_lines(const Watch& watch) {
+  constexpr int kUsualLines = 10;
+  const base::Duration limit = watch.limit().value_or(kUsualLines * watch.every());
+  if (const std::string heading = watch.heading(paper()); !heading.empty()) surface().say(heading);
+  for (base::Duration passed{}; passed < limit; passed += watch.every()) {
+    if (!let_pass(watch.every())) return;
+    surface().say(watch.line(paper(), robot(), base::to_seconds(passed + watch.every())));
+  }
+}
+
+bool RemoteBrowser::let_pass(base::Duration duration, const std::function<bool()>& also) {
+  for (base::Duration passed{}; passed < duration; passed += kStep) {
+    if (surface().interrupted() || (also && also()) || !idle()) return false;
+    pause_(std::min(kStep, duration - passed));
+  }
+  return !surface().interrupted() && !(also && also());
+}
+
+void RemoteBrowser::wait(const Words& arguments) {
+  if (!arguments.empty()) {
+    std::string text;
+    for (const std::string& word : arguments) text += word;
+    const auto time = seconds_in(text);
+    if (!time) return mistake("wait takes the seconds to wait, above 0: wait 5");
+    let_pass(*time);
+    return;
+  }
+  bool cancelled = false;
+  while (!begun_.empty() && !ended_) {
+    show_progress();
+    if (!let_pass(kLookPeriod) && surface().take_interrupt() &&
+        (std::exchange(cancelled, true) || !cancel_commands())) {
+      break;
+    }
+  }
+  surface().show("");
+}
+
+void RemoteBrowser::show_progress() {
+  if (!surface().live()) return;
+  std::string text;
+  for (const CommandStatus& one : begun_) {
+    text +=
+        (text.empty() ? "" : ", ") + one.command + number_text(" %3.0f %%", 100.0 * one.progress);
+  }
+  surface().show(text + " (Ctrl-C cancels)");
+}
+
+void RemoteBrowser::follow_commands() {
+  const base::Time now = platform::monotonic_now();
+  if (begun_.empty() || now < next_look_ || !there_.connected()) return;
+  next_look_ = now + kLookPeriod;
+  std::erase_if(begun_, [&](CommandStatus& command) {
+    try {
+      command = there_.follow(command.handle);
+    } catch (const NoAnswer& problem) {
+      if (!there_.connected()) return false;
+      surface().show("");
+      surface().say(command.command + ": how it ended is not known: " + problem.what());
+      return true;
+    }
+    if (command.ended) {
+      surface().show("");
+      surface().say(ended_text(paper(), command));
+    }
+    return command.ended;
+  });
+}
+
+bool RemoteBrowser::cancel_commands() {
+  for (const CommandStatus& command : begun_) there_.cancel(command.handle);
+  return !begun_.empty();
+}
+
+void RemoteBrowser::cancel(const Words& arguments) {
+  if (!takes_nothing("cancel", arguments)) return;
+  if (!cancel_commands()) surface().say("no command is under way");
+}
+
+void RemoteBrowser::quit(const Words& arguments) {
+  if (takes_nothing("quit", arguments)) stop();
+}
+
+}  // namespace armature::script::internal
