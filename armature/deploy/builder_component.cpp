@@ -163,6 +163,12 @@ std::unique_ptr<component::Component> ComponentBuilder::settle(
                                                  "reaches none");
     return nullptr;
   }
+  for (const component::PropertyBase* property : component->interface().mandatory) {
+    if (property->was_set() || !shapes_ports(*property)) continue;
+    diagnostics_.error(written.where, in_quotes(written.name) + " needs the property " +
+                                          in_quotes(property->name()) +
+                                          ", which its ports here follow, too");
+  }
   auto placeholder = options_.make_placeholder(written, std::move(component));
   if (placeholder) return std::move(placeholder).value();
   diagnostics_.error(written.remote.where,

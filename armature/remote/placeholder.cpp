@@ -244,7 +244,12 @@ void Placeholder::handle_sample(const Arrival& arrival) {
   if (goes_on) count(missed, arrival.sequence - output.sequence - 1);
   output.sequence = arrival.sequence;
   const component::WriteStatus written = output.port->write_from(arrival.values.front().data());
-  if (written == component::WriteStatus::kWrongSize) count(missed);
+  if (written != component::WriteStatus::kWrongSize) return;
+  if (!std::exchange(output.misfit, true)) {
+    log_error("'{}' has another size at {}: give the properties that shape it here, too",
+              output.port->name(), address.get());
+  }
+  count(missed);
 }
 
 void Placeholder::handle_connection(const std::string& text) {

@@ -86,6 +86,7 @@ class Placeholder final : public component::StandIn {
     std::unique_ptr<component::OutputPortBase> port;
     std::size_t index;
     std::uint64_t sequence = 0;  ///< of the last sample
+    bool misfit = false;         ///< its samples have another size than here
   };
   struct Operation {
     std::unique_ptr<component::OperationBase> twin;

@@ -278,7 +278,9 @@ TEST_F(Remote, ALostPeerIsToldAndComesBackByItself) {
   EXPECT_TRUE(until([&] { return there().state() == State::kRunTimeError; }));
   EXPECT_TRUE(until([&] { return user->lost == 1; }));
   EXPECT_TRUE(until([&] { return user->status == component::CallStatus::kUnreachable; }));
-  EXPECT_THAT(pilot->log, HasSubstr("'Axis' at " + address + " cannot be used"));
+  EXPECT_TRUE(until([&] {
+    return pilot->log.find("'Axis' at " + address + " cannot be used") != std::string::npos;
+  }));
   robot = std::make_unique<Process>(server(address));
   robot->start();
   user->position = 0.0;

@@ -79,8 +79,10 @@ void NodeState::take_control(Link& link, const Message& message) {
     default:
       break;
   }
-  journal_.tell(rt::LogLevel::kWarning, "{} says: {} {}: {}", link.other_end(),
-                name_of(control.code), static_cast<std::uint32_t>(control.code), control.text);
+  const bool leaves = control.code == Code::kShuttingDown;
+  journal_.tell(leaves ? rt::LogLevel::kInfo : rt::LogLevel::kWarning, "{} says: {} {}: {}",
+                link.other_end(), name_of(control.code), static_cast<std::uint32_t>(control.code),
+                control.text);
 }
 
 NodeState::Hosted* NodeState::find_hosted(std::uint32_t identifier) {

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The generator of the Janus head commanded from a second process.
+
+usage: remote_test.py PROGRAM LIBRARIES JANUS_DIR
+
+Nothing here depends on how fast the machine is.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, LIBRARIES, JANUS = sys.argv[1:4]
+LONG = 60.0
+
+
+def armature(*arguments, **how):
+    return subprocess.Popen([PROGRAM, *arguments], text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, **how)
+
+
+def deployment(name):
+    return os.path.join(JANUS, "deployments", name)
+
+
+class Remote(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.address = f"unix:{self.folder.name}/robot.sock"
+
+    def start_robot(self, *arguments):
+        robot = armature("run", "--realtime", "off", "-L", LIBRARIES, "--set",
+                         f"address={self.address}", *arguments, deployment("served.yaml"))
+        self.addCleanup(robot.stdout.close)
+        self.addCleanup(robot.wait)
+        self.addCleanup(robot.kill)
+        end = time.monotonic() + LONG
+        while not os.path.exists(self.address.removeprefix("unix:")):
+            self.assertLess(time.monotonic(), end, "the robot does not listen")
+            self.assertIsNone(robot.poll(), "the robot has ended")
+            time.sleep(0.01)
+        return robot
+
+    def stop(self, robot):
+        robot.send_signal(signal.SIGINT)
+        text, _ = robot.communicate(timeout=LONG)
+        return text
+
+    def operate(self, script):
+        operator = armature("run", "--realtime", "off", "-L", LIBRARIES, "--set",
+                            f"robot={self.address}", "--script", script,
+                            deployment("operator.yaml"))
+        text, _ = operator.communicate(timeout=LONG)
+        return operator.returncode, text
+
+    def browse(self, lines):
+        browser = armature("browse", self.address, stdin=subprocess.PIPE)
+        text, _ = browser.communicate(lines, timeout=LONG)
+        return browser.returncode, text
+
+    def test_another_process_arms_the_head_and_moves_it(self):
+        robot = self.start_robot()
+        code, text = self.operate(os.path.join(JANUS, "look.lua"))
+        self.assertEqual(code, 0, text)
+        self.assertIn("armed\nlooks to the side\nand ahead\ntoo far: ", text)
+        self.assertIn("expected -0.5 to 4.5", text)
+        text = self.stop(robot)
+        self.assertIn("Joint1: armed", text)
+        self.assertEqual(robot.returncode, 0, text)
+
+    def test_who_may_only_look_does_nothing_else(self):
+        robot = self.start_robot()
+        code, text = self.browse("Joint1.GearRatio\nJoint1.GearRatio = 0.5\nPID1.Kp = 1\n"
+                                 "Joint1.GearRatio\n")
+        self.assertEqual(code, 1, text)
+        self.assertEqual(text.count("0.01"), 2, text)
+        self.assertIn("may not configure 'Joint1'", text)
+        self.assertIn("may not configure 'PID1'", text)
+        self.stop(robot)
+
+    def test_the_head_rests_when_the_operator_is_killed(self):
+        robot = self.start_robot()
+        operator = armature("run", "--realtime", "off", "-L", LIBRARIES, "--set",
+                            f"robot={self.address}", "--script", os.path.join(JANUS, "look.lua"),
+                            deployment("operator.yaml"))
+        self.addCleanup(operator.stdout.close)
+        for line in operator.stdout:
+            if line == "armed\n":
+                break
+        operator.kill()
+        operator.wait()
+        end = time.monotonic() + LONG
+        while True:  # the motion that was begun comes to its end, and nothing follows
+            self.assertLess(time.monotonic(), end, "the head does not come to rest")
+            _, first = self.browse("Generator.nAxesDesiredVelocity\n")
+            if first.startswith("[0, 0]"):
+                break
+        self.assertIn("Joint1: armed", self.stop(robot))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
