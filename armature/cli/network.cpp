@@ -43,18 +43,31 @@ deploy::MakeInlets NetworkOnDemand::inlets() {
   };
 }
 
-bool NetworkOnDemand::open(const deploy::Document& document, const RunArguments& arguments) {
-  const bool listens = !document.network.listen.empty() || !arguments.listen.empty();
-  if (!listens && network_ == nullptr) return true;
+bool NetworkOnDemand::wanted(const deploy::Document& document,
+                             const RunArguments& arguments) const {
+  return network_ != nullptr || !document.network.listen.empty() || !arguments.listen.empty();
+}
+
+bool NetworkOnDemand::open(const deploy::Document& document, const RunArguments& arguments,
+                           exec::Application& application) {
+  if (!wanted(document, arguments)) return true;
   base::Diagnostics diagnostics;
   if (remote::Network* const network = load(diagnostics)) {
-    network->open(document, arguments.listen, diagnostics);
+    network->open(document, arguments.listen, application, diagnostics);
     for (const std::string& address : network->addresses()) {
       console_.say(rt::LogLevel::kInfo, "listens at " + address);
     }
   }
   console_.show(diagnostics);
   return diagnostics.ok();
+}
+
+void NetworkOnDemand::serve() {
+  if (network_ != nullptr) network_->serve();
+}
+
+void NetworkOnDemand::leave() {
+  if (network_ != nullptr) network_->leave();
 }
 
 remote::Network* NetworkOnDemand::load(base::Diagnostics& diagnostics) {

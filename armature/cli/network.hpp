@@ -22,12 +22,15 @@ class NetworkOnDemand {
   /// For `load`: what writes the inputs that are open to others.
   deploy::MakeInlets inlets();
 
-  /// Makes the node and listens, if the deployment or the command line asks for it.
+  /// Makes the node and listens for `application`, which has not started, if the deployment or the
+  /// command line asks for it.
   /// @return false after an error, which was told
-  bool open(const deploy::Document& document, const RunArguments& arguments);
-
-  /// nullptr: it has no part in any
-  remote::Network* get() const { return network_.get(); }
+  bool open(const deploy::Document& document, const RunArguments& arguments,
+            exec::Application& application);
+  /// It has a part in a network, or will have.
+  bool wanted(const deploy::Document& document, const RunArguments& arguments) const;
+  void serve();
+  void leave();
 
  private:
   remote::Network* load(base::Diagnostics& diagnostics);

@@ -173,7 +173,7 @@ report::RunFacts facts_of(const RunArguments& arguments) {
 
 /// @param companions, network, facts  outlive the application
 exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArguments& arguments,
-                                    const Companions& companions, remote::Network* network,
+                                    const Companions& companions, NetworkOnDemand& network,
                                     const Console& console, report::RunFacts& facts) {
   exec::ApplicationOptions options = std::move(deployment.options);
   options.simulated = arguments.simulated;
@@ -193,7 +193,9 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
     };
   }
   options.ready = release_what_loads;
-  if (network != nullptr) options.attend = [network] { network->serve(); };
+  if (network.wanted(deployment.document, arguments)) {
+    options.attend = [&network] { network.serve(); };
+  }
   return options;
 }
 
@@ -228,21 +230,20 @@ int run(const RunArguments& arguments, Console& console) {
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
 
-  if (!network.open(deployment.document, arguments)) return kFailed;
-
   report::RunFacts facts = facts_of(arguments);
   if (!arguments.simulated) console.set_begin(facts.begin);
   const platform::StopSignal stop;
   exec::Application application(
       std::move(deployment.blueprint),
-      options_of(deployment, arguments, companions, network.get(), console, facts));
+      options_of(deployment, arguments, companions, network, console, facts));
+  if (!network.open(deployment.document, arguments, application)) return kFailed;
   if (const int failed = start(application, arguments, console); failed != kDone) {
+    network.leave();
     if (application.hangs()) platform::exit_now(failed);
     return failed;
   }
-  if (network.get() != nullptr) network.get()->host(application, mistakes);
   let_run(application, companions, arguments, stop, mistakes, facts);
-  if (network.get() != nullptr) network.get()->leave();
+  network.leave();
   console.show(mistakes);
   tell_casualties(application, console);
   base::Diagnostics ended = application.stop();

@@ -63,7 +63,8 @@ class RideNetwork final : public Network {
   }
 
   void open(const deploy::Document& document, const std::vector<std::string>& listen,
-            base::Diagnostics& diagnostics) override {
+            exec::Application& application, base::Diagnostics& diagnostics) override {
+    application_ = &application;
     ride::NodeOptions options;
     if (!document.application.empty()) options.name = document.application;
     options.log = [this](const rt::LogRecord& record) { note(record); };
@@ -72,39 +73,22 @@ class RideNetwork final : public Network {
     set_policy(document, options, found);
     if (found.ok()) {
       node_ = std::make_unique<ride::Node>(std::move(options));
+      if (!listen.empty() || !document.network.listen.empty()) host(application, found);
       for (const deploy::Reference& each : document.network.listen) {
         listen_at(each.name, each.where, found);
       }
       for (const std::string& each : listen) listen_at(each, {}, found);
     }
-    if (!found.ok()) node_.reset();
+    if (!found.ok()) {
+      leave();
+      node_.reset();
+      addresses_.clear();
+    }
     diagnostics.append(found);
     tell();
   }
 
   std::vector<std::string> addresses() const override { return addresses_; }
-
-  void host(exec::Application& application, base::Diagnostics& diagnostics) override {
-    if (addresses_.empty()) return;  // nobody could ask
-    application_ = &application;
-    inspector_ = std::make_unique<Inspector>(application, queue_);
-    if (const auto added = node().add(Inspector::kName, inspector_->service()); !added) {
-      diagnostics.error({}, added.error());
-    }
-    for (const exec::ComponentEntry& entry : application.blueprint().components) {
-      auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
-      auto service = std::make_unique<ExportedComponent>(
-          *numbers, *entry.component, application, queue_,
-          [this, &application](component::InputPortBase& input, const types::Value& value) {
-            return write_input(application, input, value);
-          });
-      if (const auto added = node().add(entry.component->name(), *service); !added) {
-        diagnostics.error(entry.where, added.error());
-        continue;
-      }
-      hosted_.push_back({std::move(numbers), std::move(service)});
-    }
-  }
 
   void serve() override {
     queue_.run();
@@ -130,6 +114,26 @@ class RideNetwork final : public Network {
     std::unique_ptr<InterfaceNumbers> numbers;
     std::unique_ptr<ExportedComponent> service;
   };
+
+  void host(exec::Application& application, base::Diagnostics& diagnostics) {
+    inspector_ = std::make_unique<Inspector>(application, queue_);
+    if (const auto added = node().add(Inspector::kName, inspector_->service()); !added) {
+      diagnostics.error({}, added.error());
+    }
+    for (const exec::ComponentEntry& entry : application.blueprint().components) {
+      auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
+      auto service = std::make_unique<ExportedComponent>(
+          *numbers, *entry.component, application, queue_,
+          [this, &application](component::InputPortBase& input, const types::Value& value) {
+            return write_input(application, input, value);
+          });
+      if (const auto added = node().add(entry.component->name(), *service); !added) {
+        diagnostics.error(entry.where, added.error());
+        continue;
+      }
+      hosted_.push_back({std::move(numbers), std::move(service)});
+    }
+  }
 
   ride::Node& node() {
     if (node_ == nullptr) node_ = std::make_unique<ride::Node>();

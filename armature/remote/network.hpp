@@ -39,16 +39,16 @@ class Network {
   virtual std::unique_ptr<component::Component> make_inlets(
       const std::vector<component::InputPortBase*>& inputs) = 0;
 
-  /// Makes the node and listens. After an error nothing listens.
+  /// Makes the node, hosts the components of `application`, which has not started yet, and listens:
+  /// so who connects finds all of them. After an error nothing listens.
   /// @param listen  addresses beside those of the document
   virtual void open(const deploy::Document& document, const std::vector<std::string>& listen,
-                    base::Diagnostics& diagnostics) = 0;
+                    exec::Application& application, base::Diagnostics& diagnostics) = 0;
   /// Where it listens, with the ports that it got.
   virtual std::vector<std::string> addresses() const = 0;
 
-  /// Makes the components of `application`, which runs, known to others.
-  virtual void host(exec::Application& application, base::Diagnostics& diagnostics) = 0;
-  /// Does what others asked for since, and sends what they subscribed to.
+  /// Does what others asked for since, and sends what they subscribed to; while the application
+  /// runs.
   virtual void serve() = 0;
   /// Before the application stops: nothing is done for others any more.
   virtual void leave() = 0;

@@ -156,14 +156,13 @@ class Process {
 
   void start() {
     ASSERT_EQ(deployment.diagnostics.to_text(), "");
-    base::Diagnostics diagnostics;
-    network_->open(deployment.document, {}, diagnostics);
-    ASSERT_EQ(diagnostics.to_text(), "");
     exec::ApplicationOptions options = deployment.options;
     options.log = [this](const rt::LogRecord& record) { log += record.message() + "\n"; };
     application = std::make_unique<exec::Application>(std::move(deployment.blueprint), options);
+    base::Diagnostics diagnostics;
+    network_->open(deployment.document, {}, *application, diagnostics);
+    ASSERT_EQ(diagnostics.to_text(), "");
     diagnostics.append(application->start());
-    network_->host(*application, diagnostics);
     ASSERT_EQ(diagnostics.to_text(), "");
   }
   void serve() {
