@@ -95,11 +95,15 @@ class User final : public Component {
   std::atomic<component::CommandStage> stage{component::CommandStage::kFree};
   std::atomic<double> progress{0.0};
   std::atomic<double> wish{0.0};
+  std::atomic<int> updates{0};
+  std::atomic<int> timeouts{0};
 
  private:
   void on_update() override {
     const auto result = twice_(4.0);
     status = result.status;
+    if (result.status == component::CallStatus::kTimeout) ++timeouts;
+    ++updates;
     answer = result.value;
     if (target > 0.0) travel_ = caller_.send(target.exchange(0.0));
     if (cancel.exchange(false)) travel_.cancel();
@@ -327,6 +331,45 @@ TEST_F(Remote, OnlyInputsThatTheDeploymentOpensAreWrittenFromElsewhere) {
   EXPECT_TRUE(until([&] { return taken() == 0.75; }));
   EXPECT_EQ(*robot->application->value_of("Axis", "Closed").value().get_if<double>(), 0.0);
   EXPECT_EQ(axis.state(), State::kRunning);
+}
+
+TEST_F(Remote, DataOfAPeerThatIsGoneIsTooOldSoon) {
+  robot = std::make_unique<Process>(
+      server("tcp://127.0.0.1:0", ", inputs: [{to: Axis.Wish, max_age: 2 s}]"));
+  robot->start();
+  pilot = std::make_unique<Process>(client(robot->address(), ", User.Wish -> There.Wish"));
+  start_pilot();
+  user->wish = 0.75;
+  const auto& axis = robot->find<Axis>("Axis");
+  EXPECT_TRUE(until([&] {
+    return *robot->application->value_of("Axis", "Taken").value().get_if<double>() == 0.75;
+  }));
+  EXPECT_EQ(axis.state(), State::kRunning);
+  pilot.reset();
+  EXPECT_TRUE(serve_until({robot.get()}, [&] { return axis.state() == State::kStopped; }));
+}
+
+/// The robot's controlling thread does nothing here: whoever waits for an answer waits in vain.
+TEST_F(Remote, APeerThatDoesNotAnswerHoldsUpNoRealTimeThread) {
+  robot = std::make_unique<Process>(server());
+  robot->start();
+  pilot = std::make_unique<Process>(R"(components:
+  There: {model: Axis, remote: ')" + robot->address() + R"(/Axis'}
+  Patient: {model: User, activity: {periodic: 5 ms}, peers: [There]}
+  Quick: {model: User, activity: {periodic: 1 ms, priority: 10}, peers: [There]}
+connections: [There.Position -> Patient.Position, There.Position -> Quick.Position,
+              Quick.Wish -> There.Wish]
+)");
+  pilot->start();
+  const User& patient = pilot->find<User>("Patient");
+  User& quick = pilot->find<User>("Quick");
+  quick.wish = 1.0;
+  EXPECT_TRUE(serve_until({pilot.get()}, [&] { return patient.timeouts == 1; }));
+  const int before = quick.updates;
+  EXPECT_TRUE(serve_until({pilot.get()}, [&] { return patient.timeouts == 2; }));
+  EXPECT_GT(quick.updates - before, 100);  // a second is a thousand of its cycles
+  EXPECT_EQ(quick.status, component::CallStatus::kWouldWait);
+  EXPECT_EQ(quick.timeouts, 0);
 }
 
 // --- what a peer that is no application of ours gets
