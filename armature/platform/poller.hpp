@@ -52,14 +52,24 @@ class Poller {
   /// Ends the present `wait`, or the next. A system call only for the first of several.
   /// @thread any
   void wake();
+  /// Ends the `wait` during which this time of the monotonic clock comes. A system call only if it
+  /// is earlier than what was asked for before: so that waiting many times for data until a time
+  /// far away arms and disarms no timer.
+  /// @thread the one that waits
+  void wake_at(base::Time time);
+  /// Whether such a time has come during the last `wait`.
+  bool time_has_come() const { return time_has_come_; }
 
  private:
   static constexpr std::size_t kMost = 64;
 
-  Poller(int events, int alarm) : events_(events), alarm_(alarm) {}
+  Poller(int events, int alarm, int timer) : events_(events), alarm_(alarm), timer_(timer) {}
 
   const int events_;
   const int alarm_;
+  const int timer_;
+  base::Time rings_at_ = base::Time::max();
+  bool time_has_come_ = false;
   std::atomic<bool> woken_{false};
   std::array<Ready, kMost> ready_{};
 };

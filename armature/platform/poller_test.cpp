@@ -8,6 +8,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "armature/platform/clock.hpp"
+
 namespace armature::platform {
 namespace {
 
@@ -62,6 +64,35 @@ TEST_F(PollerTest, WakesForEachAlarmOnce) {
   std::thread other([this] { poller_->wake(); });
   EXPECT_TRUE(poller_->wait(base::Duration::max()).empty());
   other.join();
+}
+
+TEST_F(PollerTest, WakesAtTheEarliestTimeThatWasAskedFor) {
+  const base::Time soon = monotonic_now() + 2ms;
+  poller_->wake_at(soon + 1h);
+  poller_->wake_at(soon);
+  poller_->wake_at(soon + 2h);
+  EXPECT_TRUE(poller_->wait(base::Duration::max()).empty());
+  EXPECT_TRUE(poller_->time_has_come());
+  EXPECT_GE(monotonic_now(), soon);
+}
+
+TEST_F(PollerTest, WakesOnceForATime) {
+  poller_->wake_at(base::Time{});
+  EXPECT_TRUE(poller_->wait(base::Duration::max()).empty());
+  EXPECT_TRUE(poller_->time_has_come());
+  ASSERT_TRUE(poller_->add(ends_[0], 1, {.read = true}));
+  write();
+  EXPECT_EQ(poller_->wait(base::Duration::max()).size(), 1u);
+  EXPECT_FALSE(poller_->time_has_come());
+}
+
+TEST_F(PollerTest, TakesALaterTimeOnceTheEarlierHasCome) {
+  poller_->wake_at(base::Time{});
+  EXPECT_TRUE(poller_->wait(base::Duration::max()).empty());
+  const base::Time later = monotonic_now() + 1ms;
+  poller_->wake_at(later);
+  EXPECT_TRUE(poller_->wait(base::Duration::max()).empty());
+  EXPECT_GE(monotonic_now(), later);
 }
 
 TEST_F(PollerTest, ReturnsWhenTheTimeIsOver) { EXPECT_TRUE(poller_->wait(100us).empty()); }

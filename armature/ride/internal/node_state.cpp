@@ -169,7 +169,7 @@ void NodeState::step(base::Duration limit) {
   }
   if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
-  if (next_timer() != base::Time::max()) look_at_clock();
+  if (poller_->time_has_come() || flush_at_ != base::Time::max()) look_at_clock();
   if (!pending_.empty()) return;
   pending_.settle();
   departed_.clear();
