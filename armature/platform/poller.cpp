@@ -56,7 +56,8 @@ int wait_for(int events, epoll_event* happened, int most, base::Duration limit) 
   const int count = ::epoll_pwait2(events, happened, most, &timeout, nullptr);
   if (count >= 0 || errno != ENOSYS) return count;
   const auto ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
-  return ::epoll_wait(events, happened, most, static_cast<int>(std::min<long>(ms, 3'600'000)));
+  return ::epoll_wait(events, happened, most,
+                      static_cast<int>(std::min<std::int64_t>(ms, 3'600'000)));
 }
 
 }  // namespace

@@ -177,8 +177,9 @@ void NodeState::step(base::Duration limit) {
 
 /// Listeners are known by their place, links by where they are.
 void NodeState::take_ready(const platform::Ready& ready) {
-  if (ready.key < listeners_.size()) return accept(*listeners_[ready.key]);
-  service_link(*reinterpret_cast<Link*>(ready.key), ready);
+  const auto key = static_cast<std::uintptr_t>(ready.key);
+  if (key < listeners_.size()) return accept(*listeners_[key]);
+  service_link(*reinterpret_cast<Link*>(key), ready);
 }
 
 void NodeState::accept(Listener& listener) {
