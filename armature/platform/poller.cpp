@@ -25,7 +25,9 @@ constexpr std::uint64_t kTimer = kAlarm - 1;
 
 epoll_event event_of(std::uint64_t key, Interest interest) {
   epoll_event event{};
-  event.events = (interest.read ? EPOLLIN | EPOLLRDHUP : 0u) | (interest.write ? EPOLLOUT : 0u);
+  const bool news = interest.news && !interest.write;
+  event.events = (interest.read ? EPOLLIN | EPOLLRDHUP : 0u) | (interest.write ? EPOLLOUT : 0u) |
+                 (news ? EPOLLET : 0u);
   event.data.u64 = key;
   return event;
 }
@@ -111,9 +113,10 @@ std::span<const Ready> Poller::wait(base::Duration limit) {
       time_has_come_ = true;
       continue;
     }
-    const bool ended = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
-    ready_[found++] = {event.data.u64, ended || (event.events & (EPOLLIN | EPOLLRDHUP)) != 0,
-                       ended || (event.events & EPOLLOUT) != 0};
+    const bool broken = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
+    const bool ended = broken || (event.events & EPOLLRDHUP) != 0;
+    ready_[found++] = {event.data.u64, ended || (event.events & EPOLLIN) != 0,
+                       broken || (event.events & EPOLLOUT) != 0, ended};
   }
   return {ready_.data(), found};
 }

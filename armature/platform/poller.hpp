@@ -17,6 +17,9 @@ namespace armature::platform {
 struct Interest {
   bool read = false;
   bool write = false;
+  /// What can be read is told when it comes, not as long as it is there: for who takes all of it,
+  /// which saves the kernel a look at each wait. `change` has it told anew. Not with `write`.
+  bool news = false;
 };
 
 /// What can be done without waiting. A connection that has ended can be read and written.
@@ -24,6 +27,7 @@ struct Ready {
   std::uint64_t key;
   bool read;
   bool write;
+  bool ended;  ///< the other side has ended the connection, or it broke
 };
 
 /// Waits for many descriptors at once, in one thread.

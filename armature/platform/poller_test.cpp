@@ -57,6 +57,31 @@ TEST_F(PollerTest, TellsNothingOfWhatItHasNoInterestIn) {
   EXPECT_TRUE(poller_->wait(0s).empty());
 }
 
+TEST_F(PollerTest, TellsNewsOnceAndAnewWhenAsked) {
+  const Interest news{.read = true, .news = true};
+  ASSERT_TRUE(poller_->add(ends_[0], 1, news));
+  write();
+  EXPECT_EQ(poller_->wait(0s).size(), 1u);
+  EXPECT_TRUE(poller_->wait(0s).empty());
+  ASSERT_TRUE(poller_->change(ends_[0], 1, news));
+  EXPECT_EQ(poller_->wait(0s).size(), 1u);
+  write();
+  EXPECT_EQ(poller_->wait(0s).size(), 1u);
+}
+
+TEST_F(PollerTest, TellsThatTheOtherSideHasEnded) {
+  ASSERT_TRUE(poller_->add(ends_[0], 1, {.read = true, .news = true}));
+  write();
+  auto ready = poller_->wait(0s);
+  ASSERT_EQ(ready.size(), 1u);
+  EXPECT_FALSE(ready[0].ended);
+  ASSERT_EQ(::shutdown(ends_[1], SHUT_WR), 0);
+  ready = poller_->wait(0s);
+  ASSERT_EQ(ready.size(), 1u);
+  EXPECT_TRUE(ready[0].ended);
+  EXPECT_TRUE(ready[0].read);
+}
+
 TEST_F(PollerTest, WakesForEachAlarmOnce) {
   poller_->wake();
   poller_->wake();

@@ -86,6 +86,8 @@ class Link : public std::enable_shared_from_this<Link> {
   /// Receives what is there and delivers it.
   /// @return true if a message has begun that has not ended
   bool read();
+  /// Has the poller tell once more what can be read: it was not, or not all of it.
+  void look_again();
   /// Sends what could not be sent before.
   void write();
   /// Sends what was gathered `age` ago; false if there is nothing.
@@ -155,6 +157,7 @@ class Link : public std::enable_shared_from_this<Link> {
   void gather(base::Time now);
   void transmit();
   void drain_event_queues();
+  void look_again_locked();
   void take_messages();
   void take_message(const Message& message);
   bool complete(const Message& message);

@@ -228,7 +228,10 @@ void NodeState::service_link(Link& link, const platform::Ready& ready) {
     return;
   }
   if (ready.write) link.write();
-  if (ready.read && !pending_.full()) receive(link);
+  const bool has_room = !pending_.full();
+  if (ready.read && has_room) receive(link);
+  // After what came last the end is to be seen.
+  if (ready.ended || (ready.read && !has_room)) link.look_again();
 }
 
 /// Asks what time it is only where that matters.
