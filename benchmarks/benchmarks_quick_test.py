@@ -31,7 +31,8 @@ OTHERS = (
     + ["resident_two_joints", "resident_two_joints/locked", "compile_time", "queries/p99.9"]
 )
 CPUS = ("one_cpu", "two_cpus") if os.cpu_count() > 1 else ("one_cpu",)
-OTHERS += [f"{call}/{where}" for call in ("remote_call", "remote_call_1KiB") for where in CPUS]
+OTHERS += [f"{call}/{where}" for call in ("remote_call", "remote_call_1KiB", "remote_event/16_processes")
+           for where in CPUS]
 if os.cpu_count() > 1:
     OTHERS += ["remote_command", "remote_event/16"]
 WITHOUT_REFERENCE = (

@@ -23,6 +23,7 @@ void add_all(const armature::benchmarks::Suite& suite) {
   add_queries(suite);
   add_deployments(suite);
   add_remote(suite);
+  add_fan_outs(suite);
   add_footprints(suite);
 }
 

@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests, commands and events over TCP on this machine, beside bare sockets that send as many
 // bytes. Where threads run changes a round trip threefold, so both sides are told.
-#include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sched.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "armature/ride/node.hpp"
+#include "benchmarks/bare_socket.hpp"
 #include "benchmarks/baton.hpp"
+#include "benchmarks/on_cpu.hpp"
 #include "benchmarks/suite.hpp"
 #include "remote_client.hpp"
 #include "remote_service.hpp"
@@ -37,109 +30,32 @@ constexpr double kCommandBound_ns = 200.0;  // 5 million a second
 constexpr std::size_t kSubscribers = 16;
 constexpr std::size_t kVelocities = 128;
 
-void check(bool done, const char* what) {
-  if (!done) throw std::system_error(errno, std::generic_category(), what);
-}
-
-/// This thread, and those that it starts, run on one CPU; as before when the scope ends.
-class OnCpu {
- public:
-  explicit OnCpu(int cpu) {
-    check(sched_getaffinity(0, sizeof before_, &before_) == 0, "sched_getaffinity");
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(static_cast<std::size_t>(cpu), &one);
-    check(sched_setaffinity(0, sizeof one, &one) == 0, "sched_setaffinity");
-  }
-  OnCpu(const OnCpu&) = delete;
-  OnCpu& operator=(const OnCpu&) = delete;
-  ~OnCpu() { sched_setaffinity(0, sizeof before_, &before_); }
-
- private:
-  cpu_set_t before_;
-};
-
-/// One side of a connection with nothing around it.
-class BareSocket {
- public:
-  explicit BareSocket(int socket) : socket_(socket) {
-    check(socket >= 0, "socket");
-    const int on = 1;
-    setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  }
-  BareSocket(const BareSocket&) = delete;
-  BareSocket& operator=(const BareSocket&) = delete;
-  ~BareSocket() { close(socket_); }
-
-  static constexpr std::size_t kRoom = 64 * 1024;
-
-  int handle() const { return socket_; }
-  /// A number at the beginning of what is sent or was received.
-  void set_value(std::int64_t value) { std::memcpy(bytes_, &value, sizeof value); }
-  std::int64_t value() const {
-    std::int64_t value = 0;
-    std::memcpy(&value, bytes_, sizeof value);
-    return value;
-  }
-  void send(std::size_t size) {
-    check(::send(socket_, bytes_, size, 0) == static_cast<ssize_t>(size), "send");
-  }
-  /// False when the other side is done.
-  bool receive(std::size_t size) {
-    for (std::size_t had = 0; had < size;) {
-      const ssize_t got = recv(socket_, bytes_ + had, size - had, 0);
-      if (got <= 0) return false;
-      had += static_cast<std::size_t>(got);
-    }
-    return true;
-  }
-
- private:
-  int socket_;
-  char bytes_[kRoom] = {};
-};
-
 struct Ends {
   std::unique_ptr<BareSocket> client;
   std::unique_ptr<BareSocket> server;
 };
 
 Ends connected_pair() {
-  BareSocket listener(socket(AF_INET, SOCK_STREAM, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  auto* const any = reinterpret_cast<sockaddr*>(&address);
-  check(bind(listener.handle(), any, size) == 0 && listen(listener.handle(), 1) == 0, "listen");
-  check(getsockname(listener.handle(), any, &size) == 0, "getsockname");
+  BareListener listener;
   Ends ends;
-  ends.client = std::make_unique<BareSocket>(socket(AF_INET, SOCK_STREAM, 0));
-  check(connect(ends.client->handle(), any, size) == 0, "connect");
-  ends.server = std::make_unique<BareSocket>(accept(listener.handle(), nullptr, nullptr));
+  ends.client = bare_connection(listener.port());
+  ends.server = listener.accept();
   return ends;
 }
 
-/// Answers so many bytes with so many.
+/// A thread that answers so many bytes with so many.
 class BarePingPong {
  public:
   BarePingPong(std::size_t request, std::size_t reply, int server_cpu)
       : request_(request), reply_(reply), ends_(connected_pair()) {
     const OnCpu there(server_cpu);
-    thread_ = std::thread([this] {
-      while (ends_.server->receive(request_)) ends_.server->send(reply_);
-    });
+    thread_ = std::thread([this] { bare_answer(*ends_.server, request_, reply_); });
   }
   ~BarePingPong() {
     ends_.client.reset();
     thread_.join();
   }
-  void run(std::int64_t count) {
-    for (; count > 0; --count) {
-      ends_.client->send(request_);
-      if (!ends_.client->receive(reply_)) throw std::runtime_error("the bare server has gone");
-    }
-  }
+  void run(std::int64_t count) { bare_ask(*ends_.client, count, request_, reply_); }
 
  private:
   std::size_t request_;
@@ -148,38 +64,20 @@ class BarePingPong {
   std::thread thread_;
 };
 
-/// Takes any number of bytes, and says so with one when it has them all.
+/// A thread that takes any number of bytes.
 class BareStream {
  public:
   explicit BareStream(int server_cpu) : ends_(connected_pair()) {
     const OnCpu there(server_cpu);
-    thread_ = std::thread([this] {
-      while (ends_.server->receive(sizeof(std::int64_t))) {
-        std::int64_t left = ends_.server->value();
-        while (left > 0) {
-          const auto part = std::min<std::int64_t>(left, kChunk);
-          if (!ends_.server->receive(static_cast<std::size_t>(part))) return;
-          left -= part;
-        }
-        ends_.server->send(1);
-      }
-    });
+    thread_ = std::thread([this] { bare_swallow(*ends_.server); });
   }
   ~BareStream() {
     ends_.client.reset();
     thread_.join();
   }
-  void run(std::int64_t bytes) {
-    ends_.client->set_value(bytes);
-    ends_.client->send(sizeof bytes);
-    for (std::int64_t left = bytes; left > 0; left -= kChunk) {
-      ends_.client->send(static_cast<std::size_t>(std::min<std::int64_t>(left, kChunk)));
-    }
-    if (!ends_.client->receive(1)) throw std::runtime_error("the bare server has gone");
-  }
+  void run(std::int64_t bytes) { bare_pour(*ends_.client, bytes); }
 
  private:
-  static constexpr std::int64_t kChunk = BareSocket::kRoom;
   Ends ends_;
   std::thread thread_;
 };
@@ -284,9 +182,9 @@ void command(benchmark::State& state) {
 }
 
 /// Subscribers in this process, of whom the last tells that an event is there.
-class Audience {
+class Subscribers {
  public:
-  Audience(Pair& pair, std::size_t size) : size_(size), pair_(pair) {
+  Subscribers(Pair& pair, std::size_t size) : size_(size), pair_(pair) {
     for (std::size_t i = 0; i < size; ++i) {
       subscriptions_.push_back(
           pair.placeholder().on_Turned([this](const remote::Turned&) { count(); }));
@@ -316,8 +214,8 @@ void event(benchmark::State& state) {
   const OnCpu here(0);
   Pair many(1);
   Pair one(1);
-  Audience sixteen(many, kSubscribers);
-  Audience single(one, 1);
+  Subscribers sixteen(many, kSubscribers);
+  Subscribers single(one, 1);
   Result result = measure_in_turn(
       state, [&](std::int64_t count) { sixteen.hear(count); },
       [&](std::int64_t count) { single.hear(count); }, kBatch);

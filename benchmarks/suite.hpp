@@ -77,6 +77,7 @@ void add_latency(const Suite& suite);
 void add_deployments(const Suite& suite);
 void add_queries(const Suite& suite);
 void add_remote(const Suite& suite);
+void add_fan_outs(const Suite& suite);
 void add_footprints(const Suite& suite);
 
 }  // namespace armature::benchmarks

@@ -3,7 +3,13 @@
 # and armature_test() for everything else.
 include(${CMAKE_CURRENT_LIST_DIR}/layers.cmake)
 
-find_package(GTest REQUIRED)
+if(CMAKE_CROSSCOMPILING)
+  # Its package has the libraries for this machine, and the sources.
+  set(INSTALL_GTEST OFF)
+  add_subdirectory(/usr/src/googletest ${PROJECT_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
+else()
+  find_package(GTest REQUIRED)
+endif()
 
 # What scripts/demo builds: all that is installed, and the examples; no tests.
 add_custom_target(demo)

@@ -21,6 +21,11 @@ function(armature_compact target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
 endfunction()
 
+# Time goes on after 2038, also where a register has 32 bits.
+if(CMAKE_SIZEOF_VOID_P EQUAL 4)
+  add_compile_definitions(_TIME_BITS=64 _FILE_OFFSET_BITS=64)
+endif()
+
 # A fused multiply-add here and none there would make simulations differ between machines.
 add_compile_options(-ffp-contract=off)
 
@@ -63,6 +68,6 @@ if(ARMATURE_CCACHE)
       ${ARMATURE_CCACHE})
 endif()
 find_program(ARMATURE_MOLD mold)
-if(ARMATURE_MOLD)
+if(ARMATURE_MOLD AND NOT CMAKE_CROSSCOMPILING)
   add_link_options(-fuse-ld=mold)
 endif()

@@ -10,6 +10,7 @@
 
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
+#include <sys/timerfd.h>
 #include <unistd.h>
 
 #include "armature/platform/internal/descriptor.hpp"
@@ -20,25 +21,45 @@ namespace {
 using internal::Descriptor;
 
 constexpr std::uint64_t kAlarm = ~std::uint64_t{0};
+constexpr std::uint64_t kTimer = kAlarm - 1;
 
 epoll_event event_of(std::uint64_t key, Interest interest) {
   epoll_event event{};
-  event.events = (interest.read ? EPOLLIN | EPOLLRDHUP : 0u) | (interest.write ? EPOLLOUT : 0u);
+  const bool news = interest.news && !interest.write;
+  event.events = (interest.read ? EPOLLIN | EPOLLRDHUP : 0u) | (interest.write ? EPOLLOUT : 0u) |
+                 (news ? EPOLLET : 0u);
   event.data.u64 = key;
   return event;
+}
+
+timespec timespec_of(std::int64_t ns) {
+  timespec time{};
+  time.tv_sec = static_cast<time_t>(ns / 1'000'000'000);
+  time.tv_nsec = static_cast<long>(ns % 1'000'000'000);
+  return time;
+}
+
+bool watch(int events, int handle, std::uint64_t key) {
+  epoll_event event = event_of(key, {.read = true});
+  return handle >= 0 && ::epoll_ctl(events, EPOLL_CTL_ADD, handle, &event) == 0;
+}
+
+/// Makes it silent again.
+void silence(int handle) {
+  std::uint64_t ignored = 0;
+  [[maybe_unused]] const ssize_t size = ::read(handle, &ignored, sizeof ignored);
 }
 
 /// A kernel before 5.11 counts in milliseconds.
 int wait_for(int events, epoll_event* happened, int most, base::Duration limit) {
   if (limit == base::Duration::max()) return ::epoll_wait(events, happened, most, -1);
   const base::Duration left = std::max(limit, base::Duration::zero());
-  timespec timeout{};
-  timeout.tv_sec = static_cast<time_t>(left.count() / 1'000'000'000);
-  timeout.tv_nsec = static_cast<long>(left.count() % 1'000'000'000);
+  const timespec timeout = timespec_of(left.count());
   const int count = ::epoll_pwait2(events, happened, most, &timeout, nullptr);
   if (count >= 0 || errno != ENOSYS) return count;
   const auto ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
-  return ::epoll_wait(events, happened, most, static_cast<int>(std::min<long>(ms, 3'600'000)));
+  return ::epoll_wait(events, happened, most,
+                      static_cast<int>(std::min<std::int64_t>(ms, 3'600'000)));
 }
 
 }  // namespace
@@ -46,18 +67,19 @@ int wait_for(int events, epoll_event* happened, int most, base::Duration limit) 
 base::Result<std::unique_ptr<Poller>> Poller::make() {
   Descriptor events(::epoll_create1(EPOLL_CLOEXEC));
   Descriptor alarm(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  epoll_event event = event_of(kAlarm, {.read = true});
-  if (events.get() < 0 || alarm.get() < 0 ||
-      ::epoll_ctl(events.get(), EPOLL_CTL_ADD, alarm.get(), &event) != 0) {
+  Descriptor timer(::timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
+  if (events.get() < 0 || !watch(events.get(), alarm.get(), kAlarm) ||
+      !watch(events.get(), timer.get(), kTimer)) {
     return base::Error{"no descriptor to wait with: " + std::generic_category().message(errno) +
                        " (ulimit -n shows how many a process may have)"};
   }
-  return std::unique_ptr<Poller>(new Poller(events.release(), alarm.release()));
+  return std::unique_ptr<Poller>(new Poller(events.release(), alarm.release(), timer.release()));
 }
 
 Poller::~Poller() {
   ::close(events_);
   ::close(alarm_);
+  ::close(timer_);
 }
 
 bool Poller::add(int handle, std::uint64_t key, Interest interest) {
@@ -76,18 +98,25 @@ std::span<const Ready> Poller::wait(base::Duration limit) {
   epoll_event happened[kMost];
   const int count = wait_for(events_, happened, static_cast<int>(kMost), limit);
   std::size_t found = 0;
+  time_has_come_ = false;
   for (int i = 0; i < count; ++i) {
     const epoll_event& event = happened[i];
     if (event.data.u64 == kAlarm) {
-      std::uint64_t ignored = 0;
-      [[maybe_unused]] const ssize_t size = ::read(alarm_, &ignored, sizeof ignored);
+      silence(alarm_);
       // Only now: whoever wakes from here on finds the alarm silent and has it ring.
       woken_.store(false, std::memory_order_seq_cst);
       continue;
     }
-    const bool ended = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
-    ready_[found++] = {event.data.u64, ended || (event.events & (EPOLLIN | EPOLLRDHUP)) != 0,
-                       ended || (event.events & EPOLLOUT) != 0};
+    if (event.data.u64 == kTimer) {
+      silence(timer_);
+      rings_at_ = base::Time::max();
+      time_has_come_ = true;
+      continue;
+    }
+    const bool broken = (event.events & (EPOLLERR | EPOLLHUP)) != 0;
+    const bool ended = broken || (event.events & EPOLLRDHUP) != 0;
+    ready_[found++] = {event.data.u64, ended || (event.events & EPOLLIN) != 0,
+                       broken || (event.events & EPOLLOUT) != 0, ended};
   }
   return {ready_.data(), found};
 }
@@ -96,6 +125,14 @@ void Poller::wake() {
   if (woken_.exchange(true, std::memory_order_seq_cst)) return;
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = ::write(alarm_, &one, sizeof one);
+}
+
+void Poller::wake_at(base::Time time) {
+  if (time >= rings_at_) return;
+  // A time of 0 would disarm it.
+  const std::int64_t ns = std::max<std::int64_t>(base::to_ns(time), 1);
+  const itimerspec when{.it_interval = {}, .it_value = timespec_of(ns)};
+  if (::timerfd_settime(timer_, TFD_TIMER_ABSTIME, &when, nullptr) == 0) rings_at_ = time;
 }
 
 }  // namespace armature::platform

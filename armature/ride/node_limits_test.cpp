@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one client, or all together, may take of a node.
+#include <algorithm>
+#include <chrono>
 #include <string>
 #include <thread>
 #include <vector>
@@ -14,6 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST_F(NodeTest, ABodyAboveTheLimitIsTooLargeAndTheNextIsTaken) {
@@ -26,6 +29,47 @@ TEST_F(NodeTest, ABodyAboveTheLimitIsTooLargeAndTheNextIsTaken) {
   EXPECT_EQ(refusal.operation, kEcho);
   raw.send({}, Type::kRequest, 1, kEcho, 4u, "small");
   EXPECT_EQ(raw.receive_reply<std::string>(4), "small");
+}
+
+TEST_F(NodeTest, WhatCameBeforeTheEndIsExecutedAndTheEndIsSeen) {
+  auto other = client();
+  other.send({}, Type::kCommand, 1, kStart);
+  camera_.wait_until_started();
+  {
+    auto brief = client();
+    brief.send({}, Type::kCommand, 1, kNote, 5);
+  }
+  camera_.let_go();
+  EXPECT_THAT(camera_.wait_for_notes(1), ElementsAre(5));
+  const auto end = std::chrono::steady_clock::now() + 20s;
+  while (node_->statistics().connections != 1 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(node_->statistics().connections, 1u);
+}
+
+TEST_F(NodeTest, MoreMessagesThanWaitAtOnceAreAllExecuted) {
+  constexpr std::int32_t kMany = 150'000;
+  options_.limits.messages_per_second = 2 * kMany;
+  auto other = client();
+  other.send({}, Type::kCommand, 1, kStart);
+  camera_.wait_until_started();
+  Body all;
+  for (std::int32_t i = 0; i < kMany; ++i) {
+    all.append(RawClient::message({}, Type::kCommand, 1, kNote, i).bytes());
+  }
+  std::thread sender([&] {
+    auto busy = client();
+    busy.send(all.bytes());
+    busy.receive();  // Until the test ends the node.
+  });
+  camera_.let_go();
+  const auto notes = camera_.wait_for_notes(kMany);
+  EXPECT_EQ(notes.size(), static_cast<std::size_t>(kMany));
+  EXPECT_TRUE(std::ranges::is_sorted(notes));
+  node_->remove(camera_);
+  node_.reset();
+  sender.join();
 }
 
 TEST_F(NodeTest, SubscriptionsAreRefusedByTheCodesNumber) {

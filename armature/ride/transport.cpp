@@ -31,6 +31,7 @@ class SocketConnection final : public Connection {
   Progress receive(std::span<std::byte> room, std::size_t& size) override {
     return progress_of(socket_->receive(room, size), Progress::kWantRead);
   }
+  bool takes_all() const override { return true; }
   Progress wait_and_receive(std::span<std::byte> room, std::size_t& size,
                             base::Duration limit) override {
     return progress_of(socket_->wait_and_receive(room, size, limit), Progress::kWantRead);

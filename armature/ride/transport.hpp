@@ -39,7 +39,10 @@ class Connection {
   /// came together, and no poller tells of it: who watches the handle gives that much room.
   /// @return kDone if at least one byte was received
   virtual Progress receive(std::span<std::byte> room, std::size_t& size) = 0;
-  /// The same, but waits for it: kWantRead if nothing came within `limit` (> 0).
+  /// True if a `receive` that leaves room has taken all that was there, and the handle tells when
+  /// more comes. A transport that keeps bytes back, or leaves some in the kernel, says false.
+  virtual bool takes_all() const { return false; }
+  /// Like `receive`, but waits for it: kWantRead if nothing came within `limit` (> 0).
   virtual Progress wait_and_receive(std::span<std::byte> room, std::size_t& size,
                                     base::Duration limit) = 0;
   /// Ends the connection both ways, and whoever waits for it. The handle stays valid.

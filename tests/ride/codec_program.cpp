@@ -24,7 +24,7 @@ struct Inner {
 };
 struct Everything {
   bool on = false;
-  char letter = 0;
+  std::int8_t letter = 0;
   std::uint8_t byte = 0;
   std::int16_t i16 = 0;
   std::uint16_t u16 = 0;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The codec of armature/ride beside one that was written from docs/ride.md alone.
 
-usage: differential_test.py CODEC_PROGRAM
+usage: differential_test.py [EMULATOR OPTION...] CODEC_PROGRAM
 
 Random values are encoded here, decoded and encoded there: text and bytes have to be the same. Then
 the bytes are spoilt, and both have to agree on what is malformed and on what the rest says.
@@ -142,7 +142,7 @@ def main():
         bodies.append(body)
         bodies += [spoil(body, dice) for _ in range(4)]
     lines = "".join(body.hex() + "\n" for body in bodies)
-    found = subprocess.run([sys.argv[1]], input=lines, capture_output=True, text=True, check=True)
+    found = subprocess.run(sys.argv[1:], input=lines, capture_output=True, text=True, check=True)
     answers = found.stdout.splitlines()
     assert len(answers) == len(bodies), f"{len(answers)} answers to {len(bodies)} bodies"
     malformed = 0

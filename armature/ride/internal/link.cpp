@@ -44,13 +44,26 @@ bool Link::read() {
     update_interest();
   }
   std::size_t size = 0;
-  const Progress progress = connection_->receive(assembler_.room(), size);
+  const std::span<std::byte> room = assembler_.room();
+  const Progress progress = connection_->receive(room, size);
   if (progress == Progress::kGone) break_off_locked(connection_->problem());
   if (progress == Progress::kDone) {
     assembler_.received(size);
     take_messages();
   }
+  if (progress != Progress::kDone || size == room.size()) look_again_locked();
   return open() && assembler_.incomplete();
+}
+
+void Link::look_again() {
+  const std::lock_guard lock(mutex_);
+  look_again_locked();
+}
+
+/// The poller tells only what is new of a connection that takes all.
+void Link::look_again_locked() {
+  if (!connection_ || !problem_.empty() || !interest_.news) return;
+  poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
 }
 
 void Link::write() {
@@ -249,7 +262,8 @@ void Link::update_interest() {
   const bool takes_nothing = peer == nullptr && is_backed_up();
   const platform::Interest wanted{flows ? reader_ == Reader::kIo && !throttled && !takes_nothing
                                         : establishing_ == Progress::kWantRead,
-                                  flows ? blocked_ : establishing_ == Progress::kWantWrite};
+                                  flows ? blocked_ : establishing_ == Progress::kWantWrite,
+                                  flows && connection_->takes_all()};
   if (wanted.read == interest_.read && wanted.write == interest_.write) return;
   interest_ = wanted;
   poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), wanted);

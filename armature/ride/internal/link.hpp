@@ -86,6 +86,8 @@ class Link : public std::enable_shared_from_this<Link> {
   /// Receives what is there and delivers it.
   /// @return true if a message has begun that has not ended
   bool read();
+  /// Has the poller tell once more what can be read: it was not, or not all of it.
+  void look_again();
   /// Sends what could not be sent before.
   void write();
   /// Sends what was gathered `age` ago; false if there is nothing.
@@ -110,7 +112,7 @@ class Link : public std::enable_shared_from_this<Link> {
   /// Why the connection has ended, or who the other end is; with the lock held.
   std::string end_locked() const { return connection_ ? connection_->other_end() : "nobody"; }
   /// Sends an event that was encoded before, or puts it into the queue.
-  void send_event(EventQueue& queue, std::span<const std::byte> message);
+  void send_event(EventQueue& queue, std::span<const std::byte> message, base::Time now);
   /// Sends a request and waits.
   void call(Number operation, const Recipient& recipient, const CallOptions& options,
             const Fields& parameters, WaitingCall& call);
@@ -151,9 +153,11 @@ class Link : public std::enable_shared_from_this<Link> {
   void append_event(EventQueue& queue, std::span<const std::byte> message);
   bool too_much_for(Type type);
   bool is_backed_up() const;
-  void dispatch_out(Flush flush);
+  void send_out();
+  void gather(base::Time now);
   void transmit();
   void drain_event_queues();
+  void look_again_locked();
   void take_messages();
   void take_message(const Message& message);
   bool complete(const Message& message);

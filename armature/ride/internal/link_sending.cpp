@@ -74,15 +74,23 @@ Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
   for (const std::uint32_t word : head) body.put(word);
   fields.put(body);
   finish_message(out_, start, priority, type, recipient);
-  dispatch_out(flush);
+  if (flush == Flush::kNow) {
+    send_out();
+  } else {
+    gather(platform::monotonic_now());
+  }
   return open() ? Sent::kYes : Sent::kNotConnected;
 }
 
-/// Sends what was appended: now, or with what follows.
-void Link::dispatch_out(Flush flush) {
+/// Sends what was appended.
+void Link::send_out() {
   if (blocked_) return update_interest();
-  if (flush == Flush::kNow) return transmit();
-  const base::Time now = platform::monotonic_now();
+  transmit();
+}
+
+/// Sends what was appended, or has it wait for what follows.
+void Link::gather(base::Time now) {
+  if (blocked_) return update_interest();
   const bool alone = !flush_due_ && now - last_sent_ >= kMoment;
   if (alone || out_.size() >= kMostGathered) {
     transmit();
@@ -113,12 +121,12 @@ void Link::transmit() {
   out_.shrink(kMostKept);
 }
 
-void Link::send_event(EventQueue& queue, std::span<const std::byte> message) {
+void Link::send_event(EventQueue& queue, std::span<const std::byte> message, base::Time now) {
   const std::lock_guard lock(mutex_);
   if (!open()) return;
   if (!blocked_) {
     append_event(queue, message);
-    return dispatch_out(Flush::kGather);
+    return gather(now);
   }
   if (!queue.push(message)) host_.event_dropped(queue);
 }

@@ -169,7 +169,7 @@ void NodeState::step(base::Duration limit) {
   }
   if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
-  if (next_timer() != base::Time::max()) look_at_clock();
+  if (poller_->time_has_come() || flush_at_ != base::Time::max()) look_at_clock();
   if (!pending_.empty()) return;
   pending_.settle();
   departed_.clear();
@@ -177,8 +177,9 @@ void NodeState::step(base::Duration limit) {
 
 /// Listeners are known by their place, links by where they are.
 void NodeState::take_ready(const platform::Ready& ready) {
-  if (ready.key < listeners_.size()) return accept(*listeners_[ready.key]);
-  service_link(*reinterpret_cast<Link*>(ready.key), ready);
+  const auto key = static_cast<std::uintptr_t>(ready.key);
+  if (key < listeners_.size()) return accept(*listeners_[key]);
+  service_link(*reinterpret_cast<Link*>(key), ready);
 }
 
 void NodeState::accept(Listener& listener) {
@@ -227,7 +228,10 @@ void NodeState::service_link(Link& link, const platform::Ready& ready) {
     return;
   }
   if (ready.write) link.write();
-  if (ready.read && !pending_.full()) receive(link);
+  const bool has_room = !pending_.full();
+  if (ready.read && has_room) receive(link);
+  // After what came last the end is to be seen.
+  if (ready.ended || (ready.read && !has_room)) link.look_again();
 }
 
 /// Asks what time it is only where that matters.

@@ -127,8 +127,7 @@ class NodeState final : public LinkHost {
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
   void throttle(Link& link);
-  base::Time next_timer() const;
-  base::Duration time_left() const;
+  base::Duration time_left();
   void look_at_clock();
   void look_after(Link& link);
   void end(Link& link);

@@ -10,11 +10,11 @@
 
 namespace armature::ride::internal {
 
-base::Time NodeState::next_timer() const { return std::min({due_, flush_at_, return_at_}); }
-
-base::Duration NodeState::time_left() const {
-  const base::Time next = next_timer();
-  return next == base::Time::max() ? base::Duration::max() : next - platform::monotonic_now();
+/// The poller is told of times that are far away: they are asked for seldom, it waits often.
+base::Duration NodeState::time_left() {
+  poller_->wake_at(std::min(due_, return_at_));
+  if (flush_at_ == base::Time::max()) return base::Duration::max();
+  return flush_at_ - platform::monotonic_now();
 }
 
 void NodeState::look_at_clock() {

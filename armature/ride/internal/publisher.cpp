@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "armature/platform/clock.hpp"
 #include "armature/ride/internal/link.hpp"
 
 namespace armature::ride::internal {
@@ -10,6 +11,7 @@ namespace armature::ride::internal {
 void Publisher::publish(Number event, const Fields& members, Priority priority) {
   const std::lock_guard lock(mutex_);
   bool encoded = false;
+  base::Time now{};
   for (const auto& subscriber : subscribers_) {
     if (subscriber->event != event) continue;
     if (!encoded) {
@@ -19,9 +21,10 @@ void Publisher::publish(Number event, const Fields& members, Priority priority) 
       body.put(event);
       members.put(body);
       finish_message(message_, 0, priority, Type::kEvent, 0);
+      now = platform::monotonic_now();
       encoded = true;
     }
-    subscriber->link->send_event(*subscriber, message_.bytes());
+    subscriber->link->send_event(*subscriber, message_.bytes(), now);
   }
 }
 
