@@ -155,8 +155,10 @@ class Inspector::Service final : public InspectorService {
         kept->fail(failure.what());
       }
     };
-    if (!room || !queue_.post(answer)) {
+    if (!room) {
       kept->fail("the application is busy with other requests: ask again, and less often");
+    } else if (!queue_.post(answer)) {
+      kept->fail("the application takes no requests now: it stops, or has too many of them");
     }
   }
 

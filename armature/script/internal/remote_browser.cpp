@@ -55,19 +55,23 @@ RemoteBrowser::RemoteBrowser(RemoteRobot& robot, Surface& surface, Pause pause)
       pause_(std::move(pause)),
       name_(robot.address()) {
   there_.take_changes();
-  learn_name();
+  greet();
 }
 
 /// Whoever may not read the application's own name still sees where it is.
-void RemoteBrowser::learn_name() {
-  name_ = there_.address();
+void RemoteBrowser::greet() {
   try {
-    if (there_.has_application()) {
-      name_ = there_.status().name;
-    } else {
-      surface().complain("note: a node answers at " + name_ +
+    has_application_ = there_.has_application();
+    if (!has_application_ && !had_application_) {
+      surface().complain("note: a node answers at " + there_.address() +
                          ", but no application that can be browsed; `list` shows what it hosts");
     }
+    if (!has_application_) return;
+    had_application_ = true;
+    if (std::exchange(was_lost_, false)) {
+      surface().complain("connected to " + there_.address() + " again");
+    }
+    name_ = there_.status().name;
   } catch (const NoAnswer& problem) {
     surface().complain("warning: " + std::string(problem.what()));
   }
@@ -99,11 +103,25 @@ void RemoteBrowser::note_connection() {
   for (const ride::PeerChange& change : there_.take_changes()) {
     back = change.connected;
     there_.forget();
-    surface().complain(change.connected ? "connected to " + there_.address() + " again"
-                                        : "the connection to " + there_.address() + " is lost: " +
-                                              harmless(change.text) + "; it is tried again");
+    if (change.connected) continue;
+    was_lost_ = is_another_ = true;
+    has_application_ = false;
+    surface().complain("the connection to " + there_.address() +
+                       " is lost: " + harmless(change.text) + "; it is tried again");
   }
-  if (back) learn_name();
+  if (back) greet();
+}
+
+bool RemoteBrowser::wait_for_connection() {
+  for (base::Duration passed{}; is_away() && passed < kReconnectionLimit; passed += kStep) {
+    pause_(kStep);
+    note_connection();
+  }
+  if (!is_away()) return true;
+  const auto there = there_.wait_until_connected(base::Duration::zero());
+  mistake(there ? "the process at " + there_.address() + " has no application now"
+                : harmless(there.error()));
+  return false;
 }
 
 // --- lines ---------------------------------------------------------------------------------------
@@ -112,10 +130,9 @@ void RemoteBrowser::take(std::string_view line) {
   surface().take_interrupt();
   const std::string text = trimmed(line);
   if (text.empty()) return;
-  const auto there = there_.wait_until_connected(kReconnectionLimit);
   note_connection();
   const bool leaves = text == "quit" || text == "exit";
-  if (!there && !leaves) return mistake(there.error());
+  if (!leaves && !wait_for_connection()) return;
   try {
     take_words(text);
   } catch (const NoAnswer& problem) {
@@ -302,13 +319,13 @@ void RemoteBrowser::show_progress() {
 
 void RemoteBrowser::follow_commands() {
   const base::Time now = platform::monotonic_now();
-  if (begun_.empty() || now < next_look_ || !there_.connected()) return;
+  if (begun_.empty() || now < next_look_ || is_away()) return;
   next_look_ = now + kLookPeriod;
   std::erase_if(begun_, [&](CommandStatus& command) {
     try {
       command = there_.follow(command.handle);
     } catch (const NoAnswer& problem) {
-      if (!there_.connected()) return false;
+      if (!is_another_ || is_away()) return false;
       surface().show("");
       surface().say(command.command + ": how it ended is not known: " + problem.what());
       return true;
@@ -319,6 +336,7 @@ void RemoteBrowser::follow_commands() {
     }
     return command.ended;
   });
+  if (!is_away()) is_another_ = false;
 }
 
 bool RemoteBrowser::cancel_commands() {

@@ -52,7 +52,11 @@ class RemoteBrowser final : public LineTaker, private SharedCommands {
   void quit(const Words& arguments);
 
   void note_connection();
-  void learn_name();
+  /// Finds out who answers there.
+  void greet();
+  /// A robot that was there is not there now.
+  bool is_away() const { return !there_.connected() || (had_application_ && !has_application_); }
+  bool wait_for_connection();
   /// Asks how the commands fare that were begun, and tells of those that have ended.
   void follow_commands();
   void show_progress();
@@ -65,6 +69,10 @@ class RemoteBrowser final : public LineTaker, private SharedCommands {
   std::string name_;  ///< of the application
   std::vector<remote::CommandStatus> begun_;
   base::Time next_look_{};  ///< at the commands
+  bool has_application_ = false;
+  bool had_application_ = false;
+  bool was_lost_ = false;    ///< and has not come back yet
+  bool is_another_ = false;  ///< it may have been started anew since the commands were begun
   bool ended_ = false;
 };
 

@@ -64,6 +64,7 @@ std::vector<ride::PeerChange> RemoteRobot::take_changes() {
 
 void RemoteRobot::forget() {
   hosted_.clear();
+  has_application_.reset();
   names_.clear();
   known_.clear();
 }
@@ -81,10 +82,15 @@ const std::vector<ride::PeerComponent>& RemoteRobot::hosted() {
 }
 
 bool RemoteRobot::has_application() {
+  if (has_application_) return *has_application_;
   const auto& all = hosted();
-  return std::any_of(all.begin(), all.end(), [&](const ride::PeerComponent& one) {
+  const bool listed = std::any_of(all.begin(), all.end(), [&](const ride::PeerComponent& one) {
     return one.name == kInspector && one.interface == inspector_.interface().name;
   });
+  // The directory may know it before the placeholder has asked again.
+  has_application_ =
+      listed && inspector_.application(kPatient).code() != ride::Code::kNoSuchComponent;
+  return *has_application_;
 }
 
 std::vector<std::string> RemoteRobot::component_names() {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,7 +44,8 @@ class RemoteRobot final : public Robot {
   remote::CommandStatus follow(std::int32_t handle);
   remote::CommandStatus cancel(std::int32_t handle);
 
-  /// Whether an application answers there, and not only a node.
+  /// Whether an application answers there, and not only a node; one that has just been started is
+  /// not there at once, which is told as a change.
   bool has_application();
   const std::string& address() const { return peer_.address(); }
   bool connected() const { return peer_.connected(); }
@@ -66,6 +68,7 @@ class RemoteRobot final : public Robot {
   ride::Peer& peer_;
   remote::InspectorPlaceholder inspector_;
   std::vector<ride::PeerComponent> hosted_;
+  std::optional<bool> has_application_;
   std::vector<std::string> names_;
   std::map<std::string, remote::ComponentDetails, std::less<>> known_;
   std::mutex mutex_;
