@@ -88,6 +88,12 @@ TEST(ValuesForPeople, BrokenTextEndsSomewhere) {
   }
 }
 
+TEST(ValuesForPeople, DepthCostsNoStack) {
+  const std::string deep(1u << 20, '[');
+  EXPECT_LE(for_people(deep, "vector<double>", {}, 8).size(), 2 * deep.size());
+  EXPECT_EQ(in_files(deep), "mistake: too many lists and structs in one another");
+}
+
 TEST(HarmlessText, MovesNoCursor) {
   EXPECT_EQ(harmless("a\x1b[2J\x07\x7f"
                      "b\n\tc"),

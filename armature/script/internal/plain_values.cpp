@@ -18,6 +18,9 @@ struct Mistake {
   std::string text;
 };
 
+/// Of lists and structs in one another.
+constexpr int kDeepest = 64;
+
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kLongest = 30;
   if (text.empty()) return "the end of the line";
@@ -36,16 +39,10 @@ class TypedReader {
 
   /// @param inside  of a list or struct, where texts are in quotes
   std::string value(bool inside) {
-    skip_blanks();
-    if (starts_with('"') || starts_with('\'')) return quoted(inside);
-    if (take("array")) {
-      skip_blanks();
-      expect('(');
-      return elements(')');
-    }
-    if (take_if('[')) return elements(']');
-    if (take_if('{')) return table();
-    return word();
+    if (++depth_ > kDeepest) throw Mistake{"too many lists and structs in one another"};
+    std::string text = one_value(inside);
+    --depth_;
+    return text;
   }
 
   std::vector<std::string> arguments() {
@@ -66,6 +63,19 @@ class TypedReader {
   }
 
  private:
+  std::string one_value(bool inside) {
+    skip_blanks();
+    if (starts_with('"') || starts_with('\'')) return quoted(inside);
+    if (take("array")) {
+      skip_blanks();
+      expect('(');
+      return elements(')');
+    }
+    if (take_if('[')) return elements(']');
+    if (take_if('{')) return table();
+    return word();
+  }
+
   void skip_blanks() {
     while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t'))
       rest_.remove_prefix(1);
@@ -151,6 +161,7 @@ class TypedReader {
   }
 
   std::string_view rest_;
+  int depth_ = 0;
 };
 
 /// Writes a value of another process for people.
@@ -159,9 +170,10 @@ class Shortener {
   Shortener(const std::vector<FieldDetails>& fields, std::size_t most_elements)
       : fields_(fields), most_elements_(most_elements) {}
 
-  std::string value(std::string_view& rest, const std::string& type) const {
-    if (rest.starts_with('[')) return list(rest, element_of(type));
-    if (rest.starts_with('{')) return structure(rest, type);
+  std::string value(std::string_view& rest, const std::string& type, int depth = 0) const {
+    const bool too_deep = depth > kDeepest;  // no type is; it is not to cost this process its stack
+    if (rest.starts_with('[') && !too_deep) return list(rest, element_of(type), depth + 1);
+    if (rest.starts_with('{') && !too_deep) return structure(rest, type, depth + 1);
     if (rest.starts_with('"')) return text(rest);
     const std::size_t size = std::min(rest.find_first_of(",]}"), rest.size());
     const std::string word(rest.substr(0, size));
@@ -195,13 +207,13 @@ class Shortener {
       rest.remove_prefix(1);
   }
 
-  std::string list(std::string_view& rest, const std::string& element) const {
+  std::string list(std::string_view& rest, const std::string& element, int depth) const {
     rest.remove_prefix(1);
     std::string text = "[";
     std::size_t count = 0;
     while (!rest.empty() && rest.front() != ']') {
       const std::size_t before = rest.size();
-      const std::string one = value(rest, element);
+      const std::string one = value(rest, element, depth);
       if (count++ < most_elements_) text += (text.size() > 1 ? ", " : "") + one;
       skip(rest, ", ");
       if (rest.size() == before) break;
@@ -211,7 +223,7 @@ class Shortener {
     return text + "]";
   }
 
-  std::string structure(std::string_view& rest, const std::string& type) const {
+  std::string structure(std::string_view& rest, const std::string& type, int depth) const {
     rest.remove_prefix(1);
     std::string text = "{";
     while (!rest.empty() && rest.front() != '}') {
@@ -221,7 +233,7 @@ class Shortener {
       skip(rest, " ");
       const FieldDetails* const field = find(type, name);
       text += (text.size() > 1 ? ", " : "") + name + ": " +
-              with_unit(value(rest, field == nullptr ? "" : field->type),
+              with_unit(value(rest, field == nullptr ? "" : field->type, depth),
                         field == nullptr ? "" : field->unit);
       skip(rest, ", ");
       if (rest.size() == before) break;
