@@ -354,7 +354,8 @@ TEST_F(Remote, APeerThatDoesNotAnswerHoldsUpNoRealTimeThread) {
   robot = std::make_unique<Process>(server());
   robot->start();
   pilot = std::make_unique<Process>(R"(components:
-  There: {model: Axis, remote: ')" + robot->address() + R"(/Axis'}
+  There: {model: Axis, remote: ')" + robot->address() +
+                                    R"(/Axis'}
   Patient: {model: User, activity: {periodic: 5 ms}, peers: [There]}
   Quick: {model: User, activity: {periodic: 1 ms, priority: 10}, peers: [There]}
 connections: [There.Position -> Patient.Position, There.Position -> Quick.Position,
