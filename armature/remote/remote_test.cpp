@@ -506,5 +506,18 @@ components:
   EXPECT_THAT(text, HasSubstr("max_age: 100 ms"));
 }
 
+TEST(RemoteDeployment, AddressesAndPolicyAreCheckedBeforeAnythingListens) {
+  const Process wrong(R"(network: {listen: [tcp://127.0.0.1:0, "tcp:nowhere"], policy: no.policy}
+components: {Axis: {model: Axis, activity: {periodic: 2 ms}}}
+)");
+  base::Diagnostics diagnostics = wrong.deployment.diagnostics;
+  wrong.network_->check(wrong.deployment.document, diagnostics);
+  const std::string text = diagnostics.to_text();
+  EXPECT_THAT(text, HasSubstr("test.yaml:1:39: error: "));
+  EXPECT_THAT(text, HasSubstr("tcp:nowhere"));
+  EXPECT_THAT(text, HasSubstr("no.policy"));
+  EXPECT_TRUE(wrong.network_->addresses().empty());
+}
+
 }  // namespace
 }  // namespace armature::remote
