@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         Line{"start Axsi", "there is no component 'Axsi' (did you mean 'Axis'?)"},
         Line{"ls Axsi", "there is no component 'Axsi' (did you mean 'Axis'?)"},
         Line{"stop",
-             "stop takes the name of a component: stop Joint1; `quit` ends the "
+             "stop takes the name of a component: stop Joint1; `quit` stops the "
              "application"},
         Line{"run", "run takes the seconds to let pass, above 0: run 5"},
         Line{"run -1", "run takes the seconds to let pass, above 0: run 5"},

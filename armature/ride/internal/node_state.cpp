@@ -28,6 +28,7 @@ NodeState::NodeState(NodeOptions options)
       journal_(options_.name, options_.log),
       transports_(options_.transports),
       random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))) {
+  for (auto* links : {&flushed_, &lent_}) links->reserve(16);
   transports_.push_back(make_tcp_transport());
   transports_.push_back(make_unix_transport());
   auto poller = platform::Poller::make();

@@ -96,6 +96,11 @@ class NodeState final : public LinkHost {
   class SenderAt;
   /// What other threads have left for this one.
   struct Letters {
+    /// Room for what comes with each message, so that it never allocates.
+    Letters() {
+      for (auto* links : {&attention, &flushes, &returns}) links->reserve(16);
+    }
+
     std::vector<std::function<void()>> tasks;
     std::vector<std::shared_ptr<Link>> attention;
     std::vector<std::shared_ptr<Link>> flushes;
