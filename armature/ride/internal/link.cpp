@@ -36,9 +36,9 @@ bool Link::establish() {
   return establishing_ == Progress::kDone;
 }
 
-bool Link::read() {
+std::optional<std::uint64_t> Link::read() {
   const std::lock_guard lock(mutex_);
-  if (!open() || reader_ == Reader::kCaller) return false;
+  if (!open() || reader_ == Reader::kCaller) return std::nullopt;
   if (reader_ == Reader::kNobody) {
     reader_ = Reader::kIo;
     update_interest();
@@ -50,16 +50,23 @@ bool Link::read() {
     assembler_.received(size);
     take_messages();
   }
-  return open() && assembler_.incomplete();
+  if (progress == Progress::kWantWrite) {
+    reading_waits_ = true;
+    update_interest();
+  }
+  return open() ? assembler_.incomplete() : std::nullopt;
 }
 
-void Link::write() {
+bool Link::write() {
   const std::lock_guard lock(mutex_);
-  if (!open() || !blocked_) return;
-  blocked_ = false;
-  transmit();
-  drain_event_queues();
+  if (!open()) return false;
+  const bool has_waited = std::exchange(reading_waits_, false);
+  if (std::exchange(blocked_, false)) {
+    transmit();
+    drain_event_queues();
+  }
   update_interest();
+  return has_waited && interest_.read;
 }
 
 bool Link::flush(base::Time now, base::Duration age) {
@@ -89,6 +96,7 @@ bool Link::close() {
   assembler_.reset();
   out_.clear();
   blocked_ = false;
+  reading_waits_ = false;
   flush_due_ = false;
   establishing_ = Progress::kDone;
   reader_ = Reader::kIo;
@@ -97,6 +105,7 @@ bool Link::close() {
   greeted = false;
   incomplete_since = base::Time::max();
   throttled = false;
+  sends_much = false;
   return true;
 }
 
@@ -247,9 +256,10 @@ void Link::update_interest() {
   if (!connection_ || !problem_.empty()) return;
   const bool flows = establishing_ == Progress::kDone;
   const bool takes_nothing = peer == nullptr && is_backed_up();
-  const platform::Interest wanted{flows ? reader_ == Reader::kIo && !throttled && !takes_nothing
-                                        : establishing_ == Progress::kWantRead,
-                                  flows ? blocked_ : establishing_ == Progress::kWantWrite};
+  const bool reads = reader_ == Reader::kIo && !throttled && !takes_nothing && !reading_waits_;
+  const platform::Interest wanted{
+      flows ? reads : establishing_ == Progress::kWantRead,
+      flows ? blocked_ || reading_waits_ : establishing_ == Progress::kWantWrite};
   if (wanted.read == interest_.read && wanted.write == interest_.write) return;
   interest_ = wanted;
   poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), wanted);

@@ -16,6 +16,7 @@
 #include "armature/ride/internal/assembler.hpp"
 #include "armature/ride/internal/event_queue.hpp"
 #include "armature/ride/internal/open_call.hpp"
+#include "armature/ride/internal/waiting.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/transport.hpp"
 
@@ -84,10 +85,11 @@ class Link : public std::enable_shared_from_this<Link> {
   /// True once data can flow; false as long as it cannot. A failure breaks it off.
   bool establish();
   /// Receives what is there and delivers it.
-  /// @return true if a message has begun that has not ended
-  bool read();
+  /// @return the number of the oldest message that has begun and not ended, if there is one
+  std::optional<std::uint64_t> read();
   /// Sends what could not be sent before.
-  void write();
+  /// @return true if reading has waited for that
+  bool write();
   /// Sends what was gathered `age` ago; false if there is nothing.
   bool flush(base::Time now, base::Duration age);
   /// Takes reading back from a caller who has gone; false if there still is one.
@@ -133,10 +135,13 @@ class Link : public std::enable_shared_from_this<Link> {
   std::string scheme;
   bool established = false;
   bool greeted = false;
-  base::Time incomplete_since = base::Time::max();
+  base::Time incomplete_since = base::Time::max();  ///< its handshake, or a message
+  std::uint64_t incomplete_message = 0;
   base::Time window_end{};
   std::uint64_t window_messages = 0;
   bool throttled = false;
+  bool sends_much = false;  ///< as of the last time it was read
+  Waiting waiting{this};
   std::atomic<std::size_t> kept_replies{0};
   std::vector<std::shared_ptr<EventQueue>> event_queues;  ///< with the lock held
 
@@ -176,8 +181,9 @@ class Link : public std::enable_shared_from_this<Link> {
   std::atomic<std::uint32_t> connections_{0};
   Assembler assembler_;
   Body out_;
-  bool blocked_ = false;    ///< the other side has not taken what was sent
-  bool flush_due_ = false;  ///< the I/O thread looks after what was gathered
+  bool blocked_ = false;        ///< the other side has not taken what was sent
+  bool reading_waits_ = false;  ///< until it can write
+  bool flush_due_ = false;      ///< the I/O thread looks after what was gathered
   base::Time last_sent_{};
   base::Time gathered_since_{};
   std::vector<OpenCall*> calls_;

@@ -15,7 +15,9 @@ namespace armature::ride::internal {
 namespace {
 
 /// Messages that arrive while others are dispatched wait no longer for their turn.
-constexpr base::Duration kRound = std::chrono::microseconds(200);
+constexpr base::Duration kRound = std::chrono::microseconds(50);
+/// Who has sent so many messages at once is read alone in a round.
+constexpr std::uint64_t kMuch = 64;
 /// Without descriptors or memory a connection would be refused again and again.
 constexpr base::Duration kNoDescriptors = std::chrono::milliseconds(100);
 
@@ -33,6 +35,8 @@ NodeState::NodeState(NodeOptions options)
   auto poller = platform::Poller::make();
   if (!poller) throw std::runtime_error("node '" + options_.name + "': " + poller.error());
   poller_ = std::move(poller).value();
+  flushed_.reserve(Letters::kUsual);
+  lent_.reserve(Letters::kUsual);
 }
 
 NodeState::~NodeState() {
@@ -120,7 +124,7 @@ void NodeState::deliver(Link& link, const Message& message) {
   if (in_io_thread()) {
     // What a caller has received before comes first.
     if (has_handed_over_.load(std::memory_order_acquire)) take_handed_over();
-    return pending_.push(link, message);
+    return pending_.push(link.waiting, message);
   }
   bool full = false;
   leave_letter([&](Letters& letters) {
@@ -136,11 +140,8 @@ void NodeState::deliver(Link& link, const Message& message) {
 void NodeState::take_handed_over() {
   const std::lock_guard lock(letters_mutex_);
   has_handed_over_.store(false);
-  while (!letters_.messages.empty()) {
-    const Pending::Entry entry = letters_.messages.pop();
-    pending_.push(*entry.link, entry.message);
-  }
-  letters_.messages.settle();
+  letters_.messages.take_all(
+      [this](Link& link, const Message& message) { pending_.push(link.waiting, message); });
 }
 
 void NodeState::attend(Link& link) {
@@ -164,15 +165,14 @@ void NodeState::event_dropped(const EventQueue& queue) {
 
 void NodeState::step(base::Duration limit) {
   if (!pending_.empty() || has_letters_.load()) limit = {};
-  for (const platform::Ready& ready : poller_->wait(std::min(limit, time_left()))) {
-    take_ready(ready);
-  }
+  has_read_much_ = false;
+  const auto ready = poller_->wait(std::min(limit, time_left()));
+  ++rounds_;  // Another one is first in each round.
+  for (std::size_t i = 0; i < ready.size(); ++i) take_ready(ready[(rounds_ + i) % ready.size()]);
   if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
   if (next_timer() != base::Time::max()) look_at_clock();
-  if (!pending_.empty()) return;
-  pending_.settle();
-  departed_.clear();
+  forget_departed();
 }
 
 /// Listeners are known by their place, links by where they are.
@@ -183,7 +183,7 @@ void NodeState::take_ready(const platform::Ready& ready) {
 
 void NodeState::accept(Listener& listener) {
   now_ = platform::monotonic_now();
-  constexpr int kMostAtOnce = 16;
+  constexpr int kMostAtOnce = 4;
   for (int i = 0; i < kMostAtOnce; ++i) {
     auto connection = listener.accept();
     if (!connection) {
@@ -226,20 +226,28 @@ void NodeState::service_link(Link& link, const platform::Ready& ready) {
     if (link.peer != nullptr) link.peer->established();
     return;
   }
-  if (ready.write) link.write();
-  if (ready.read && !pending_.full()) receive(link);
+  const bool can_go_on_reading = ready.write && link.write();
+  if (ready.read || can_go_on_reading) receive(link);
 }
 
-/// Asks what time it is only where that matters.
+/// Who has sent much is read again when all of that was dispatched, and in a round no more than one
+/// of them: what others have sent does not wait until the floods of all have been read. Asks what
+/// time it is only where that matters.
 void NodeState::receive(Link& link) {
+  if (!link.waiting.empty() || (link.sends_much && has_read_much_)) return;
   const std::uint64_t before = link.received();
-  if (!link.read()) {
+  const auto incomplete = link.read();
+  if (!incomplete) {
     link.incomplete_since = base::Time::max();
-  } else if (link.incomplete_since == base::Time::max()) {
+  } else if (link.incomplete_since == base::Time::max() || *incomplete != link.incomplete_message) {
+    link.incomplete_message = *incomplete;
     link.incomplete_since = platform::monotonic_now();
     wake_at(base::later(link.incomplete_since, options_.limits.time_to_complete));
   }
-  link.window_messages += link.received() - before;
+  const std::uint64_t count = link.received() - before;
+  link.sends_much = count >= kMuch;
+  has_read_much_ = has_read_much_ || link.sends_much;
+  link.window_messages += count;
   if (link.window_messages > options_.limits.messages_per_second) throttle(link);
 }
 
@@ -268,7 +276,7 @@ void NodeState::take_letters() {
 }
 
 void NodeState::dispatch_pending() {
-  constexpr int kBetweenLooks = 16;
+  constexpr int kBetweenLooks = 4;
   base::Time end{};
   for (int i = 1; !pending_.empty(); ++i) {
     const Pending::Entry entry = pending_.pop();
@@ -299,6 +307,10 @@ void NodeState::end(Link& link) {
   departed_.push_back(std::move(*at));
   links_.erase(at);
   counters_.connections.store(links_.size(), std::memory_order_relaxed);
+}
+
+void NodeState::forget_departed() {
+  std::erase_if(departed_, [](const auto& link) { return link->waiting.empty(); });
 }
 
 void NodeState::say_goodbye() {

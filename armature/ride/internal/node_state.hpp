@@ -16,6 +16,7 @@
 #include "armature/platform/poller.hpp"
 #include "armature/platform/thread.hpp"
 #include "armature/ride/internal/directory.hpp"
+#include "armature/ride/internal/handed_over.hpp"
 #include "armature/ride/internal/journal.hpp"
 #include "armature/ride/internal/link.hpp"
 #include "armature/ride/internal/pending.hpp"
@@ -95,11 +96,17 @@ class NodeState final : public LinkHost {
   };
   /// What other threads have left for this one.
   struct Letters {
+    Letters() {
+      flushes.reserve(kUsual);
+      returns.reserve(kUsual);
+    }
+
+    static constexpr std::size_t kUsual = 64;  ///< more of them at once ask for memory
     std::vector<std::function<void()>> tasks;
     std::vector<std::shared_ptr<Link>> attention;
     std::vector<std::shared_ptr<Link>> flushes;
     std::vector<std::shared_ptr<Link>> returns;
-    Pending messages;
+    HandedOver messages;
 
     /// All but the messages.
     void swap(Letters& other) {
@@ -131,6 +138,7 @@ class NodeState final : public LinkHost {
   void look_at_clock();
   void look_after(Link& link);
   void end(Link& link);
+  void forget_departed();
   template <typename Write>
   void leave_letter(const Write& write);
   void flush_gathered();
@@ -166,7 +174,7 @@ class NodeState final : public LinkHost {
   std::deque<Hosted> hosted_;
   std::vector<std::unique_ptr<Listener>> listeners_;
   std::vector<std::shared_ptr<Link>> links_;     ///< those that others have made
-  std::vector<std::shared_ptr<Link>> departed_;  ///< until nothing speaks of them any more
+  std::vector<std::shared_ptr<Link>> departed_;  ///< until all was dispatched that they have sent
   std::vector<std::unique_ptr<Peer>> peers_;
   std::vector<std::shared_ptr<Link>> flushed_;
   base::Time flush_at_ = base::Time::max();
@@ -176,6 +184,8 @@ class NodeState final : public LinkHost {
   base::Time accept_from_{};
   base::Time now_{};  ///< when the clock was last looked at
   Pending pending_;
+  std::size_t rounds_ = 0;
+  bool has_read_much_ = false;  ///< in this round
   Counters counters_;
 
   std::mutex letters_mutex_;

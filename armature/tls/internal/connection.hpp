@@ -45,6 +45,7 @@ class TlsConnection final : public ride::Connection {
   TlsConnection(std::unique_ptr<platform::StreamSocket> socket, SSL_CTX& context);
   ride::Progress gone(std::string problem);
   ride::Progress after(int result);
+  platform::StreamStatus wait_for(ride::Progress wanted, base::Duration limit) const;
 
   Wire wire_;
   Verdict verdict_;
