@@ -36,14 +36,13 @@ bool Link::establish() {
   return establishing_ == Progress::kDone;
 }
 
-std::optional<std::uint64_t> Link::read() {
+std::optional<std::uint64_t> Link::read(std::size_t& size) {
   const std::lock_guard lock(mutex_);
   if (!open() || reader_ == Reader::kCaller) return std::nullopt;
   if (reader_ == Reader::kNobody) {
     reader_ = Reader::kIo;
     update_interest();
   }
-  std::size_t size = 0;
   const Progress progress = connection_->receive(assembler_.room(), size);
   if (progress == Progress::kGone) break_off_locked(connection_->problem());
   if (progress == Progress::kDone) {

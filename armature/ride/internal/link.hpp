@@ -85,8 +85,9 @@ class Link : public std::enable_shared_from_this<Link> {
   /// True once data can flow; false as long as it cannot. A failure breaks it off.
   bool establish();
   /// Receives what is there and delivers it.
+  /// @param size  how many bytes that was
   /// @return the number of the oldest message that has begun and not ended, if there is one
-  std::optional<std::uint64_t> read();
+  std::optional<std::uint64_t> read(std::size_t& size);
   /// Sends what could not be sent before.
   /// @return true if reading has waited for that
   bool write();

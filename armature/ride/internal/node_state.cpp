@@ -15,9 +15,10 @@ namespace armature::ride::internal {
 namespace {
 
 /// Messages that arrive while others are dispatched wait no longer for their turn.
-constexpr base::Duration kRound = std::chrono::microseconds(50);
-/// Who has sent so many messages at once is read alone in a round.
-constexpr std::uint64_t kMuch = 64;
+constexpr base::Duration kRound = std::chrono::microseconds(20);
+/// Who has sent so many messages at once, or bytes, sends much.
+constexpr std::uint64_t kManyMessages = 64;
+constexpr std::size_t kManyBytes = 4 * 1024;
 /// Without descriptors or memory a connection would be refused again and again.
 constexpr base::Duration kNoDescriptors = std::chrono::milliseconds(100);
 
@@ -165,12 +166,12 @@ void NodeState::event_dropped(const EventQueue& queue) {
 
 void NodeState::step(base::Duration limit) {
   if (!pending_.empty() || has_letters_.load()) limit = {};
-  has_read_much_ = false;
   const auto ready = poller_->wait(std::min(limit, time_left()));
   ++rounds_;  // Another one is first in each round.
   for (std::size_t i = 0; i < ready.size(); ++i) take_ready(ready[(rounds_ + i) % ready.size()]);
   if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
+  if (Link* const link = std::exchange(sends_much_, nullptr)) receive(*link);
   if (next_timer() != base::Time::max()) look_at_clock();
   forget_departed();
 }
@@ -227,16 +228,17 @@ void NodeState::service_link(Link& link, const platform::Ready& ready) {
     return;
   }
   const bool can_go_on_reading = ready.write && link.write();
-  if (ready.read || can_go_on_reading) receive(link);
+  if (!ready.read && !can_go_on_reading) return;
+  if (!link.waiting.empty()) return;
+  if (!link.sends_much) return receive(link);
+  sends_much_ = &link;
 }
 
-/// Who has sent much is read again when all of that was dispatched, and in a round no more than one
-/// of them: what others have sent does not wait until the floods of all have been read. Asks what
-/// time it is only where that matters.
+/// Asks what time it is only where that matters.
 void NodeState::receive(Link& link) {
-  if (!link.waiting.empty() || (link.sends_much && has_read_much_)) return;
   const std::uint64_t before = link.received();
-  const auto incomplete = link.read();
+  std::size_t size = 0;
+  const auto incomplete = link.read(size);
   if (!incomplete) {
     link.incomplete_since = base::Time::max();
   } else if (link.incomplete_since == base::Time::max() || *incomplete != link.incomplete_message) {
@@ -245,8 +247,7 @@ void NodeState::receive(Link& link) {
     wake_at(base::later(link.incomplete_since, options_.limits.time_to_complete));
   }
   const std::uint64_t count = link.received() - before;
-  link.sends_much = count >= kMuch;
-  has_read_much_ = has_read_much_ || link.sends_much;
+  link.sends_much = count >= kManyMessages || size >= kManyBytes;
   link.window_messages += count;
   if (link.window_messages > options_.limits.messages_per_second) throttle(link);
 }
@@ -276,12 +277,13 @@ void NodeState::take_letters() {
 }
 
 void NodeState::dispatch_pending() {
-  constexpr int kBetweenLooks = 4;
+  constexpr int kBetweenLooks = 2;
   base::Time end{};
   for (int i = 1; !pending_.empty(); ++i) {
     const Pending::Entry entry = pending_.pop();
+    const bool is_large = entry.message.body.size() >= kManyBytes;
     dispatch(*entry.link, entry.message);
-    if (i % kBetweenLooks != 0) continue;
+    if (i % kBetweenLooks != 0 && !is_large) continue;
     const base::Time now = platform::monotonic_now();
     if (end == base::Time{}) end = now + kRound;
     if (now >= end) return;
@@ -292,7 +294,7 @@ void NodeState::dispatch_pending() {
 void NodeState::look_after(Link& link) {
   if (link.open() || link.problem().empty()) return;
   const std::string why = link.problem();
-  if (link.peer == nullptr && !link.established) tell_refused(link, why);
+  if (link.peer == nullptr) tell_end(link, why);
   for (Hosted& hosted : hosted_) {
     if (hosted.service != nullptr) ServiceAccess::publisher(*hosted.service).remove(link);
   }

@@ -129,7 +129,7 @@ class NodeState final : public LinkHost {
   void dispatch_pending();
   void accept(Listener& listener);
   bool make_room();
-  void tell_refused(const Link& link, std::string_view why);
+  void tell_end(const Link& link, std::string_view why);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
   void throttle(Link& link);
@@ -161,6 +161,7 @@ class NodeState final : public LinkHost {
   bool is_allowed(Link& link, const Hosted& hosted, Access access) const;
   std::int32_t subscribe(Link& link, std::int32_t component, Number event,
                          std::int32_t subscription);
+  std::int32_t refuse_subscription(const Link& link, Code code, std::string_view why);
   std::int32_t unsubscribe(Link& link, std::int32_t subscription);
   void take_control(Link& link, const Message& message);
   ComponentEntry entry_of(const Hosted& hosted) const;
@@ -185,7 +186,9 @@ class NodeState final : public LinkHost {
   base::Time now_{};  ///< when the clock was last looked at
   Pending pending_;
   std::size_t rounds_ = 0;
-  bool has_read_much_ = false;  ///< in this round
+  /// Of those who send much one is read in a round, last of all: what others have sent does not
+  /// wait until all their floods have been read.
+  Link* sends_much_ = nullptr;
   Counters counters_;
 
   std::mutex letters_mutex_;

@@ -9,9 +9,10 @@
 namespace armature::ride::internal {
 
 /// Whose turn it is among the connections that have sent something. The most urgent message is
-/// dispatched first; connections whose messages are equally urgent take turns, one message each. Of
-/// eight messages one is of whoever has its turn by order alone: who floods a node, with urgent
-/// messages too, holds up the others for as long as there are connections, not messages.
+/// dispatched first; among equally urgent ones connections that have sent a single small message
+/// come first, and the others take turns, one message each. Of eight messages one is of whoever has
+/// its turn by order alone: who floods a node, with urgent messages too, holds up the others for as
+/// long as there are connections, not messages.
 /// @thread one at a time
 class Pending {
  public:
@@ -47,9 +48,13 @@ class Pending {
     std::size_t found = turn_ % waiting_.size();
     for (std::size_t k = 1; k < waiting_.size(); ++k) {
       const std::size_t at = (turn_ + k) % waiting_.size();
-      if (waiting_[at]->urgency() > waiting_[found]->urgency()) found = at;
+      if (comes_before(*waiting_[at], *waiting_[found])) found = at;
     }
     return found;
+  }
+  static bool comes_before(const Waiting& one, const Waiting& other) {
+    if (one.urgency() != other.urgency()) return one.urgency() > other.urgency();
+    return one.is_single() && !other.is_single();
   }
 
   void remove(std::size_t at) {

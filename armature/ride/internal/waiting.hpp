@@ -22,6 +22,8 @@ class Waiting {
   Waiting& operator=(const Waiting&) = delete;
 
   bool empty() const { return lanes_.empty(); }
+  /// True if it has sent a single small message since it was empty.
+  bool is_single() const { return kept_.size() == 1 && bytes_.size() <= kSmall; }
   /// Priority of the most urgent; there is one.
   std::uint32_t urgency() const { return lanes_.front().priority; }
 
@@ -49,6 +51,7 @@ class Waiting {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr std::uint32_t kMostUrgent = 255;
+  static constexpr std::size_t kSmall = 1024;
   static constexpr std::size_t kMostKept = 64 * 1024;  ///< what a large message took is given back
 
   struct Kept {
