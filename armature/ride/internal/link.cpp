@@ -22,16 +22,46 @@ void Link::begin(std::unique_ptr<Connection> connection) {
   poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
 }
 
-bool Link::establish() {
+bool Link::hold() {
   const std::lock_guard lock(mutex_);
-  if (!connection_ || !problem_.empty()) return false;
-  if (establishing_ == Progress::kDone) return true;
-  establishing_ = connection_->establish();
+  if (!connection_ || !problem_.empty() || establishing_ == Progress::kDone) return false;
+  if (!connection_->establishes_slowly()) return false;
+  poller_.remove(connection_->handle());
+  held_ = true;
+  return true;
+}
+
+void Link::let_go() {
+  const std::lock_guard lock(mutex_);
+  held_ = false;
+}
+
+/// Without the lock while the connection computes: others look at the link. Nobody forgets the
+/// connection as long as it is held.
+bool Link::establish() {
+  std::unique_lock lock(mutex_);
+  if (connection_ && problem_.empty() && establishing_ != Progress::kDone) {
+    if (held_) lock.unlock();
+    const Progress progress = connection_->establish();
+    if (!lock.owns_lock()) lock.lock();
+    establishing_ = progress;
+  }
+  const bool was_held = std::exchange(held_, false);
+  if (!connection_) return false;
+  if (!problem_.empty()) {
+    // Broken off meanwhile: who wanted to forget it could not.
+    if (was_held) host_.attend(*this);
+    return false;
+  }
   if (establishing_ == Progress::kGone) {
     break_off_locked(connection_->problem());
     return false;
   }
   if (establishing_ == Progress::kDone) open_.store(true, std::memory_order_release);
+  if (was_held) {
+    interest_ = wanted();
+    poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
+  }
   update_interest();
   return establishing_ == Progress::kDone;
 }
@@ -88,9 +118,14 @@ bool Link::take_back() {
   return reader_ == Reader::kIo;
 }
 
+bool Link::ended() const {
+  const std::lock_guard lock(mutex_);
+  return connection_ != nullptr && !problem_.empty();
+}
+
 bool Link::close() {
   const std::lock_guard lock(mutex_);
-  if (reader_ == Reader::kCaller) return false;
+  if (reader_ == Reader::kCaller || held_) return false;
   connection_.reset();
   assembler_.reset();
   out_.clear();
@@ -101,6 +136,7 @@ bool Link::close() {
   reader_ = Reader::kIo;
   event_queues.clear();
   established = false;
+  shakes_hands = false;
   greeted = false;
   incomplete_since = base::Time::max();
   throttled = false;
@@ -251,17 +287,20 @@ void Link::leave_reading() {
   if (!open()) host_.attend(*this);
 }
 
-void Link::update_interest() {
-  if (!connection_ || !problem_.empty()) return;
+platform::Interest Link::wanted() const {
   const bool flows = establishing_ == Progress::kDone;
   const bool takes_nothing = peer == nullptr && is_backed_up();
   const bool reads = reader_ == Reader::kIo && !throttled && !takes_nothing && !reading_waits_;
-  const platform::Interest wanted{
-      flows ? reads : establishing_ == Progress::kWantRead,
-      flows ? blocked_ || reading_waits_ : establishing_ == Progress::kWantWrite};
-  if (wanted.read == interest_.read && wanted.write == interest_.write) return;
-  interest_ = wanted;
-  poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), wanted);
+  return {flows ? reads : establishing_ == Progress::kWantRead,
+          flows ? blocked_ || reading_waits_ : establishing_ == Progress::kWantWrite};
+}
+
+void Link::update_interest() {
+  if (!connection_ || !problem_.empty() || held_) return;
+  const platform::Interest now = wanted();
+  if (now.read == interest_.read && now.write == interest_.write) return;
+  interest_ = now;
+  poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), now);
 }
 
 }  // namespace armature::ride::internal

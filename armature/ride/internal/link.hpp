@@ -82,8 +82,14 @@ class Link : public std::enable_shared_from_this<Link> {
 
   /// Begins with a connection that is yet to be established.
   void begin(std::unique_ptr<Connection> connection);
+  /// If it takes long to bring up: nobody watches it any more until `establish` or `let_go`.
+  /// @return true if it does, and is not up yet
+  bool hold();
   /// True once data can flow; false as long as it cannot. A failure breaks it off.
+  /// @thread the node's, or whoever it was held for
   bool establish();
+  /// Nobody will call `establish` for whom it was held.
+  void let_go();
   /// Receives what is there and delivers it.
   /// @param size  how many bytes that was
   /// @return the number of the oldest message that has begun and not ended, if there is one
@@ -95,7 +101,9 @@ class Link : public std::enable_shared_from_this<Link> {
   bool flush(base::Time now, base::Duration age);
   /// Takes reading back from a caller who has gone; false if there still is one.
   bool take_back();
-  /// Forgets a connection that has ended; false if a caller has yet to notice.
+  /// True if its connection has ended and was not forgotten.
+  bool ended() const;
+  /// Forgets a connection that has ended; false if another thread has yet to notice.
   bool close();
   /// Stops or resumes reading.
   void set_throttled(bool throttled);
@@ -135,6 +143,7 @@ class Link : public std::enable_shared_from_this<Link> {
   PeerState* peer = nullptr;  ///< whose link it is, if this side has connected
   std::string scheme;
   bool established = false;
+  bool shakes_hands = false;  ///< in a thread of its own
   bool greeted = false;
   base::Time incomplete_since = base::Time::max();  ///< its handshake, or a message
   std::uint64_t incomplete_message = 0;
@@ -169,6 +178,7 @@ class Link : public std::enable_shared_from_this<Link> {
   void receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock);
   bool take_reading();
   void leave_reading();
+  platform::Interest wanted() const;
   void update_interest();
   OpenCall* remove_call(std::uint32_t id);
 
@@ -194,6 +204,7 @@ class Link : public std::enable_shared_from_this<Link> {
   std::uint32_t takeovers_ = 0;
   std::uint32_t takeovers_seen_ = 0;
   Progress establishing_ = Progress::kDone;
+  bool held_ = false;
   platform::Interest interest_;
   std::string problem_;
   std::atomic<std::uint64_t> received_{0};

@@ -30,7 +30,13 @@ NodeState::NodeState(NodeOptions options)
     : options_(std::move(options)),
       journal_(options_.name, options_.log),
       transports_(options_.transports),
-      random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))) {
+      random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))),
+      handshakes_(options_.name, [this](const std::shared_ptr<Link>& link, bool established) {
+        post([this, link, established] {
+          link->shakes_hands = false;
+          if (established) is_up(*link);
+        });
+      }) {
   transports_.push_back(make_tcp_transport());
   transports_.push_back(make_unix_transport());
   auto poller = platform::Poller::make();
@@ -67,6 +73,7 @@ void NodeState::stop() {
 void NodeState::run_loop() {
   node_of_this_thread = this;
   while (!stopping_.load(std::memory_order_relaxed)) step(base::Duration::max());
+  handshakes_.stop();
   say_goodbye();
   Letters last;
   {
@@ -219,14 +226,23 @@ std::shared_ptr<Link> NodeState::adopt(std::unique_ptr<Connection> connection,
   return link;
 }
 
+void NodeState::bring_up(Link& link) {
+  if (link.shakes_hands) return;
+  link.shakes_hands = link.hold();
+  if (link.shakes_hands) return handshakes_.add(link.shared_from_this());
+  if (link.establish()) is_up(link);
+}
+
+/// Data can flow. Told by another thread it may have ended since.
+void NodeState::is_up(Link& link) {
+  if (link.established || !link.open()) return;
+  link.established = true;
+  link.incomplete_since = base::Time::max();
+  if (link.peer != nullptr) link.peer->established();
+}
+
 void NodeState::service_link(Link& link, const platform::Ready& ready) {
-  if (!link.established) {
-    if (!link.establish()) return;
-    link.established = true;
-    link.incomplete_since = base::Time::max();
-    if (link.peer != nullptr) link.peer->established();
-    return;
-  }
+  if (!link.established) return bring_up(link);
   const bool can_go_on_reading = ready.write && link.write();
   if (!ready.read && !can_go_on_reading) return;
   if (!link.waiting.empty()) return;
@@ -292,14 +308,16 @@ void NodeState::dispatch_pending() {
 
 /// A connection has ended.
 void NodeState::look_after(Link& link) {
-  if (link.open() || link.problem().empty()) return;
+  if (!link.ended()) return;
   const std::string why = link.problem();
-  if (link.peer == nullptr) tell_end(link, why);
+  const std::string who = link.other_end();
+  const bool was_established = link.established;
   for (Hosted& hosted : hosted_) {
     if (hosted.service != nullptr) ServiceAccess::publisher(*hosted.service).remove(link);
   }
-  if (!link.close()) return;  // The caller who reads comes back with it.
+  if (!link.close()) return;  // The thread that still has it comes back with it.
   if (link.peer != nullptr) return link.peer->lost(why);
+  tell_end(who, was_established, why);
   end(link);
 }
 

@@ -17,6 +17,7 @@
 #include "armature/platform/thread.hpp"
 #include "armature/ride/internal/directory.hpp"
 #include "armature/ride/internal/handed_over.hpp"
+#include "armature/ride/internal/handshakes.hpp"
 #include "armature/ride/internal/journal.hpp"
 #include "armature/ride/internal/link.hpp"
 #include "armature/ride/internal/pending.hpp"
@@ -129,7 +130,9 @@ class NodeState final : public LinkHost {
   void dispatch_pending();
   void accept(Listener& listener);
   bool make_room();
-  void tell_end(const Link& link, std::string_view why);
+  void tell_end(const std::string& who, bool was_established, std::string_view why);
+  void bring_up(Link& link);
+  void is_up(Link& link);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
   void throttle(Link& link);
@@ -198,6 +201,7 @@ class NodeState final : public LinkHost {
   std::atomic<bool> has_handed_over_{false};
   std::atomic<bool> stopping_{false};
   bool stopped_ = false;  ///< with the letters' lock
+  Handshakes handshakes_;
   std::unique_ptr<platform::Thread> thread_;
 };
 
