@@ -4,7 +4,8 @@
 
 usage: attacks.py NAME tcp://HOST:PORT tls://HOST:PORT FOLDER_OF_CERTIFICATES
 
-The first line says that it goes on. The line at the end is JSON: {"controls": codes of CONTROL messages that came, "replies": how many,
+The first line says that it goes on. The line at the end is JSON: {"controls": codes of CONTROL messages that
+came, "replies": how many,
 "ended": connections that the node has ended, "why": what TLS said}. It ends by itself with what went wrong
 if an attack cannot be made.
 """
@@ -20,43 +21,10 @@ import struct
 import sys
 import time
 
-COMMAND, REQUEST, REPLY, EVENT, CONTROL = range(1, 6)
-GOES_ON = 0x8000
-PING, SUBSCRIBE = 17, 0x5E363BED
-ROBOT = 1
+from wire import (COMMAND, CONTROL, ECHO, EVENT, GOES_ON, MESSAGES, MOVE, PING, REPLY, REQUEST, ROBOT, SUBSCRIBE, TICK,
+                  control, echo_of, fnv1a, message, words)
+
 PATIENCE_S = 5.0
-
-
-def fnv1a(text):
-    value = 0x811C9DC5
-    for byte in text.encode():
-        value = (value ^ byte) * 0x01000193 & 0xFFFFFFFF
-    return value
-
-
-ECHO = fnv1a("String echo(String)")
-MOVE = fnv1a("void move()")
-MESSAGES = fnv1a("unsigned long messages()")
-TICK = fnv1a("event Tick{int}")
-
-
-def message(kind, identifier, body=b"", priority=0):
-    return b"RIDE" + struct.pack("<IHHI", priority, kind, 16 + len(body), identifier) + body
-
-
-def words(*numbers):
-    return struct.pack(f"<{len(numbers)}I", *numbers)
-
-
-def control(code):
-    return message(CONTROL, 0, words(code, 0, 0, 0, 0))
-
-
-def echo_of(size, call=1):
-    """A request whose body takes several messages."""
-    body = words(ECHO, call, size) + b"x" * size
-    parts = [body[at:at + 65519] for at in range(0, len(body), 65519)]
-    return b"".join(message(REQUEST | (GOES_ON if part is not parts[-1] else 0), ROBOT, part) for part in parts)
 
 
 def is_readable(connection, wait_s):
