@@ -111,32 +111,58 @@ class Attacker:
         while self.kept:
             self.kept = [connection for connection in self.kept if self.take(connection, PATIENCE_S)]
 
+    def see_one_end(self):
+        return any(not self.take(connection, 1.0) for connection in self.kept)
+
     def flood(self, *chunks, reads=True):
         """As fast as the node takes it, on a connection for each chunk."""
-        connections = [(self.connect(), chunk) for chunk in chunks]
-        for connection, _ in connections:
-            connection.setblocking(False)
-        left = {connection: b"" for connection, _ in connections}
-        chunk_of = dict(connections)
+        floods = [Flood(self, chunk) for chunk in chunks]
         while True:
-            readable, writable, _ = select.select(left if reads else [], left, [])
-            for connection in writable:
-                data = left[connection] or chunk_of[connection]
-                try:
-                    left[connection] = data[connection.send(data):]
-                    self.begin()
-                except BlockingIOError:
-                    left[connection] = data
-            for connection in readable:
-                self.drain(connection)
+            readable, writable, _ = select.select(floods if reads else [], floods, [])
+            for each in writable:
+                each.send()
+            for each in readable:
+                each.drain()
 
-    def drain(self, connection):
-        """Answers of a flood: only the first are looked at."""
-        got = connection.recv(1 << 20)
+
+class Flood:
+    """A connection and what is sent on it over and over; made anew where the node ends it, as it does when the
+    attacker gets no time to complete a message."""
+
+    def __init__(self, attacker, chunk):
+        self.attacker, self.chunk = attacker, chunk
+        self.connect()
+
+    def connect(self):
+        self.left = b""
+        self.connection = self.attacker.connect()
+        self.connection.setblocking(False)
+
+    def fileno(self):
+        return self.connection.fileno()
+
+    def send(self):
+        self.left = self.left or self.chunk
+        try:
+            self.left = self.left[self.connection.send(self.left):]
+            self.attacker.begin()
+        except BlockingIOError:
+            pass
+        except ConnectionError:
+            self.connect()
+
+    def drain(self):
+        """Only the first answers are looked at."""
+        try:
+            got = self.connection.recv(1 << 20)
+        except BlockingIOError:
+            return
+        except ConnectionError:
+            got = b""
         if not got:
-            raise RuntimeError("the node has ended the flood")
-        if self.replies + len(self.controls) < 1:
-            self.note(got)
+            self.connect()
+        elif self.attacker.replies + len(self.attacker.controls) < 1:
+            self.attacker.note(got)
 
 
 def truncated(a):
@@ -247,9 +273,9 @@ def half_open(a):
 def thousands_of_connections(a):
     while True:
         a.kept.append(a.connect())
-        a.begin()
         if len(a.kept) % 100 == 0:
             a.take(a.kept[-1], PATIENCE_S)
+            a.begin()
         if len(a.kept) == 2000:
             for connection in a.kept:
                 connection.close()
@@ -258,17 +284,13 @@ def thousands_of_connections(a):
 
 def come_and_go_in_a_flood(a):
     """Each takes what a connection takes, while another keeps the node's thread busy."""
-    flood = a.connect()
-    flood.setblocking(False)
-    pings = control(PING) * 2000
-    left = b""
+    flood = Flood(a, control(PING) * 2000)
     while True:
         readable, writable, _ = select.select([flood], [flood], [], 0)
         if readable:
-            a.drain(flood)
+            flood.drain()
         if writable:
-            left = left or pings
-            left = left[flood.send(left):]
+            flood.send()
         with a.connect() as connection:
             a.send(connection, message(REQUEST, ROBOT, words(ECHO, 1, 60000) + b"x" * 60000))
 
@@ -385,7 +407,7 @@ def main():
     except End:
         listen_for_the_end(False)
         if name in ENDED_BY_THE_NODE:
-            attacker.see_them_end()
+            attacker.see_one_end()
     print(json.dumps({"controls": sorted(attacker.controls), "replies": attacker.replies, "ended": attacker.ended,
                       "why": sorted(attacker.why)}))
 
