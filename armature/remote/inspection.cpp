@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -82,6 +84,20 @@ ComponentStatus status_without_reason(const exec::Application& application,
   status.start_order =
       static_cast<std::int32_t>(std::find(order.begin(), order.end(), index) - order.begin());
   return status;
+}
+
+bool runs(const ComponentStatus& status) {
+  return status.state == component::name_of(component::State::kRunning);
+}
+
+/// Why components of one thread are as they are, which that thread knows.
+std::vector<std::string> reasons_of(exec::Application& application, const Components& components) {
+  const auto reasons = std::make_shared<std::vector<std::string>>();
+  const bool answered = application.run_in_thread_of(*components.front(), [reasons, components] {
+    for (const Component* const one : components) reasons->emplace_back(one->reason());
+  });
+  if (answered) return *reasons;
+  return std::vector<std::string>(components.size(), "its thread does not answer");
 }
 
 /// Puts the values of a component's members into its details.
@@ -299,10 +315,7 @@ ApplicationStatus status_of(exec::Application& application) {
 }
 
 ComponentStatus status_of(exec::Application& application, Component& component) {
-  ComponentStatus status = status_without_reason(application, component);
-  const bool runs = status.state == component::name_of(component::State::kRunning);
-  if (!runs) status.reason = reason_of(application, component);
-  return status;
+  return statuses_of(application, {&component}).front();
 }
 
 Components all_components(const exec::Application& application) {
@@ -316,17 +329,26 @@ Components all_components(const exec::Application& application) {
 std::vector<ComponentStatus> statuses_of(exec::Application& application,
                                          const Components& components) {
   std::vector<ComponentStatus> all;
-  for (Component* const component : components) all.push_back(status_of(application, *component));
+  std::map<const component::ExecutionContext*, std::vector<std::size_t>> resting;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    all.push_back(status_without_reason(application, *components[i]));
+    if (!runs(all.back())) resting[&components[i]->context()].push_back(i);
+  }
+  // Each thread is asked once: one that hangs is waited for once.
+  for (const auto& [context, indices] : resting) {
+    Components asked;
+    for (const std::size_t i : indices) asked.push_back(components[i]);
+    const std::vector<std::string> reasons = reasons_of(application, asked);
+    for (std::size_t k = 0; k < indices.size(); ++k) all[indices[k]].reason = reasons[k];
+  }
   return all;
 }
 
 Faults faults_of(exec::Application& application, const Components& components) {
-  Faults faults{application.faults(), application.reactions(), {}};
-  for (Component* const component : components) {
-    if (component->state() == component::State::kRunning) continue;
-    faults.components.push_back(status_of(application, *component));
-  }
-  return faults;
+  Components resting;
+  std::copy_if(components.begin(), components.end(), std::back_inserter(resting),
+               [](const Component* one) { return one->state() != component::State::kRunning; });
+  return {application.faults(), application.reactions(), statuses_of(application, resting)};
 }
 
 ComponentDetails details_of(exec::Application& application, Component& component,

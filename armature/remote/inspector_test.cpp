@@ -70,6 +70,20 @@ TEST_F(InspectorTest, TellsOfComponentsAndWhyTheyDoNotRun) {
   EXPECT_EQ(faults.components[0].name, "left.Axis");
 }
 
+TEST_F(InspectorTest, EachComponentThatDoesNotRunHasItsOwnReason) {
+  for (const char* name : {"Axis", "left.Axis"}) {
+    component::Component& axis = *robot_.application().find(name);
+    ASSERT_TRUE(robot_.application().run_in_thread_of(
+        axis, [&] { axis.fault(std::string(name) + " is on fire"); }));
+  }
+  const auto components = ask(&InspectorPlaceholder::components).value();
+  EXPECT_EQ(components.at(0).state + ": " + components[0].reason, "Exception: Axis is on fire");
+  EXPECT_EQ(components.at(1).reason, "left.Axis is on fire");
+  const Faults faults = ask(&InspectorPlaceholder::faults).value();
+  EXPECT_EQ(faults.faults, 2u);
+  EXPECT_EQ(faults.components.at(1).reason, "left.Axis is on fire");
+}
+
 TEST_F(InspectorTest, DescribesAComponentWithItsValues) {
   robot_.pass(10ms);
   const auto details = ask(&InspectorPlaceholder::describe, std::string("Axis")).value();

@@ -247,11 +247,4 @@ const void* part_of(const Item& item, const types::Value& whole) {
   return data;
 }
 
-std::string reason_of(Application& application, Component& component) {
-  const auto reason = std::make_shared<std::string>();
-  const bool answered = application.run_in_thread_of(
-      component, [reason, &component] { *reason = component.reason(); });
-  return answered ? *reason : "its thread does not answer";
-}
-
 }  // namespace armature::remote

@@ -79,7 +79,4 @@ std::optional<std::vector<Reading>> read_members(exec::Application& application,
 /// Where the part of `item` is in a reading of its member; nullptr if the list is not so long.
 const void* part_of(const Item& item, const types::Value& whole);
 
-/// Why a component is as it is; empty if it says nothing.
-std::string reason_of(exec::Application& application, component::Component& component);
-
 }  // namespace armature::remote
