@@ -47,7 +47,8 @@ bool ends_in(const std::string& path, const std::string& ending) {
 
 int check(const CheckArguments& arguments, const Console& console) {
   NetworkOnDemand network(console);
-  const deploy::Deployment deployment = load(arguments.load, network);
+  deploy::Deployment deployment = load(arguments.load, network);
+  network.check(deployment.document, deployment.diagnostics);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) {
     const std::size_t errors = deployment.diagnostics.error_count();

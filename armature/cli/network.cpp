@@ -43,6 +43,11 @@ deploy::MakeInlets NetworkOnDemand::inlets() {
   };
 }
 
+void NetworkOnDemand::check(const deploy::Document& document, base::Diagnostics& diagnostics) {
+  if (!wanted(document, {})) return;
+  if (remote::Network* const network = load(diagnostics)) network->check(document, diagnostics);
+}
+
 bool NetworkOnDemand::wanted(const deploy::Document& document,
                              const RunArguments& arguments) const {
   return network_ != nullptr || !document.network.listen.empty() || !arguments.listen.empty();

@@ -22,6 +22,9 @@ class NetworkOnDemand {
   /// For `load`: what writes the inputs that are open to others.
   deploy::MakeInlets inlets();
 
+  /// Looks at what the deployment says of the network, without listening.
+  void check(const deploy::Document& document, base::Diagnostics& diagnostics);
+
   /// Makes the node and listens for `application`, which has not started, if the deployment or the
   /// command line asks for it.
   /// @return false after an error, which was told

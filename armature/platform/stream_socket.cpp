@@ -193,10 +193,18 @@ StreamStatus StreamSocket::wait_and_receive(std::span<std::byte> room, std::size
 }
 
 StreamStatus StreamSocket::wait_until_readable(base::Duration limit) const {
+  return wait_until(POLLIN, limit);
+}
+
+StreamStatus StreamSocket::wait_until_writable(base::Duration limit) const {
+  return wait_until(POLLOUT, limit);
+}
+
+StreamStatus StreamSocket::wait_until(short events, base::Duration limit) const {
   const std::int64_t ns = std::max<std::int64_t>(limit.count(), 0);
   const timespec most{static_cast<time_t>(ns / 1'000'000'000),
                       static_cast<long>(ns % 1'000'000'000)};
-  pollfd polled{.fd = socket_, .events = POLLIN, .revents = 0};
+  pollfd polled{.fd = socket_, .events = events, .revents = 0};
   return ::ppoll(&polled, 1, &most, nullptr) > 0 ? StreamStatus::kDone : StreamStatus::kLater;
 }
 

@@ -42,6 +42,8 @@ class StreamSocket {
   StreamStatus wait_and_receive(std::span<std::byte> room, std::size_t& size, base::Duration limit);
   /// kLater if nothing can be received before `limit` (> 0) has passed.
   StreamStatus wait_until_readable(base::Duration limit) const;
+  /// kLater if nothing can be sent before `limit` (> 0) has passed.
+  StreamStatus wait_until_writable(base::Duration limit) const;
   /// Ends the connection both ways and whoever waits for it; the handle stays valid.
   void shut_down();
 
@@ -55,6 +57,7 @@ class StreamSocket {
       : socket_(socket), other_end_(std::move(other_end)), connected_(connected) {}
   StreamStatus after_receiving(std::ptrdiff_t received, std::size_t& size);
   void begin_to_flow();
+  StreamStatus wait_until(short events, base::Duration limit) const;
 
   const int socket_;
   const std::string other_end_;

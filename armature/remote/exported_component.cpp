@@ -154,6 +154,7 @@ std::uint64_t ExportedComponent::serve() {
     changes_seen_ = changes;
     open_and_close_feeds();
   }
+  if (!any_open_ && under_way_.empty()) return 0;  // most of an application's, most of the time
   follow_commands();
   std::uint64_t dropped = 0;
   for (const auto& event : events_) {
@@ -186,9 +187,11 @@ void ExportedComponent::publish_sample(ride::Number number, std::uint64_t sequen
 
 /// Who comes to a port that was written before gets what it holds.
 void ExportedComponent::open_and_close_feeds() {
+  any_open_ = false;
   for (const auto& event : events_) {
     if (has_subscribers(event->number)) {
       event->feed.open();
+      any_open_ = true;
     } else {
       event->feed.close();
     }
@@ -199,6 +202,7 @@ void ExportedComponent::open_and_close_feeds() {
       continue;
     }
     output->feed.open();
+    any_open_ = true;
     const PortFeed::Present* const present = output->feed.present();
     if (present == nullptr || present->sequence == 0) continue;
     publish_sample(output->number, present->sequence, present->time, present->value.type(),

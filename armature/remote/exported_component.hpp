@@ -72,6 +72,7 @@ class ExportedComponent final : public ride::Service {
   WriteInput write_;
   std::vector<UnderWay> under_way_;
   std::uint64_t changes_seen_ = 0;
+  bool any_open_ = false;  ///< of the feeds
 
   struct Event {
     ride::Number number;

@@ -62,6 +62,16 @@ class RideNetwork final : public Network {
     return inlets;
   }
 
+  void check(const deploy::Document& document, base::Diagnostics& diagnostics) override {
+    ride::NodeOptions options;
+    set_transports(document, options, diagnostics);
+    set_policy(document, options, diagnostics);
+    for (const deploy::Reference& each : document.network.listen) {
+      const auto address = ride::Address::parse(each.name);
+      if (!address) diagnostics.error(each.where, address.error());
+    }
+  }
+
   void open(const deploy::Document& document, const std::vector<std::string>& listen,
             exec::Application& application, base::Diagnostics& diagnostics) override {
     application_ = &application;

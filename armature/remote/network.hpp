@@ -39,6 +39,10 @@ class Network {
   virtual std::unique_ptr<component::Component> make_inlets(
       const std::vector<component::InputPortBase*>& inputs) = 0;
 
+  /// What is wrong with addresses, policy and certificates, as far as that is known without
+  /// listening.
+  virtual void check(const deploy::Document& document, base::Diagnostics& diagnostics) = 0;
+
   /// Makes the node, hosts the components of `application`, which has not started yet, and listens:
   /// so who connects finds all of them. After an error nothing listens.
   /// @param listen  addresses beside those of the document

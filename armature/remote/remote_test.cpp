@@ -354,7 +354,8 @@ TEST_F(Remote, APeerThatDoesNotAnswerHoldsUpNoRealTimeThread) {
   robot = std::make_unique<Process>(server());
   robot->start();
   pilot = std::make_unique<Process>(R"(components:
-  There: {model: Axis, remote: ')" + robot->address() + R"(/Axis'}
+  There: {model: Axis, remote: ')" + robot->address() +
+                                    R"(/Axis'}
   Patient: {model: User, activity: {periodic: 5 ms}, peers: [There]}
   Quick: {model: User, activity: {periodic: 1 ms, priority: 10}, peers: [There]}
 connections: [There.Position -> Patient.Position, There.Position -> Quick.Position,
@@ -503,6 +504,19 @@ components:
   EXPECT_THAT(text, HasSubstr("did you mean 'Wish'?"));
   EXPECT_THAT(text, HasSubstr("there is no component 'Axes'"));
   EXPECT_THAT(text, HasSubstr("max_age: 100 ms"));
+}
+
+TEST(RemoteDeployment, AddressesAndPolicyAreCheckedBeforeAnythingListens) {
+  const Process wrong(R"(network: {listen: [tcp://127.0.0.1:0, "tcp:nowhere"], policy: no.policy}
+components: {Axis: {model: Axis, activity: {periodic: 2 ms}}}
+)");
+  base::Diagnostics diagnostics = wrong.deployment.diagnostics;
+  wrong.network_->check(wrong.deployment.document, diagnostics);
+  const std::string text = diagnostics.to_text();
+  EXPECT_THAT(text, HasSubstr("test.yaml:1:39: error: "));
+  EXPECT_THAT(text, HasSubstr("tcp:nowhere"));
+  EXPECT_THAT(text, HasSubstr("no.policy"));
+  EXPECT_TRUE(wrong.network_->addresses().empty());
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ struct Limits {
   base::Duration time_to_complete = std::chrono::seconds(5);  ///< a message that has begun
   std::size_t pending_replies = 256;  ///< of one connection; further requests are refused: BUSY
   std::size_t subscriptions = 1024;   ///< of one connection
-  std::size_t events_per_subscription = 64;  ///< that wait to be sent; the oldest is dropped
+  std::size_t subscriptions_to_an_event = 4;  ///< of one connection: each is sent the same again
+  std::size_t events_per_subscription = 64;   ///< that wait to be sent; the oldest is dropped
   /// Of one connection, that the other side has not taken. Beyond, a command is kQueueFull, and who
   /// does not take its answers is not read until it does.
   std::size_t unsent_bytes = 1024 * 1024;

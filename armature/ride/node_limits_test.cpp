@@ -86,6 +86,18 @@ TEST_F(NodeTest, SubscriptionsAreRefusedByTheCodesNumber) {
   EXPECT_EQ(raw.receive_reply<std::int32_t>(1), 1);
 }
 
+TEST_F(NodeTest, TheSameEventIsSubscribedToAFewTimesOnly) {
+  options_.limits.subscriptions_to_an_event = 2;
+  auto raw = client();
+  const Number event = event_number(static_cast<const ObjectPosition*>(nullptr));
+  EXPECT_EQ(raw.subscribe(1, event, 1), 0);
+  EXPECT_EQ(raw.subscribe(1, event, 2), 0);
+  EXPECT_EQ(raw.subscribe(1, event, 3), 7);
+  EXPECT_EQ(raw.subscribe(1, kFailedDeclaration.number(), 3), 0) << "another event";
+  EXPECT_THAT(log(), Contains(HasSubstr("was refused a subscription: BUSY")));
+  EXPECT_EQ(client().subscribe(1, event, 1), 0) << "of another connection";
+}
+
 TEST_F(NodeTest, ASlowSubscriberLosesItsOldestEventsAndHoldsUpNobody) {
   options_.limits.unsent_bytes = 4096;
   options_.limits.events_per_subscription = 8;

@@ -31,6 +31,8 @@ class Connection {
   /// Brings the connection up: connecting, and whatever the transport does before data can flow.
   /// Called until it says kDone or kGone.
   virtual Progress establish() = 0;
+  /// True if `establish` takes long to compute: the node has a thread of its own call it.
+  virtual bool establishes_slowly() const { return false; }
   /// Sends as much as can be sent without waiting.
   /// @param sent  bytes taken
   /// @return kDone if at least one byte was taken

@@ -26,6 +26,7 @@ def existing_tests(source):
                 text = opened.read()
             if file.endswith(".py"):
                 names.update(re.findall(r"^    def (test_\w+)\(self", text, re.MULTILINE))
+                names.update("test_" + row for row in re.findall(r'^    Attack\("(\w+)"', text, re.MULTILINE))
                 continue
             for found in re.finditer(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", text, re.MULTILINE):
                 names.add(".".join(found.groups()))

@@ -4,7 +4,8 @@
 
 usage: remote_test.py PROGRAM LIBRARIES JANUS_DIR
 
-Nothing here depends on how fast the machine is.
+Nothing here depends on how fast the machine is but that the head, which moves in real time, is not
+held up for so long that it has to stop: that is tried several times.
 """
 
 import os
@@ -17,6 +18,7 @@ import unittest
 
 PROGRAM, LIBRARIES, JANUS = sys.argv[1:4]
 LONG = 60.0
+ATTEMPTS = 10
 
 
 def armature(*arguments, **how):
@@ -34,9 +36,9 @@ class Remote(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.address = f"unix:{self.folder.name}/robot.sock"
 
-    def start_robot(self, *arguments):
-        robot = armature("run", "--realtime", "off", "-L", LIBRARIES, "--set",
-                         f"address={self.address}", *arguments, deployment("served.yaml"))
+    def start_robot(self):
+        robot = armature("run", "-L", LIBRARIES, "--set", f"address={self.address}",
+                         deployment("served.yaml"))
         self.addCleanup(robot.stdout.close)
         self.addCleanup(robot.wait)
         self.addCleanup(robot.kill)
@@ -65,14 +67,17 @@ class Remote(unittest.TestCase):
         return browser.returncode, text
 
     def test_another_process_arms_the_head_and_moves_it(self):
-        robot = self.start_robot()
-        code, text = self.operate(os.path.join(JANUS, "look.lua"))
-        self.assertEqual(code, 0, text)
+        for _ in range(ATTEMPTS):
+            robot = self.start_robot()
+            code, text = self.operate(os.path.join(JANUS, "look.lua"))
+            said = self.stop(robot)
+            if code == 0:
+                break
+        self.assertEqual(code, 0, text + said)
         self.assertIn("armed\nlooks to the side\nand ahead\ntoo far: ", text)
         self.assertIn("expected -0.5 to 4.5", text)
-        text = self.stop(robot)
-        self.assertIn("Joint1: armed", text)
-        self.assertEqual(robot.returncode, 0, text)
+        self.assertIn("Joint1: armed", said)
+        self.assertEqual(robot.returncode, 0, said)
 
     def test_who_may_only_look_does_nothing_else(self):
         robot = self.start_robot()
@@ -85,21 +90,24 @@ class Remote(unittest.TestCase):
         self.stop(robot)
 
     def test_the_head_rests_when_the_operator_is_killed(self):
-        robot = self.start_robot()
-        operator = armature("run", "--realtime", "off", "-L", LIBRARIES, "--set",
-                            f"robot={self.address}", "--script", os.path.join(JANUS, "look.lua"),
-                            deployment("operator.yaml"))
-        self.addCleanup(operator.stdout.close)
-        for line in operator.stdout:
-            if line == "armed\n":
+        for _ in range(ATTEMPTS):
+            robot = self.start_robot()
+            operator = armature("run", "--realtime", "off", "-L", LIBRARIES, "--set",
+                                f"robot={self.address}", "--script",
+                                os.path.join(JANUS, "look.lua"), deployment("operator.yaml"))
+            self.addCleanup(operator.stdout.close)
+            armed = "armed\n" in iter(operator.stdout.readline, "")
+            operator.kill()
+            operator.wait()
+            if armed:
                 break
-        operator.kill()
-        operator.wait()
+            self.stop(robot)
+        self.assertTrue(armed)
         end = time.monotonic() + LONG
         while True:  # the motion that was begun comes to its end, and nothing follows
             self.assertLess(time.monotonic(), end, "the head does not come to rest")
-            _, first = self.browse("Generator.nAxesDesiredVelocity\n")
-            if first.startswith("[0, 0]"):
+            _, velocity = self.browse("Generator.nAxesDesiredVelocity\n")
+            if velocity.startswith("[0, 0]"):
                 break
         self.assertIn("Joint1: armed", self.stop(robot))
 

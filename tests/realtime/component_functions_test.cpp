@@ -207,6 +207,13 @@ TEST_P(ComponentFunctions, ATapOfAnEvent) {
     deliver();
   });
   EXPECT_EQ(tap.seen, 101);
+  const double place = 1.0;
+  const int number = 2;
+  const void* const arguments[] = {&place, &number};
+  expect_realtime("EventBase::raise_from", [&] {
+    server_.happened.raise_from(arguments);
+    deliver();
+  });
 }
 
 TEST(BlackBoxFunctions, PicturesAndNotes) {

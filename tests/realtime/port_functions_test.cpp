@@ -93,6 +93,14 @@ TEST_P(PortFunctions, ANumberIsWrittenAndRead) {
   expect_realtime("OutputPort::taken_over", [&] { taken = source_.number.taken_over(); });
   EXPECT_EQ(*taken, 1.0);
   source_.number.take_over_from(nullptr);
+  const double given = 2.0;
+  expect_realtime("OutputPortBase::write_from", [&] { source_.number.write_from(&given); });
+  const auto tap = source_.number.make_tap(4, &given);
+  expect_realtime("OutputPortBase::attach", [&] {
+    source_.number.attach(*tap);
+    source_.number.write(1.0);
+    source_.number.detach(*tap);
+  });
   expect_realtime("InputPort::read", [&] {
     begin_cycle();
     source_.number.write(2.0);

@@ -15,7 +15,15 @@ std::span<std::byte> Assembler::room() {
     end_ -= begin_;
     begin_ = 0;
   }
-  return {bytes_.get() + end_, kRoom - end_};
+  return {bytes_.get() + end_, std::min(kRoom - end_, std::max(kLeastRoom, missing()))};
+}
+
+/// Of the message that has begun.
+std::size_t Assembler::missing() const {
+  const std::size_t there = end_ - begin_;
+  if (there < Header::kSize) return 0;
+  const auto header = read_header(bytes_.get() + begin_);
+  return header && header->length > there ? header->length - there : 0;
 }
 
 void Assembler::reset() {
@@ -35,6 +43,7 @@ Found Assembler::next(Message& message) {
     if (header->length < Header::kSize) return Found::kBadLength;
     if (header->length > end_ - begin_) break;
     begin_ += header->length;
+    ++taken_;
     message.body = {at + Header::kSize, header->length - Header::kSize};
     if (!header->continues && parts_.empty()) return Found::kMessage;
     const Found found = join(message);
@@ -59,7 +68,7 @@ Found Assembler::join(Message& message) {
   if (parts == parts_.end()) {
     if (!message.header.continues) return Found::kMessage;
     if (parts_.size() == kMostParts) return Found::kTooMany;
-    parts = parts_.insert(parts_.end(), Parts{message.header, {}, false});
+    parts = parts_.insert(parts_.end(), Parts{message.header, taken_, {}, false});
   }
   add(*parts, message.body);
   if (message.header.continues) return Found::kNothing;

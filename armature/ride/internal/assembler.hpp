@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "armature/ride/body.hpp"
@@ -33,30 +35,38 @@ class Assembler {
  public:
   explicit Assembler(std::size_t most_body) : most_body_(most_body) {}
 
-  /// Where to receive to: at least one message's length. Ends the life of the messages found.
+  /// Where to receive to: what is missing of the message that has begun, and at least 16 KiB, but
+  /// no more, so that what one connection floods takes no long time to look at. Ends the life of
+  /// the messages found.
   std::span<std::byte> room();
   void received(std::size_t size) { end_ += size; }
   /// The next message; call until it finds nothing.
   Found next(Message& message);
-  /// True if a message has begun that has not ended.
-  bool incomplete() const { return begin_ != end_ || !parts_.empty(); }
+  /// The number of the oldest message that has begun and not ended; none if there is none.
+  std::optional<std::uint64_t> incomplete() const {
+    if (!parts_.empty()) return parts_.front().number;
+    return begin_ != end_ ? std::optional(taken_) : std::nullopt;
+  }
   void reset();
   /// Bytes of bodies that go on.
   std::size_t kept() const { return kept_; }
 
  private:
   static constexpr std::size_t kRoom = 128 * 1024;
+  static constexpr std::size_t kLeastRoom = 16 * 1024;
   static constexpr std::size_t kMostParts = 16;
   static constexpr std::size_t kBeginning = 8;  ///< operation and call
 
   /// A body that goes on in later messages.
   struct Parts {
     Header header;
+    std::uint64_t number;  ///< of its first message
     Body body;
     bool too_large = false;
   };
 
   Found join(Message& message);
+  std::size_t missing() const;
   std::list<Parts>::iterator find(const Header& header);
   void add(Parts& parts, std::span<const std::byte> body);
 
@@ -67,6 +77,7 @@ class Assembler {
   std::list<Parts> parts_;
   std::list<Parts> whole_;  ///< the one that was found last, as long as it is looked at
   std::size_t kept_ = 0;
+  std::uint64_t taken_ = 0;  ///< messages that have ended
 };
 
 }  // namespace armature::ride::internal

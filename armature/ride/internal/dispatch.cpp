@@ -257,25 +257,36 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
   Publisher& publisher = ServiceAccess::publisher(*hosted->service);
   if (!publisher.has_event(event)) return refusal(Code::kNoSuchOperation);
   if (!is_allowed(link, hosted->name, Access::kRead)) {
-    counters_.refusals.fetch_add(1, std::memory_order_relaxed);
-    journal_.tell(rt::LogLevel::kWarning, "{} was refused a subscription: NOT_ALLOWED ({})",
-                  link.other_end(), not_allowed(link, hosted->name, Access::kRead));
-    return refusal(Code::kNotAllowed);
+    return refuse_subscription(link, Code::kNotAllowed,
+                               not_allowed(link, hosted->name, Access::kRead));
   }
+  bool too_many = false;
   auto queue = std::make_shared<EventQueue>(link.shared_from_this(), chosen, event, identifier,
                                             options_.limits.events_per_subscription);
   {
     const std::lock_guard lock(link.mutex());
     // It may have gone with this message still here: nobody would ever end the subscription.
     if (!link.open()) return refusal(Code::kShuttingDown);
-    if (link.event_queues.size() >= options_.limits.subscriptions) return refusal(Code::kBusy);
     const bool taken = std::ranges::any_of(
         link.event_queues, [&](const auto& other) { return other->subscription == chosen; });
     if (taken) return refusal(Code::kMalformed);
-    link.event_queues.push_back(queue);
+    const auto same = std::ranges::count_if(link.event_queues, [&](const auto& other) {
+      return other->component == identifier && other->event == event;
+    });
+    too_many = static_cast<std::size_t>(same) >= options_.limits.subscriptions_to_an_event ||
+               link.event_queues.size() >= options_.limits.subscriptions;
+    if (!too_many) link.event_queues.push_back(queue);
   }
+  if (too_many) return refuse_subscription(link, Code::kBusy, "it has as many as it may have");
   publisher.add(std::move(queue));
   return 0;
+}
+
+std::int32_t NodeState::refuse_subscription(const Link& link, Code code, std::string_view why) {
+  counters_.refusals.fetch_add(1, std::memory_order_relaxed);
+  journal_.tell(rt::LogLevel::kWarning, "{} was refused a subscription: {} ({})", link.other_end(),
+                name_of(code), why);
+  return static_cast<std::int32_t>(code);
 }
 
 std::int32_t NodeState::unsubscribe(Link& link, std::int32_t subscription) {

@@ -22,28 +22,57 @@ void Link::begin(std::unique_ptr<Connection> connection) {
   poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
 }
 
-bool Link::establish() {
+bool Link::hold() {
   const std::lock_guard lock(mutex_);
-  if (!connection_ || !problem_.empty()) return false;
-  if (establishing_ == Progress::kDone) return true;
-  establishing_ = connection_->establish();
+  if (!connection_ || !problem_.empty() || establishing_ == Progress::kDone) return false;
+  if (!connection_->establishes_slowly()) return false;
+  poller_.remove(connection_->handle());
+  held_ = true;
+  return true;
+}
+
+void Link::let_go() {
+  const std::lock_guard lock(mutex_);
+  held_ = false;
+}
+
+/// Without the lock while the connection computes: others look at the link. Nobody forgets the
+/// connection as long as it is held.
+bool Link::establish() {
+  std::unique_lock lock(mutex_);
+  if (connection_ && problem_.empty() && establishing_ != Progress::kDone) {
+    if (held_) lock.unlock();
+    const Progress progress = connection_->establish();
+    if (!lock.owns_lock()) lock.lock();
+    establishing_ = progress;
+  }
+  const bool was_held = std::exchange(held_, false);
+  if (!connection_) return false;
+  if (!problem_.empty()) {
+    // Broken off meanwhile: who wanted to forget it could not.
+    if (was_held) host_.attend(*this);
+    return false;
+  }
   if (establishing_ == Progress::kGone) {
     break_off_locked(connection_->problem());
     return false;
   }
   if (establishing_ == Progress::kDone) open_.store(true, std::memory_order_release);
+  if (was_held) {
+    interest_ = wanted();
+    poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
+  }
   update_interest();
   return establishing_ == Progress::kDone;
 }
 
-bool Link::read() {
+std::optional<std::uint64_t> Link::read(std::size_t& size) {
   const std::lock_guard lock(mutex_);
-  if (!open() || reader_ == Reader::kCaller) return false;
+  if (!open() || reader_ == Reader::kCaller) return std::nullopt;
   if (reader_ == Reader::kNobody) {
     reader_ = Reader::kIo;
     update_interest();
   }
-  std::size_t size = 0;
   const std::span<std::byte> room = assembler_.room();
   const Progress progress = connection_->receive(room, size);
   if (progress == Progress::kGone) break_off_locked(connection_->problem());
@@ -51,8 +80,12 @@ bool Link::read() {
     assembler_.received(size);
     take_messages();
   }
+  if (progress == Progress::kWantWrite) {
+    reading_waits_ = true;
+    update_interest();
+  }
   if (progress != Progress::kDone || size == room.size()) look_again_locked();
-  return open() && assembler_.incomplete();
+  return open() ? assembler_.incomplete() : std::nullopt;
 }
 
 void Link::look_again() {
@@ -62,17 +95,20 @@ void Link::look_again() {
 
 /// The poller tells only what is new of a connection that takes all.
 void Link::look_again_locked() {
-  if (!connection_ || !problem_.empty() || !interest_.news) return;
+  if (!connection_ || !problem_.empty() || held_ || !interest_.news) return;
   poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
 }
 
-void Link::write() {
+bool Link::write() {
   const std::lock_guard lock(mutex_);
-  if (!open() || !blocked_) return;
-  blocked_ = false;
-  transmit();
-  drain_event_queues();
+  if (!open()) return false;
+  const bool has_waited = std::exchange(reading_waits_, false);
+  if (std::exchange(blocked_, false)) {
+    transmit();
+    drain_event_queues();
+  }
   update_interest();
+  return has_waited && interest_.read;
 }
 
 bool Link::flush(base::Time now, base::Duration age) {
@@ -95,21 +131,29 @@ bool Link::take_back() {
   return reader_ == Reader::kIo;
 }
 
+bool Link::ended() const {
+  const std::lock_guard lock(mutex_);
+  return connection_ != nullptr && !problem_.empty();
+}
+
 bool Link::close() {
   const std::lock_guard lock(mutex_);
-  if (reader_ == Reader::kCaller) return false;
+  if (reader_ == Reader::kCaller || held_) return false;
   connection_.reset();
   assembler_.reset();
   out_.clear();
   blocked_ = false;
+  reading_waits_ = false;
   flush_due_ = false;
   establishing_ = Progress::kDone;
   reader_ = Reader::kIo;
   event_queues.clear();
   established = false;
+  shakes_hands = false;
   greeted = false;
   incomplete_since = base::Time::max();
   throttled = false;
+  sends_much = false;
   return true;
 }
 
@@ -256,17 +300,21 @@ void Link::leave_reading() {
   if (!open()) host_.attend(*this);
 }
 
-void Link::update_interest() {
-  if (!connection_ || !problem_.empty()) return;
+platform::Interest Link::wanted() const {
   const bool flows = establishing_ == Progress::kDone;
   const bool takes_nothing = peer == nullptr && is_backed_up();
-  const platform::Interest wanted{flows ? reader_ == Reader::kIo && !throttled && !takes_nothing
-                                        : establishing_ == Progress::kWantRead,
-                                  flows ? blocked_ : establishing_ == Progress::kWantWrite,
-                                  flows && connection_->takes_all()};
-  if (wanted.read == interest_.read && wanted.write == interest_.write) return;
-  interest_ = wanted;
-  poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), wanted);
+  const bool reads = reader_ == Reader::kIo && !throttled && !takes_nothing && !reading_waits_;
+  return {flows ? reads : establishing_ == Progress::kWantRead,
+          flows ? blocked_ || reading_waits_ : establishing_ == Progress::kWantWrite,
+          flows && connection_->takes_all()};
+}
+
+void Link::update_interest() {
+  if (!connection_ || !problem_.empty() || held_) return;
+  const platform::Interest now = wanted();
+  if (now.read == interest_.read && now.write == interest_.write) return;
+  interest_ = now;
+  poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), now);
 }
 
 }  // namespace armature::ride::internal

@@ -16,6 +16,7 @@
 #include "armature/ride/internal/assembler.hpp"
 #include "armature/ride/internal/event_queue.hpp"
 #include "armature/ride/internal/open_call.hpp"
+#include "armature/ride/internal/waiting.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/transport.hpp"
 
@@ -81,20 +82,30 @@ class Link : public std::enable_shared_from_this<Link> {
 
   /// Begins with a connection that is yet to be established.
   void begin(std::unique_ptr<Connection> connection);
+  /// If it takes long to bring up: nobody watches it any more until `establish` or `let_go`.
+  /// @return true if it does, and is not up yet
+  bool hold();
   /// True once data can flow; false as long as it cannot. A failure breaks it off.
+  /// @thread the node's, or whoever it was held for
   bool establish();
+  /// Nobody will call `establish` for whom it was held.
+  void let_go();
   /// Receives what is there and delivers it.
-  /// @return true if a message has begun that has not ended
-  bool read();
+  /// @param size  how many bytes that was
+  /// @return the number of the oldest message that has begun and not ended, if there is one
+  std::optional<std::uint64_t> read(std::size_t& size);
   /// Has the poller tell once more what can be read: it was not, or not all of it.
   void look_again();
   /// Sends what could not be sent before.
-  void write();
+  /// @return true if reading has waited for that
+  bool write();
   /// Sends what was gathered `age` ago; false if there is nothing.
   bool flush(base::Time now, base::Duration age);
   /// Takes reading back from a caller who has gone; false if there still is one.
   bool take_back();
-  /// Forgets a connection that has ended; false if a caller has yet to notice.
+  /// True if its connection has ended and was not forgotten.
+  bool ended() const;
+  /// Forgets a connection that has ended; false if another thread has yet to notice.
   bool close();
   /// Stops or resumes reading.
   void set_throttled(bool throttled);
@@ -134,11 +145,15 @@ class Link : public std::enable_shared_from_this<Link> {
   PeerState* peer = nullptr;  ///< whose link it is, if this side has connected
   std::string scheme;
   bool established = false;
+  bool shakes_hands = false;  ///< in a thread of its own
   bool greeted = false;
-  base::Time incomplete_since = base::Time::max();
+  base::Time incomplete_since = base::Time::max();  ///< its handshake, or a message
+  std::uint64_t incomplete_message = 0;
   base::Time window_end{};
   std::uint64_t window_messages = 0;
   bool throttled = false;
+  bool sends_much = false;  ///< as of the last time it was read
+  Waiting waiting{this};
   std::atomic<std::size_t> kept_replies{0};
   std::vector<std::shared_ptr<EventQueue>> event_queues;  ///< with the lock held
 
@@ -167,6 +182,7 @@ class Link : public std::enable_shared_from_this<Link> {
   void receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock);
   bool take_reading();
   void leave_reading();
+  platform::Interest wanted() const;
   void update_interest();
   OpenCall* remove_call(std::uint32_t id);
 
@@ -180,8 +196,9 @@ class Link : public std::enable_shared_from_this<Link> {
   std::atomic<std::uint32_t> connections_{0};
   Assembler assembler_;
   Body out_;
-  bool blocked_ = false;    ///< the other side has not taken what was sent
-  bool flush_due_ = false;  ///< the I/O thread looks after what was gathered
+  bool blocked_ = false;        ///< the other side has not taken what was sent
+  bool reading_waits_ = false;  ///< until it can write
+  bool flush_due_ = false;      ///< the I/O thread looks after what was gathered
   base::Time last_sent_{};
   base::Time gathered_since_{};
   std::vector<OpenCall*> calls_;
@@ -191,6 +208,7 @@ class Link : public std::enable_shared_from_this<Link> {
   std::uint32_t takeovers_ = 0;
   std::uint32_t takeovers_seen_ = 0;
   Progress establishing_ = Progress::kDone;
+  bool held_ = false;
   platform::Interest interest_;
   std::string problem_;
   std::atomic<std::uint64_t> received_{0};

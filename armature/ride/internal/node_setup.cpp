@@ -62,9 +62,10 @@ bool NodeState::make_room() {
   return true;
 }
 
-void NodeState::tell_refused(const Link& link, std::string_view why) {
+void NodeState::tell_end(const std::string& who, bool was_established, std::string_view why) {
+  if (was_established) return journal_.tell(rt::LogLevel::kInfo, "{} is gone: {}", who, why);
   counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
-  journal_.tell(rt::LogLevel::kWarning, "{} was refused: {}", link.other_end(), why);
+  journal_.tell(rt::LogLevel::kWarning, "{} was refused: {}", who, why);
 }
 
 base::Result<std::uint32_t> NodeState::add(std::string name, Service& service) {

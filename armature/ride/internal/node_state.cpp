@@ -15,7 +15,10 @@ namespace armature::ride::internal {
 namespace {
 
 /// Messages that arrive while others are dispatched wait no longer for their turn.
-constexpr base::Duration kRound = std::chrono::microseconds(200);
+constexpr base::Duration kRound = std::chrono::microseconds(20);
+/// Who has sent so many messages at once, or bytes, sends much.
+constexpr std::uint64_t kManyMessages = 64;
+constexpr std::size_t kManyBytes = 4 * 1024;
 /// Without descriptors or memory a connection would be refused again and again.
 constexpr base::Duration kNoDescriptors = std::chrono::milliseconds(100);
 
@@ -27,12 +30,20 @@ NodeState::NodeState(NodeOptions options)
     : options_(std::move(options)),
       journal_(options_.name, options_.log),
       transports_(options_.transports),
-      random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))) {
+      random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))),
+      handshakes_(options_.name, [this](const std::shared_ptr<Link>& link, bool established) {
+        post([this, link, established] {
+          link->shakes_hands = false;
+          if (established) is_up(*link);
+        });
+      }) {
   transports_.push_back(make_tcp_transport());
   transports_.push_back(make_unix_transport());
   auto poller = platform::Poller::make();
   if (!poller) throw std::runtime_error("node '" + options_.name + "': " + poller.error());
   poller_ = std::move(poller).value();
+  flushed_.reserve(Letters::kUsual);
+  lent_.reserve(Letters::kUsual);
 }
 
 NodeState::~NodeState() {
@@ -62,6 +73,7 @@ void NodeState::stop() {
 void NodeState::run_loop() {
   node_of_this_thread = this;
   while (!stopping_.load(std::memory_order_relaxed)) step(base::Duration::max());
+  handshakes_.stop();
   say_goodbye();
   Letters last;
   {
@@ -120,7 +132,7 @@ void NodeState::deliver(Link& link, const Message& message) {
   if (in_io_thread()) {
     // What a caller has received before comes first.
     if (has_handed_over_.load(std::memory_order_acquire)) take_handed_over();
-    return pending_.push(link, message);
+    return pending_.push(link.waiting, message);
   }
   bool full = false;
   leave_letter([&](Letters& letters) {
@@ -136,11 +148,8 @@ void NodeState::deliver(Link& link, const Message& message) {
 void NodeState::take_handed_over() {
   const std::lock_guard lock(letters_mutex_);
   has_handed_over_.store(false);
-  while (!letters_.messages.empty()) {
-    const Pending::Entry entry = letters_.messages.pop();
-    pending_.push(*entry.link, entry.message);
-  }
-  letters_.messages.settle();
+  letters_.messages.take_all(
+      [this](Link& link, const Message& message) { pending_.push(link.waiting, message); });
 }
 
 void NodeState::attend(Link& link) {
@@ -164,15 +173,17 @@ void NodeState::event_dropped(const EventQueue& queue) {
 
 void NodeState::step(base::Duration limit) {
   if (!pending_.empty() || has_letters_.load()) limit = {};
-  for (const platform::Ready& ready : poller_->wait(std::min(limit, time_left()))) {
-    take_ready(ready);
-  }
+  const auto ready = poller_->wait(std::min(limit, time_left()));
+  ++rounds_;  // Another one is first in each round.
+  for (std::size_t i = 0; i < ready.size(); ++i) take_ready(ready[(rounds_ + i) % ready.size()]);
   if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
+  if (Link* const link = std::exchange(sends_much_, nullptr)) {
+    receive(*link);
+    link->look_again();
+  }
   if (poller_->time_has_come() || flush_at_ != base::Time::max()) look_at_clock();
-  if (!pending_.empty()) return;
-  pending_.settle();
-  departed_.clear();
+  forget_departed();
 }
 
 /// Listeners are known by their place, links by where they are.
@@ -184,7 +195,7 @@ void NodeState::take_ready(const platform::Ready& ready) {
 
 void NodeState::accept(Listener& listener) {
   now_ = platform::monotonic_now();
-  constexpr int kMostAtOnce = 16;
+  constexpr int kMostAtOnce = 4;
   for (int i = 0; i < kMostAtOnce; ++i) {
     auto connection = listener.accept();
     if (!connection) {
@@ -219,31 +230,49 @@ std::shared_ptr<Link> NodeState::adopt(std::unique_ptr<Connection> connection,
   return link;
 }
 
+void NodeState::bring_up(Link& link) {
+  if (link.shakes_hands) return;
+  link.shakes_hands = link.hold();
+  if (link.shakes_hands) return handshakes_.add(link.shared_from_this());
+  if (link.establish()) is_up(link);
+}
+
+/// Data can flow. Told by another thread it may have ended since.
+void NodeState::is_up(Link& link) {
+  if (link.established || !link.open()) return;
+  link.established = true;
+  link.incomplete_since = base::Time::max();
+  if (link.peer != nullptr) link.peer->established();
+}
+
 void NodeState::service_link(Link& link, const platform::Ready& ready) {
-  if (!link.established) {
-    if (!link.establish()) return;
-    link.established = true;
-    link.incomplete_since = base::Time::max();
-    if (link.peer != nullptr) link.peer->established();
+  if (!link.established) return bring_up(link);
+  const bool can_go_on_reading = ready.write && link.write();
+  if (!ready.read && !can_go_on_reading) return;
+  if (!link.waiting.empty()) return link.look_again();  // its turn comes when those are done
+  if (link.sends_much) {
+    if (Link* const other = std::exchange(sends_much_, &link)) other->look_again();
     return;
   }
-  if (ready.write) link.write();
-  const bool has_room = !pending_.full();
-  if (ready.read && has_room) receive(link);
-  // After what came last the end is to be seen.
-  if (ready.ended || (ready.read && !has_room)) link.look_again();
+  receive(link);
+  if (ready.ended) link.look_again();  // after what came last the end is to be seen
 }
 
 /// Asks what time it is only where that matters.
 void NodeState::receive(Link& link) {
   const std::uint64_t before = link.received();
-  if (!link.read()) {
+  std::size_t size = 0;
+  const auto incomplete = link.read(size);
+  if (!incomplete) {
     link.incomplete_since = base::Time::max();
-  } else if (link.incomplete_since == base::Time::max()) {
+  } else if (link.incomplete_since == base::Time::max() || *incomplete != link.incomplete_message) {
+    link.incomplete_message = *incomplete;
     link.incomplete_since = platform::monotonic_now();
     wake_at(base::later(link.incomplete_since, options_.limits.time_to_complete));
   }
-  link.window_messages += link.received() - before;
+  const std::uint64_t count = link.received() - before;
+  link.sends_much = count >= kManyMessages || size >= kManyBytes;
+  link.window_messages += count;
   if (link.window_messages > options_.limits.messages_per_second) throttle(link);
 }
 
@@ -272,12 +301,13 @@ void NodeState::take_letters() {
 }
 
 void NodeState::dispatch_pending() {
-  constexpr int kBetweenLooks = 16;
+  constexpr int kBetweenLooks = 2;
   base::Time end{};
   for (int i = 1; !pending_.empty(); ++i) {
     const Pending::Entry entry = pending_.pop();
+    const bool is_large = entry.message.body.size() >= kManyBytes;
     dispatch(*entry.link, entry.message);
-    if (i % kBetweenLooks != 0) continue;
+    if (i % kBetweenLooks != 0 && !is_large) continue;
     const base::Time now = platform::monotonic_now();
     if (end == base::Time{}) end = now + kRound;
     if (now >= end) return;
@@ -286,14 +316,16 @@ void NodeState::dispatch_pending() {
 
 /// A connection has ended.
 void NodeState::look_after(Link& link) {
-  if (link.open() || link.problem().empty()) return;
+  if (!link.ended()) return;
   const std::string why = link.problem();
-  if (link.peer == nullptr && !link.established) tell_refused(link, why);
+  const std::string who = link.other_end();
+  const bool was_established = link.established;
   for (Hosted& hosted : hosted_) {
     if (hosted.service != nullptr) ServiceAccess::publisher(*hosted.service).remove(link);
   }
-  if (!link.close()) return;  // The caller who reads comes back with it.
+  if (!link.close()) return;  // The thread that still has it comes back with it.
   if (link.peer != nullptr) return link.peer->lost(why);
+  tell_end(who, was_established, why);
   end(link);
 }
 
@@ -303,6 +335,10 @@ void NodeState::end(Link& link) {
   departed_.push_back(std::move(*at));
   links_.erase(at);
   counters_.connections.store(links_.size(), std::memory_order_relaxed);
+}
+
+void NodeState::forget_departed() {
+  std::erase_if(departed_, [](const auto& link) { return link->waiting.empty(); });
 }
 
 void NodeState::say_goodbye() {

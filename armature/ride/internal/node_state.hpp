@@ -16,6 +16,8 @@
 #include "armature/platform/poller.hpp"
 #include "armature/platform/thread.hpp"
 #include "armature/ride/internal/directory.hpp"
+#include "armature/ride/internal/handed_over.hpp"
+#include "armature/ride/internal/handshakes.hpp"
 #include "armature/ride/internal/journal.hpp"
 #include "armature/ride/internal/link.hpp"
 #include "armature/ride/internal/pending.hpp"
@@ -96,11 +98,17 @@ class NodeState final : public LinkHost {
   class SenderAt;
   /// What other threads have left for this one.
   struct Letters {
+    Letters() {
+      flushes.reserve(kUsual);
+      returns.reserve(kUsual);
+    }
+
+    static constexpr std::size_t kUsual = 64;  ///< more of them at once ask for memory
     std::vector<std::function<void()>> tasks;
     std::vector<std::shared_ptr<Link>> attention;
     std::vector<std::shared_ptr<Link>> flushes;
     std::vector<std::shared_ptr<Link>> returns;
-    Pending messages;
+    HandedOver messages;
 
     /// All but the messages.
     void swap(Letters& other) {
@@ -123,7 +131,9 @@ class NodeState final : public LinkHost {
   void dispatch_pending();
   void accept(Listener& listener);
   bool make_room();
-  void tell_refused(const Link& link, std::string_view why);
+  void tell_end(const std::string& who, bool was_established, std::string_view why);
+  void bring_up(Link& link);
+  void is_up(Link& link);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
   void throttle(Link& link);
@@ -131,6 +141,7 @@ class NodeState final : public LinkHost {
   void look_at_clock();
   void look_after(Link& link);
   void end(Link& link);
+  void forget_departed();
   template <typename Write>
   void leave_letter(const Write& write);
   void flush_gathered();
@@ -153,6 +164,7 @@ class NodeState final : public LinkHost {
   bool is_allowed(const Link& link, std::string_view component, Access access) const;
   std::int32_t subscribe(Link& link, std::int32_t component, Number event,
                          std::int32_t subscription);
+  std::int32_t refuse_subscription(const Link& link, Code code, std::string_view why);
   std::int32_t unsubscribe(Link& link, std::int32_t subscription);
   void take_control(Link& link, const Message& message);
   ComponentEntry entry_of(const Hosted& hosted) const;
@@ -166,7 +178,7 @@ class NodeState final : public LinkHost {
   std::deque<Hosted> hosted_;
   std::vector<std::unique_ptr<Listener>> listeners_;
   std::vector<std::shared_ptr<Link>> links_;     ///< those that others have made
-  std::vector<std::shared_ptr<Link>> departed_;  ///< until nothing speaks of them any more
+  std::vector<std::shared_ptr<Link>> departed_;  ///< until all was dispatched that they have sent
   std::vector<std::unique_ptr<Peer>> peers_;
   std::vector<std::shared_ptr<Link>> flushed_;
   base::Time flush_at_ = base::Time::max();
@@ -176,6 +188,10 @@ class NodeState final : public LinkHost {
   base::Time accept_from_{};
   base::Time now_{};  ///< when the clock was last looked at
   Pending pending_;
+  std::size_t rounds_ = 0;
+  /// Of those who send much one is read in a round, last of all: what others have sent does not
+  /// wait until all their floods have been read.
+  Link* sends_much_ = nullptr;
   Counters counters_;
 
   std::mutex letters_mutex_;
@@ -185,6 +201,7 @@ class NodeState final : public LinkHost {
   std::atomic<bool> has_handed_over_{false};
   std::atomic<bool> stopping_{false};
   bool stopped_ = false;  ///< with the letters' lock
+  Handshakes handshakes_;
   std::unique_ptr<platform::Thread> thread_;
 };
 

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include "armature/ride/internal/assembler.hpp"
+#include "armature/ride/internal/waiting.hpp"
 
 namespace armature::ride::internal {
 
-class Link;
-
-/// Messages that were received and not yet dispatched: most urgent first, first come first served
-/// within one priority. It keeps their bytes and its memory.
+/// Whose turn it is among the connections that have sent something. The most urgent message is
+/// dispatched first; among equally urgent ones connections that have sent a single small message
+/// come first, and the others take turns, one message each. Of eight messages one is of whoever has
+/// its turn by order alone: who floods a node, with urgent messages too, holds up the others for as
+/// long as there are connections, not messages.
 /// @thread one at a time
 class Pending {
  public:
@@ -24,76 +21,51 @@ class Pending {
     Message message;
   };
 
-  bool empty() const { return count_ == 0; }
-  std::size_t size() const { return count_; }
-  /// True if no more should be received before some of it is dispatched.
-  bool full() const { return bytes_.size() >= kMostBytes || entries_.size() >= kMostEntries; }
+  bool empty() const { return waiting_.empty(); }
 
-  void push(Link& link, const Message& message) {
-    const auto at = static_cast<std::uint32_t>(entries_.size());
-    const std::size_t level = level_of(message.header);
-    entries_.push_back({&link, message.header, bytes_.size(), message.body.size(), kNone});
-    bytes_.append(message.body);
-    Queue& queue = queues_[level];
-    (queue.first == kNone ? queue.first : entries_[queue.last].next) = at;
-    queue.last = at;
-    levels_[level / 64] |= std::uint64_t{1} << (level % 64);
-    ++count_;
+  void push(Waiting& whose, const Message& message) {
+    if (whose.empty()) waiting_.push_back(&whose);
+    whose.push(message);
   }
 
-  /// The most urgent; there is one. Its body lies here until the next `push`, or `settle`.
+  /// There is one. Its body lies where it was until its connection's next `push`.
   Entry pop() {
-    const std::size_t level = highest_level();
-    Queue& queue = queues_[level];
-    const Kept& kept = entries_[queue.first];
-    queue.first = kept.next;
-    if (queue.first == kNone) levels_[level / 64] &= ~(std::uint64_t{1} << (level % 64));
-    --count_;
-    return {kept.link, {kept.header, bytes_.bytes().subspan(kept.begin, kept.size)}};
-  }
-
-  /// Makes room once everything was dispatched.
-  void settle() {
-    if (count_ != 0) return;
-    entries_.clear();
-    bytes_.clear();
-    bytes_.shrink(2 * kMostBytes);
+    const bool by_order = ++count_ % kOneOf == 0;
+    std::size_t& turn = by_order ? order_ : turn_;
+    const std::size_t at = by_order ? order_ % waiting_.size() : most_urgent();
+    turn = at + 1;
+    Waiting& whose = *waiting_[at];
+    const Message message = whose.pop();
+    if (whose.empty()) remove(at);
+    return {whose.link, message};
   }
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::size_t kMostBytes = 1024 * 1024;
-  static constexpr std::size_t kMostEntries = 64 * 1024;
-  static constexpr std::size_t kLevels = 256;
+  static constexpr std::size_t kOneOf = 8;
 
-  struct Kept {
-    Link* link;
-    Header header;
-    std::size_t begin;
-    std::size_t size;
-    std::uint32_t next;
-  };
-  struct Queue {
-    std::uint32_t first = kNone;
-    std::uint32_t last = kNone;
-  };
-
-  static std::size_t level_of(const Header& header) {
-    return header.priority < kLevels ? header.priority : kLevels - 1;
-  }
-
-  std::size_t highest_level() const {
-    for (std::size_t word = levels_.size(); word-- > 0;) {
-      if (levels_[word] != 0)
-        return 64 * word + 63 - static_cast<std::size_t>(std::countl_zero(levels_[word]));
+  /// Of several the one after whoever had its turn last.
+  std::size_t most_urgent() const {
+    std::size_t found = turn_ % waiting_.size();
+    for (std::size_t k = 1; k < waiting_.size(); ++k) {
+      const std::size_t at = (turn_ + k) % waiting_.size();
+      if (comes_before(*waiting_[at], *waiting_[found])) found = at;
     }
-    return 0;
+    return found;
+  }
+  static bool comes_before(const Waiting& one, const Waiting& other) {
+    if (one.urgency() != other.urgency()) return one.urgency() > other.urgency();
+    return one.is_single() && !other.is_single();
   }
 
-  std::vector<Kept> entries_;
-  Body bytes_;
-  std::array<Queue, kLevels> queues_{};
-  std::array<std::uint64_t, kLevels / 64> levels_{};
+  void remove(std::size_t at) {
+    waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(at));
+    if (turn_ > at) --turn_;
+    if (order_ > at) --order_;
+  }
+
+  std::vector<Waiting*> waiting_;  ///< none of them empty
+  std::size_t turn_ = 0;
+  std::size_t order_ = 0;
   std::size_t count_ = 0;
 };
 

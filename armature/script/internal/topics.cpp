@@ -32,7 +32,7 @@ std::vector<Topic> lua_commands() {
       {"start", "start [COMPONENT ...]", "starts a component, and configures it before if need be",
        "start Joint1\nWithout a name: every component that is stopped, writers before readers, "
        "but for those that the deployment does not start."},
-      {"stop", "stop COMPONENT ...", "stops a component; `quit` ends the application",
+      {"stop", "stop COMPONENT ...", "stops a component; `quit` stops the application",
        "stop Joint1"},
       {"reset", "reset [COMPONENT ...]", "takes a component out of its exception, to stopped",
        "reset Joint1\nstart Joint1\nWithout a name: every component that is in an exception."},

@@ -102,13 +102,18 @@ Progress TlsConnection::receive(std::span<std::byte> room, std::size_t& size) {
   return result == 1 ? Progress::kDone : after(result);
 }
 
-/// What wakes it may be less than a whole record.
+StreamStatus TlsConnection::wait_for(Progress wanted, base::Duration limit) const {
+  return wanted == Progress::kWantRead ? wire_.socket->wait_until_readable(limit)
+                                       : wire_.socket->wait_until_writable(limit);
+}
+
+/// What wakes it may be less than a whole record, and an answer of TLS itself may be in the way.
 Progress TlsConnection::wait_and_receive(std::span<std::byte> room, std::size_t& size,
                                          base::Duration limit) {
   const base::Time end = base::later(platform::monotonic_now(), limit);
   Progress progress = receive(room, size);
-  while (progress == Progress::kWantRead && limit > base::Duration::zero() &&
-         wire_.socket->wait_until_readable(limit) == StreamStatus::kDone) {
+  while ((progress == Progress::kWantRead || progress == Progress::kWantWrite) &&
+         limit > base::Duration::zero() && wait_for(progress, limit) == StreamStatus::kDone) {
     progress = receive(room, size);
     limit = end - platform::monotonic_now();
   }

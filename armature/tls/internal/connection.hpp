@@ -30,6 +30,7 @@ class TlsConnection final : public ride::Connection {
 
   int handle() const override { return wire_.socket->handle(); }
   ride::Progress establish() override;
+  bool establishes_slowly() const override { return true; }
   ride::Progress send(std::span<const std::byte> bytes, std::size_t& sent) override;
   ride::Progress receive(std::span<std::byte> room, std::size_t& size) override;
   ride::Progress wait_and_receive(std::span<std::byte> room, std::size_t& size,
@@ -45,6 +46,7 @@ class TlsConnection final : public ride::Connection {
   TlsConnection(std::unique_ptr<platform::StreamSocket> socket, SSL_CTX& context);
   ride::Progress gone(std::string problem);
   ride::Progress after(int result);
+  platform::StreamStatus wait_for(ride::Progress wanted, base::Duration limit) const;
 
   Wire wire_;
   Verdict verdict_;

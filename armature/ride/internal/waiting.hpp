@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "armature/ride/internal/assembler.hpp"
+
+namespace armature::ride::internal {
+
+class Link;
+
+/// What one connection has sent and was not dispatched yet: most urgent first, first come first
+/// served within one priority. It keeps their bytes, and its memory for the next ones.
+/// @thread one at a time
+class Waiting {
+ public:
+  explicit Waiting(Link* whose) : link(whose) {}
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+  bool empty() const { return lanes_.empty(); }
+  /// True if it has sent a single small message since it was empty.
+  bool is_single() const { return kept_.size() == 1 && bytes_.size() <= kSmall; }
+  /// Priority of the most urgent; there is one.
+  std::uint32_t urgency() const { return lanes_.front().priority; }
+
+  void push(const Message& message) {
+    if (empty()) settle();
+    const auto at = static_cast<std::uint32_t>(kept_.size());
+    kept_.push_back({message.header, bytes_.size(), message.body.size(), kNone});
+    bytes_.append(message.body);
+    Lane& lane = lane_of(std::min(message.header.priority, kMostUrgent));
+    (lane.first == kNone ? lane.first : kept_[lane.last].next) = at;
+    lane.last = at;
+  }
+
+  /// The most urgent. Its body lies here until the next `push`.
+  Message pop() {
+    Lane& lane = lanes_.front();
+    const Kept& kept = kept_[lane.first];
+    lane.first = kept.next;
+    if (lane.first == kNone) lanes_.erase(lanes_.begin());
+    return {kept.header, bytes_.bytes().subspan(kept.begin, kept.size)};
+  }
+
+  Link* const link;
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::uint32_t kMostUrgent = 255;
+  static constexpr std::size_t kSmall = 1024;
+  static constexpr std::size_t kMostKept = 64 * 1024;  ///< what a large message took is given back
+
+  struct Kept {
+    Header header;
+    std::size_t begin;
+    std::size_t size;
+    std::uint32_t next;
+  };
+  /// The messages of one priority.
+  struct Lane {
+    std::uint32_t priority;
+    std::uint32_t first = kNone;
+    std::uint32_t last = kNone;
+  };
+
+  Lane& lane_of(std::uint32_t priority) {
+    const auto at =
+        std::ranges::find_if(lanes_, [&](const Lane& lane) { return lane.priority <= priority; });
+    if (at != lanes_.end() && at->priority == priority) return *at;
+    return *lanes_.insert(at, Lane{.priority = priority});
+  }
+
+  void settle() {
+    kept_.clear();
+    bytes_.clear();
+    bytes_.shrink(kMostKept);
+  }
+
+  std::vector<Kept> kept_;
+  Body bytes_;
+  std::vector<Lane> lanes_;  ///< most urgent first, none of them empty
+};
+
+}  // namespace armature::ride::internal
