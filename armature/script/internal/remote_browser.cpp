@@ -153,21 +153,21 @@ void RemoteBrowser::take_words(const std::string& line) {
 }
 
 const RemoteBrowser::Command* RemoteBrowser::find_command(std::string_view name) {
-  static const Command kCommands[] = {{"ls", &RemoteBrowser::list},
-                                      {"list", &RemoteBrowser::list},
-                                      {"help", &RemoteBrowser::help},
-                                      {"?", &RemoteBrowser::help},
-                                      {"watch", &RemoteBrowser::watch},
-                                      {"threads", &RemoteBrowser::threads},
-                                      {"faults", &RemoteBrowser::faults},
-                                      {"start", &RemoteBrowser::start},
-                                      {"stop", &RemoteBrowser::stop_components},
-                                      {"reset", &RemoteBrowser::reset},
-                                      {"recover", &RemoteBrowser::recover},
-                                      {"wait", &RemoteBrowser::wait},
-                                      {"cancel", &RemoteBrowser::cancel},
-                                      {"quit", &RemoteBrowser::quit},
-                                      {"exit", &RemoteBrowser::quit}};
+  static const Command kCommands[] = {{"ls", &act<&RemoteBrowser::list>},
+                                      {"list", &act<&RemoteBrowser::list>},
+                                      {"help", &act<&RemoteBrowser::help>},
+                                      {"?", &act<&RemoteBrowser::help>},
+                                      {"watch", &act<&RemoteBrowser::watch>},
+                                      {"threads", &act<&RemoteBrowser::threads>},
+                                      {"faults", &act<&RemoteBrowser::faults>},
+                                      {"start", &act<&RemoteBrowser::start>},
+                                      {"stop", &act<&RemoteBrowser::stop_components>},
+                                      {"reset", &act<&RemoteBrowser::reset>},
+                                      {"recover", &act<&RemoteBrowser::recover>},
+                                      {"wait", &act<&RemoteBrowser::wait>},
+                                      {"cancel", &act<&RemoteBrowser::cancel>},
+                                      {"quit", &act<&RemoteBrowser::quit>},
+                                      {"exit", &act<&RemoteBrowser::quit>}};
   const auto* const found =
       std::ranges::find(kCommands, name, [](const Command& one) { return one.name; });
   return found == std::end(kCommands) ? nullptr : found;
@@ -177,7 +177,7 @@ bool RemoteBrowser::take_command(const std::string& line) {
   const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
   const Command* const command = find_command(std::string_view(line).substr(0, end));
   if (command == nullptr) return false;
-  (this->*command->act)(words_of(trimmed(std::string_view(line).substr(end))));
+  command->act(*this, words_of(trimmed(std::string_view(line).substr(end))));
   return true;
 }
 

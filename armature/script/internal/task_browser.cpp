@@ -71,22 +71,22 @@ void TaskBrowser::take(std::string_view line) {
 }
 
 const TaskBrowser::Command* TaskBrowser::find_command(std::string_view name) {
-  static const Command kCommands[] = {{"ls", &TaskBrowser::list},
-                                      {"list", &TaskBrowser::list},
-                                      {"help", &TaskBrowser::help},
-                                      {"?", &TaskBrowser::help},
-                                      {"watch", &TaskBrowser::watch},
-                                      {"threads", &TaskBrowser::threads},
-                                      {"faults", &TaskBrowser::faults},
-                                      {"start", &TaskBrowser::start},
-                                      {"stop", &TaskBrowser::stop_components},
-                                      {"reset", &TaskBrowser::reset},
-                                      {"recover", &TaskBrowser::recover},
-                                      {"run", &TaskBrowser::run},
-                                      {"wait", &TaskBrowser::wait},
-                                      {"cancel", &TaskBrowser::cancel},
-                                      {"quit", &TaskBrowser::quit},
-                                      {"exit", &TaskBrowser::quit}};
+  static const Command kCommands[] = {{"ls", &act<&TaskBrowser::list>},
+                                      {"list", &act<&TaskBrowser::list>},
+                                      {"help", &act<&TaskBrowser::help>},
+                                      {"?", &act<&TaskBrowser::help>},
+                                      {"watch", &act<&TaskBrowser::watch>},
+                                      {"threads", &act<&TaskBrowser::threads>},
+                                      {"faults", &act<&TaskBrowser::faults>},
+                                      {"start", &act<&TaskBrowser::start>},
+                                      {"stop", &act<&TaskBrowser::stop_components>},
+                                      {"reset", &act<&TaskBrowser::reset>},
+                                      {"recover", &act<&TaskBrowser::recover>},
+                                      {"run", &act<&TaskBrowser::run>},
+                                      {"wait", &act<&TaskBrowser::wait>},
+                                      {"cancel", &act<&TaskBrowser::cancel>},
+                                      {"quit", &act<&TaskBrowser::quit>},
+                                      {"exit", &act<&TaskBrowser::quit>}};
   for (const Command& command : kCommands) {
     if (command.name == name) return &command;
   }
@@ -102,7 +102,7 @@ bool TaskBrowser::take_command(const std::string& line) {
   const bool lua = !rest.empty() &&
                    std::string_view("=([.:+*/%<>~^,;").find(rest.front()) != std::string_view::npos;
   if (lua) return false;
-  (this->*command->act)(words_of(rest));
+  command->act(*this, words_of(rest));
   return true;
 }
 
