@@ -16,7 +16,7 @@ import tempfile
 import time
 import unittest
 
-PROGRAM, LIBRARIES, JANUS = sys.argv[1:4]
+PROGRAM, LIBRARIES, JANUS = map(os.path.abspath, sys.argv[1:4])
 LONG = 60.0
 ATTEMPTS = 10
 
@@ -38,7 +38,7 @@ class Remote(unittest.TestCase):
 
     def start_robot(self):
         robot = armature("run", "-L", LIBRARIES, "--set", f"address={self.address}",
-                         deployment("served.yaml"))
+                         deployment("served.yaml"), cwd=self.folder.name)  # for its black box
         self.addCleanup(robot.stdout.close)
         self.addCleanup(robot.wait)
         self.addCleanup(robot.kill)
