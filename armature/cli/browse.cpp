@@ -4,8 +4,8 @@
 
 #include "armature/cli/commands.hpp"
 #include "armature/cli/loaded.hpp"
+#include "armature/cli/tls.hpp"
 #include "armature/script/remote_browser.hpp"
-#include "armature/tls/transport.hpp"
 
 namespace armature::cli {
 namespace {
@@ -29,17 +29,6 @@ std::string wrong_use(const BrowseArguments& arguments) {
   return {};
 }
 
-/// Nothing after an error.
-std::shared_ptr<ride::Transport> make_tls(const BrowseArguments& arguments,
-                                          base::Diagnostics& diagnostics) {
-  void* const make =
-      load_function("libarmature_tls.so", tls::kMakeTransport, "tls needs", diagnostics);
-  if (make == nullptr) return nullptr;
-  const tls::Options files{arguments.certificate, arguments.key, arguments.authority};
-  return std::shared_ptr<ride::Transport>(
-      reinterpret_cast<tls::MakeTransport>(make)(files, diagnostics));
-}
-
 }  // namespace
 
 int browse(const BrowseArguments& arguments, const Console& console) {
@@ -51,7 +40,8 @@ int browse(const BrowseArguments& arguments, const Console& console) {
   script::RemoteBrowserOptions options;
   options.address = arguments.address;
   if (arguments.address.starts_with(kTls)) {
-    if (auto transport = make_tls(arguments, diagnostics)) options.transports = {transport};
+    const tls::Options files{arguments.certificate, arguments.key, arguments.authority};
+    if (auto transport = load_tls(files, diagnostics)) options.transports = {transport};
   }
   void* const run = load_function("libarmature_script.so", script::kBrowseRemotely,
                                   "the task browser needs", diagnostics);

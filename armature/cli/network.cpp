@@ -4,22 +4,12 @@
 #include <utility>
 
 #include "armature/cli/loaded.hpp"
-#include "armature/tls/transport.hpp"
+#include "armature/cli/tls.hpp"
 
 namespace armature::cli {
 namespace {
 
 constexpr const char* kRemoteLibrary = "libarmature_remote.so";
-constexpr const char* kTlsLibrary = "libarmature_tls.so";
-
-std::shared_ptr<ride::Transport> make_tls(const deploy::Network& network,
-                                          base::Diagnostics& diagnostics) {
-  void* const make = load_function(kTlsLibrary, tls::kMakeTransport, "tls needs", diagnostics);
-  if (make == nullptr) return nullptr;
-  const tls::Options files{network.certificate.name, network.key.name, network.authority.name};
-  return std::shared_ptr<ride::Transport>(
-      reinterpret_cast<tls::MakeTransport>(make)(files, diagnostics));
-}
 
 }  // namespace
 
@@ -81,7 +71,9 @@ remote::Network* NetworkOnDemand::load(base::Diagnostics& diagnostics) {
       load_function(kRemoteLibrary, remote::kMakeNetwork, "a part in a network needs", diagnostics);
   if (make == nullptr) return nullptr;
   remote::NetworkOptions options;
-  options.tls = make_tls;
+  options.tls = [](const deploy::Network& files, base::Diagnostics& problems) {
+    return load_tls({files.certificate.name, files.key.name, files.authority.name}, problems);
+  };
   options.log = [this](const rt::LogRecord& record) { console_.log(record); };
   network_.reset(reinterpret_cast<remote::MakeNetwork>(make)(options));
   return network_.get();

@@ -11,17 +11,6 @@
 namespace armature::remote {
 namespace {
 
-/// Arguments of an event, to be sent.
-struct OutgoingEvent {
-  const component::Signature* signature;
-  const void* const* arguments;
-};
-void encode(ride::Encoder& to, const OutgoingEvent& event) {
-  for (std::size_t i = 0; i < event.signature->arguments.size(); ++i) {
-    encode(to, Outgoing{event.signature->arguments[i].type, event.arguments[i]});
-  }
-}
-
 /// So little progress is not told.
 constexpr double kLeastProgress = 0.01;
 
@@ -85,8 +74,9 @@ ride::Executed ExportedComponent::execute(ride::Number number, ride::Decoder& pa
   if (!parameters.ended()) return ride::Executed::kMalformed;
   if (!queue_.has_room()) return ride::Executed::kBusy;
   request->reply = reply.keep();
-  const bool posted = queue_.post([this, request] { perform(*request); });
-  return posted ? ride::Executed::kDone : ride::Executed::kBusy;
+  // If it was closed meanwhile, the reply that is let go of is the answer.
+  static_cast<void>(queue_.post([this, request] { perform(*request); }));
+  return ride::Executed::kDone;
 }
 
 // --- by the controlling thread -------------------------------------------------------------------
@@ -113,7 +103,7 @@ void ExportedComponent::call(Request& request) {
   const auto& operation = *component_.interface().operations[request.member.index];
   const auto answer = application_.call(component_.name(), operation.name(),
                                         std::move(request.arguments), exec::Caller::kRemote);
-  if (!answer) return fail(request, answer.error());
+  if (!answer) return fail(request.reply, operation.name(), answer.error());
   const std::optional<types::Value>& result = answer.value();
   if (!result) return request.reply.done();
   request.reply.put(Outgoing{&result->type(), result->data()});
@@ -123,7 +113,7 @@ void ExportedComponent::begin(Request& request) {
   const auto& operation = *component_.interface().operations[request.member.index];
   auto begun = application_.begin(component_.name(), operation.name(), std::move(request.arguments),
                                   exec::Caller::kRemote);
-  if (!begun) return fail(request, begun.error());
+  if (!begun) return fail(request.reply, operation.name(), begun.error());
   under_way_.push_back({request.member.index, std::move(begun).value(), std::move(request.reply)});
 }
 
@@ -131,21 +121,14 @@ void ExportedComponent::write(Request& request) {
   component::InputPortBase& input = *component_.interface().inputs[request.member.index];
   const base::Result<void> written = write_(input, request.arguments.front());
   if (written) return request.reply.done();
-  if (request.reply) return request.reply.fail(written.error());
-  publish(ride::kFailedDeclaration.number(),
-          ride::Fields(std::tuple(ride::Failed{input.name(), written.error()})), {});
-}
-
-void ExportedComponent::fail(Request& request, std::string_view problem) {
-  fail(request.member.index, request.reply, problem);
+  fail(request.reply, input.name(), written.error());
 }
 
 /// Who has sent a command without asking for an answer is told by the event that says so.
-void ExportedComponent::fail(std::size_t operation, ride::PendingReply& reply,
+void ExportedComponent::fail(ride::PendingReply& reply, std::string_view member,
                              std::string_view problem) {
   if (reply) return reply.fail(problem);
-  const std::tuple failed{ride::Failed{
-      std::string(component_.interface().operations[operation]->name()), std::string(problem)}};
+  const std::tuple failed{ride::Failed{std::string(member), std::string(problem)}};
   publish(ride::kFailedDeclaration.number(), ride::Fields(failed), {});
 }
 
@@ -162,7 +145,7 @@ std::uint64_t ExportedComponent::serve() {
     const component::Signature& signature =
         component_.interface().events[event->index]->signature();
     event->feed.take([&](const void* const* arguments) {
-      const std::tuple members{OutgoingEvent{&signature, arguments}};
+      const std::tuple members{OutgoingArguments{&signature, arguments}};
       publish(event->number, ride::Fields(members), {});
     });
     dropped += event->feed.take_dropped();
@@ -232,7 +215,7 @@ bool ExportedComponent::follow(UnderWay& command) {
   }
   std::string problem(component::name_of(stage));
   if (!command.handle.reason().empty()) problem += ": " + std::string(command.handle.reason());
-  fail(command.index, command.reply, problem);
+  fail(command.reply, component_.interface().operations[command.index]->name(), problem);
   return true;
 }
 

@@ -57,8 +57,7 @@ class ExportedComponent final : public ride::Service {
   void call(Request& request);
   void begin(Request& request);
   void write(Request& request);
-  void fail(Request& request, std::string_view problem);
-  void fail(std::size_t operation, ride::PendingReply& reply, std::string_view problem);
+  void fail(ride::PendingReply& reply, std::string_view member, std::string_view problem);
   void follow_commands();
   bool follow(UnderWay& command);
   void open_and_close_feeds();

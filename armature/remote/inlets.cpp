@@ -22,14 +22,17 @@ Inlets::Inlets(const std::vector<component::InputPortBase*>& inputs)
   }
 }
 
+base::Error Inlets::not_open(const component::InputPortBase& input) {
+  return {
+      "'" + path_of(input) +
+      "' is not open to other processes: its deployment says network: {inputs: [...]} for those "
+      "that are"};
+}
+
 base::Result<void> Inlets::write(exec::Application& application,
                                  const component::InputPortBase& input, const types::Value& value) {
   const auto inlet = std::ranges::find(inlets_, &input, &Inlet::input);
-  if (inlet == inlets_.end()) {
-    return base::Error{"'" + path_of(input) +
-                       "' is not open to other processes: its deployment says network: {inputs: "
-                       "[...]} for those that are"};
-  }
+  if (inlet == inlets_.end()) return not_open(input);
   // Shared: a thread that answers too late still uses it.
   struct Writing {
     types::Value value;

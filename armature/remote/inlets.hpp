@@ -17,6 +17,9 @@ class Inlets final : public component::Component {
  public:
   explicit Inlets(const std::vector<component::InputPortBase*>& inputs);
 
+  /// Why `input` is not written by others.
+  static base::Error not_open(const component::InputPortBase& input);
+
   /// The error names the input that is not open, or what is wrong with the value.
   /// @thread the controlling one
   base::Result<void> write(exec::Application& application, const component::InputPortBase& input,

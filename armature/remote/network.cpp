@@ -195,9 +195,7 @@ class RideNetwork final : public Network {
   base::Result<void> write_input(exec::Application& application,
                                  const component::InputPortBase& input, const types::Value& value) {
     if (inlets_ != nullptr) return inlets_->write(application, input, value);
-    return base::Error{"'" + input.owner().name() + "." + input.name() +
-                       "' is not open to other processes: its deployment has no network: {inputs: "
-                       "[...]}"};
+    return Inlets::not_open(input);
   }
 
   void say(const std::string& component, std::uint64_t dropped) {

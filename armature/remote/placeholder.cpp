@@ -22,17 +22,6 @@ constexpr std::size_t kMostArrivals = 1024;
 /// So long a start waits for the other process; then it goes on without it.
 constexpr base::Duration kStartPatience = std::chrono::seconds(2);
 
-/// Arguments where they are, to be sent.
-struct OutgoingArguments {
-  const component::Signature* signature;
-  const void* const* arguments;
-};
-void encode(ride::Encoder& to, const OutgoingArguments& all) {
-  for (std::size_t i = 0; i < all.signature->arguments.size(); ++i) {
-    encode(to, Outgoing{all.signature->arguments[i].type, all.arguments[i]});
-  }
-}
-
 CallStatus status_of(ride::Code code) {
   switch (code) {
     case ride::Code::kNone:
@@ -73,11 +62,10 @@ void Placeholder::make_twins() {
         outputs_.push_back({original.outputs[member.index]->twin(*this), member.index});
         break;
       case Member::Kind::kInput:
-        inputs_.push_back(original.inputs[member.index]->twin(*this));
-        input_index_.push_back(member.index);
+        inputs_.push_back({original.inputs[member.index]->twin(*this), member.index});
         break;
       case Member::Kind::kEvent:
-        events_.emplace_back(original.events[member.index]->twin(*this), member.index);
+        events_.push_back({original.events[member.index]->twin(*this), member.index});
         break;
       case Member::Kind::kOperation:
       case Member::Kind::kCommand:
@@ -112,8 +100,9 @@ void Placeholder::subscribe() {
     const bool used = !output.port->readers().empty() || output.port->is_tapped();
     if (used) listen(Member::Kind::kOutput, output.index, Arrival::Kind::kSample);
   }
-  for (const auto& [event, index] : events_) {
-    if (!event->subscribers().empty()) listen(Member::Kind::kEvent, index, Arrival::Kind::kEvent);
+  for (const Event& event : events_) {
+    if (event.twin->subscribers().empty()) continue;
+    listen(Member::Kind::kEvent, event.index, Arrival::Kind::kEvent);
   }
   for (const Operation& operation : operations_) {
     if (!operation.twin->is_command()) continue;
@@ -217,11 +206,10 @@ void Placeholder::handle(Arrival& arrival) {
     case Arrival::Kind::kSample:
       return handle_sample(arrival);
     case Arrival::Kind::kEvent: {
-      const auto event =
-          std::ranges::find(events_, arrival.index, [](const auto& entry) { return entry.second; });
+      const auto event = std::ranges::find(events_, arrival.index, &Event::index);
       std::vector<const void*> places;
       for (const types::Value& value : arrival.values) places.push_back(value.data());
-      event->first->raise_from(places.data());
+      event->twin->raise_from(places.data());
       return;
     }
     case Arrival::Kind::kProgress:
@@ -279,8 +267,8 @@ void Placeholder::handle_connection(const std::string& text) {
 
 void Placeholder::pass_on(component::InputPortBase& input, const void* value) {
   const rt::PermitScope permit;
-  const auto at = std::ranges::find(inputs_, &input, [](const auto& twin) { return twin.get(); });
-  const std::size_t index = input_index_[static_cast<std::size_t>(at - inputs_.begin())];
+  const std::size_t index =
+      std::ranges::find(inputs_, &input, [](const Input& each) { return each.port.get(); })->index;
   const std::tuple members{Outgoing{&input.type(), value}};
   const bool sent = link_ != nullptr && link_->send(numbers_.number(Member::Kind::kInput, index),
                                                     {}, ride::Fields(members)) == ride::Sent::kYes;

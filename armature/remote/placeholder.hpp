@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,6 +87,14 @@ class Placeholder final : public component::StandIn {
     std::uint64_t sequence = 0;  ///< of the last sample
     bool misfit = false;         ///< its samples have another size than here
   };
+  struct Input {
+    std::unique_ptr<component::InputPortBase> port;
+    std::size_t index;
+  };
+  struct Event {
+    std::unique_ptr<component::EventBase> twin;
+    std::size_t index;
+  };
   struct Operation {
     std::unique_ptr<component::OperationBase> twin;
     std::size_t index;
@@ -115,10 +122,9 @@ class Placeholder final : public component::StandIn {
   const std::string remote_name_;
   std::function<ride::Peer&()> where_;
   std::vector<Output> outputs_;
-  std::vector<std::unique_ptr<component::InputPortBase>> inputs_;
-  std::vector<std::size_t> input_index_;
+  std::vector<Input> inputs_;
   std::vector<Operation> operations_;
-  std::vector<std::pair<std::unique_ptr<component::EventBase>, std::size_t>> events_;
+  std::vector<Event> events_;
   std::unique_ptr<LinkTo> link_;
   std::vector<ride::Subscription> subscriptions_;
   Bell bell_{*this};

@@ -125,6 +125,12 @@ void encode(ride::Encoder& to, const Outgoing& value) {
   }
 }
 
+void encode(ride::Encoder& to, const OutgoingArguments& all) {
+  for (std::size_t i = 0; i < all.signature->arguments.size(); ++i) {
+    encode(to, Outgoing{all.signature->arguments[i].type, all.arguments[i]});
+  }
+}
+
 bool decode(ride::Decoder& from, Incoming& value) {
   const Type& type = *value.type;
   if (types::is_text(type)) return decode_text(from, type, value.data);

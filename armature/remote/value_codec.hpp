@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "armature/component/signature.hpp"
 #include "armature/ride/codec.hpp"
 #include "armature/types/type.hpp"
 
@@ -23,6 +24,13 @@ struct Outgoing {
   const void* data;
 };
 void encode(ride::Encoder& to, const Outgoing& value);
+
+/// Arguments of an operation, command or event, where they are, to be sent.
+struct OutgoingArguments {
+  const component::Signature* signature;
+  const void* const* arguments;
+};
+void encode(ride::Encoder& to, const OutgoingArguments& all);
 
 /// A place for a value that is received.
 struct Incoming {
