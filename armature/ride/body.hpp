@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -63,13 +65,18 @@ class Body {
  private:
   void grow(std::size_t least) {
     const std::size_t capacity = std::max({least, 2 * capacity_, std::size_t{64}});
-    std::unique_ptr<std::byte[]> memory(new std::byte[capacity]);
-    if (size_ != 0) std::memcpy(memory.get(), memory_.get(), size_);
-    memory_ = std::move(memory);
+    void* const memory = std::realloc(memory_.get(), capacity);  // Large ones move without a copy.
+    if (memory == nullptr) throw std::bad_alloc();
+    static_cast<void>(memory_.release());
+    memory_.reset(static_cast<std::byte*>(memory));
     capacity_ = capacity;
   }
 
-  std::unique_ptr<std::byte[]> memory_;
+  struct Free {
+    void operator()(std::byte* memory) const { std::free(memory); }
+  };
+
+  std::unique_ptr<std::byte[], Free> memory_;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
 };
