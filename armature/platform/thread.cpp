@@ -120,6 +120,11 @@ void prefault_rest_of_stack() {
 
 }  // namespace
 
+bool run_when_idle() {
+  const sched_param none{};
+  return pthread_setschedparam(pthread_self(), SCHED_IDLE, &none) == 0;
+}
+
 void prefault_stack(std::size_t bytes) {
   auto* stack = static_cast<volatile char*>(alloca(bytes));
   constexpr std::size_t kPage = 4096;

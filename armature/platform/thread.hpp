@@ -56,6 +56,10 @@ class Thread {
   std::shared_ptr<State> state_;
 };
 
+/// From now on the calling thread runs only while nobody else wants its CPU, except for a fraction
+/// of a percent. It must hold nothing that others wait for. False if the system refuses.
+bool run_when_idle();
+
 /// Touches the stack below the caller so that no page fault happens there later.
 void prefault_stack(std::size_t bytes);
 

@@ -80,6 +80,21 @@ TEST(Thread, IsScheduledAsGranted) {
   EXPECT_EQ(parameters.sched_priority, 42);
 }
 
+TEST(Thread, RunsWhenIdleFromThenOn) {
+  bool done = false;
+  int before = -1;
+  int after = -1;
+  Thread thread({.name = "idle"}, [&] {
+    before = sched_getscheduler(0);
+    done = run_when_idle();
+    after = sched_getscheduler(0);
+  });
+  thread.join();
+  EXPECT_TRUE(done);
+  EXPECT_EQ(before, SCHED_OTHER);
+  EXPECT_EQ(after, SCHED_IDLE);
+}
+
 TEST(Thread, GetsABudgetWhereTheSystemGivesOne) {
   int policy = -1;
   Thread thread({.name = "deadline",

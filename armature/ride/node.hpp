@@ -26,6 +26,8 @@ struct Limits {
   /// Accepted ones. Who comes later takes the place of one whose handshake is not done, or is sent
   /// away.
   std::size_t connections = 64;
+  /// Accepted ones, a tenth of them at once. Others wait with the operating system.
+  std::uint32_t connections_per_second = 500;
   std::size_t body_bytes = 16 * 1024 * 1024;  ///< of one message, all its parts together
   /// Of one connection. Beyond, it is not read until the second is over; nothing is lost.
   std::uint64_t messages_per_second = 20'000'000;

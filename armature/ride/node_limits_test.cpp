@@ -134,6 +134,19 @@ TEST_F(NodeTest, AConnectionBeyondTheLimitIsSentAway) {
   EXPECT_THAT(log(), Contains(HasSubstr("was sent away")));
 }
 
+TEST_F(NodeTest, ConnectionsThatComeFasterThanTheLimitWaitAndAreServed) {
+  options_.limits.connections_per_second = 10;
+  serve();
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 4; ++i) {
+    auto raw = client();
+    raw.send({}, Type::kControl, 0, Control{Code::kPing, 0, 0, 0, ""});
+    EXPECT_EQ(raw.receive_control().code, Code::kPong);
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, 200ms) << "two come at once";
+  EXPECT_EQ(node_->statistics().connections_refused, 0u);
+}
+
 TEST_F(NodeTest, AMessageThatDoesNotEndInTimeIsTheEnd) {
   options_.limits.time_to_complete = 1ms;
   auto raw = client();

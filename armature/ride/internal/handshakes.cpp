@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/ride/internal/handshakes.hpp"
 
-#include <utility>
-
-#include "armature/ride/internal/link.hpp"
-
 namespace armature::ride::internal {
 
+/// Comes from the node's thread and goes back to it.
+struct Handshakes::Job final : rt::Message {
+  explicit Job(std::shared_ptr<Link> whose)
+      : rt::Message([](rt::Message& self) {
+          Job& job = static_cast<Job&>(self);
+          job.progress = job.link->step_held();
+        }),
+        link(std::move(whose)) {}
+
+  const std::shared_ptr<Link> link;
+  Progress progress = Progress::kWantRead;
+};
+
 void Handshakes::add(std::shared_ptr<Link> link) {
-  {
-    const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(link));
-  }
-  changed_.notify_one();
+  wanted_.push(*std::make_unique<Job>(std::move(link)).release());
+  changed_.notify();
   if (thread_ != nullptr) return;
   platform::ThreadRequest request;
   request.name = name_;
@@ -21,26 +27,34 @@ void Handshakes::add(std::shared_ptr<Link> link) {
 }
 
 void Handshakes::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  changed_.notify_one();
+  ends_.store(true);
+  changed_.notify();
   thread_.reset();
-  for (const auto& link : std::exchange(waiting_, {})) link->let_go();
+  settle(done_);
+  settle(wanted_);
 }
 
-std::shared_ptr<Link> Handshakes::wait_for_next() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
-  if (ends_) return nullptr;
-  auto next = std::move(waiting_.front());
-  waiting_.pop_front();
-  return next;
+void Handshakes::settle(rt::Inbox& jobs) {
+  for (rt::Message* message = jobs.take_all(); message != nullptr;) {
+    const std::unique_ptr<Job> job(static_cast<Job*>(message));
+    message = rt::Inbox::next(*message);
+    settle_(*job->link, job->progress);
+  }
 }
 
 void Handshakes::run() {
-  while (const auto link = wait_for_next()) done_(link, link->establish());
+  // Only here: whoever makes a thread waits until it has begun.
+  platform::run_when_idle();
+  while (!ends_.load()) {
+    changed_.wait();
+    for (rt::Message* message = wanted_.take_all(); message != nullptr;) {
+      rt::Message* const next = rt::Inbox::next(*message);
+      if (!ends_.load()) message->deliver();
+      done_.push(*message);
+      wake_();
+      message = next;
+    }
+  }
 }
 
 }  // namespace armature::ride::internal

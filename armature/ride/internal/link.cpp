@@ -31,39 +31,37 @@ bool Link::hold() {
   return true;
 }
 
-void Link::let_go() {
+bool Link::come_back(Progress progress) {
   const std::lock_guard lock(mutex_);
   held_ = false;
-}
-
-/// Without the lock while the connection computes: others look at the link. Nobody forgets the
-/// connection as long as it is held.
-bool Link::establish() {
-  std::unique_lock lock(mutex_);
-  if (connection_ && problem_.empty() && establishing_ != Progress::kDone) {
-    if (held_) lock.unlock();
-    const Progress progress = connection_->establish();
-    if (!lock.owns_lock()) lock.lock();
-    establishing_ = progress;
-  }
-  const bool was_held = std::exchange(held_, false);
-  if (!connection_) return false;
   if (!problem_.empty()) {
     // Broken off meanwhile: who wanted to forget it could not.
-    if (was_held) host_.attend(*this);
+    connection_->shut_down();
+    host_.attend(*this);
     return false;
   }
-  if (establishing_ == Progress::kGone) {
+  establishing_ = progress;
+  interest_ = wanted();
+  poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
+  return establish_locked(progress);
+}
+
+bool Link::establish() {
+  const std::lock_guard lock(mutex_);
+  if (!connection_ || !problem_.empty()) return false;
+  if (establishing_ == Progress::kDone) return true;
+  return establish_locked(connection_->establish());
+}
+
+bool Link::establish_locked(Progress progress) {
+  establishing_ = progress;
+  if (progress == Progress::kGone) {
     break_off_locked(connection_->problem());
     return false;
   }
-  if (establishing_ == Progress::kDone) open_.store(true, std::memory_order_release);
-  if (was_held) {
-    interest_ = wanted();
-    poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
-  }
+  if (progress == Progress::kDone) open_.store(true, std::memory_order_release);
   update_interest();
-  return establishing_ == Progress::kDone;
+  return progress == Progress::kDone;
 }
 
 std::optional<std::uint64_t> Link::read(std::size_t& size) {
@@ -177,8 +175,10 @@ void Link::break_off_locked(const std::string& why) {
   if (!connection_ || !problem_.empty()) return;
   problem_ = why;
   open_.store(false, std::memory_order_release);
-  poller_.remove(connection_->handle());
-  connection_->shut_down();
+  if (!held_) {
+    poller_.remove(connection_->handle());
+    connection_->shut_down();
+  }
   for (OpenCall* const call : std::exchange(calls_, {})) {
     call->refused(Code::kConnectionLost, why);
   }

@@ -82,14 +82,16 @@ class Link : public std::enable_shared_from_this<Link> {
 
   /// Begins with a connection that is yet to be established.
   void begin(std::unique_ptr<Connection> connection);
-  /// If it takes long to bring up: nobody watches it any more until `establish` or `let_go`.
+  /// True once data can flow; false as long as it cannot. A failure breaks it off.
+  bool establish();
+  /// If it takes long to bring up: nobody watches it any more, nor forgets it, until `come_back`.
   /// @return true if it does, and is not up yet
   bool hold();
-  /// True once data can flow; false as long as it cannot. A failure breaks it off.
-  /// @thread the node's, or whoever it was held for
-  bool establish();
-  /// Nobody will call `establish` for whom it was held.
-  void let_go();
+  /// The next step of one that is held. Takes no lock that others wait for.
+  /// @thread for whom it was held
+  Progress step_held() { return connection_->establish(); }
+  /// Goes on with what came of that, as `establish` does.
+  bool come_back(Progress progress);
   /// Receives what is there and delivers it.
   /// @param size  how many bytes that was
   /// @return the number of the oldest message that has begun and not ended, if there is one
@@ -168,6 +170,7 @@ class Link : public std::enable_shared_from_this<Link> {
   void append_event(EventQueue& queue, std::span<const std::byte> message);
   bool too_much_for(Type type);
   bool is_backed_up() const;
+  bool establish_locked(Progress progress);
   void send_out();
   void gather(base::Time now);
   void transmit();

@@ -31,12 +31,13 @@ NodeState::NodeState(NodeOptions options)
       journal_(options_.name, options_.log),
       transports_(options_.transports),
       random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))),
-      handshakes_(options_.name, [this](const std::shared_ptr<Link>& link, bool established) {
-        post([this, link, established] {
-          link->shakes_hands = false;
-          if (established) is_up(*link);
-        });
-      }) {
+      handshakes_(
+          options_.name,
+          [this](Link& link, Progress progress) {
+            link.shakes_hands = false;
+            if (link.come_back(progress)) is_up(link);
+          },
+          [this] { poller_->wake(); }) {
   transports_.push_back(make_tcp_transport());
   transports_.push_back(make_unix_transport());
   auto poller = platform::Poller::make();
@@ -176,6 +177,7 @@ void NodeState::step(base::Duration limit) {
   const auto ready = poller_->wait(std::min(limit, time_left()));
   ++rounds_;  // Another one is first in each round.
   for (std::size_t i = 0; i < ready.size(); ++i) take_ready(ready[(rounds_ + i) % ready.size()]);
+  handshakes_.take_done();
   if (has_letters_.load(std::memory_order_acquire)) take_letters();
   dispatch_pending();
   if (Link* const link = std::exchange(sends_much_, nullptr)) {
@@ -195,26 +197,33 @@ void NodeState::take_ready(const platform::Ready& ready) {
 
 void NodeState::accept(Listener& listener) {
   now_ = platform::monotonic_now();
-  constexpr int kMostAtOnce = 4;
-  for (int i = 0; i < kMostAtOnce; ++i) {
-    auto connection = listener.accept();
-    if (!connection) {
-      if (i != 0) return;
-      for (std::size_t k = 0; k < listeners_.size(); ++k) {
-        poller_->change(listeners_[k]->handle(), k, {});
-      }
-      accept_from_ = now_ + kNoDescriptors;
-      return wake_at(accept_from_);
-    }
-    if (links_.size() >= options_.limits.connections && !make_room()) {
-      counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
-      journal_.tell(rt::LogLevel::kWarning,
-                    "{} was sent away: there are {} connections, as many as may be",
-                    connection->other_end(), links_.size());
-      continue;
-    }
-    adopt(std::move(connection), listener.address().scheme);
+  auto connection = listener.accept();
+  if (!connection) return pause_accepting(now_ + kNoDescriptors);
+  space_connections();
+  if (links_.size() >= options_.limits.connections && !make_room()) {
+    counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
+    return journal_.tell(rt::LogLevel::kWarning,
+                         "{} was sent away: there are {} connections, as many as may be",
+                         connection->other_end(), links_.size());
   }
+  adopt(std::move(connection), listener.address().scheme);
+}
+
+/// To come and go costs the node more than its messages do.
+void NodeState::space_connections() {
+  constexpr base::Duration kSecond = std::chrono::seconds(1);
+  connection_due_ = std::max(connection_due_, now_) +
+                    kSecond / std::max(options_.limits.connections_per_second, 1u);
+  const base::Time from = connection_due_ - kSecond / 10;
+  if (from > now_) pause_accepting(from);
+}
+
+void NodeState::pause_accepting(base::Time until) {
+  for (std::size_t k = 0; k < listeners_.size(); ++k) {
+    poller_->change(listeners_[k]->handle(), k, {});
+  }
+  accept_from_ = until;
+  wake_at(until);
 }
 
 std::shared_ptr<Link> NodeState::adopt(std::unique_ptr<Connection> connection,
@@ -237,9 +246,8 @@ void NodeState::bring_up(Link& link) {
   if (link.establish()) is_up(link);
 }
 
-/// Data can flow. Told by another thread it may have ended since.
+/// Data can flow.
 void NodeState::is_up(Link& link) {
-  if (link.established || !link.open()) return;
   link.established = true;
   link.incomplete_since = base::Time::max();
   if (link.peer != nullptr) link.peer->established();
@@ -316,7 +324,7 @@ void NodeState::dispatch_pending() {
 
 /// A connection has ended.
 void NodeState::look_after(Link& link) {
-  if (!link.ended()) return;
+  if (!link.ended() || link.shakes_hands) return;  // Then it is attended to when it comes back.
   const std::string why = link.problem();
   const std::string who = link.other_end();
   const bool was_established = link.established;

@@ -131,6 +131,8 @@ class NodeState final : public LinkHost {
   void dispatch_pending();
   void accept(Listener& listener);
   bool make_room();
+  void space_connections();
+  void pause_accepting(base::Time until);
   void tell_end(const std::string& who, bool was_established, std::string_view why);
   void bring_up(Link& link);
   void is_up(Link& link);
@@ -185,8 +187,9 @@ class NodeState final : public LinkHost {
   std::vector<std::shared_ptr<Link>> lent_;  ///< to callers
   base::Time return_at_ = base::Time::max();
   base::Time due_ = base::Time::max();
-  base::Time accept_from_{};
-  base::Time now_{};  ///< when the clock was last looked at
+  base::Time accept_from_{};     ///< if it is paused
+  base::Time connection_due_{};  ///< if they came evenly
+  base::Time now_{};             ///< when the clock was last looked at
   Pending pending_;
   std::size_t rounds_ = 0;
   /// Of those who send much one is read in a round, last of all: what others have sent does not
