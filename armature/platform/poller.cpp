@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "armature/platform/internal/descriptor.hpp"
+#include "armature/platform/internal/direct_calls.hpp"
 
 namespace armature::platform {
 namespace {
@@ -52,7 +53,7 @@ void silence(int handle) {
 
 /// A kernel before 5.11 counts in milliseconds.
 int wait_for(int events, epoll_event* happened, int most, base::Duration limit) {
-  if (limit == base::Duration::max()) return ::epoll_wait(events, happened, most, -1);
+  if (limit == base::Duration::max()) return internal::direct_epoll_wait(events, happened, most);
   const base::Duration left = std::max(limit, base::Duration::zero());
   const timespec timeout = timespec_of(left.count());
   const int count = ::epoll_pwait2(events, happened, most, &timeout, nullptr);

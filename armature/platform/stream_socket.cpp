@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "armature/platform/internal/descriptor.hpp"
+#include "armature/platform/internal/direct_calls.hpp"
 #include "armature/platform/internal/socket_file.hpp"
 
 namespace armature::platform {
@@ -154,7 +155,8 @@ void StreamSocket::begin_to_flow() {
 }
 
 StreamStatus StreamSocket::send(std::span<const std::byte> bytes, std::size_t& sent) {
-  const ssize_t taken = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  const ssize_t taken =
+      internal::direct_send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (taken >= 0) {
     sent = static_cast<std::size_t>(taken);
     return StreamStatus::kDone;
@@ -175,7 +177,8 @@ StreamStatus StreamSocket::after_receiving(std::ptrdiff_t received, std::size_t&
 }
 
 StreamStatus StreamSocket::receive(std::span<std::byte> room, std::size_t& size) {
-  return after_receiving(::recv(socket_, room.data(), room.size(), MSG_DONTWAIT), size);
+  return after_receiving(internal::direct_recv(socket_, room.data(), room.size(), MSG_DONTWAIT),
+                         size);
 }
 
 StreamStatus StreamSocket::wait_and_receive(std::span<std::byte> room, std::size_t& size,
@@ -189,7 +192,7 @@ StreamStatus StreamSocket::wait_and_receive(std::span<std::byte> room, std::size
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     limit_ = limit;
   }
-  return after_receiving(::recv(socket_, room.data(), room.size(), 0), size);
+  return after_receiving(internal::direct_recv(socket_, room.data(), room.size(), 0), size);
 }
 
 StreamStatus StreamSocket::wait_until_readable(base::Duration limit) const {
