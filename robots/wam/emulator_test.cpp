@@ -2,7 +2,9 @@
 #include "robots/wam/emulator.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -230,6 +232,39 @@ TEST(Emulator, RefusesWhatIsNoArm) {
               HasSubstr("units_per_nm 0, expected above 0"));
   Rotors five(5, {}, {});
   EXPECT_THAT(Emulator::make(config, five).error(), HasSubstr("5 motors, expected 4 or 7"));
+}
+
+TEST(Emulator, AnyFramesLeaveItAlive) {
+  Bench bench;
+  bench.keeps_log = false;
+  bench.wake_up();
+  bench.board().shift_activate();
+  std::mt19937 random(1);
+  const auto up_to = [&](unsigned most) { return static_cast<unsigned>(random() % (most + 1)); };
+  for (int i = 0; i < 20'000; ++i) {
+    can::Frame frame;
+    const int to = static_cast<int>(up_to(10));
+    frame.id = identifier({0, to, up_to(1) == 1});
+    frame.size = static_cast<std::uint8_t>(up_to(8));
+    for (auto& byte : frame.data) byte = static_cast<std::uint8_t>(up_to(255));
+    if (up_to(3) != 0) frame.data[1] = 0;
+    if (frame.data[0] == 0x85 || frame.data[0] == 0x88) frame.data[2] = 2;  // stay awake
+    bench.host.send(frame);
+    bench.advance(150us);
+    can::Arrival arrival;
+    while (bench.host.receive(arrival) == can::ReceiveStatus::kReceived) {
+    }
+  }
+  bench.advance(2s);
+  bench.board().estop();
+  bench.advance(1ms);
+  bench.wake_up();
+  bench.keeps_log = true;
+  EXPECT_THAT(bench.tell("00A#05"), ElementsAre("546#85000200"));
+  EXPECT_THAT(bench.tell("001#05"), ElementsAre("426#85000200"));
+  for (std::size_t motor = 0; motor < 7; ++motor) {
+    EXPECT_TRUE(std::isfinite(bench.rotors.angle(motor)));
+  }
 }
 
 TEST(Rotors, MoveAsTheirClosedSolutionSays) {

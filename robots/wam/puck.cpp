@@ -199,7 +199,7 @@ void Puck::set_property(Property property, std::int32_t value) {
       state_ = PuckState::kMonitor;
       return;
     case Property::kP:
-      offset_ = value - encoder();
+      offset_ = std::int64_t{value} - encoder();
       return;
     case Property::kMode:
       return set_mode(value);
@@ -226,9 +226,9 @@ void Puck::set_mode(std::int32_t mode) {
 
 void Puck::set_torque(std::int32_t units) {
   if (mode() != PuckMode::kTorque) return;
-  const std::int32_t most = store_.get(Property::kMt);
+  const std::int32_t most = std::max(store_.get(Property::kMt), 0);
   store_.set(Property::kT, std::clamp(units, -most, most));
-  motors_.drive(motor_, static_cast<double>(torque()) / store_.get(Property::kIpnm));
+  motors_.drive(motor_, static_cast<double>(torque()) / config_.units_per_nm);
 }
 
 // ---- Positions

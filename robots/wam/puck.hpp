@@ -55,7 +55,7 @@ class Puck {
     std::optional<int> told_version{};  ///< VERS says this instead of `version`
     int role = kAbsoluteEncoder;
     std::int32_t counts_per_turn = 4096;
-    std::int32_t units_per_nm = 2700;  ///< IPNM
+    std::int32_t units_per_nm = 2700;  ///< IPNM, and what is true of the motor
     std::int32_t most_torque = 4860;   ///< MT, puck units
     int slot = 1;                      ///< PIDX: its place in torque frames, 1 to 4
     std::array<int, 3> groups{0, 1, 4};
@@ -105,7 +105,7 @@ class Puck {
   PuckState state() const { return state_; }
   PuckMode mode() const { return static_cast<PuckMode>(store_.get(Property::kMode)); }
   /// P now.
-  std::int32_t counts() const { return encoder() + offset_; }
+  std::int32_t counts() const { return static_cast<std::int32_t>(encoder() + offset_); }
   /// What its motor is told, puck units.
   std::int32_t torque() const { return store_.get(Property::kT); }
   const PropertyStore& properties() const { return store_; }
@@ -152,7 +152,7 @@ class Puck {
 
   PuckState state_ = PuckState::kOff;
   base::Time due_ = base::Time::max();  ///< when booting or waking ends
-  std::int32_t offset_ = 0;             ///< from the encoder's counts to P
+  std::int64_t offset_ = 0;             ///< from the encoder's counts to P
 
   int replies_to_lose_ = 0;
   int replies_to_spoil_ = 0;

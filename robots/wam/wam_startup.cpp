@@ -310,6 +310,12 @@ void WamStartup::zero(base::Time now) {
 
 /// Without a pause, so that the board sees one step and not several.
 void WamStartup::write_home() {
+  for (std::size_t motor = 0; motor < config_.motors; ++motor) {
+    if (std::abs(home_in_counts(motor)) <= kMostCounts) continue;
+    return fail("home of motor " + std::to_string(motor + 1) + " is " +
+                    std::to_string(config_.home[motor]) + " rad, expected what fits into 22 bits",
+                "give the angle of the motor's shaft at the home position in rad");
+  }
   tell_board(Property::kIfault, kIgnoredVelocities);
   for (std::size_t motor = 0; motor < config_.motors; ++motor) {
     talk_.tell(set_frame(to_node(static_cast<int>(motor) + 1), record_.position_number,
@@ -346,9 +352,13 @@ void WamStartup::guard_first_reading() {
   ask_board(Property::kStat, [](std::int32_t) {});
 }
 
-std::int32_t WamStartup::home_counts(std::size_t motor) const {
+double WamStartup::home_in_counts(std::size_t motor) const {
   const double turns = config_.home[motor] / (2.0 * std::numbers::pi);
-  return static_cast<std::int32_t>(std::floor(turns * record_.pucks[motor].counts_per_turn));
+  return std::floor(turns * record_.pucks[motor].counts_per_turn);
+}
+
+std::int32_t WamStartup::home_counts(std::size_t motor) const {
+  return static_cast<std::int32_t>(home_in_counts(motor));
 }
 
 // ---- Asking

@@ -106,6 +106,7 @@ class WamStartup {
   void tell_board(Property property, std::int32_t value);
   int board_number(Property property) const;
   std::optional<int> puck_number(std::size_t motor, Property property) const;
+  double home_in_counts(std::size_t motor) const;
   std::int32_t home_counts(std::size_t motor) const;
   Node& node_of(std::size_t motor) { return nodes_[motor + 1]; }
   std::string found_nodes() const;

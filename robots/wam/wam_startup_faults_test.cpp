@@ -144,6 +144,18 @@ TEST(WamStartupFaults, EstopInTheMiddleIsNamedByWhoIsGone) {
   EXPECT_EQ(bench.connect(), WamProgress::kWaitingForIdle) << "it can begin again";
 }
 
+TEST(WamStartupFaults, AHomeThatPucksCannotCountToIsRefused) {
+  Hosted bench;
+  bench.power_up();
+  WamStartup::Config config;
+  config.home[1] = 4000.0;
+  bench.startup = WamStartup::make(bench.host, config).value();
+  ASSERT_EQ(bench.connect(), WamProgress::kDone) << bench.said();
+  EXPECT_EQ(bench.zero(), WamProgress::kFailed);
+  EXPECT_THAT(bench.said(), HasSubstr("home of motor 2 is 4000.000000 rad, expected what fits"));
+  EXPECT_FALSE(bench.board().zeroed());
+}
+
 TEST(WamStartupFaults, RefusesWhatIsNoArm) {
   Bench bench;
   WamStartup::Config config;
