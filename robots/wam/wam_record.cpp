@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robots/wam/wam_record.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "robots/wam/puck_properties.hpp"
+
+namespace armature::wam {
+namespace {
+
+std::string text(int number) { return std::to_string(number); }
+
+bool contains(const std::array<int, 3>& groups, int group) {
+  return std::ranges::find(groups, group) != groups.end();
+}
+
+std::optional<Mistake> check_values(const PuckRecord& puck) {
+  for (const auto& [property, value] : {std::pair{Property::kCts, puck.counts_per_turn},
+                                        std::pair{Property::kIpnm, puck.units_per_nm},
+                                        std::pair{Property::kMt, puck.most_torque}}) {
+    if (value > 0) continue;
+    return Mistake{"puck " + text(puck.node) + " has " + to_text(property) + " " + text(value) +
+                       ", expected above 0",
+                   "write the value of the maker's data sheet and save it"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Mistake> check_puck(const PuckRecord& puck) {
+  if (const auto mistake = check_values(puck)) return mistake;
+  const int last_of_lower_arm = static_cast<int>(kTorquesPerFrame);
+  const bool wrist = puck.node > last_of_lower_arm;
+  const int slot = wrist ? puck.node - last_of_lower_arm : puck.node;
+  if (puck.slot != slot) {
+    return Mistake{"puck " + text(puck.node) + " takes torque " + text(puck.slot) +
+                       " of its frame (PIDX), expected " + text(slot),
+                   "set PIDX to " + text(slot) + " and save it"};
+  }
+  const int torques = static_cast<int>(wrist ? Group::kWrist : Group::kLowerArm);
+  if (contains(puck.groups, torques) && contains(puck.groups, static_cast<int>(Group::kArm))) {
+    return std::nullopt;
+  }
+  return Mistake{"puck " + text(puck.node) + " is in groups " + text(puck.groups[0]) + ", " +
+                     text(puck.groups[1]) + " and " + text(puck.groups[2]) + ", expected 0, " +
+                     text(torques) + " for torques and 4 for positions",
+                 "set GRPA, GRPB and GRPC to these and save them"};
+}
+
+}  // namespace armature::wam
