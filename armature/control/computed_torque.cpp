@@ -38,7 +38,7 @@ bool ComputedTorque::step(std::span<const double> reference, std::span<const dou
                        config_.kp[i] * (reference[i] - measured[i]);
   }
   links_.step(motion_, torques);
-  rotors_.add_rotor_torques(accelerations, torques);
+  rotors_.add_rotor_torques(reference.subspan(count, count), accelerations, torques);
   return true;
 }
 

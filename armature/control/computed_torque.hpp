@@ -16,7 +16,10 @@ namespace armature::control {
 /// damper, by the model of links and rotors where the robot is and as it moves now:
 ///
 ///     a = qdd_r + kd (qd_r - qd) + kp (q_r - q)
-///     torque = (D(q) + R) a + H(q, qd) + G(q)
+///     torque = (D(q) + R) a + H(q, qd) + G(q) + F qd_r
+///
+/// with the inertia R and the friction F of the motors. That takes the velocity as desired: what is
+/// measured of it would push the robot on where F is too large.
 class ComputedTorque {
  public:
   /// One number for each joint, >= 0.

@@ -35,7 +35,9 @@ InverseDynamics links() {
 }
 
 Transmission rotor(double inertia) {
-  return Transmission::make({.turns = {10.0}, .rotor_inertia = {inertia}}).value();
+  return Transmission::make(
+             {.turns = {10.0}, .rotor_inertia = {inertia}, .viscous_friction = {0.003}})
+      .value();
 }
 
 TEST(ComputedTorque, IsTheTorqueOfTheWantedAccelerationWhereTheRobotIs) {
@@ -44,7 +46,8 @@ TEST(ComputedTorque, IsTheTorqueOfTheWantedAccelerationWhereTheRobotIs) {
   Vector torque(1);
   ASSERT_TRUE(control.value().step(Vector{0.5, 0.3, 2.0}, Vector{0.4, 0.1}, torque));
   const double acceleration = 2.0 + 20.0 * (0.3 - 0.1) + 100.0 * (0.5 - 0.4);
-  EXPECT_NEAR(torque[0], (kInertia + 0.2) * acceleration + kMoment * std::sin(0.4), 1e-12);
+  EXPECT_NEAR(torque[0], (kInertia + 0.2) * acceleration + kMoment * std::sin(0.4) + 0.3 * 0.3,
+              1e-12);
 }
 
 TEST(ComputedTorque, TakesAnErrorAwayAsItsGainsSay) {

@@ -47,10 +47,16 @@ void multiply_transposed(const Vector& matrix, std::span<const double> vector,
 
 base::Result<Transmission> Transmission::make(const Config& config) {
   const std::size_t joints = config.rotor_inertia.size();
-  const auto sound = [](double inertia) { return std::isfinite(inertia) && inertia >= 0.0; };
+  const auto sound = [](double number) { return std::isfinite(number) && number >= 0.0; };
   if (joints == 0) return error("rotor_inertia is empty, expected a number for each motor");
   if (!std::all_of(config.rotor_inertia.begin(), config.rotor_inertia.end(), sound)) {
     return error("rotor_inertia has a number that is not finite or below 0");
+  }
+  const Vector& friction = config.viscous_friction;
+  if ((!friction.empty() && friction.size() != joints) ||
+      !std::all_of(friction.begin(), friction.end(), sound)) {
+    return error("viscous_friction is expected to be " + std::to_string(joints) +
+                 " finite numbers of at least 0, or none");
   }
   if (config.turns.size() != joints && config.turns.size() != joints * joints) {
     return error("turns has " + std::to_string(config.turns.size()) + " numbers, expected " +
@@ -62,11 +68,15 @@ base::Result<Transmission> Transmission::make(const Config& config) {
   if (!turns.allFinite() || !decomposition.isInvertible()) {
     return error("turns has no inverse, expected motors that determine where all joints are");
   }
-  const auto inertia = Eigen::Map<const Eigen::VectorXd>(config.rotor_inertia.data(), turns.rows());
+  const auto at_joints = [&turns](const Vector& motors) {
+    const auto diagonal = Eigen::Map<const Eigen::VectorXd>(motors.data(), turns.rows());
+    return rows_of(turns.transpose() * diagonal.asDiagonal() * turns);
+  };
   Transmission made(joints);
   made.turns_ = rows_of(turns);
   made.inverse_ = rows_of(decomposition.inverse());
-  made.rotors_ = rows_of(turns.transpose() * inertia.asDiagonal() * turns);
+  made.rotors_ = at_joints(config.rotor_inertia);
+  made.friction_ = at_joints(friction.empty() ? Vector(joints, 0.0) : friction);
   return made;
 }
 
@@ -86,11 +96,13 @@ void Transmission::joint_torques(std::span<const double> motors, std::span<doubl
   multiply_transposed(turns_, motors, joints);
 }
 
-void Transmission::add_rotor_torques(std::span<const double> accelerations,
+void Transmission::add_rotor_torques(std::span<const double> velocities,
+                                     std::span<const double> accelerations,
                                      std::span<double> torques) const {
   for (std::size_t row = 0; row < joints_; ++row) {
     for (std::size_t i = 0; i < joints_; ++i) {
-      torques[row] += rotors_[row * joints_ + i] * accelerations[i];
+      const std::size_t entry = row * joints_ + i;
+      torques[row] += rotors_[entry] * accelerations[i] + friction_[entry] * velocities[i];
     }
   }
 }

@@ -15,7 +15,7 @@ namespace armature::control {
 ///
 ///     motor angles = turns joint angles
 ///     joint torques = turns' motor torques
-///     rotor inertia at the joints = turns' diag(rotor_inertia) turns
+///     rotor inertia at the joints = turns' diag(rotor_inertia) turns, and so their friction
 ///
 /// Rotors count as turning about axes that stand still: what a turning link does to them is small
 /// where motors turn many times for one turn of a joint.
@@ -26,6 +26,8 @@ class Transmission {
     std::vector<double> turns;
     /// [kg m^2] at the motor's shaft, one for each motor; >= 0
     std::vector<double> rotor_inertia;
+    /// [N m s/rad] at the motor's shaft, one for each motor, >= 0; empty: none
+    std::vector<double> viscous_friction{};
   };
 
   /// An error says how many numbers were expected, or that the motors do not determine the joints.
@@ -45,10 +47,12 @@ class Transmission {
   /// @rt nonblocking, no allocation, O(joints^2)
   void joint_torques(std::span<const double> motors, std::span<double> joints) const;
 
-  /// Adds what the rotors need to `torques` [N m] at the joints.
+  /// Adds what moves the rotors against inertia and friction to `torques` [N m] at the joints.
+  /// @param velocities     of the joints [rad/s]
   /// @param accelerations  of the joints [rad/s^2]
   /// @rt nonblocking, no allocation, O(joints^2)
-  void add_rotor_torques(std::span<const double> accelerations, std::span<double> torques) const;
+  void add_rotor_torques(std::span<const double> velocities, std::span<const double> accelerations,
+                         std::span<double> torques) const;
   /// Of the rotors, between two joints [kg m^2].
   double rotor_inertia(std::size_t row, std::size_t column) const {
     return rotors_[row * joints_ + column];
@@ -60,7 +64,8 @@ class Transmission {
   std::size_t joints_;
   std::vector<double> turns_;    ///< like the two below: row by row
   std::vector<double> inverse_;  ///< of turns
-  std::vector<double> rotors_;   ///< at the joints
+  std::vector<double> rotors_;   ///< their inertia at the joints
+  std::vector<double> friction_;
 };
 
 }  // namespace armature::control

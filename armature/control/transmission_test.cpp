@@ -59,8 +59,24 @@ TEST(Transmission, UnequalRotorsCoupleTheJointsOfADifferential) {
   EXPECT_EQ(transmission.rotor_inertia(1, 0), transmission.rotor_inertia(0, 1));
   EXPECT_EQ(transmission.rotor_inertia(2, 2), 400.0 * 2.0);
   Vector torques{1.0, 2.0, 3.0};
-  transmission.add_rotor_torques(Vector{1.0, 0.0, 2.0}, torques);
+  transmission.add_rotor_torques(Vector(3, 0.0), Vector{1.0, 0.0, 2.0}, torques);
   EXPECT_THAT(torques, Pointwise(DoubleNear(1e-12), Vector{401.0, 102.0, 1603.0}));
+}
+
+TEST(Transmission, TheFrictionOfTheMotorsIsThatOfTheirRates) {
+  const Transmission transmission = Transmission::make({.turns = {10.0, -5.0, 10.0, 5.0},
+                                                        .rotor_inertia = {0.0, 0.0},
+                                                        .viscous_friction = {0.01, 0.03}})
+                                        .value();
+  const Vector rates{0.3, -0.7};
+  Vector torques(2, 1.0), motors(2), expected(2);
+  transmission.add_rotor_torques(rates, Vector(2, 5.0), torques);
+  transmission.motor_angles(rates, motors);
+  motors[0] *= 0.01;
+  motors[1] *= 0.03;
+  transmission.joint_torques(motors, expected);
+  EXPECT_NEAR(torques[0], 1.0 + expected[0], 1e-14);
+  EXPECT_NEAR(torques[1], 1.0 + expected[1], 1e-14);
 }
 
 TEST(Transmission, AGearForEachJointIsItsDiagonal) {
@@ -83,6 +99,9 @@ TEST(Transmission, RefusesWhatCannotBeAndSaysWhatWasExpected) {
   EXPECT_THAT(mistake({.turns = {std::numeric_limits<double>::infinity()}, .rotor_inertia = {0}}),
               HasSubstr("turns has no inverse"));
   EXPECT_THAT(mistake({.turns = {1}, .rotor_inertia = {-1}}), HasSubstr("below 0"));
+  EXPECT_EQ(mistake({.turns = {1}, .rotor_inertia = {1}, .viscous_friction = {1, 2}}),
+            "Transmission: viscous_friction is expected to be 1 finite numbers of at least 0, or "
+            "none");
 }
 
 }  // namespace

@@ -16,9 +16,8 @@ constexpr double kPeriod = 0.002;
 
 /// One motor, by its data sheet (Barrett support wiki, "Specifications: Motors").
 struct MotorNumbers {
-  double torque_constant = 0.0;   ///< [N m/A] and [V s/rad]
-  double resistance_ohm = 0.0;    ///< of the winding
-  double viscous_friction = 0.0;  ///< [N m s/rad] at the shaft
+  double torque_constant = 0.0;  ///< [N m/A] and [V s/rad]
+  double resistance_ohm = 0.0;   ///< of the winding
 };
 
 /// The gains of the vendor's joint position controller (libbarrett, config/wam7w.conf, wam4.conf).
@@ -34,7 +33,8 @@ struct JointGains {
 struct ArmNumbers {
   std::string_view urdf;  ///< the name of the description's file
   /// Of the cable drives (libbarrett; manual) and of rotors with their pinions (a laboratory that
-  /// measured them). The motors of the shoulder and of the wrist are differentials.
+  /// measured them), and the viscous friction of the motors' data sheets. Those of the shoulder and
+  /// of the wrist are differentials.
   control::Transmission::Config transmission;
   std::vector<double> home;  ///< [rad] where the arm is put to be zeroed (libbarrett, zerocal.conf)
   std::vector<MotorNumbers> motors;

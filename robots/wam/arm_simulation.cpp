@@ -83,10 +83,11 @@ ArmSimulation::ArmSimulation(const ArmNumbers& arm, const Config& config,
       motor_rates_(arm.joints()),
       motor_torques_(arm.joints()),
       joints_(arm.joints()) {
-  for (const MotorNumbers& motor : arm.motors) {
-    const double k = motor.torque_constant;
-    motors_.push_back({.friction = config.motor_friction ? motor.viscous_friction : 0.0,
-                       .braking = k * k / motor.resistance_ohm});
+  const std::vector<double>& friction = arm.transmission.viscous_friction;
+  for (std::size_t i = 0; i < arm.joints(); ++i) {
+    const double k = arm.motors[i].torque_constant;
+    motors_.push_back({.friction = config.motor_friction ? friction[i] : 0.0,
+                       .braking = k * k / arm.motors[i].resistance_ohm});
   }
   for (std::size_t i = 0; i < config.coulomb_friction.size(); ++i) {
     plant_.set_brake(i, config.coulomb_friction[i]);

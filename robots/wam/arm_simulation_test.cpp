@@ -62,7 +62,7 @@ TEST_P(Simulated, IsAtHomeAtTheBeginningAndItsMotorsAreWhereTheFactsHaveThem) {
 // With its motors' inertia, also between the joints of a differential; the bound is that of the
 // principal axes of inertia that MuJoCo computes.
 TEST_P(Simulated, AcceleratesAsItsDynamicsAndRotorsSay) {
-  ArmSimulation simulation = make({.motor_friction = false});
+  ArmSimulation simulation = make();
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto random = [&](double range) {
@@ -76,7 +76,7 @@ TEST_P(Simulated, AcceleratesAsItsDynamicsAndRotorsSay) {
     motion.insert(motion.end(), qd.begin(), qd.end());
     motion.insert(motion.end(), qdd.begin(), qdd.end());
     ASSERT_TRUE(links.step(motion, torques));
-    transmission.add_rotor_torques(qdd, torques);
+    transmission.add_rotor_torques(qd, qdd, torques);
     simulation.set_state(q, qd);
     drive(simulation, torques);
     simulation.advance(100us);

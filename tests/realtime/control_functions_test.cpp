@@ -216,7 +216,7 @@ TEST(RealtimeFunctions, Transmission) {
   EXPECT_EQ(to[0], 6.0);
   expect_realtime("Transmission::add_rotor_torques", [&] {
     to = {};
-    transmission.add_rotor_torques(from, to);
+    transmission.add_rotor_torques(from, from, to);
   });
   EXPECT_EQ(to[0], 6.0);
 }

@@ -48,9 +48,9 @@ bool ControllerOfModel::take_any_change() {
 }
 
 void ControllerOfModel::controller_now(const std::vector<double>& measured) {
-  estimate_velocities(measured);
   const std::vector<double>* const reference = reference_now(measured);
   if (reference == nullptr) return;
+  estimate_motion(*reference, measured);
   compute(*reference, measured_motion_, torques_);
   const auto wrong = std::find_if_not(torques_.begin(), torques_.end(),
                                       [](double torque) { return std::isfinite(torque); });
@@ -64,14 +64,16 @@ void ControllerOfModel::controller_now(const std::vector<double>& measured) {
   fault(why.append(", expected finite numbers in reference and sensor"));
 }
 
-void ControllerOfModel::estimate_velocities(const std::vector<double>& measured) {
+void ControllerOfModel::estimate_motion(const std::vector<double>& reference,
+                                        const std::vector<double>& measured) {
   const std::size_t count = joints();
   const bool first = !std::exchange(filtered_before_, true);
   for (std::size_t i = 0; i < count; ++i) {
-    const double velocity = measured[count + i] / period_;
-    if (first) filters_[i].reset_to(velocity);
+    const double desired = reference[count + i];
+    const double error = desired - measured[count + i] / period_;
+    if (first) filters_[i].reset_to(error);
     measured_motion_[i] = measured[i];
-    measured_motion_[count + i] = filters_[i].step(velocity);
+    measured_motion_[count + i] = desired - filters_[i].step(error);
   }
 }
 

@@ -17,8 +17,10 @@ namespace armature::library {
 /// be extended by a control law. Its control signals are torques, in the unit of which the
 /// actuators take them; they are limited there.
 ///
-/// A velocity is a displacement by the Period, behind a low pass. Nothing is driven before the
-/// first `reference` since the start; numbers that are not finite are a fault.
+/// A velocity is a displacement by the Period. Its error behind a low pass counts as that of the
+/// velocity: steps of encoders are smoothed, and a motion that is followed is not seen too late.
+/// Nothing is driven before the first `reference` since the start; numbers that are not finite are
+/// a fault.
 class ControllerOfModel : public Controller {
  public:
   using Controller::Controller;
@@ -47,11 +49,11 @@ class ControllerOfModel : public Controller {
  private:
   component::Outcome set_up();
   bool take_any_change();
-  void estimate_velocities(const std::vector<double>& measured);
+  void estimate_motion(const std::vector<double>& reference, const std::vector<double>& measured);
 
   component::Property<double> velocity_cutoff_{
       this,    "VelocityCutoff",
-      180.0,   "corner of the low pass behind the measured velocities",
+      180.0,   "corner of the low pass behind the errors of the velocities",
       "rad/s", component::range(0.001, 1e6)};
   RobotDescription description_{this};
   Changes changes_{joints_, period_, velocity_cutoff_};

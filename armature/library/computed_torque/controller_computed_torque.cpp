@@ -8,18 +8,25 @@
 namespace armature::library {
 
 base::Result<void> ControllerComputedTorque::make_law(control::InverseDynamics links) {
-  const auto kp = control::per_joint(kp_.name(), kp_.get(), joints());
-  if (!kp) return base::Error{kp.error()};
-  const auto kd = control::per_joint(kd_.name(), kd_.get(), joints());
-  if (!kd) return base::Error{kd.error()};
-  const auto inertia = control::per_joint(rotor_inertia_.name(), rotor_inertia_.get(), joints());
-  if (!inertia) return base::Error{inertia.error()};
+  std::vector<double> kp, kd, inertia, friction;
+  struct Parameter {
+    const Numbers& numbers;
+    std::vector<double>& each;
+  };
+  for (const auto& [numbers, each] :
+       {Parameter{kp_, kp}, Parameter{kd_, kd}, Parameter{rotor_inertia_, inertia},
+        Parameter{friction_, friction}}) {
+    auto found = control::per_joint(numbers.name(), numbers.get(), joints());
+    if (!found) return base::Error{found.error()};
+    each = std::move(found).value();
+  }
   std::vector<double> turns = turns_;
   if (turns.size() == 1) turns.assign(joints(), turns.front());
-  auto rotors = control::Transmission::make({.turns = turns, .rotor_inertia = inertia.value()});
-  if (!rotors) return base::Error{"motor_turns, motor_rotor_inertia: " + rotors.error()};
-  auto made = control::ComputedTorque::make(std::move(links), std::move(rotors).value(),
-                                            {.kp = kp.value(), .kd = kd.value()});
+  auto motors = control::Transmission::make(
+      {.turns = turns, .rotor_inertia = inertia, .viscous_friction = friction});
+  if (!motors) return base::Error{"of the motors: " + motors.error()};
+  auto made = control::ComputedTorque::make(std::move(links), std::move(motors).value(),
+                                            {.kp = kp, .kd = kd});
   if (!made) return base::Error{made.error()};
   law_ = std::move(made).value();
   return {};

@@ -32,13 +32,14 @@ class ControllerComputedTorque final : public ControllerOfModel {
               {20.0}, "acceleration for an error of the velocity: twice that frequency",
               "1/s",  component::range(0.0, 1e9)};
   Numbers rotor_inertia_{this, "motor_rotor_inertia", {0.0}, "at the motors", "kg m^2"};
+  Numbers friction_{this, "motor_viscous_friction", {0.0}, "at the motors", "Nm s/rad"};
   Numbers turns_{this,
                  "motor_turns",
                  {1.0},
                  "turns of a motor for one of a joint: of its own joint, one number for each, or a "
                  "row of all joints for each motor",
                  ""};
-  Changes changes_{kp_, kd_, rotor_inertia_, turns_};
+  Changes changes_{kp_, kd_, rotor_inertia_, friction_, turns_};
   std::optional<control::ComputedTorque> law_;
 };
 

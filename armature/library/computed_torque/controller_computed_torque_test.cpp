@@ -40,12 +40,15 @@ class ComputedTorque : public ::testing::Test {
 
 TEST_F(ComputedTorque, DrivesTheTorqueOfTheWantedAcceleration) {
   controller.set("motor_turns", "[100, 50]");
+  controller.set("motor_viscous_friction", "[1e-4, 3e-4]");
   start();
   controller.write("reference", Vector{0.3, 0.7, 0.0, 0.5, 0.0, 2.0});
   // The tilt joint moves with 0.1 rad/s, which the first sample takes for settled.
   controller.write("sensor", Vector{0.3, 0.65, 0.0, 0.1 * kPeriod});
   const double acceleration = 2.0 + 40.0 * (0.5 - 0.1) + 400.0 * (0.7 - 0.65);
-  EXPECT_NEAR(act()[1], (kTilting + 2e-5 * 50 * 50) * acceleration + weight(0.65), 1e-12);
+  const double friction = 3e-4 * 50 * 50 * 0.5;
+  EXPECT_NEAR(act()[1], (kTilting + 2e-5 * 50 * 50) * acceleration + weight(0.65) + friction,
+              1e-12);
   EXPECT_NEAR(act()[0], 0.0, 1e-12);
 }
 
@@ -64,7 +67,7 @@ TEST_F(ComputedTorque, DrivesNothingBeforeAReference) {
   EXPECT_EQ(controller.writes("act"), 0u);
 }
 
-TEST_F(ComputedTorque, TheMeasuredVelocityIsBehindALowPass) {
+TEST_F(ComputedTorque, TheErrorOfTheVelocityIsBehindALowPass) {
   controller.set("motor_turns", "[1]");
   controller.set("gravity", "[0, 0, 0]");
   start();
