@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,7 +24,36 @@ namespace armature::wam {
 
 inline const ArmNumbers& arm_of(int joints) { return joints == 4 ? wam4() : wam7(); }
 
-/// The arm and its encoders. A torque acts a millisecond after the Sample that it answers, as on a
+// Of pucks, by the facts: what a motor is driven with at most, units of torque, counts of angle.
+constexpr double kLargestTorque[] = {1.8, 1.8, 1.8, 1.6, 0.6, 0.6, 0.0916};  // [N m]
+constexpr double kUnitsPerTorque[] = {2700, 2700, 2700, 2700, 6500, 6500, 17474};
+constexpr double kCountsPerRad = 4096.0 / (2.0 * std::numbers::pi);
+
+inline double rounded_angle(double angle) {
+  return std::floor(angle * kCountsPerRad) / kCountsPerRad;
+}
+inline double rounded_torque(std::size_t motor, double torque) {
+  return std::floor(torque * kUnitsPerTorque[motor]) / kUnitsPerTorque[motor];
+}
+
+/// What rounding takes from the joints' torques at most [N m].
+inline std::vector<double> rounding_of_pucks(const ArmNumbers& arm) {
+  const auto transmission = control::Transmission::make(arm.transmission).value();
+  std::vector<double> rounding(arm.joints(), 0.0), motors(arm.joints());
+  for (std::size_t joint = 0; joint < arm.joints(); ++joint) {
+    std::vector<double> turn(arm.joints(), 0.0);
+    turn[joint] = 1.0;
+    transmission.motor_angles(turn, motors);
+    for (std::size_t i = 0; i < arm.joints(); ++i) {
+      rounding[joint] += std::abs(motors[i]) / kUnitsPerTorque[i];
+    }
+  }
+  return rounding;
+}
+
+/// The arm and its encoders. With `rounds` it measures and drives in the steps of pucks, and has as
+/// much Coulomb friction as these take from torques, without which an arm that is not controlled
+/// creeps. A torque acts a millisecond after the Sample that it answers, as on a
 /// bus, and each motor's is limited as its puck limits it. Braked until the first torques come.
 class BenchArm final : public library::Sensor {
  public:
@@ -38,7 +67,9 @@ class BenchArm final : public library::Sensor {
  private:
   component::Outcome on_configure() override {
     const ArmNumbers& numbers = arm_of(joints_);
-    auto made = ArmSimulation::load(numbers, {.urdf_file = urdf_, .start = start_});
+    ArmSimulation::Config config{.urdf_file = urdf_, .start = start_};
+    if (rounds_) config.coulomb_friction = rounding_of_pucks(numbers);
+    auto made = ArmSimulation::load(numbers, config);
     if (!made) return component::refused(made.error());
     arm_.emplace(std::move(made).value());
     transmission_.emplace(control::Transmission::make(numbers.transmission).value());
@@ -50,6 +81,7 @@ class BenchArm final : public library::Sensor {
     gravity_torques_.assign(count, 0.0);
     joint_torques_.assign(count, 0.0);
     motor_torques_.assign(count, 0.0);
+    motor_angles_.assign(count, 0.0);
     return component::accepted();
   }
   component::Outcome on_start() override {
@@ -66,9 +98,12 @@ class BenchArm final : public library::Sensor {
     }
     const std::size_t count = positions_.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const double position = arm_->joint_position(i);
-      measured_[count + i] = sampled_ ? position - positions_[i] : 0.0;
-      measured_[i] = positions_[i] = position;
+      motor_angles_[i] = rounds_ ? rounded_angle(arm_->angle(i)) : arm_->angle(i);
+    }
+    transmission_->joint_angles(motor_angles_, positions_);
+    for (std::size_t i = 0; i < count; ++i) {
+      measured_[count + i] = sampled_ ? positions_[i] - measured_[i] : 0.0;
+      measured_[i] = positions_[i];
     }
     sampled_ = time();
     sensor_.write(measured_);
@@ -82,12 +117,11 @@ class BenchArm final : public library::Sensor {
   }
   void apply() {
     if (!driven_) return;
-    constexpr double kLargest[] = {1.8, 1.8, 1.8, 1.6, 0.6, 0.6, 0.0916};  // [N m]
     transmission_->motor_torques(joint_torques_, motor_torques_);
     for (std::size_t i = 0; i < motor_torques_.size(); ++i) {
-      const double torque = std::clamp(motor_torques_[i], -kLargest[i], kLargest[i]);
+      const double torque = std::clamp(motor_torques_[i], -kLargestTorque[i], kLargestTorque[i]);
       if (torque != motor_torques_[i]) ++limited_;
-      arm_->set_torque(i, torque);
+      arm_->set_torque(i, rounds_ ? rounded_torque(i, torque) : torque);
     }
   }
 
@@ -95,6 +129,7 @@ class BenchArm final : public library::Sensor {
                                          "",   component::mandatory};
   component::Property<std::vector<double>> start_{this, "start", {}, "home, if none", "rad"};
   component::Property<bool> compensates_{this, "compensates_gravity", false, "as the WAM's driver"};
+  component::Property<bool> rounds_{this, "rounds", false, "angles and torques as pucks do"};
   component::InputPort<std::vector<double>> torque_{this,
                                                     "torque",
                                                     "of each joint",
@@ -109,6 +144,7 @@ class BenchArm final : public library::Sensor {
   bool driven_ = false;
   int limited_ = 0;
   std::vector<double> measured_, positions_, gravity_torques_, joint_torques_, motor_torques_;
+  std::vector<double> motor_angles_;
 };
 
 /// Hands torques on to the arm.

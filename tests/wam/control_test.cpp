@@ -2,6 +2,7 @@
 // The arm's controllers as their deployments have them, on the simulated arm.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -65,7 +66,20 @@ Tracking track(Robot& robot) {
   }
   EXPECT_EQ(robot.application().faults(), 0u);
   EXPECT_EQ(robot.application().reactions(), 0u);
+  EXPECT_EQ(robot.bench().limited(), 0) << "no motor is asked for more than its puck gives";
   return tracking;
+}
+
+/// The tour of each controller is made once for all tests.
+enum class Steps { kNone, kOfPucks };
+const Tracking& tracking_of(int joints, const std::string& controller, Steps steps) {
+  static std::map<std::tuple<int, std::string, Steps>, Tracking> known;
+  const auto key = std::make_tuple(joints, controller, steps);
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  Robot::Config config{.joints = joints, .controller = controller};
+  if (steps == Steps::kOfPucks) config.overrides = {"Sensor.rounds=true"};
+  Robot robot(config);
+  return known.emplace(key, track(robot)).first->second;
 }
 
 class Control : public ::testing::TestWithParam<std::tuple<int, const char*>> {};
@@ -79,9 +93,17 @@ INSTANTIATE_TEST_SUITE_P(Wam, Control,
                          });
 
 TEST_P(Control, TracksMotionsOfFiveSecondsWithinTwoHundredthsOfARadian) {
-  Robot robot({.joints = std::get<0>(GetParam()), .controller = std::get<1>(GetParam())});
-  for (const double largest : track(robot).largest) EXPECT_LT(largest, 0.02);
-  EXPECT_EQ(robot.bench().limited(), 0) << "no motor is asked for more than its puck gives";
+  const auto [joints, controller] = GetParam();
+  for (const double error : tracking_of(joints, controller, Steps::kNone).largest) {
+    EXPECT_LT(error, 0.02);
+  }
+}
+
+TEST_P(Control, TracksThemSoAlsoInTheStepsOfPucks) {
+  const auto [joints, controller] = GetParam();
+  for (const double error : tracking_of(joints, controller, Steps::kOfPucks).largest) {
+    EXPECT_LT(error, 0.02);
+  }
 }
 
 TEST_P(Control, BringsTheArmToRestAfterAPush) {
@@ -113,21 +135,29 @@ class Compared : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Wam, Compared, ::testing::Values(4, 7));
 
 TEST_P(Compared, ComputedTorqueTracksEachJointThreeTimesAsWellAsThePids) {
-  Robot pids({.joints = GetParam(), .controller = "npid"});
-  Robot computed({.joints = GetParam(), .controller = "computed_torque"});
-  const Tracking of_pids = track(pids), of_computed = track(computed);
-  for (std::size_t i = 0; i < of_pids.largest.size(); ++i) {
-    EXPECT_LT(3.0 * of_computed.largest[i], of_pids.largest[i]) << "joint " << i + 1;
-    EXPECT_LT(3.0 * of_computed.absolute[i], of_pids.absolute[i]) << "joint " << i + 1;
+  const Tracking& pids = tracking_of(GetParam(), "npid", Steps::kNone);
+  const Tracking& computed = tracking_of(GetParam(), "computed_torque", Steps::kNone);
+  for (std::size_t i = 0; i < pids.largest.size(); ++i) {
+    EXPECT_LT(3.0 * computed.largest[i], pids.largest[i]) << "joint " << i + 1;
+    EXPECT_LT(3.0 * computed.absolute[i], pids.absolute[i]) << "joint " << i + 1;
+  }
+}
+
+// The others are so light that friction and the steps of torques, which no model knows, are most of
+// their errors.
+TEST_P(Compared, InTheStepsOfPucksComputedTorqueIsAsMuchBetterAtTheThreeHeavyJoints) {
+  const Tracking& pids = tracking_of(GetParam(), "npid", Steps::kOfPucks);
+  const Tracking& computed = tracking_of(GetParam(), "computed_torque", Steps::kOfPucks);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(3.0 * computed.largest[i], pids.largest[i]) << "joint " << i + 1;
   }
 }
 
 TEST_P(Compared, TheArmsOwnControllerIsThePidsInAnotherForm) {
-  Robot pids({.joints = GetParam(), .controller = "npid"});
-  Robot own({.joints = GetParam(), .controller = "controller_wam"});
-  const Tracking of_pids = track(pids), of_own = track(own);
-  for (std::size_t i = 0; i < of_pids.largest.size(); ++i) {
-    EXPECT_NEAR(of_own.largest[i], of_pids.largest[i], 1e-4) << "joint " << i + 1;
+  const Tracking& pids = tracking_of(GetParam(), "npid", Steps::kNone);
+  const Tracking& own = tracking_of(GetParam(), "controller_wam", Steps::kNone);
+  for (std::size_t i = 0; i < pids.largest.size(); ++i) {
+    EXPECT_NEAR(own.largest[i], pids.largest[i], 1e-4) << "joint " << i + 1;
   }
 }
 
