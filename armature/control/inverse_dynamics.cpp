@@ -2,8 +2,6 @@
 #include "armature/control/inverse_dynamics.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
@@ -16,6 +14,7 @@ struct InverseDynamics::Solver {
   Solver(internal::UrdfChain&& read, const std::array<double, 3>& gravity)
       : chain(std::move(read)),
         newton_euler(chain.segments, {gravity[0], gravity[1], gravity[2]}),
+        weightless(chain.segments, KDL::Vector::Zero()),
         positions(chain.segments.getNrOfJoints()),
         velocities(chain.segments.getNrOfJoints()),
         accelerations(chain.segments.getNrOfJoints()),
@@ -24,8 +23,15 @@ struct InverseDynamics::Solver {
   Solver(const Solver&) = delete;  // the algorithm refers to the chain
   Solver& operator=(const Solver&) = delete;
 
+  void rest_at(std::span<const double> wanted) {
+    std::copy(wanted.begin(), wanted.end(), positions.data.data());
+    velocities.data.setZero();
+    accelerations.data.setZero();
+  }
+
   const internal::UrdfChain chain;
   KDL::ChainIdSolver_RNE newton_euler;
+  KDL::ChainIdSolver_RNE weightless;
   KDL::JntArray positions;
   KDL::JntArray velocities;
   KDL::JntArray accelerations;
@@ -35,14 +41,9 @@ struct InverseDynamics::Solver {
 
 std::optional<InverseDynamics> InverseDynamics::load(const std::string& file, const Config& config,
                                                      base::Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad() || !stream.is_open()) {
-    diagnostics.error({file}, "cannot be read, expected the description of a robot (URDF)",
-                      "give the path of a file that exists");
-    return std::nullopt;
-  }
-  return parse(text, file, config, diagnostics);
+  const auto text = internal::read_description(file, diagnostics);
+  if (!text) return std::nullopt;
+  return parse(*text, file, config, diagnostics);
 }
 
 std::optional<InverseDynamics> InverseDynamics::parse(const std::string& text,
@@ -68,6 +69,36 @@ bool InverseDynamics::step(std::span<const double> motion, std::span<double> tor
   solver.newton_euler.CartToJnt(solver.positions, solver.velocities, solver.accelerations,
                                 solver.no_forces, solver.torques);
   std::copy_n(solver.torques.data.data(), count, torques.data());
+  return true;
+}
+
+bool InverseDynamics::gravity(std::span<const double> positions, std::span<double> torques) {
+  const std::size_t count = joints();
+  if (positions.size() != count || torques.size() != count) return false;
+  Solver& solver = *solver_;
+  solver.rest_at(positions);
+  solver.newton_euler.CartToJnt(solver.positions, solver.velocities, solver.accelerations,
+                                solver.no_forces, solver.torques);
+  std::copy_n(solver.torques.data.data(), count, torques.data());
+  return true;
+}
+
+/// A column is what a unit of acceleration of one joint needs.
+bool InverseDynamics::mass_matrix(std::span<const double> positions, std::span<double> matrix) {
+  const std::size_t count = joints();
+  if (positions.size() != count || matrix.size() != count * count) return false;
+  Solver& solver = *solver_;
+  solver.rest_at(positions);
+  for (std::size_t column = 0; column < count; ++column) {
+    double& acceleration = solver.accelerations.data[static_cast<Eigen::Index>(column)];
+    acceleration = 1.0;
+    solver.weightless.CartToJnt(solver.positions, solver.velocities, solver.accelerations,
+                                solver.no_forces, solver.torques);
+    acceleration = 0.0;
+    for (std::size_t row = 0; row < count; ++row) {
+      matrix[row * count + column] = solver.torques.data[static_cast<Eigen::Index>(row)];
+    }
+  }
   return true;
 }
 

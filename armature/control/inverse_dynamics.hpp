@@ -16,8 +16,8 @@ namespace armature::control {
 /// What moves a robot as wanted (paper 1, equation 1): torque = D(q) qdd + H(q, qd) + G(q), from
 /// the description of its links and joints (URDF), by the recursive Newton-Euler algorithm.
 ///
-/// Of rigid bodies: friction, rotors and gears are those of the actuator (DcMotor). One thread uses
-/// it.
+/// Of rigid bodies: friction, rotors and gears are those of the actuator (DcMotor, Transmission).
+/// One thread uses it.
 class InverseDynamics {
  public:
   struct Config {
@@ -46,6 +46,16 @@ class InverseDynamics {
   /// @return false, and nothing is computed, if one of them has another size
   /// @rt nonblocking, no allocation, O(joints)
   bool step(std::span<const double> motion, std::span<double> torques);
+
+  /// G(q): what holds the links at rest.
+  /// @param positions  [rad], [m] of joints that slide, one per joint
+  /// @return false, and nothing is computed, if one of them has another size
+  /// @rt nonblocking, no allocation, O(joints)
+  bool gravity(std::span<const double> positions, std::span<double> torques);
+  /// D(q), row by row: [kg m^2] of two joints that turn, [kg] of two that slide.
+  /// @return false, and nothing is computed, if one of them has another size
+  /// @rt nonblocking, no allocation, O(joints^2)
+  bool mass_matrix(std::span<const double> positions, std::span<double> matrix);
 
   std::size_t joints() const;
   const std::vector<std::string>& joint_names() const;  ///< from the base on

@@ -164,6 +164,21 @@ double kinetic_energy(InverseDynamics& weightless, const std::vector<double>& q,
   return energy;
 }
 
+TEST(InverseDynamics, TheMassMatrixAndGravityAreTheirPartsOfTheTorques) {
+  auto model = make(skew_arm());
+  Motions motions;
+  const std::vector<double> rest(3, 0.0);
+  for (int trial = 0; trial < 10; ++trial) {
+    const auto q = motions.next(3), qdd = motions.next(3);
+    std::vector<double> expected(3), matrix(9);
+    ASSERT_TRUE(model.gravity(q, expected));
+    EXPECT_THAT(torques(model, q, rest, rest), Pointwise(DoubleNear(1e-12), expected));
+    ASSERT_TRUE(model.mass_matrix(q, matrix));
+    for (std::size_t i = 0; i < 9; ++i) expected[i / 3] += matrix[i] * qdd[i % 3];
+    EXPECT_THAT(torques(model, q, rest, qdd), Pointwise(DoubleNear(1e-12), expected));
+  }
+}
+
 TEST(InverseDynamics, ThePowerOfTheJointsIsTheChangeOfEnergy) {
   auto model = make(skew_arm(), {.gravity = {0.0, 0.0, 0.0}});
   Motions motions;
@@ -315,6 +330,8 @@ TEST(InverseDynamics, VectorsOfAnotherSizeAreRefused) {
   std::vector<double> short_one(1);
   EXPECT_FALSE(model.step(std::vector<double>(6), short_one));
   EXPECT_TRUE(model.step(std::vector<double>(6), torque));
+  EXPECT_FALSE(model.gravity(std::vector<double>(3), torque));
+  EXPECT_FALSE(model.mass_matrix(std::vector<double>(2), torque));
 }
 
 }  // namespace

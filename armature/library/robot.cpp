@@ -6,11 +6,14 @@
 #include "armature/library/axes_generator/axes_generator.hpp"
 #include "armature/library/bridge/bridge.hpp"
 #include "armature/library/bridge_ref/bridge_ref.hpp"
+#include "armature/library/computed_torque/controller_computed_torque.hpp"
 #include "armature/library/controller_npid/controller_npid.hpp"
 #include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/library/gravity_pd/controller_gravity_pd.hpp"
 #include "armature/library/joint/joint.hpp"
 #include "armature/library/model/model.hpp"
 #include "armature/library/pid/pid.hpp"
+#include "armature/library/reference/reference.hpp"
 #include "armature/library/sampler/sampler.hpp"
 #include "armature/library/sensor_mux/sensor_mux.hpp"
 
@@ -26,8 +29,13 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints");
   registry.add<ControllerNPIDFF>("ControllerNPIDFF",
                                  "N PIDs and feed-forward of the robot's dynamics");
+  registry.add<ControllerComputedTorque>("ControllerComputedTorque",
+                                         "torques by the robot's dynamics, as it moves now");
+  registry.add<ControllerGravityPD>("ControllerGravityPD",
+                                    "compensation of gravity, and N PD controllers");
   registry.add<Model>("Model", "inverse dynamics, from the robot's description");
   registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
   registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest");
+  registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }

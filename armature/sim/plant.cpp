@@ -95,6 +95,42 @@ base::Result<void> set_armature(mjModel& model, const std::string& name,
   return {};
 }
 
+/// Where the inertia matrix has the entry of two of its coordinates; nothing if they are not of one
+/// chain, whose entry is 0.
+std::optional<int> matrix_entry(const mjModel& model, int first, int second) {
+  const int outer = std::max(first, second);
+  int entry = model.dof_Madr[outer];
+  for (int dof = outer; dof >= 0; dof = model.dof_parentid[dof], ++entry) {
+    if (dof == std::min(first, second)) return entry;
+  }
+  return std::nullopt;
+}
+
+struct CoupledEntry {
+  int index;  ///< of the inertia matrix as MuJoCo stores it
+  double inertia;
+};
+
+base::Result<std::vector<CoupledEntry>> find_entries(
+    const mjModel& model, const std::string& name, const std::vector<Plant::Coupling>& couplings) {
+  std::vector<CoupledEntry> entries;
+  for (const Plant::Coupling& coupling : couplings) {
+    const int first = mj_name2id(&model, mjOBJ_JOINT, coupling.first.c_str());
+    const int second = mj_name2id(&model, mjOBJ_JOINT, coupling.second.c_str());
+    const bool two_joints = first >= 0 && second >= 0 && first != second;
+    const auto entry = two_joints
+                           ? matrix_entry(model, model.jnt_dofadr[first], model.jnt_dofadr[second])
+                           : std::nullopt;
+    if (!entry || !std::isfinite(coupling.inertia)) {
+      return base::Error{name + ": the coupling of '" + coupling.first + "' and '" +
+                         coupling.second +
+                         "' is expected to be a finite number between two joints of one chain"};
+    }
+    entries.push_back({*entry, coupling.inertia});
+  }
+  return entries;
+}
+
 /// MuJoCo softens friction, so that a joint creeps under load at a speed proportional to the load.
 /// This makes it as hard as it can be: slip is gone within a step, and the creep is below a
 /// nanoradian per second.
@@ -120,11 +156,13 @@ struct Plant::Impl {
   base::Duration owed{};  // less than an inner step
   PlantStatus status = PlantStatus::kGood;
   std::vector<double> friction;  // without the brakes
+  std::vector<CoupledEntry> coupled;
 
   std::size_t joints() const { return static_cast<std::size_t>(model->njnt); }
   int dof(std::size_t joint) const { return model->jnt_dofadr[joint]; }
   int coordinate(std::size_t joint) const { return model->jnt_qposadr[joint]; }
   bool sound() const;
+  void forward();
   void inner();
 };
 
@@ -137,9 +175,26 @@ bool Plant::Impl::sound() const {
          std::none_of(accelerations, accelerations + model->nv, wild);
 }
 
+/// As mj_forward, with the couplings of the motors, which MuJoCo's own models do not know, in the
+/// inertia matrix.
+void Plant::Impl::forward() {
+  if (coupled.empty()) {
+    mj_forward(model.get(), data.get());
+    return;
+  }
+  mj_fwdPosition(model.get(), data.get());
+  for (const CoupledEntry& entry : coupled) data->qM[entry.index] += entry.inertia;
+  mj_factorM(model.get(), data.get());
+  mj_projectConstraint(model.get(), data.get());
+  mj_fwdVelocity(model.get(), data.get());
+  mj_fwdActuation(model.get(), data.get());
+  mj_fwdAcceleration(model.get(), data.get());
+  mj_fwdConstraint(model.get(), data.get());
+}
+
 /// The two halves of mj_step, which would begin anew on its own where a number is not finite.
 void Plant::Impl::inner() {
-  mj_forward(model.get(), data.get());
+  forward();
   if (!sound()) {
     status = PlantStatus::kDiverged;
     return;
@@ -177,6 +232,10 @@ base::Result<Plant> Plant::parse(const std::string& urdf, const std::string& nam
   if (const auto set = set_armature(model, name, options.armature); !set) {
     return base::Error{set.error()};
   }
+  auto coupled = find_entries(model, name, options.couplings);
+  if (!coupled) return base::Error{coupled.error()};
+  impl->coupled = std::move(coupled).value();
+  std::copy(options.gravity.begin(), options.gravity.end(), model.opt.gravity);
   model.opt.timestep = base::to_seconds(options.inner_step);
   model.opt.disableflags |= mjDSBL_CONTACT;
   impl->data.reset(mj_makeData(&model));

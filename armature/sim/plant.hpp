@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
@@ -21,18 +23,27 @@ enum class PlantStatus {
 
 /// The rigid bodies of a robot on a fixed base, from a URDF file: efforts in, motion out. Joints
 /// have the URDF's viscous and Coulomb friction, which holds at rest, and its position limits;
-/// bodies do not collide, so the file needs no collision shapes. Gravity is 9.81 m/s^2 along -z.
+/// bodies do not collide, so the file needs no collision shapes.
 ///
 /// Time passes in `step` alone, so two equal runs are equal to the bit.
 ///
 /// Units are rad, N m and seconds (m and N at prismatic joints). One thread uses it.
 class Plant {
  public:
+  /// An entry of the inertia matrix that does not depend on where the joints are.
+  struct Coupling {
+    std::string first;  ///< joints of one chain, by their names
+    std::string second;
+    double inertia = 0.0;  ///< [kg m^2]
+  };
   struct Options {
     /// Every `step` is made of whole steps of this length; > 0.
     base::Duration inner_step = std::chrono::microseconds(100);
     /// What motors add to the inertia of their joints [kg m^2]; by the joint's name.
     std::map<std::string, double> armature;
+    /// What motors add between two joints, as the unequal ones of a differential do.
+    std::vector<Coupling> couplings{};
+    std::array<double, 3> gravity{0.0, 0.0, -9.81};  ///< [m/s^2] in the axes of the root
   };
 
   /// @param file  a URDF file with moving joints of one degree of freedom, and without mimics

@@ -102,6 +102,37 @@ TEST(Plant, AnArmatureAddsToTheInertiaOfItsJoint) {
   EXPECT_NEAR(plant.velocity(kSpin), 0.1 / (kSpinInertia + 0.04), 1e-6);
 }
 
+TEST(Plant, ACouplingIsAnEntryOfTheInertiaMatrix) {
+  Plant::Options options;
+  options.armature = {{"swing", 0.03}, {"spin", 0.02}};
+  options.couplings = {{"spin", "swing", 0.015}};
+  options.gravity = {0.0, 0.0, 0.0};
+  Plant plant = make(0.0, 0.0, options);
+  plant.set_effort(kSwing, 0.1);
+  plant.set_effort(kSpin, -0.2);
+  plant.step(options.inner_step);
+  // Effort = matrix * acceleration. The axes of the two joints are at right angles.
+  const double swing = plant.velocity(kSwing) / 1e-4, spin = plant.velocity(kSpin) / 1e-4;
+  EXPECT_NEAR((kInertia + 0.00501 + 0.03) * swing + 0.015 * spin, 0.1, 1e-6);
+  EXPECT_NEAR(0.015 * swing + (kSpinInertia + 0.02) * spin, -0.2, 1e-6);
+}
+
+TEST(Plant, ACouplingThatCannotBeIsRefused) {
+  Plant::Options options;
+  options.couplings = {{"swing", "wheel", 0.01}};
+  EXPECT_EQ(Plant::parse(pendulum(0.0, 0.0), "pendulum", options).error(),
+            "pendulum: the coupling of 'swing' and 'wheel' is expected to be a finite number "
+            "between two joints of one chain");
+}
+
+TEST(Plant, GravityIsAnOption) {
+  Plant::Options options;
+  options.gravity = {0.0, 0.0, 5.0};
+  Plant plant = make(0.0, 0.0, options);
+  plant.step(options.inner_step);
+  EXPECT_NEAR(plant.velocity(kSwing) / 1e-4, kMass * 5.0 * kRadius / (kInertia + 0.00501), 1e-6);
+}
+
 TEST(Plant, ViscousFrictionLimitsTheSpeedExponentially) {
   Plant plant = make(0.02, 0.0);
   plant.set_brake(kSwing, 100.0);

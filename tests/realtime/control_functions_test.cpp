@@ -2,18 +2,26 @@
 // The real-time functions of control.
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "armature/control/computed_torque.hpp"
 #include "armature/control/dc_motor.hpp"
 #include "armature/control/error_metrics.hpp"
+#include "armature/control/forward_kinematics.hpp"
 #include "armature/control/gathering.hpp"
+#include "armature/control/gravity_pd.hpp"
 #include "armature/control/hand_over.hpp"
 #include "armature/control/inverse_dynamics.hpp"
 #include "armature/control/joint_limiter.hpp"
+#include "armature/control/low_pass.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/control/positional_pid.hpp"
 #include "armature/control/reference_brake.hpp"
 #include "armature/control/trajectory.hpp"
+#include "armature/control/transmission.hpp"
 #include "armature/control/trapezoid.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -154,19 +162,92 @@ TEST(RealtimeFunctions, ReferenceBrake) {
   EXPECT_FALSE(may) << "it moves";
 }
 
-TEST(RealtimeFunctions, InverseDynamics) {
-  const char urdf[] =
-      "<robot name='r'><link name='base'/><link name='rod'><inertial><mass value='1'/><inertia "
-      "ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='j' "
-      "type='continuous'><parent link='base'/><child link='rod'/><axis xyz='0 1 0'/></joint>"
-      "</robot>";
+constexpr const char* kPendulum =
+    "<robot name='r'><link name='base'/><link name='rod'><inertial><mass value='1'/><inertia "
+    "ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='j' "
+    "type='continuous'><parent link='base'/><child link='rod'/><axis xyz='0 1 0'/></joint>"
+    "</robot>";
+
+control::InverseDynamics pendulum() {
   base::Diagnostics diagnostics;
-  auto model = control::InverseDynamics::parse(urdf, "r.urdf", {}, diagnostics);
-  ASSERT_TRUE(model) << diagnostics.to_text();
+  auto model = control::InverseDynamics::parse(kPendulum, "r.urdf", {}, diagnostics);
+  EXPECT_TRUE(model) << diagnostics.to_text();
+  return std::move(model.value());
+}
+
+control::Transmission gear() {
+  return control::Transmission::make({.turns = {2.0}, .rotor_inertia = {0.5}}).value();
+}
+
+TEST(RealtimeFunctions, InverseDynamics) {
+  auto model = pendulum();
   const std::array<double, 3> motion{0.1, 0.2, 3.0};
+  std::array<double, 1> result{};
+  expect_realtime("InverseDynamics::step", [&] { model.step(motion, result); });
+  EXPECT_NEAR(result[0], 3.0, 1e-12);
+  const std::array<double, 1> position{0.1};
+  expect_realtime("InverseDynamics::gravity", [&] { model.gravity(position, result); });
+  EXPECT_NEAR(result[0], 0.0, 1e-12);
+  expect_realtime("InverseDynamics::mass_matrix", [&] { model.mass_matrix(position, result); });
+  EXPECT_NEAR(result[0], 1.0, 1e-12);
+}
+
+TEST(RealtimeFunctions, ForwardKinematics) {
+  base::Diagnostics diagnostics;
+  auto model = control::ForwardKinematics::parse(kPendulum, "r.urdf", {}, diagnostics);
+  ASSERT_TRUE(model) << diagnostics.to_text();
+  const std::array<double, 1> position{0.1};
+  control::Pose pose;
+  expect_realtime("ForwardKinematics::step", [&] { model->step(position, pose); });
+  EXPECT_NEAR(pose.rotation[0], std::cos(0.1), 1e-12);
+}
+
+TEST(RealtimeFunctions, Transmission) {
+  const auto transmission = gear();
+  const std::array<double, 1> from{3.0};
+  std::array<double, 1> to{};
+  expect_realtime("Transmission::motor_angles", [&] { transmission.motor_angles(from, to); });
+  EXPECT_EQ(to[0], 6.0);
+  expect_realtime("Transmission::joint_angles", [&] { transmission.joint_angles(from, to); });
+  EXPECT_EQ(to[0], 1.5);
+  expect_realtime("Transmission::motor_torques", [&] { transmission.motor_torques(from, to); });
+  EXPECT_EQ(to[0], 1.5);
+  expect_realtime("Transmission::joint_torques", [&] { transmission.joint_torques(from, to); });
+  EXPECT_EQ(to[0], 6.0);
+  expect_realtime("Transmission::add_rotor_torques", [&] {
+    to = {};
+    transmission.add_rotor_torques(from, from, to);
+  });
+  EXPECT_EQ(to[0], 6.0);
+}
+
+TEST(RealtimeFunctions, ControllersByAModel) {
+  auto computed = control::ComputedTorque::make(pendulum(), gear(), {.kp = {1.0}, .kd = {1.0}});
+  auto gravity = control::GravityPd::make(pendulum(), {.kp = {1.0}, .kd = {1.0}});
+  const std::array<double, 3> reference{0.1, 0.0, 1.0};
+  const std::array<double, 2> measured{0.1, 0.0};
   std::array<double, 1> torque{};
-  expect_realtime("InverseDynamics::step", [&] { model->step(motion, torque); });
+  expect_realtime("ComputedTorque::step",
+                  [&] { computed.value().step(reference, measured, torque); });
   EXPECT_NEAR(torque[0], 3.0, 1e-12);
+  expect_realtime("GravityPd::step", [&] { gravity.value().step(reference, measured, torque); });
+  EXPECT_NEAR(torque[0], 0.0, 1e-12);
+}
+
+TEST(RealtimeFunctions, PositionalPid) {
+  auto pid = control::PositionalPid::make({.kp = 2.0, .period_s = 0.01}).value();
+  double output = 0.0;
+  expect_realtime("PositionalPid::step", [&] { output = pid.step(1.5); });
+  EXPECT_EQ(output, 3.0);
+  expect_realtime("PositionalPid::reset", [&] { pid.reset(); });
+}
+
+TEST(RealtimeFunctions, LowPass) {
+  auto filter = control::LowPass::make({.omega = 1.0, .period_s = 1.0}).value();
+  double output = 0.0;
+  expect_realtime("LowPass::reset_to", [&] { filter.reset_to(1.0); });
+  expect_realtime("LowPass::step", [&] { output = filter.step(1.0); });
+  EXPECT_EQ(output, 1.0);
 }
 
 TEST(RealtimeFunctions, DcMotor) {

@@ -13,8 +13,10 @@
 #include "armature/library/base/reason_text.hpp"
 #include "armature/library/bridge/bridge.hpp"
 #include "armature/library/bridge_ref/bridge_ref.hpp"
+#include "armature/library/computed_torque/controller_computed_torque.hpp"
 #include "armature/library/controller_npid/controller_npid.hpp"
 #include "armature/library/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/library/gravity_pd/controller_gravity_pd.hpp"
 #include "armature/library/joint/joint.hpp"
 #include "armature/library/model/model.hpp"
 #include "armature/library/pid/pid.hpp"
@@ -158,6 +160,31 @@ TEST(RealtimeComponents, ControllerNPIDFF) {
     controller.write("Out_model", Vector(2, 0.1));
     for (const char* port : {"Out1", "Out2"}) controller.write(port, 1.0);
   });
+  EXPECT_EQ(controller.writes("act"), 100u);
+}
+
+TEST(RealtimeComponents, ControllerComputedTorque) {
+  testing::Harness controller(std::make_unique<ControllerComputedTorque>("Controller"));
+  controller.set("joints", 2);
+  controller.set("robot_description", std::string_view(TESTDATA "/pan_tilt.urdf"));
+  start(controller);
+  expect_realtime_on_bench("ControllerComputedTorque",
+                           [&] { write_reference_and_sensor(controller); });
+  EXPECT_EQ(controller.writes("act"), 100u);
+  controller.write("reference", Vector(6, NAN));
+  expect_realtime_on_bench("ControllerComputedTorque",
+                           [&] { controller.write("sensor", Vector(4, 0.1)); });
+  EXPECT_EQ(controller.state(), component::State::kException);
+}
+
+TEST(RealtimeComponents, ControllerGravityPD) {
+  testing::Harness controller(std::make_unique<ControllerGravityPD>("Controller"));
+  controller.set("joints", 2);
+  controller.set("robot_description", std::string_view(TESTDATA "/pan_tilt.urdf"));
+  controller.set("Kp", "[1]");
+  controller.set("Kd", "[1]");
+  start(controller);
+  expect_realtime_on_bench("ControllerGravityPD", [&] { write_reference_and_sensor(controller); });
   EXPECT_EQ(controller.writes("act"), 100u);
 }
 
@@ -319,6 +346,14 @@ TEST(RealtimeComponents, AStartAllocatesNothingIfNoPropertyChanged) {
                                                                  {"motor_resistance", "[1]"},
                                                                  {"motor_torque_constant", "[1]"},
                                                                  {"motor_gear_ratio", "[1]"}});
+  expect_realtime_restart<ControllerComputedTorque>(
+      "ControllerComputedTorque",
+      {{"joints", "2"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
+  expect_realtime_restart<ControllerGravityPD>("ControllerGravityPD",
+                                               {{"joints", "2"},
+                                                {"robot_description", TESTDATA "/pan_tilt.urdf"},
+                                                {"Kp", "[1]"},
+                                                {"Kd", "[1]"}});
   expect_realtime_restart<Model>(
       "Model", {{"joints", "2"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
   expect_realtime_restart<BridgeRef>("BridgeRef", {{"joints", "7"}});

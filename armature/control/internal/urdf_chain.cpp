@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -158,6 +160,7 @@ class ChainReader {
       error("link " + quoted(link.name) + " is the child of two joints", "expected a tree");
       return;
     }
+    if (link.name == query_.tip_link) chain_.tip = where;
     if (link.inertial && is_body(*link.inertial)) {
       part.inertia = part.inertia + where * to_kdl(*link.inertial);
     } else if (link.inertial) {
@@ -250,6 +253,16 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& text, const UrdfQuery& qu
 }
 
 }  // namespace
+
+std::optional<std::string> read_description(const std::string& file,
+                                            base::Diagnostics& diagnostics) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.bad() && stream.is_open()) return text;
+  diagnostics.error({file}, "cannot be read, expected the description of a robot (URDF)",
+                    "give the path of a file that exists");
+  return std::nullopt;
+}
 
 std::optional<UrdfChain> read_urdf(const std::string& text, const UrdfQuery& query,
                                    base::Diagnostics& diagnostics) {

@@ -15,6 +15,7 @@ namespace armature::control::internal {
 struct UrdfChain {
   KDL::Chain segments;              ///< one for each movable joint
   std::vector<std::string> joints;  ///< their names, from the base on
+  KDL::Frame tip;                   ///< of the tip link, if one was named, in the last segment
 };
 
 /// What part of a description is wanted, and how it is called in diagnostics.
@@ -23,6 +24,10 @@ struct UrdfQuery {
   std::string base_link;  ///< empty: the root
   std::string tip_link;   ///< empty: the only end there is
 };
+
+/// The text of a file; nothing, and an error, if it cannot be read.
+std::optional<std::string> read_description(const std::string& file,
+                                            base::Diagnostics& diagnostics);
 
 /// Reads the description of a robot. What is fixed to a link counts as part of it; a joint beside
 /// the way to the tip counts as fixed at 0, with a warning.

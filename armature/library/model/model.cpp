@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "armature/library/base/reason_text.hpp"
 
@@ -11,36 +13,13 @@ namespace armature::library {
 using component::Outcome;
 
 Outcome Model::on_configure() {
-  base::Diagnostics diagnostics;
-  dynamics_ = control::InverseDynamics::load(
-      description_, {.base_link = base_link_, .tip_link = tip_link_, .gravity = gravity_},
-      diagnostics);
-  if (Outcome outcome = tell(diagnostics); !outcome) return outcome;
+  std::vector<std::string> warnings;
+  auto loaded = description_.load(static_cast<std::size_t>(joints_.get()), warnings);
+  for (const std::string& warning : warnings) log_warning("{}", warning);
+  if (!loaded) return component::refused(loaded.error());
+  dynamics_ = std::move(loaded).value();
   torques_.assign(dynamics_->joints(), 0.0);
-  return check_joints();
-}
-
-/// Refuses with the first error, if there is one; warnings are logged.
-Outcome Model::tell(const base::Diagnostics& diagnostics) {
-  std::string first;
-  for (const base::Diagnostic& each : diagnostics.all()) {
-    if (each.severity == base::Severity::kWarning) log_warning("{}", each.message);
-    if (each.severity == base::Severity::kError && first.empty()) first = base::to_text(each);
-  }
-  if (diagnostics.ok()) return component::accepted();
-  const std::size_t more = diagnostics.error_count() - 1;
-  if (more > 0) first += " (and " + std::to_string(more) + " more)";
-  return component::refused(first);
-}
-
-Outcome Model::check_joints() const {
-  if (dynamics_->joints() == static_cast<std::size_t>(joints_.get())) return component::accepted();
-  std::string names;
-  for (const std::string& name : dynamics_->joint_names()) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  return component::refused(description_.get() + " moves " + std::to_string(dynamics_->joints()) +
-                            " joints, expected joints = " + std::to_string(joints_) + ": " + names);
+  return component::accepted();
 }
 
 void Model::compute(const std::vector<double>& motion) {

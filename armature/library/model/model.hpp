@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "armature/base/diagnostic.hpp"
 #include "armature/component/author.hpp"
 #include "armature/control/inverse_dynamics.hpp"
 #include "armature/library/base/max_age.hpp"
+#include "armature/library/base/robot_description.hpp"
 
 namespace armature::library {
 
@@ -27,21 +25,10 @@ class Model final : public component::Component {
  private:
   component::Outcome on_configure() override;
   void compute(const std::vector<double>& motion);
-  component::Outcome tell(const base::Diagnostics& diagnostics);
-  component::Outcome check_joints() const;
 
   component::Property<int> joints_{
       this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
-  component::Property<std::string> description_{
-      this, "robot_description",
-      "",   "the robot's description (URDF), a file; a path counts from the working directory",
-      "",   component::mandatory};
-  component::Property<std::string> base_link_{this, "base_link", "",
-                                              "the link that stands still; empty: the root"};
-  component::Property<std::string> tip_link_{
-      this, "tip_link", "", "the end of the chain of joints; empty: the only end there is"};
-  component::Property<std::array<double, 3>> gravity_{
-      this, "gravity", {0.0, 0.0, -9.81}, "in the axes of the base link", "m/s^2"};
+  RobotDescription description_{this};
   component::InputPort<std::vector<double>> in_{
       this,
       "In",

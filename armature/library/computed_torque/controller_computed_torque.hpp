@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "armature/control/computed_torque.hpp"
+#include "armature/library/base/controller_of_model.hpp"
+
+namespace armature::library {
+
+/// Computed torque, by the robot's description and its motors (paper 3, conclusion):
+/// control::ComputedTorque, in the place of another Controller. Gains are one number for each
+/// joint, or one for all. Where the hardware compensates gravity itself, `gravity` is 0.
+/// @rt nonblocking, no allocation, O(joints^2)
+class ControllerComputedTorque final : public ControllerOfModel {
+ public:
+  using ControllerOfModel::ControllerOfModel;
+
+ private:
+  base::Result<void> make_law(control::InverseDynamics links) override;
+  bool take_change() override { return changes_.take(); }
+  void compute(std::span<const double> reference, std::span<const double> motion,
+               std::span<double> torques) override;
+
+  using Numbers = component::Property<std::vector<double>>;
+  Numbers kp_{this,    "Kp",
+              {100.0}, "acceleration for an error: the square of the joint's frequency in rad/s",
+              "1/s^2", component::range(0.0, 1e9)};
+  Numbers kd_{this,   "Kd",
+              {20.0}, "acceleration for an error of the velocity: twice that frequency",
+              "1/s",  component::range(0.0, 1e9)};
+  Numbers rotor_inertia_{this, "motor_rotor_inertia", {0.0}, "at the motors", "kg m^2"};
+  Numbers friction_{this, "motor_viscous_friction", {0.0}, "at the motors", "Nm s/rad"};
+  Numbers turns_{this,
+                 "motor_turns",
+                 {1.0},
+                 "turns of a motor for one of a joint: of its own joint, one number for each, or a "
+                 "row of all joints for each motor",
+                 ""};
+  Changes changes_{kp_, kd_, rotor_inertia_, friction_, turns_};
+  std::optional<control::ComputedTorque> law_;
+};
+
+}  // namespace armature::library

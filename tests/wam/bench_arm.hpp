@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated arm as sensor and actuator of a deployment, without its bus.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "armature/base/seconds.hpp"
+#include "armature/component/author.hpp"
+#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/transmission.hpp"
+#include "armature/library/base/actuator.hpp"
+#include "armature/library/base/sensor.hpp"
+#include "robots/wam/arm_simulation.hpp"
+
+namespace armature::wam {
+
+inline const ArmNumbers& arm_of(int joints) { return joints == 4 ? wam4() : wam7(); }
+
+// Of pucks, by the facts: what a motor is driven with at most, units of torque, counts of angle.
+constexpr double kLargestTorque[] = {1.8, 1.8, 1.8, 1.6, 0.6, 0.6, 0.0916};  // [N m]
+constexpr double kUnitsPerTorque[] = {2700, 2700, 2700, 2700, 6500, 6500, 17474};
+constexpr double kCountsPerRad = 4096.0 / (2.0 * std::numbers::pi);
+
+inline double rounded_angle(double angle) {
+  return std::floor(angle * kCountsPerRad) / kCountsPerRad;
+}
+inline double rounded_torque(std::size_t motor, double torque) {
+  return std::floor(torque * kUnitsPerTorque[motor]) / kUnitsPerTorque[motor];
+}
+
+/// What rounding takes from the joints' torques at most [N m].
+inline std::vector<double> rounding_of_pucks(const ArmNumbers& arm) {
+  const auto transmission = control::Transmission::make(arm.transmission).value();
+  std::vector<double> rounding(arm.joints(), 0.0), motors(arm.joints());
+  for (std::size_t joint = 0; joint < arm.joints(); ++joint) {
+    std::vector<double> turn(arm.joints(), 0.0);
+    turn[joint] = 1.0;
+    transmission.motor_angles(turn, motors);
+    for (std::size_t i = 0; i < arm.joints(); ++i) {
+      rounding[joint] += std::abs(motors[i]) / kUnitsPerTorque[i];
+    }
+  }
+  return rounding;
+}
+
+/// The arm and its encoders. With `rounds` it measures and drives in the steps of pucks, and has as
+/// much Coulomb friction as these take from torques, without which an arm that is not controlled
+/// creeps. A torque acts a millisecond after the Sample that it answers, as on a
+/// bus, and each motor's is limited as its puck limits it. Braked until the first torques come.
+class BenchArm final : public library::Sensor {
+ public:
+  using Sensor::Sensor;
+  static constexpr base::Duration kDelay = std::chrono::milliseconds(1);
+
+  ArmSimulation& arm() { return *arm_; }
+  /// How often a motor's torque was limited.
+  int limited() const { return limited_; }
+
+ private:
+  component::Outcome on_configure() override {
+    const ArmNumbers& numbers = arm_of(joints_);
+    ArmSimulation::Config config{.urdf_file = urdf_, .start = start_};
+    if (rounds_) config.coulomb_friction = rounding_of_pucks(numbers);
+    auto made = ArmSimulation::load(numbers, config);
+    if (!made) return component::refused(made.error());
+    arm_.emplace(std::move(made).value());
+    transmission_.emplace(control::Transmission::make(numbers.transmission).value());
+    base::Diagnostics diagnostics;
+    links_ = control::InverseDynamics::load(urdf_, {.gravity = {0.0, 0.0, -kGravity}}, diagnostics);
+    const auto count = static_cast<std::size_t>(joints_.get());
+    measured_.assign(2 * count, 0.0);
+    positions_.assign(count, 0.0);
+    gravity_torques_.assign(count, 0.0);
+    joint_torques_.assign(count, 0.0);
+    motor_torques_.assign(count, 0.0);
+    motor_angles_.assign(count, 0.0);
+    return component::accepted();
+  }
+  component::Outcome on_start() override {
+    sampled_ = std::nullopt;
+    driven_ = false;
+    return component::accepted();
+  }
+  void sample_now() override {
+    const base::Duration past = sampled_ ? time() - *sampled_ : base::Duration{};
+    if (past > kDelay) {
+      arm_->advance(kDelay);
+      apply();
+      arm_->advance(past - kDelay);
+    }
+    const std::size_t count = positions_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      motor_angles_[i] = rounds_ ? rounded_angle(arm_->angle(i)) : arm_->angle(i);
+    }
+    transmission_->joint_angles(motor_angles_, positions_);
+    for (std::size_t i = 0; i < count; ++i) {
+      measured_[count + i] = sampled_ ? positions_[i] - measured_[i] : 0.0;
+      measured_[i] = positions_[i];
+    }
+    sampled_ = time();
+    sensor_.write(measured_);
+  }
+  void on_torque(const std::vector<double>& torques) {
+    joint_torques_ = torques;
+    driven_ = true;
+    if (!compensates_) return;
+    links_->gravity(positions_, gravity_torques_);
+    for (std::size_t i = 0; i < positions_.size(); ++i) joint_torques_[i] += gravity_torques_[i];
+  }
+  void apply() {
+    if (!driven_) return;
+    transmission_->motor_torques(joint_torques_, motor_torques_);
+    for (std::size_t i = 0; i < motor_torques_.size(); ++i) {
+      const double torque = std::clamp(motor_torques_[i], -kLargestTorque[i], kLargestTorque[i]);
+      if (torque != motor_torques_[i]) ++limited_;
+      arm_->set_torque(i, rounds_ ? rounded_torque(i, torque) : torque);
+    }
+  }
+
+  component::Property<std::string> urdf_{this, "robot_description", "", "file",
+                                         "",   component::mandatory};
+  component::Property<std::vector<double>> start_{this, "start", {}, "home, if none", "rad"};
+  component::Property<bool> compensates_{this, "compensates_gravity", false, "as the WAM's driver"};
+  component::Property<bool> rounds_{this, "rounds", false, "angles and torques as pucks do"};
+  component::InputPort<std::vector<double>> torque_{this,
+                                                    "torque",
+                                                    "of each joint",
+                                                    "V",
+                                                    component::on_data<&BenchArm::on_torque>,
+                                                    component::size_of(joints_),
+                                                    component::leads_to_nothing()};
+  std::optional<ArmSimulation> arm_;
+  std::optional<control::Transmission> transmission_;
+  std::optional<control::InverseDynamics> links_;
+  std::optional<base::Time> sampled_;
+  bool driven_ = false;
+  int limited_ = 0;
+  std::vector<double> measured_, positions_, gravity_torques_, joint_torques_, motor_torques_;
+  std::vector<double> motor_angles_;
+};
+
+/// Hands torques on to the arm.
+class BenchActuator final : public library::Actuator {
+ public:
+  using Actuator::Actuator;
+
+ private:
+  void actuate(const std::vector<double>& act) override { torque_.write(act); }
+
+  component::OutputPort<std::vector<double>> torque_{this, "torque", "of each joint", "V",
+                                                     component::size_of(joints_)};
+};
+
+}  // namespace armature::wam
