@@ -243,6 +243,7 @@ int run(const RunArguments& arguments, Console& console) {
     return failed;
   }
   let_run(application, companions, arguments, stop, mistakes, facts);
+  console.show(application.run_before_stop(facts.end, &stop));
   network.leave();
   console.show(mistakes);
   tell_casualties(application, console);

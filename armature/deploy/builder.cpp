@@ -103,32 +103,48 @@ void add_inlets(const Document& document, const BuildOptions& options, exec::Blu
       {std::move(inlets).value(), "Inlets", std::move(activity), {}, {}, where});
 }
 
-/// A grant that grants nothing would be found out when the script runs.
-void check_grants(const std::vector<Grant>& grants, const exec::Blueprint& blueprint,
-                  base::Diagnostics& diagnostics) {
+/// What may be named, and how that reads in "'A' has no command 'b' without arguments".
+struct Choice {
+  bool (*fits)(const component::OperationBase&);
+  const char* kind;
+  const char* more;
+};
+
+constexpr Choice kCanBeGranted = {
+    [](const component::OperationBase& operation) { return operation.is_by_operator(); },
+    "act of the operator", "that could be granted"};
+constexpr Choice kCanComeLast = {[](const component::OperationBase& operation) {
+                                   return operation.is_command() &&
+                                          operation.signature().arguments.empty();
+                                 },
+                                 "command", "without arguments"};
+
+/// Whether they are there would else be found out when they are used.
+void check_operations(const std::vector<OperationOf>& wanted, const exec::Blueprint& blueprint,
+                      const Choice& choice, base::Diagnostics& diagnostics) {
   std::unordered_map<std::string_view, const component::Component*> made;
   std::vector<std::string> names;
   for (const exec::ComponentEntry& entry : blueprint.components) {
     made.emplace(entry.component->name(), entry.component.get());
     names.push_back(entry.component->name());
   }
-  for (const Grant& grant : grants) {
-    if (blueprint.absent.count(grant.component) > 0) continue;
-    const auto found = made.find(grant.component);
+  for (const OperationOf& one : wanted) {
+    if (blueprint.absent.count(one.component) > 0) continue;
+    const auto found = made.find(one.component);
     if (found == made.end()) {
-      diagnostics.error(grant.where, "there is no component " + in_quotes(grant.component),
-                        base::suggestion(grant.component, names));
+      diagnostics.error(one.where, "there is no component " + in_quotes(one.component),
+                        base::suggestion(one.component, names));
       continue;
     }
-    std::vector<std::string> acts;
+    std::vector<std::string> fitting;
     for (const component::OperationBase* operation : found->second->interface().operations) {
-      if (operation->is_by_operator()) acts.emplace_back(operation->name());
+      if (choice.fits(*operation)) fitting.emplace_back(operation->name());
     }
-    if (std::find(acts.begin(), acts.end(), grant.operation) != acts.end()) continue;
-    diagnostics.error(grant.where,
-                      in_quotes(grant.component) + " has no act of the operator " +
-                          in_quotes(grant.operation) + " that could be granted",
-                      base::suggestion(grant.operation, acts));
+    if (std::find(fitting.begin(), fitting.end(), one.operation) != fitting.end()) continue;
+    diagnostics.error(one.where,
+                      in_quotes(one.component) + " has no " + choice.kind + " " +
+                          in_quotes(one.operation) + " " + choice.more,
+                      base::suggestion(one.operation, fitting));
   }
 }
 
@@ -169,8 +185,9 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   add_inlets(document, options, blueprint, diagnostics);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
-  check_grants(document.script_grants, blueprint, diagnostics);
-  check_grants(document.remote_grants, blueprint, diagnostics);
+  check_operations(document.script_grants, blueprint, kCanBeGranted, diagnostics);
+  check_operations(document.remote_grants, blueprint, kCanBeGranted, diagnostics);
+  check_operations(document.before_stop, blueprint, kCanComeLast, diagnostics);
   return blueprint;
 }
 
@@ -182,11 +199,14 @@ exec::ApplicationOptions application_options(const Document& document) {
   if (box.history) options.black_box.history = *box.history;
   if (!box.kept) options.black_box.history = base::Duration::zero();
   if (box.memory_kb) options.black_box.memory = static_cast<std::size_t>(*box.memory_kb) * 1000;
-  for (const Grant& grant : document.script_grants) {
+  for (const OperationOf& grant : document.script_grants) {
     options.grants.push_back({exec::Caller::kScript, grant.component, grant.operation});
   }
-  for (const Grant& grant : document.remote_grants) {
+  for (const OperationOf& grant : document.remote_grants) {
     options.grants.push_back({exec::Caller::kRemote, grant.component, grant.operation});
+  }
+  for (const OperationOf& command : document.before_stop) {
+    options.before_stop.push_back({command.component, command.operation});
   }
   return options;
 }

@@ -13,6 +13,7 @@
 namespace armature::deploy {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using namespace std::chrono_literals;
@@ -55,6 +56,17 @@ TEST(Builder, GrantsReachTheApplicationAndMustGrantSomething) {
   EXPECT_EQ(deployment.options.grants[0].caller, exec::Caller::kScript);
   EXPECT_EQ(deployment.options.grants[0].component, "A");
   EXPECT_EQ(deployment.options.grants[0].operation, "arm");
+}
+
+TEST(Builder, CommandsBeforeTheStopAreCommandsWithoutArguments) {
+  const Deployment deployment =
+      deploy("components: {A: {model: Source}}\nbefore_stop: [A.home, B.home]\n");
+  EXPECT_THAT(deployment.diagnostics.to_text(),
+              AllOf(HasSubstr("2:15: error: 'A' has no command 'home' without arguments"),
+                    HasSubstr("2:23: error: there is no component 'B'")));
+  ASSERT_EQ(deployment.options.before_stop.size(), 2u);
+  EXPECT_EQ(deployment.options.before_stop[0].component, "A");
+  EXPECT_EQ(deployment.options.before_stop[0].command, "home");
 }
 
 TEST(Builder, TheBlackBoxIsAsLargeAsTheDocumentSays) {

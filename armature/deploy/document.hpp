@@ -159,8 +159,8 @@ struct Script {
   base::Location where;
 };
 
-/// An act of the operator that scripts, or other processes, may do in the operator's stead.
-struct Grant {
+/// An operation or a command of a component.
+struct OperationOf {
   std::string component;  ///< full name
   std::string operation;
   base::Location where;
@@ -211,8 +211,10 @@ struct Document {
   std::vector<NamedConnection> named_connections;
   std::vector<Composite> composites;
   std::vector<Script> scripts;
-  std::vector<Grant> script_grants;
-  std::vector<Grant> remote_grants;  ///< to other processes
+  /// Acts of the operator that scripts, or other processes, may do in the operator's stead.
+  std::vector<OperationOf> script_grants;
+  std::vector<OperationOf> remote_grants;
+  std::vector<OperationOf> before_stop;  ///< commands that are done before an orderly stop
   std::vector<Mode> modes;
   Reference mode;  ///< in which it starts; empty: the first
   BlackBox black_box;

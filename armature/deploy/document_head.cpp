@@ -20,9 +20,9 @@ std::string path_from(const Document& document, std::string_view path) {
 namespace internal {
 namespace {
 
-constexpr std::array<std::string_view, 11> kHeadKeys = {
+constexpr std::array<std::string_view, 12> kHeadKeys = {
     "application", "on_fault", "black_box", "libraries", "scripts", "grants",
-    "modes",       "mode",     "recorder",  "composed",  "network"};
+    "modes",       "mode",     "recorder",  "composed",  "network", "before_stop"};
 
 std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
   Script script{{}, {}, value.where};
@@ -45,26 +45,27 @@ std::optional<Script> read_script(const Value& value, const ValueReader& reader)
   return script;
 }
 
-std::vector<Grant> read_grants(const Value* list, const ValueReader& reader) {
-  std::vector<Grant> grants;
-  for (const Value* grant : items_of(list)) {
-    const auto whole = reader.dotted_name(*grant, "grant");
+std::vector<OperationOf> read_operations(const Value* list, const char* what,
+                                         const ValueReader& reader) {
+  std::vector<OperationOf> operations;
+  for (const Value* item : items_of(list)) {
+    const auto whole = reader.dotted_name(*item, what);
     if (!whole) continue;
     auto [component, operation] = split_last_dot(*whole);
     if (component.empty()) {
-      reader.error(grant->where,
-                   "grant must be component.operation, found " + in_quotes(operation));
+      reader.error(item->where, std::string(what) + " must be component.operation, found " +
+                                    in_quotes(operation));
       continue;
     }
-    grants.push_back({std::move(component), std::move(operation), grant->where});
+    operations.push_back({std::move(component), std::move(operation), item->where});
   }
-  return grants;
+  return operations;
 }
 
 void read_grants(const Value& value, const ValueReader& reader, Document& document) {
   Fields fields(value, reader);
-  document.script_grants = read_grants(fields.take("script"), reader);
-  document.remote_grants = read_grants(fields.take("remote"), reader);
+  document.script_grants = read_operations(fields.take("script"), "grant", reader);
+  document.remote_grants = read_operations(fields.take("remote"), "grant", reader);
   fields.refuse_others();
 }
 
@@ -146,7 +147,7 @@ bool require_kind(const Value* value, Value::Kind kind, std::string_view key,
 }
 
 std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
-  constexpr std::array<std::pair<const char*, Value::Kind>, 8> kKinds = {
+  constexpr std::array<std::pair<const char*, Value::Kind>, 9> kKinds = {
       {{"parameters", Value::Kind::kMap},
        {"network", Value::Kind::kMap},
        {"grants", Value::Kind::kMap},
@@ -154,6 +155,7 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
        {"components", Value::Kind::kMap},
        {"composites", Value::Kind::kMap},
        {"connections", Value::Kind::kList},
+       {"before_stop", Value::Kind::kList},
        {"composed", Value::Kind::kMap}}};
   const ValueReader reader("document", diagnostics);
   Fields fields(tree, reader);
@@ -234,6 +236,7 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     if (auto one = read_script(*script, reader)) document.scripts.push_back(std::move(*one));
   }
   if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
+  document.before_stop = read_operations(fields.take("before_stop"), "before_stop", reader);
   if (const Value* network = fields.take("network")) {
     document.network = read_network(*network, reader);
   }

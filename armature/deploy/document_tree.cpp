@@ -196,16 +196,14 @@ Value script_tree(const Script& script) {
   return map;
 }
 
+Value operation_tree(const OperationOf& one) {
+  return make_text(one.component + "." + one.operation);
+}
+
 Value grants_tree(const Document& document) {
   Value map = make_map();
-  const auto add_grants = [&map](const char* to, const std::vector<Grant>& grants) {
-    if (grants.empty()) return;
-    add_items(map, to, converted(grants, [](const Grant& grant) {
-                return make_text(grant.component + "." + grant.operation);
-              }));
-  };
-  add_grants("script", document.script_grants);
-  add_grants("remote", document.remote_grants);
+  add_items(map, "script", converted(document.script_grants, operation_tree));
+  add_items(map, "remote", converted(document.remote_grants, operation_tree));
   return map;
 }
 
@@ -305,6 +303,7 @@ Value to_tree(const Document& document) {
   if (Value grants = grants_tree(document); !grants.entries.empty()) {
     add(tree, "grants", std::move(grants));
   }
+  add_items(tree, "before_stop", converted(document.before_stop, operation_tree));
   if (Value network = network_tree(document.network); !network.entries.empty()) {
     add(tree, "network", std::move(network));
   }

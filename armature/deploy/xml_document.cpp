@@ -110,9 +110,9 @@ class DocumentReader {
 
   /// What OROCOS has no word for, as attributes of the root.
   void read_extras(const XmlElement& root) {
-    constexpr std::array<std::string_view, 11> kKnown = {
-        "application", "on_fault", "black_box", "parameters", "composed", "scripts",
-        "grants",      "network",  "modes",     "mode",       "recorder"};
+    constexpr std::array<std::string_view, 12> kKnown = {
+        "application", "on_fault",    "black_box", "parameters", "composed", "scripts",
+        "grants",      "before_stop", "network",   "modes",      "mode",     "recorder"};
     XmlElement known = root;
     std::erase_if(known.extras, [&](const auto& extra) {
       const bool good = std::find(kKnown.begin(), kKnown.end(), extra.first) != kKnown.end();

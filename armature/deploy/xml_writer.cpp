@@ -83,8 +83,9 @@ class DeployerWriter {
 
   Attributes root_attributes() {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
-    for (const char* key : {"application", "on_fault", "black_box", "parameters", "composed",
-                            "scripts", "grants", "network", "modes", "mode", "recorder"}) {
+    for (const char* key :
+         {"application", "on_fault", "black_box", "parameters", "composed", "scripts", "grants",
+          "before_stop", "network", "modes", "mode", "recorder"}) {
       extend(attributes, tree_, key);
     }
     return attributes;

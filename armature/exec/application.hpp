@@ -68,13 +68,21 @@ struct Grant {
   std::string operation;
 };
 
+/// A command without arguments.
+struct CommandName {
+  std::string component;
+  std::string command;
+};
+
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
   OnFault on_fault = OnFault::kContinue;
   std::vector<Grant> grants;
-  base::Duration hook_limit = std::chrono::seconds(10);  ///< a hook that takes longer hangs
-  base::Duration stop_limit = std::chrono::seconds(1);   ///< the same while stopping
+  std::vector<CommandName> before_stop;                        ///< for `run_before_stop`
+  base::Duration before_stop_limit = std::chrono::minutes(1);  ///< for each of them
+  base::Duration hook_limit = std::chrono::seconds(10);        ///< a hook that takes longer hangs
+  base::Duration stop_limit = std::chrono::seconds(1);         ///< the same while stopping
   /// Execution times of components are taken in every n-th cycle; 0: about four times a second,
   /// which is nearly free at any rate and number of components.
   std::uint64_t measure_every = 0;
@@ -142,6 +150,12 @@ class Application final {
   RunEnd run_until(base::Time end, const std::function<bool()>& condition,
                    const platform::StopSignal* stop = nullptr);
 
+  /// Lets it run on for the commands of `before_stop`, as the operator's and one after the other.
+  /// Not after a fault or a reaction: then it stops as it is. A second signal ends the process.
+  /// @param end  how the run has ended
+  /// @return warnings: which was refused or failed and why, or did not end in time
+  base::Diagnostics run_before_stop(RunEnd end, const platform::StopSignal* stop = nullptr);
+
   /// Stops in reverse order of start and cleans up; the diagnostics name hooks that hang.
   base::Diagnostics stop();
 
@@ -206,6 +220,10 @@ class Application final {
 
   void make_engines();
   void apply_declared_reactions();
+
+  // application_before_stop.cpp
+  std::string run_last(const CommandName& name, const platform::StopSignal* stop);
+  bool in_good_order() const { return running_ && faults() == 0 && reactions() == 0; }
 
   // application_modes.cpp
   Modes* modes() const;

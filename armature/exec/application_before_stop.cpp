@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of Application: what the deployment has done before an orderly stop.
+#include <string>
+
+#include "armature/exec/application.hpp"
+#include "armature/platform/stop_signal.hpp"
+
+namespace armature::exec {
+
+base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopSignal* stop) {
+  base::Diagnostics diagnostics;
+  if (end == RunEnd::kFaulted || end == RunEnd::kStoppedByReaction) return diagnostics;
+  if (stop != nullptr && stop->received()) stop = nullptr;  // That is why it is to stop.
+  for (const CommandName& name : options_.before_stop) {
+    if (!in_good_order()) break;
+    const std::string problem = run_last(name, stop);
+    if (problem.empty()) continue;
+    diagnostics.warning(
+        {}, "before the stop, '" + name.component + "." + name.command + "' " + problem);
+  }
+  return diagnostics;
+}
+
+/// What went wrong; empty if it is done.
+std::string Application::run_last(const CommandName& name, const platform::StopSignal* stop) {
+  auto begun = begin(name.component, name.command, {});
+  if (!begun) return "was refused: " + begun.error();
+  const component::CommandHandle handle = std::move(begun).value();
+  const RunEnd end = run_until(
+      now() + options_.before_stop_limit, [&] { return handle.ended(); }, stop);
+  if (end == RunEnd::kStopRequested) return "was cut short by a signal";
+  if (!in_good_order()) return "was ended by a fault";
+  if (!handle.ended()) {
+    return "did not end within " +
+           std::to_string(options_.before_stop_limit / std::chrono::seconds(1)) + " s";
+  }
+  if (handle.stage() == component::CommandStage::kDone) return {};
+  return "was not done: " + std::string(handle.reason());
+}
+
+}  // namespace armature::exec
