@@ -185,17 +185,9 @@ void WamStartup::check_pucks() {
                 "check the cable to the missing puck, or how many joints the arm has");
   }
   for (std::size_t motor = 0; motor < config_.motors; ++motor) {
-    const std::string name = "puck " + std::to_string(motor + 1);
     const Node& node = node_of(motor);
-    if ((node.role & kKindMask) != kMotorRole) {
-      return fail(name + " has role " + text(node.role & kKindMask) + ", expected 0, a motor puck",
-                  "only motor pucks may have numbers 1 to 7");
-    }
-    if (*node.status != value_of(PuckStatus::kReset) &&
-        *node.status != value_of(PuckStatus::kReady)) {
-      return fail(name + " has status " + text(*node.status) + ", expected 0 (reset) or 2 (ready)",
-                  "switch the arm off and on; if that does not help, the puck is broken");
-    }
+    const auto mistake = check_motor(static_cast<int>(motor) + 1, node.role, *node.status);
+    if (mistake) return fail(mistake->message, mistake->hint);
   }
   wake_pucks();
 }
