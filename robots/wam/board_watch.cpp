@@ -53,7 +53,6 @@ bool BoardWatch::take(const can::Frame& frame) {
       ++counters_.malformed;
       return true;
     }
-    ++mode_answers_;
     mode_ = static_cast<BoardMode>(*mode);
   } else if (asked_ == Asked::kPendant && pendant) {
     asked_ = Asked::kNothing;

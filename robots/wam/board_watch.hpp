@@ -49,8 +49,7 @@ class BoardWatch {
   /// As it was said last; none before it was.
   std::optional<BoardMode> mode() const { return mode_; }
   std::optional<PendantWord> pendant() const { return pendant_; }
-  /// Answers to MODE and PEN until now, to see when there is a new one.
-  std::uint64_t mode_answers() const { return mode_answers_; }
+  /// Answers to PEN until now, to see when there is a new one.
   std::uint64_t pendant_answers() const { return pendant_answers_; }
   bool silent() const { return missed_modes_ >= config_.most_missed; }
   const Counters& counters() const { return counters_; }
@@ -68,7 +67,6 @@ class BoardWatch {
   int missed_modes_ = 0;
   std::optional<BoardMode> mode_;
   std::optional<PendantWord> pendant_;
-  std::uint64_t mode_answers_ = 0;
   std::uint64_t pendant_answers_ = 0;
   Counters counters_;
 };

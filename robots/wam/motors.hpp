@@ -18,8 +18,8 @@ class Motors {
 
   /// 4 or 7, always the same.
   virtual std::size_t count() const = 0;
-  /// Everything moves up to `now`, which never goes back. Called before each of the others, with
-  /// the time that they happen at.
+  /// Everything moves up to `now`, which never goes back, or by whole steps of its own to the last
+  /// before it. Called before each of the others, with the time that they happen at.
   virtual void advance_to(base::Time now) = 0;
   /// [rad], of any number of turns
   virtual double angle(std::size_t motor) const = 0;

@@ -18,9 +18,11 @@ struct Case {
   std::size_t motors;
   int puck_version;
   int board_version;
-};
 
-void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
+  friend std::ostream& operator<<(std::ostream& out, const Case& tested) {
+    return out << tested.name;
+  }
+};
 
 class WamConversation : public ::testing::TestWithParam<Case> {};
 

@@ -269,7 +269,8 @@ void WamDriver::take_position(std::size_t motor, const can::Arrival& arrival) {
     return;
   }
   const std::int32_t turn = arm_.pucks[motor].counts_per_turn;
-  if (known.known && std::abs(positions->motor - known.counts) > turn / 4) {
+  const bool comparable = known.known && known.cycles_without < config_.most_without;
+  if (comparable && std::abs(positions->motor - known.counts) > turn / 4) {
     account.jumped = true;
     ++known.counters.jumps;
     return;
@@ -322,7 +323,10 @@ bool WamDriver::acknowledge() {
   fault_ = WamFault::kNone;
   fault_node_ = 0;
   clear_torques();
-  for (WamMotor& each : motors_) each.cycles_without = 0;
+  for (WamMotor& each : motors_) {
+    each.known = each.known && each.cycles_without < config_.most_without;
+    each.cycles_without = 0;
+  }
   return true;
 }
 

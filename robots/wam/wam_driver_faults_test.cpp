@@ -320,6 +320,19 @@ TEST(WamDriverFaults, AQuarterOfATurnIsTheMostThatAMotorMoves) {
   EXPECT_EQ(set(before + 2049), WamReading::kIncomplete);
 }
 
+TEST(WamDriverFaults, WhatMovedWhileAPuckWasSilentIsNoJump) {
+  Driving bench;
+  bench.puck(3).set_dead(true);
+  bench.cycles_until_fault(10);
+  bench.rotors.set_state(2, bench.rotors.angle(2) + 20.0, 0.0);
+  bench.run(10);
+  bench.puck(3).set_dead(false);
+  EXPECT_TRUE(bench.driver->acknowledge());
+  bench.run(4);
+  EXPECT_EQ(bench.driver->fault(), WamFault::kNone);
+  EXPECT_EQ(bench.driver->motor(2).counts, bench.puck(3).counts());
+}
+
 TEST(WamDriverFaults, APuckThatHasLostItsZeroIsNamed) {
   Driving bench;
   bench.tell("00A#B7006400");

@@ -29,8 +29,23 @@ std::optional<Mistake> check_values(const PuckRecord& puck) {
 
 }  // namespace
 
+std::optional<Mistake> check_motor(int node, int role, int status) {
+  if ((role & kKindMask) != kMotorRole) {
+    return Mistake{
+        "puck " + text(node) + " has role " + text(role & kKindMask) + ", expected 0, a motor puck",
+        "only motor pucks may have numbers 1 to 7"};
+  }
+  if (status == static_cast<int>(PuckStatus::kReset) ||
+      status == static_cast<int>(PuckStatus::kReady)) {
+    return std::nullopt;
+  }
+  return Mistake{
+      "puck " + text(node) + " has status " + text(status) + ", expected 0 (reset) or 2 (ready)",
+      "switch the arm off and on; if that does not help, the puck is broken"};
+}
+
 std::optional<Mistake> check_puck(const PuckRecord& puck) {
-  if (const auto mistake = check_values(puck)) return mistake;
+  if (auto mistake = check_values(puck)) return mistake;
   const int last_of_lower_arm = static_cast<int>(kTorquesPerFrame);
   const bool wrist = puck.node > last_of_lower_arm;
   const int slot = wrist ? puck.node - last_of_lower_arm : puck.node;

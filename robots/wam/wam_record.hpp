@@ -47,6 +47,8 @@ struct Mistake {
   std::string hint;
 };
 
+/// Whether a node with this ROLE and STAT is a motor puck that works.
+std::optional<Mistake> check_motor(int node, int role, int status);
 /// Whether the puck is set up so that the cycle's frames do with it what they say.
 std::optional<Mistake> check_puck(const PuckRecord& puck);
 

@@ -185,22 +185,15 @@ void WamStartup::check_pucks() {
                 "check the cable to the missing puck, or how many joints the arm has");
   }
   for (std::size_t motor = 0; motor < config_.motors; ++motor) {
-    const std::string name = "puck " + std::to_string(motor + 1);
     const Node& node = node_of(motor);
-    if ((node.role & kKindMask) != kMotorRole) {
-      return fail(name + " has role " + text(node.role & kKindMask) + ", expected 0, a motor puck",
-                  "only motor pucks may have numbers 1 to 7");
-    }
-    if (*node.status != value_of(PuckStatus::kReset) &&
-        *node.status != value_of(PuckStatus::kReady)) {
-      return fail(name + " has status " + text(*node.status) + ", expected 0 (reset) or 2 (ready)",
-                  "switch the arm off and on; if that does not help, the puck is broken");
-    }
+    const auto mistake = check_motor(static_cast<int>(motor) + 1, node.role, *node.status);
+    if (mistake) return fail(mistake->message, mistake->hint);
   }
   wake_pucks();
 }
 
-/// A puck that wakes up leaves the bus for a while, so nothing is sent then.
+/// A puck that wakes up leaves the bus for a while, so nothing is sent then. It has lost its
+/// position, whatever the board says.
 void WamStartup::wake_pucks() {
   bool any = false;
   for (std::size_t motor = 0; motor < config_.motors; ++motor) {
@@ -208,7 +201,7 @@ void WamStartup::wake_pucks() {
     talk_.tell(
         set_frame(to_node(static_cast<int>(motor) + 1), kStatNumber, value_of(PuckStatus::kReady)));
     talk_.pause(kWakeGap);
-    any = true;
+    any = woken_ = true;
   }
   if (any) talk_.pause(kWakeSilence);
   talk_.then([this] { check_awake(0); });
@@ -293,7 +286,10 @@ void WamStartup::read_puck(std::size_t motor) {
 void WamStartup::finish_connect() {
   talk_.tell(set_frame(to_group(Group::kArm), record_.motor_mode_number,
                        static_cast<int>(PuckMode::kIdle)));
-  ask_board(Property::kZero, [this](std::int32_t zero) { record_.zeroed = zero == 1; });
+  ask_board(Property::kZero, [this](std::int32_t zero) {
+    record_.zeroed = zero == 1 && !woken_;
+    if (zero == 1 && woken_) tell_board(Property::kZero, 0);  // for whoever asks it next
+  });
 }
 
 // ---- Zeroing
@@ -303,7 +299,7 @@ void WamStartup::zero(base::Time now) {
   progress_ = WamProgress::kTalking;
   now_ = now;
   ask_board(Property::kZero, [this](std::int32_t zero) {
-    record_.zeroed = zero == 1;
+    record_.zeroed = zero == 1 && !woken_;
     record_.zeroed ? guard_first_reading() : write_home();
   });
 }
@@ -319,7 +315,7 @@ void WamStartup::write_home() {
   tell_board(Property::kIfault, kIgnoredVelocities);
   for (std::size_t motor = 0; motor < config_.motors; ++motor) {
     talk_.tell(set_frame(to_node(static_cast<int>(motor) + 1), record_.position_number,
-                         home_counts(motor)));
+                         static_cast<std::int32_t>(home_in_counts(motor))));
   }
   tell_board(Property::kZero, 1);
   ask_board(Property::kZero, [this](std::int32_t zero) {
@@ -332,12 +328,13 @@ void WamStartup::write_home() {
 void WamStartup::check_home(std::size_t motor) {
   if (motor == config_.motors) {
     record_.zeroed = true;
+    woken_ = false;
     return guard_first_reading();
   }
   const int node = static_cast<int>(motor) + 1;
   const Conversation::Patience patience{config_.answer_window, kAnswerTries};
   talk_.ask_position(node, record_.position_number, patience, [this, motor, node](auto counts) {
-    const std::int32_t expected = home_counts(motor);
+    const auto expected = static_cast<std::int32_t>(home_in_counts(motor));
     const std::int32_t most = record_.pucks[motor].counts_per_turn / 4;
     if (counts && std::abs(*counts - expected) <= most) return check_home(motor + 1);
     fail("puck " + text(node) + " is at " + (counts ? text(*counts) : "an unknown number of") +
@@ -355,10 +352,6 @@ void WamStartup::guard_first_reading() {
 double WamStartup::home_in_counts(std::size_t motor) const {
   const double turns = config_.home[motor] / (2.0 * std::numbers::pi);
   return std::floor(turns * record_.pucks[motor].counts_per_turn);
-}
-
-std::int32_t WamStartup::home_counts(std::size_t motor) const {
-  return static_cast<std::int32_t>(home_in_counts(motor));
 }
 
 // ---- Asking

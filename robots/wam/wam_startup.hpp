@@ -107,7 +107,6 @@ class WamStartup {
   int board_number(Property property) const;
   std::optional<int> puck_number(std::size_t motor, Property property) const;
   double home_in_counts(std::size_t motor) const;
-  std::int32_t home_counts(std::size_t motor) const;
   Node& node_of(std::size_t motor) { return nodes_[motor + 1]; }
   std::string found_nodes() const;
   bool right_nodes() const;
@@ -122,6 +121,7 @@ class WamStartup {
   base::Time idle_since_{};
   std::array<Node, kLastNode + 1> nodes_{};
   std::optional<BoardMode> board_mode_;
+  bool woken_ = false;  ///< a puck was, and has not been told its home position since
   WamRecord record_;
   base::Diagnostics diagnostics_;
 };

@@ -68,6 +68,12 @@ TEST(WamStartupFaults, APuckThatIsSetUpOtherwiseIsNamed) {
   EXPECT_THAT(torque.said(), HasSubstr("puck 1 has MT 0, expected above 0"));
 }
 
+TEST(WamStartupFaults, APuckInErrorIsNamed) {
+  EXPECT_THAT(check_motor(3, kAbsoluteEncoder, 1).value().message,
+              HasSubstr("puck 3 has status 1, expected 0 (reset) or 2 (ready)"));
+  EXPECT_FALSE(check_motor(3, kAbsoluteEncoder, 2));
+}
+
 TEST(WamStartupFaults, ANodeThatIsNoMotorIsNamed) {
   auto config = Emulator::standard(7);
   config.pucks[5].role = 6;

@@ -219,6 +219,25 @@ TEST(WamStartup, ABoardThatDoesNotTakeZeroIsFound) {
   EXPECT_THAT(bench.said(), HasSubstr("the safety board did not take ZERO 1, it has 0"));
 }
 
+TEST(WamStartup, APuckThatHadToBeWokenHasLostItsPositionWhateverTheBoardSays) {
+  Hosted bench;
+  bench.wake_up();
+  bench.tell("00A#AA0001000000");
+  bench.tell("004#850000000000");  // back to its monitor
+  ASSERT_EQ(bench.connect(), WamProgress::kDone) << bench.said();
+  EXPECT_FALSE(bench.startup->record().zeroed);
+  bench.advance(1ms);
+  EXPECT_FALSE(bench.board().zeroed()) << "another host is not to believe it either";
+  ASSERT_EQ(bench.connect(), WamProgress::kDone) << bench.said();
+  EXPECT_FALSE(bench.startup->record().zeroed);
+  ASSERT_EQ(bench.zero(), WamProgress::kDone) << bench.said();
+  EXPECT_EQ(bench.puck(4).counts(), -36728);
+  EXPECT_TRUE(bench.startup->record().zeroed);
+  bench.log.clear();
+  ASSERT_EQ(bench.zero(), WamProgress::kDone) << bench.said();
+  EXPECT_THAT(bench.take_own(), Not(Contains(HasSubstr("004#B0")))) << "once";
+}
+
 // ---- Other arms
 
 TEST(WamStartup, AnArmWithFourJointsIsTwoFramesLess) {
