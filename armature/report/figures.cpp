@@ -90,6 +90,7 @@ Json others_of(const Run& run) {
     for (const Joint& joint : run.joints) {
       shown = shown || signal.name == joint.desired_from || signal.name == joint.measured_from;
     }
+    for (const Effort& effort : run.efforts) shown = shown || signal.name == effort.signal.name;
     if (shown || signal.values.size() < 2) continue;
     Json one = curve(signal, kPointsOfASmallCurve, step_for(signal.values));
     one["name"] = signal.name;
@@ -98,6 +99,19 @@ Json others_of(const Run& run) {
     others.push_back(std::move(one));
   }
   return others;
+}
+
+Json figures_of(const Effort& effort) {
+  const Json share = effort.limit ? Json(effort.largest / *effort.limit) : Json();
+  return {{"joint", effort.joint},     {"unit", effort.signal.unit},
+          {"largest", effort.largest}, {"limit", or_null(effort.limit)},
+          {"largest_of_limit", share}, {"signal", effort.signal.name}};
+}
+
+Json efforts_of(const Run& run) {
+  Json efforts = Json::array();
+  for (const Effort& effort : run.efforts) efforts.push_back(figures_of(effort));
+  return efforts;
 }
 
 Json timeline_of(const Timeline& timeline) {
@@ -122,6 +136,12 @@ Json page_of(const Run& run) {
            {"summary", summary_of(run)}};
   one["joints"] = Json::array();
   for (const Joint& joint : run.joints) one["joints"].push_back(curves_of(joint));
+  one["efforts"] = Json::array();
+  for (const Effort& effort : run.efforts) {
+    Json shown = figures_of(effort);
+    shown["curve"] = curve(effort.signal, kPointsOfACurve, step_for(effort.signal.values));
+    one["efforts"].push_back(std::move(shown));
+  }
   one["others"] = others_of(run);
   if (run.timeline) one["timeline"] = timeline_of(*run.timeline);
   return one;
@@ -138,6 +158,7 @@ std::string figures_json(const Runs& runs) {
   for (const Run& run : runs.runs) {
     Json& one = report["runs"][run.name];
     one = {{"recording", run.recording}, {"cut_off", run.cut_off}, {"summary", summary_of(run)}};
+    if (!run.efforts.empty()) one["efforts"] = efforts_of(run);
     if (run.joints.empty()) continue;
     Json joints = Json::array();
     for (const Joint& joint : run.joints) joints.push_back(figures_of(joint));

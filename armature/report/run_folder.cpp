@@ -76,6 +76,7 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
   }
   run.signals = signals_of(loaded.value());
   run.joints = joints_of(run.signals);
+  run.efforts = efforts_of(run.signals);
   if (run.joints.empty()) {
     diagnostics.warning(
         {path, 0, 0},

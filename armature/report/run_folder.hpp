@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
+#include "armature/report/effort.hpp"
 #include "armature/report/signals.hpp"
 #include "armature/report/timeline.hpp"
 #include "armature/report/tracking.hpp"
@@ -24,6 +25,7 @@ struct Run {
   bool cut_off = false;   ///< the recording has no end: what is whole of it was read
   Signals signals;
   std::vector<Joint> joints;
+  std::vector<Effort> efforts;
   std::string summary;  ///< JSON of `write_run_summary`; empty: none
   std::optional<Timeline> timeline;
 };

@@ -107,11 +107,20 @@ struct Window {
   double end_s = kNever;
 };
 
+/// `Joint2.Armed`, or `Wam.Armed2` of hardware that has all joints.
+const Signal* armed_signal(const Signals& signals, const std::string& joint) {
+  if (const Signal* const own = signals.find("Joint" + joint + ".Armed")) return own;
+  const auto found =
+      std::find_if(signals.all.begin(), signals.all.end(),
+                   [&](const Signal& signal) { return ends_in(signal.name, ".Armed" + joint); });
+  return found == signals.all.end() ? nullptr : &*found;
+}
+
 /// From the first moment at which all joints were armed to the last.
 Window armed_window(const Signals& signals, const std::vector<Joint>& joints) {
   Window window;
   for (const Joint& joint : joints) {
-    const Signal* const armed = signals.find("Joint" + joint.name + ".Armed");
+    const Signal* const armed = armed_signal(signals, joint.name);
     if (armed == nullptr) continue;
     const auto& values = armed->values;
     const auto first = std::find(values.begin(), values.end(), 1.0);

@@ -37,7 +37,7 @@ struct Joint {
 /// - for each joint a component with the ports `Ref` and `Sen`: PID1.Ref, PID1.Sen; its trailing
 ///   number is the joint's;
 /// - else a port `reference` [q, qd, qdd] and a port `sensor` [q, d] of whatever components;
-/// - `Joint{i}.Armed`, for the time that counts;
+/// - `Joint{i}.Armed`, or `Armed{i}` of another component, for the time that counts;
 /// - the properties `Joint{i}.GearRatio`, `Joint{i}.PeerName` and, of the component of that name,
 ///   `GearRatio` and `CountsPerTurn`, for what a count of the encoder is.
 ///

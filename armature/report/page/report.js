@@ -211,6 +211,32 @@
     }
   }
 
+  function efforts() {
+    const runs = data.runs.filter((run) => run.efforts.length > 0);
+    if (runs.length === 0) return;
+    const part = section('Effort', 'What drove the joints, and the most that was allowed.');
+    const names = [...new Set(runs.flatMap((run) => run.efforts.map((effort) => effort.joint)))];
+    const effortOf = (run, name) => run.efforts.find((effort) => effort.joint === name);
+    const parent = grid(part, names.length);
+    for (const name of names) {
+      const those = runs.filter((run) => effortOf(run, name));
+      const first = effortOf(those[0], name);
+      const lines = those.map((run) => ({label: run.name, stroke: colorOf.get(run) ?? '--run-0', ...effortOf(run, name).curve}));
+      const ends = [Math.min(...lines.map((line) => line.t[0])), Math.max(...lines.map((line) => line.t.at(-1)))];
+      for (const sign of isNumber(first.limit) ? [1, -1] : []) {
+        lines.push({label: sign > 0 ? 'limit' : '', stroke: '--faint', t: ends, v: [sign * first.limit, sign * first.limit]});
+      }
+      plot(parent, {title: `Joint ${name}`, unit: first.unit, digits: 2, lines});
+    }
+    part.append(table([['', ''], ['', '', 'text'], ['largest', ''], ['limit', ''], ['of it', '']],
+      names.flatMap((name) => runs.filter((run) => effortOf(run, name)).map((run, i) => {
+        const effort = effortOf(run, name);
+        return row([el('td', {}, i === 0 ? `Joint ${name}` : ''), Object.assign(named(run), {className: 'text'}),
+          `${short(effort.largest)} ${effort.unit}`, isNumber(effort.limit) ? `${mark(effort.limit)} ${effort.unit}` : '–',
+          isNumber(effort.limit) ? `${Math.round(100 * effort.largest_of_limit)} %` : '–'], i === 0 ? {class: 'first'} : {});
+      }))));
+  }
+
   function timelines() {
     const runs = data.runs.filter((run) => run.timeline);
     if (runs.length === 0) return;
@@ -297,9 +323,18 @@
     if (!data.io) return;
     const part = section('The cycle on the bus', data.io.doc ?? '');
     const modes = Object.entries(data.io).filter(([, mode]) => isNumber(mode?.cycle_us));
-    part.append(table([['mode', ''], ['cycle', 'µs'], ['of it computed', 'µs'], ['hand-written loop', 'µs'], ['ratio', ''], ['frames on the wire', 'µs'], ['of wire + 90 µs', '']],
-      modes.map(([name, mode]) => row([name, short(mode.cycle_us, 4), short(mode.computing_us, 3), short(mode.monolithic_cycle_us, 4),
-        (mode.cycle_us / mode.monolithic_cycle_us).toFixed(4), short(mode.wire_us, 4), name === 'synchronous' ? (mode.cycle_us / (mode.wire_us + 90)).toFixed(4) : '–']))));
+    const columns = [
+      ['cycle', 'µs', (mode) => short(mode.cycle_us, 4)],
+      ['of it computed', 'µs', (mode) => short(mode.computing_us, 3)],
+      ['hand-written loop', 'µs', (mode) => mode.monolithic_cycle_us && short(mode.monolithic_cycle_us, 4)],
+      ['ratio', '', (mode) => mode.monolithic_cycle_us && (mode.cycle_us / mode.monolithic_cycle_us).toFixed(4)],
+      ['on the bus', 'µs', (mode) => mode.bus_us && short(mode.bus_us, 4)],
+      ['frames on the wire', 'µs', (mode) => short(mode.wire_us, 4)],
+      ['of wire + 90 µs', '', (mode, name) => name === 'synchronous' && (mode.cycle_us / (mode.wire_us + 90)).toFixed(4)],
+      ['load of the bus', '', (mode) => mode.period_us && `${Math.round(100 * mode.wire_us / mode.period_us)} %`],
+    ].filter(([, , text]) => modes.some(([name, mode]) => text(mode, name)));
+    part.append(table([['mode', ''], ...columns.map(([title, unit]) => [title, unit])],
+      modes.map(([name, mode]) => row([name, ...columns.map(([, , text]) => text(mode, name) || '–')]))));
   }
 
   function health() {
@@ -382,6 +417,7 @@
 
   begin();
   if (tracked.length > 0) { errors(); figures(); positions(); }
+  efforts();
   timelines();
   busCycle();
   health();
