@@ -8,7 +8,7 @@
 namespace armature::report {
 namespace {
 
-constexpr std::string_view kTorque = ".torque[";
+constexpr std::string_view kJointsData = ".jointsDataPort[";
 constexpr std::string_view kVoltage = ".VoltageActuator";
 
 std::optional<double> last_value(const Signals& signals, const std::string& name) {
@@ -25,27 +25,30 @@ Effort make_effort(std::string joint, const Signal& signal, std::optional<double
   return effort;
 }
 
-/// `Wam.jointsDataPort.torque[0]` -> the limit of the first joint of `Wam`.
-std::optional<double> torque_limit(const Signals& signals, const std::string& signal,
+/// `Wam.MaxTorque[2]`, or one for all: `Wam.MaxTorque[0]`.
+std::optional<double> torque_limit(const Signals& signals, const std::string& component,
                                    std::size_t joint) {
-  const std::string limit = signal.substr(0, signal.find('.')) + ".MaxTorque";
-  const auto own = last_value(signals, limit + '[' + std::to_string(joint) + ']');
-  if (own) return own;
-  // One for all.
-  return signals.find(limit + "[1]") == nullptr ? last_value(signals, limit + "[0]") : std::nullopt;
+  const std::string name = component + ".MaxTorque";
+  const bool for_each = signals.find(name + "[1]") != nullptr;
+  return last_value(signals, name + '[' + std::to_string(for_each ? joint : 0) + ']');
 }
 
+/// The last third of the elements.
 std::vector<Effort> torques(const Signals& signals) {
-  std::vector<Effort> efforts;
-  std::string port;
+  std::string component;
+  std::vector<const Signal*> elements;
   for (const Signal& signal : signals.all) {
-    const std::size_t field = signal.name.find(kTorque);
-    if (field == std::string::npos) continue;
-    if (port.empty()) port = signal.name.substr(0, field);
-    if (signal.name.compare(0, field, port) != 0) continue;
-    const std::size_t joint = efforts.size();
-    efforts.push_back(
-        make_effort(std::to_string(joint + 1), signal, torque_limit(signals, signal.name, joint)));
+    const std::size_t port = signal.name.find(kJointsData);
+    if (port == std::string::npos) continue;
+    if (component.empty()) component = signal.name.substr(0, port);
+    if (signal.name.compare(0, port, component) == 0) elements.push_back(&signal);
+  }
+  std::vector<Effort> efforts;
+  const std::size_t count = elements.size() / 3;
+  for (std::size_t joint = 0; joint < count; ++joint) {
+    efforts.push_back(make_effort(std::to_string(joint + 1), *elements[2 * count + joint],
+                                  torque_limit(signals, component, joint)));
+    efforts.back().signal.unit = "Nm";
   }
   return efforts;
 }

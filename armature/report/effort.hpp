@@ -19,8 +19,8 @@ struct Effort {
 
 /// What the report looks for in a recording:
 ///
-/// - the field `torque` of a struct, with an element for each joint, of whatever port; the limit is
-///   the property `MaxTorque` of the same component, for each joint or one for all;
+/// - the port `jointsDataPort` [q, qd, tau] of whatever component, and the property `MaxTorque` of
+///   the same component, for each joint or one for all;
 /// - else for each joint `Joint{i}.VoltageActuator` and the property `Joint{i}.MaxVoltage`.
 std::vector<Effort> efforts_of(const Signals& signals);
 
