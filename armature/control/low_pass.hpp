@@ -24,6 +24,7 @@ class LowPass {
   /// What it would say after an input of `y` forever; 0 at the beginning.
   /// @rt nonblocking, no allocation
   void reset_to(double y) { y_ = y; }
+  double value() const { return y_; }
 
  private:
   explicit LowPass(double share) : share_(share) {}

@@ -52,6 +52,9 @@ class PositionalPid {
   /// Forgets the past.
   /// @rt nonblocking, no allocation
   void reset() { state_ = State{}; }
+  /// The same, as if `error` had been there before: a next one that is equal does not kick.
+  /// @rt nonblocking, no allocation
+  void reset_to(double error) { state_ = {0.0, std::isfinite(error) ? error : 0.0}; }
 
   const Config& config() const { return config_; }
   const State& state() const { return state_; }

@@ -54,6 +54,13 @@ TEST(PositionalPid, AResetForgetsThePast) {
   EXPECT_EQ(pid.step(0.3), first);
 }
 
+TEST(PositionalPid, ResetToItsErrorItDoesNotKick) {
+  PositionalPid pid = make({.kp = 2, .ki = 1, .kd = 1, .period_s = 0.5});
+  pid.step(0.9);
+  pid.reset_to(0.3);
+  EXPECT_NEAR(pid.step(0.3), 2 * 0.3 + 1 * 0.5 * 0.3, 1e-15);
+}
+
 TEST(PositionalPid, AnErrorThatIsNoNumberIsNotHidden) {
   PositionalPid pid = make({.kp = 1, .ki = 1, .period_s = 0.5});
   pid.step(0.3);

@@ -22,7 +22,7 @@ Outcome ControllerWam::on_start() {
   if (changes_.take()) {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
-  law_->reset();
+  begun_ = false;
   return Controller::on_start();
 }
 
@@ -60,6 +60,7 @@ base::Result<std::vector<JointGains>> ControllerWam::gains() const {
 void ControllerWam::controller_now(const std::vector<double>& measured) {
   const std::vector<double>* const reference = reference_now(measured);
   if (reference == nullptr) return;
+  if (!std::exchange(begun_, true)) law_->reset_to(*reference, measured);
   law_->step(*reference, measured, torques_);
   const auto is_finite = [](double torque) { return std::isfinite(torque); };
   if (std::all_of(torques_.begin(), torques_.end(), is_finite)) {

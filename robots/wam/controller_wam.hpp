@@ -12,7 +12,7 @@ namespace armature::wam {
 
 /// The arm's own controller (paper 3, ControllerWAM): JointController, in the place of another
 /// Controller; the hardware compensates gravity. Gains are one number for each joint, or one for
-/// all; without any they are the vendor's for so many joints. Each start is without a past.
+/// all; without any they are the vendor's for so many joints. A start neither kicks nor has a past.
 /// @rt nonblocking, no allocation, O(joints)
 class ControllerWam final : public library::Controller {
  public:
@@ -32,6 +32,7 @@ class ControllerWam final : public library::Controller {
   Numbers max_torque_{this, "MaxTorque", {}, "of the vendor, if none", "Nm"};
   library::Changes changes_{joints_, period_, kp_, ki_, kd_, max_torque_};
   std::optional<JointController> law_;
+  bool begun_ = false;  ///< since the start
   std::vector<double> torques_;
 };
 

@@ -28,6 +28,11 @@ void JointController::step(std::span<const double> reference, std::span<const do
   }
 }
 
+void JointController::reset_to(std::span<const double> reference,
+                               std::span<const double> measured) {
+  for (std::size_t i = 0; i < pids_.size(); ++i) pids_[i].reset_to(reference[i] - measured[i]);
+}
+
 void JointController::reset() {
   for (control::PositionalPid& pid : pids_) pid.reset();
 }

@@ -36,6 +36,9 @@ class JointController {
   /// after a stop or on another reference, calls this, or past errors drive the arm.
   /// @rt nonblocking, no allocation, O(joints)
   void reset();
+  /// The same, as if the arm had been there before: the next step does not kick.
+  /// @rt nonblocking, no allocation, O(joints)
+  void reset_to(std::span<const double> reference, std::span<const double> measured);
 
   std::size_t joints() const { return pids_.size(); }
 

@@ -71,6 +71,17 @@ TEST_P(WamController, AfterAResetItBeginsAsAtFirst) {
   EXPECT_EQ(again, first);
 }
 
+TEST_P(WamController, ResetToWhereTheArmIsItDoesNotKick) {
+  JointController controller = make();
+  const Vector reference(arm.joints(), 0.004), measured(arm.joints(), 0.003);
+  Vector torques(arm.joints());
+  controller.reset_to(reference, measured);
+  controller.step(reference, measured, torques);
+  for (std::size_t i = 0; i < arm.joints(); ++i) {
+    EXPECT_NEAR(torques[i], (arm.gains[i].kp + arm.gains[i].ki * kPeriod) * 0.001, 1e-12);
+  }
+}
+
 TEST_P(WamController, AllocatesNothing) {
   JointController controller = make();
   const Vector reference(arm.joints(), 0.004), measured(arm.joints(), 0.003);
@@ -78,6 +89,7 @@ TEST_P(WamController, AllocatesNothing) {
   testing::RealtimeGuard guard;
   const auto violations = guard.watch([&] {
     controller.step(reference, measured, torques);
+    controller.reset_to(reference, measured);
     controller.reset();
   });
   EXPECT_EQ(violations, 0u) << guard.report();

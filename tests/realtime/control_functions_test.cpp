@@ -240,6 +240,8 @@ TEST(RealtimeFunctions, PositionalPid) {
   expect_realtime("PositionalPid::step", [&] { output = pid.step(1.5); });
   EXPECT_EQ(output, 3.0);
   expect_realtime("PositionalPid::reset", [&] { pid.reset(); });
+  expect_realtime("PositionalPid::reset_to", [&] { pid.reset_to(0.5); });
+  EXPECT_EQ(pid.state().last_error, 0.5);
 }
 
 TEST(RealtimeFunctions, LowPass) {

@@ -74,7 +74,7 @@ class Gravity : public ::testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Wam, Gravity, ::testing::Values(4, 7));
 
-constexpr int kPoses = 8;
+constexpr int kPoses = 6;
 constexpr double kBound = 0.01;
 
 TEST_P(Gravity, CompensatedHoldsTheArmForTenSecondsAnywhere) {
