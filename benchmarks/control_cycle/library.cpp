@@ -6,5 +6,5 @@ using namespace armature::benchmarks;
 
 ARMATURE_COMPONENT_LIBRARY(control_cycle, registry) {
   registry.add<Card>("Card", "a simulated motor");
-  registry.add<Reference>("Reference", "where the joints are to be");
+  registry.add<Reference>("CycleReference", "where the joints are to be");
 }
