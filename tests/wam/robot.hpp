@@ -36,7 +36,7 @@ class Robot {
       models.add<BenchActuator>("BenchActuator", "its motors");
     };
     deployment_ =
-        deploy::parse_deployment(text_for(config), WAM "/deployments/bench.yaml", options);
+        deploy::parse_deployment(text_for(config), WAM "/deployments/control/bench.yaml", options);
     EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
     deployment_.options.simulated = true;
     application_ =

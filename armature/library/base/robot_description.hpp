@@ -25,6 +25,7 @@ class RobotDescription {
   base::Result<control::InverseDynamics> load(std::size_t joints,
                                               std::vector<std::string>& warnings) const;
 
+  const std::string& file() const { return file_.get(); }
   /// Whether a property was set since this was asked.
   bool take_change() { return changes_.take(); }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robots/wam/actuator_wam.hpp"
+
+#include <cmath>
+
+#include "armature/library/base/reason_text.hpp"
+
+namespace armature::wam {
+
+void ActuatorWam::actuate(const std::vector<double>& act) {
+  take_sample();
+  for (std::size_t i = 0; i < act.size(); ++i) {
+    if (std::isfinite(act[i])) continue;
+    component::Reason why("the torque for joint ");
+    library::append_number(why, static_cast<double>(i + 1)).append(" is ");
+    return fault(library::append_number(why, act[i]).append(", expected finite numbers"));
+  }
+  torque_.write(act);
+}
+
+}  // namespace armature::wam

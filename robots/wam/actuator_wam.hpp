@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "armature/library/base/actuator.hpp"
+
+namespace armature::wam {
+
+/// The actuators of the arm (paper 3, ActuatorWAM): hands the torques of all joints on to
+/// WamHardware. One that is no finite number is a fault, and nothing is handed on.
+/// @rt nonblocking, no allocation, O(joints)
+class ActuatorWam final : public library::Actuator {
+ public:
+  using Actuator::Actuator;
+
+ private:
+  void actuate(const std::vector<double>& act) override;
+
+  component::OutputPort<std::vector<double>> torque_{this, "Torque", "of the joints", "V",
+                                                     component::size_of(joints_)};
+};
+
+}  // namespace armature::wam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "armature/base/result.hpp"
+#include "robots/wam/arm_motors.hpp"
+#include "robots/wam/arm_numbers.hpp"
+#include "robots/wam/emulator.hpp"
+#include "robots/wam/wam_link.hpp"
+
+namespace armature::wam {
+
+/// The emulated arm in the host's own thread, which lets time pass there whenever it looks.
+class EmulatedLink final : public WamLink {
+ public:
+  enum class Time {
+    kSimulated,  ///< waiting takes no time: the emulator runs ahead of the application's clock
+    kReal,       ///< on the monotonic clock
+  };
+  struct Config {
+    ArmSimulation::Config arm;
+    Time time = Time::kSimulated;
+    base::Time begin{};  ///< on the application's clock
+  };
+
+  /// In E-stop, with the button pressed.
+  static base::Result<std::unique_ptr<EmulatedLink>> make(const ArmNumbers& numbers,
+                                                          const Config& config);
+
+  can::Bus& bus() override { return *host_; }
+  bool open(can::BusOptions options, base::Diagnostics& diagnostics) override;
+  /// The application's clock may stand where it stood while the conversation before the run took
+  /// seconds of the emulator's.
+  void begin_run(base::Time time) override;
+  void begin_cycle(base::Time time) override;
+  base::Time now() override;
+  void wait_for_news(base::Time deadline) override;
+
+  Emulator& emulator() { return *emulator_; }
+  ArmMotors& motors() { return motors_; }
+  can::VirtualStation& station() { return *host_; }
+
+ private:
+  EmulatedLink(ArmSimulation arm, Time time, base::Time begin)
+      : time_(time), motors_(std::move(arm), begin) {}
+  void advance_to(base::Time now);
+
+  const Time time_;
+  base::Duration ahead_{};  ///< of the application's clock
+  ArmMotors motors_;
+  std::unique_ptr<Emulator> emulator_;
+  can::VirtualStation* host_ = nullptr;
+};
+
+}  // namespace armature::wam

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "armature/component/outcome.hpp"
+#include "robots/wam/pendant_word.hpp"
+#include "robots/wam/puck_protocol.hpp"
+#include "robots/wam/wam_driver.hpp"
+
+namespace armature::wam {
+
+// What an operator reads of the arm's safety. Nonblocking, and allocates nothing.
+
+/// The board's mode as paper 3 names it.
+std::string_view safety_state(std::optional<BoardMode> mode);
+
+/// Why the arm is out of service, and what the operator has to do.
+/// @param node  of the puck, where the fault is one's
+component::Reason fault_reason(WamFault fault, int node);
+
+/// What has to be pressed so that the arm becomes active, and why.
+/// @param was_active  it was active before the run, whose pucks may be idle
+std::string_view activation_request(const std::optional<PendantWord>& pendant, bool was_active);
+
+/// Whether the pendant shows a fault, which keeps the arm from being activated.
+bool shows_fault(const PendantWord& pendant);
+
+/// Positions are lost with it: the arm has to be put at home.
+bool loses_positions(WamFault fault);
+
+}  // namespace armature::wam

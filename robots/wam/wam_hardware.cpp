@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robots/wam/wam_hardware.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "armature/rt/guard.hpp"
+#include "robots/wam/safety_text.hpp"
+
+namespace armature::wam {
+
+using component::CommandStage;
+using component::Outcome;
+
+namespace {
+
+/// Cycles in a row without torques, from which on nobody controls the arm any more.
+constexpr int kMostWithoutCommand = 3;
+/// [rad/s] of all joints together, on the way home.
+constexpr double kHomeRate = 0.5;
+
+}  // namespace
+
+Outcome WamHardware::on_start() {
+  if (positions_lost_) return component::refused(fault_reason(WamFault::kEstop, 0));
+  link_->begin_run(time());
+  driver_->start(link_->now());
+  path_->go_off();
+  motion_->forget();
+  own_controller_->reset();
+  read_at_ = base::Time::min();
+  idle_seen_ = asks_ = commanded_ = false;
+  without_command_ = 0;
+  idled_at_.reset();
+  waits_for_.assign({});
+  lost_answers_.assign(0);
+  cycles_without_command_.assign(0);
+  arming_ = arm_.bound() ? &arm_.source()->owner() : nullptr;
+  return component::accepted();
+}
+
+void WamHardware::on_stop() { make_safe(); }
+
+void WamHardware::on_cleanup() {
+  driver_.reset();
+  link_->bus().close();
+}
+
+// ---- The cycle
+
+bool WamHardware::get_joint_sensors() {
+  if (state() != component::State::kRunning) return false;
+  on_sample();
+  if (state() != component::State::kRunning || !motion_->known()) return false;
+  const std::size_t joints = path_->joints();
+  std::ranges::copy(motion_->positions(), data_.begin());
+  std::ranges::copy(motion_->velocities(), data_.begin() + static_cast<std::ptrdiff_t>(joints));
+  std::ranges::copy(path_->joint_torques(),
+                    data_.begin() + static_cast<std::ptrdiff_t>(2 * joints));
+  joints_data_.write(data_);
+  return true;
+}
+
+void WamHardware::on_sample() {
+  if (read_at_ != time()) read_all();
+}
+
+void WamHardware::read_all() {
+  read_at_ = time();
+  link_->begin_cycle(time());
+  // The board hears torques in every cycle, also if who commands them is late.
+  if (armed() && !commanded_) driver_->send_torques(link_->now());
+  const base::Time asked_at = link_->now();
+  driver_->begin_reading(asked_at);
+  while (driver_->poll(link_->now()) == WamReading::kWaiting) {
+    link_->wait_for_news(driver_->deadline());
+  }
+  motion_->take(*driver_, asked_at);
+  path_->measure(motion_->positions(), motion_->velocities());
+  count_lost_answers();
+  if (!supervise()) return;
+  drive_or_hold();
+  if (move_home_.active()) follow_home();
+}
+
+void WamHardware::count_lost_answers() {
+  if (driver_->reading() == WamReading::kComplete) return;
+  int lost = 0;
+  for (std::size_t i = 0; i < driver_->motors(); ++i) lost += driver_->motor(i).fresh ? 0 : 1;
+  lost_answers_.assign(lost_answers_() + lost);
+}
+
+/// Armed, torques come later in this cycle.
+void WamHardware::drive_or_hold() {
+  if (armed()) {
+    without_command_ = std::exchange(commanded_, false) ? 0 : without_command_ + 1;
+    if (without_command_ > 0) cycles_without_command_.assign(cycles_without_command_() + 1);
+    if (without_command_ >= kMostWithoutCommand) disarm("no torques come any more");
+    if (arming_ != nullptr && arming_->state() == component::State::kException) {
+      disarm("who armed it is out of service");
+    }
+  }
+  if (armed()) return;
+  if (path_->mode() == TorquePath::Mode::kHolding) path_->step_hold(link_->now());
+  send_torques();
+}
+
+void WamHardware::on_torque(const Vector& torques) {
+  if (!armed() || std::exchange(commanded_, true)) return;
+  const auto result = path_->step_drive(torques, link_->now());
+  clipped_.assign(path_->clipped());
+  if (result == TorquePath::Result::kNotFinite) disarm("a torque is no finite number");
+  send_torques();
+}
+
+void WamHardware::on_position(const Vector& reference) {
+  if (!motion_->known()) return;
+  own_controller_->step(reference, motion_->positions(), own_torques_);
+  control_data_.write(own_torques_);
+}
+
+void WamHardware::send_torques() {
+  const base::Time now = link_->now();
+  const std::span<const double> torques = path_->motor_torques();
+  for (std::size_t i = 0; i < torques.size(); ++i) driver_->set_torque(i, torques[i], now);
+  driver_->send_torques(now);
+}
+
+// ---- Arming
+
+void WamHardware::on_arm() {
+  if (armed()) return;
+  if (!path_->begin_to_drive()) {
+    log_error("not armed: the arm is not active, it waits for {}", waits_for_.get().view());
+    return tell_armed(false);
+  }
+  own_controller_->reset();
+  without_command_ = 0;
+  commanded_ = true;  // from the next cycle on
+  tell_armed(true);
+  log_info("armed");
+}
+
+void WamHardware::disarm(std::string_view why) {
+  const bool was_armed = armed();
+  if (path_->mode() != TorquePath::Mode::kOff) path_->begin_to_hold();
+  tell_armed(false);
+  if (was_armed) log_warning("disarmed, and holds the arm where it is: {}", why);
+  if (move_home_.active()) move_home_.fail("disarmed");
+}
+
+void WamHardware::tell_armed(bool armed) {
+  for (std::size_t i = 0; i < armed_.size(); ++i) armed_[i].write(armed);
+}
+
+// ---- Commands
+
+Outcome WamHardware::move_home() {
+  if (!armed()) return component::refused("the arm is not armed");
+  if (!generator_.bound()) return component::refused("it has no peer with a command moveTo");
+  double length = 0.0;
+  for (std::size_t i = 0; i < path_->joints(); ++i) {
+    length = std::hypot(length, numbers_->home[i] - motion_->positions()[i]);
+  }
+  const rt::PermitScope first_target_makes_room;
+  // A motion of which no part is faster than twice its mean.
+  home_motion_ = generator_.send(numbers_->home, 2.0 * length / kHomeRate);
+  if (home_motion_.stage() != CommandStage::kRefused) return component::accepted();
+  return component::refused(home_motion_.reason());
+}
+
+void WamHardware::follow_home() {
+  move_home_.report(home_motion_.progress());
+  if (!home_motion_.ended()) return;
+  if (home_motion_.stage() == CommandStage::kDone) {
+    move_home_.complete();
+  } else {
+    move_home_.fail(home_motion_.reason());
+  }
+}
+
+Outcome WamHardware::press(void (WamHardware::*key)(), component::Command<>& command) {
+  if (emulated_ == nullptr) {
+    component::Reason why("the arm on ");
+    return component::refused(
+        why.append(bus_.get()).append(" has an operator and a pendant of its own"));
+  }
+  (this->*key)();
+  command.complete();
+  return component::accepted();
+}
+
+}  // namespace armature::wam

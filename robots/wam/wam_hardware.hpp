@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/library/base/max_age.hpp"
+#include "armature/library/base/robot_description.hpp"
+#include "robots/wam/emulated_link.hpp"
+#include "robots/wam/torque_path.hpp"
+#include "robots/wam/wam_driver.hpp"
+#include "robots/wam/wam_link.hpp"
+#include "robots/wam/wam_motion.hpp"
+#include "robots/wam/wam_parameters.hpp"
+
+namespace armature::wam {
+
+/// The arm (paper 3, OrocosWam): the only component that knows its bus, its pucks and its safety
+/// board.
+///
+/// The first that asks in a cycle, or Sample, has all positions read; torque frames are sent in
+/// every cycle, 0 until the operator has activated the arm. Activated, it holds where it is.
+/// Armed, `torRefPort` is passed, through a TorquePath; a command that stays away for three cycles
+/// disarms it, and it holds again. Whatever ends the activation disarms it: by the operator's hand,
+/// it waits for the next; any other loss is a fault with torques 0 and the pucks idle, which brakes
+/// the arm.
+///
+/// Properties count from the configuration on.
+/// @rt no allocation; waits for the pucks' answers, 1.4 ms at most
+class WamHardware final : public component::Component {
+ public:
+  using Component::Component;
+
+  /// For tests that break something: the arm in this process; nullptr on another bus.
+  EmulatedLink* emulated() { return emulated_; }
+  const WamDriver& driver() const { return *driver_; }
+  const TorquePath& torque_path() const { return *path_; }
+
+ private:
+  using Vector = std::vector<double>;
+
+  component::Outcome on_configure() override;
+  component::Outcome on_start() override;
+  void on_stop() override;
+  void on_cleanup() override;
+  component::Outcome on_reset() override;
+
+  // wam_hardware_set_up.cpp
+  component::Outcome set_up_path();
+  component::Outcome make_link();
+  component::Outcome connect();
+  void help_to_idle();
+
+  // The cycle.
+  bool get_joint_sensors();
+  void on_sample();
+  void read_all();
+  void count_lost_answers();
+  void drive_or_hold();
+  void on_torque(const Vector& torques);
+  void on_position(const Vector& reference);
+  void send_torques();
+
+  // Safety.
+  bool supervise();
+  void wait_for_cause();
+  void watch_activation();
+  void ask_for_activation();
+  void help_to_activate();
+  void take_out(WamFault fault);
+  void leave_service();
+  void make_safe();
+
+  // Arming.
+  void on_arm();
+  void on_disarm() { disarm("the operator disarmed it"); }
+  void disarm(std::string_view why);
+  void tell_armed(bool armed);
+  bool armed() const { return path_->mode() == TorquePath::Mode::kDriven; }
+
+  // Commands.
+  component::Outcome move_home();
+  void cancel_home() { home_motion_.cancel(); }
+  void follow_home();
+  component::Outcome press(void (WamHardware::*key)(), component::Command<>& command);
+  void press_estop() { emulated_->emulator().board().estop(); }
+  void press_reset() { emulated_->emulator().board().reset(); }
+  void press_idle() { emulated_->emulator().board().shift_idle(); }
+  void press_activate() { emulated_->emulator().board().shift_activate(); }
+  void carry() { emulated_->motors().carry_to(numbers_->home); }
+  component::Outcome estop() { return press(&WamHardware::press_estop, estop_); }
+  component::Outcome release_estop() { return press(&WamHardware::press_reset, release_estop_); }
+  component::Outcome shift_idle() { return press(&WamHardware::press_idle, shift_idle_); }
+  component::Outcome shift_activate() {
+    return press(&WamHardware::press_activate, shift_activate_);
+  }
+  component::Outcome carry_home() { return press(&WamHardware::carry, carry_home_); }
+
+  component::Property<int> joints_{
+      this, "joints", 7, "4, or 7 with the wrist", "", component::mandatory};
+  component::Property<std::string> bus_{
+      this, "bus", "emulator",
+      "emulator: the arm emulated in this process; virtual:PATH; or an interface such as can0"};
+  library::RobotDescription description_{this};
+  WamParameters parameters_{this};
+  component::Property<double> idle_patience_{
+      this, "idle_patience",
+      5.0,  "how long to wait at the configuration for the arm to be brought to idle",
+      "s",  component::range(0.0, 3600.0)};
+  component::Property<bool> at_home_{
+      this, "at_home", false,
+      "the operator has put the arm at home: pucks that lost their positions are told them there"};
+  component::Property<bool> emulated_operator_{
+      this, "emulated_operator",
+      true, "the emulator's operator puts the arm at home, presses Shift+Idle and Shift+Activate",
+      "",   component::changeable_while_running};
+
+  component::InputPort<Vector> torque_reference_{
+      this,
+      "torRefPort",
+      "torques for the joints",
+      "V",
+      component::on_data<&WamHardware::on_torque>,
+      component::size_of(joints_),
+      component::max_age(library::kMaxAge, component::Reaction::kHold),
+      component::on_lost(component::Reaction::kHold),
+      component::leads_to("Armed")};
+  component::OutputPort<Vector> control_data_{this, "ControlDataPort",
+                                              "torques of the arm's own controller", "V",
+                                              component::size_of(joints_)};
+  component::InputPort<Vector> position_reference_{this,
+                                                   "posRefPort",
+                                                   "positions for the arm's own controller",
+                                                   "rad",
+                                                   component::on_data<&WamHardware::on_position>,
+                                                   component::size_of(joints_),
+                                                   component::on_lost(component::Reaction::kHold),
+                                                   component::may_stay_open,
+                                                   component::leads_to("ControlDataPort")};
+  component::OutputPort<Vector> joints_data_{
+      this, "jointsDataPort",
+      "[q1..qN, qd1..qdN, tau1..tauN]: positions rad, velocities rad/s, torques Nm", "",
+      component::size_of(joints_, 3)};
+  component::OutputPorts<bool> armed_{this, "Armed", joints_, "torques are passed"};
+  component::Operation<bool()> get_joint_sensors_{
+      this, "getJointSensorsOperation", component::serve<&WamHardware::get_joint_sensors>,
+      "has the positions of this cycle read, and writes jointsDataPort", component::in_own_thread};
+  component::EventHandler<> sample_{this, "Sample", component::serve<&WamHardware::on_sample>,
+                                    "reads, so that the arm is held also if nobody asks",
+                                    component::leads_to("Armed")};
+  component::EventHandler<> arm_{this, "Arm", component::serve<&WamHardware::on_arm>,
+                                 "torRefPort is passed from now on", component::leads_to("Armed")};
+  component::EventHandler<> disarm_{this, "Disarm", component::serve<&WamHardware::on_disarm>,
+                                    "holds the arm where it is", component::leads_to("Armed")};
+
+  component::CommandCaller<const Vector&, double> generator_{this, "moveTo", "moves the joints",
+                                                             component::optional};
+  component::Command<> move_home_{this, "moveHome", component::serve<&WamHardware::move_home>,
+                                  "moves the armed arm home, at 0.5 rad/s of all joints together",
+                                  component::cancelled_by<&WamHardware::cancel_home>};
+  component::Command<> estop_{this, "estop", component::serve<&WamHardware::estop>,
+                              "presses the emulated E-stop button"};
+  component::Command<> release_estop_{this, "releaseEstop",
+                                      component::serve<&WamHardware::release_estop>,
+                                      "pulls the emulated E-stop button out"};
+  component::Command<> shift_idle_{this, "shiftIdle", component::serve<&WamHardware::shift_idle>,
+                                   "presses Shift+Idle of the emulated pendant"};
+  component::Command<> shift_activate_{this, "shiftActivate",
+                                       component::serve<&WamHardware::shift_activate>,
+                                       "presses Shift+Activate of the emulated pendant"};
+  component::Command<> carry_home_{this, "carryHome", component::serve<&WamHardware::carry_home>,
+                                   "the emulated operator carries the arm home"};
+
+  component::Attribute<component::Reason> safety_state_{
+      this, "safety_state", {}, "of the safety board: E-STOP, IDLE or ACTIVATED"};
+  component::Attribute<component::Reason> waits_for_{
+      this, "waits_for", {}, "what the operator has to do, and why; empty if nothing"};
+  component::Attribute<int> lost_answers_{this, "lost_answers", 0,
+                                          "positions since the start that did not come"};
+  component::Attribute<int> cycles_without_command_{
+      this, "cycles_without_command", 0, "since the start, in which the armed arm got no torques"};
+  component::Attribute<int> clipped_{this, "clipped", 0,
+                                     "commands since the configuration that a limit changed"};
+
+  const ArmNumbers* numbers_ = nullptr;
+  const component::Component* arming_ = nullptr;  ///< who arms it, and could take that back
+  std::optional<TorquePath> path_;
+  std::optional<JointController> own_controller_;
+  std::unique_ptr<WamLink> link_;
+  EmulatedLink* emulated_ = nullptr;
+  std::optional<WamDriver> driver_;
+  std::optional<WamMotion> motion_;
+
+  base::Time read_at_ = base::Time::min();
+  bool positions_lost_ = false;  ///< until it is configured anew
+  bool commanded_ = false;       ///< in this cycle
+  int without_command_ = 0;      ///< cycles in a row
+  bool idle_seen_ = false;       ///< since the start
+  bool asks_ = false;            ///< for activation
+  base::Time pressed_at_{};      ///< by the emulated operator
+  std::optional<base::Time> idled_at_;
+  component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
+  Vector own_torques_;
+  Vector data_;
+};
+
+}  // namespace armature::wam

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// WamHardware: what the safety board, the pucks and the bus say, and what becomes of it.
+#include <chrono>
+
+#include "robots/wam/safety_text.hpp"
+#include "robots/wam/wam_hardware.hpp"
+
+namespace armature::wam {
+namespace {
+
+/// Until then the board says why it went to idle; the driver asks it at once.
+constexpr base::Duration kCauseTime = std::chrono::milliseconds(150);
+/// Between two keys of the emulated operator.
+constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
+
+}  // namespace
+
+component::Outcome WamHardware::on_reset() {
+  if (!positions_lost_) return component::accepted();
+  return component::refused(
+      "the pucks have lost their positions: put the arm at home, and begin the program again");
+}
+
+/// @return it is in service
+bool WamHardware::supervise() {
+  const std::string_view state = safety_state(driver_->board_mode());
+  if (safety_state_.get().view() != state) {
+    safety_state_.assign(state);
+    if (driver_->board_mode()) log_info("the safety board is in {}", state);
+  }
+  const WamFault fault = driver_->fault();
+  if (fault == WamFault::kIdled) {
+    wait_for_cause();
+  } else if (fault != WamFault::kNone) {
+    take_out(fault);
+    return false;
+  } else {
+    watch_activation();
+  }
+  return true;
+}
+
+/// A fault of the board becomes one of this component; without one it was the operator.
+void WamHardware::wait_for_cause() {
+  if (!idled_at_) {
+    idled_at_ = link_->now();
+    leave_service();
+  }
+  if (link_->now() - *idled_at_ < kCauseTime) return;
+  idled_at_.reset();
+  driver_->acknowledge();
+  log_warning("the operator has idled the arm; it is disarmed");
+}
+
+void WamHardware::watch_activation() {
+  if (driver_->board_mode() == BoardMode::kIdle) idle_seen_ = true;
+  if (!driver_->board_mode() || !motion_->known()) return;
+  if (!driver_->active() || !idle_seen_) return ask_for_activation();
+  if (path_->mode() != TorquePath::Mode::kOff) return;
+  asks_ = false;
+  waits_for_.assign({});
+  path_->begin_to_hold();
+  log_info("holds the arm where it is");
+}
+
+void WamHardware::ask_for_activation() {
+  const std::string_view request = activation_request(driver_->pendant(), !idle_seen_);
+  if (waits_for_.get().view() != request) {
+    waits_for_.assign(request);
+    log_warning("waits for {}", request);
+  }
+  if (emulated_ != nullptr && emulated_operator_) help_to_activate();
+}
+
+/// A key at a time, once it was asked for.
+void WamHardware::help_to_activate() {
+  const base::Time now = link_->now();
+  if (!asks_) pressed_at_ = now;
+  asks_ = true;
+  if (now - pressed_at_ < kKeyTime) return;
+  pressed_at_ = now;
+  const bool first_idle = !idle_seen_ || (driver_->pendant() && shows_fault(*driver_->pendant()));
+  first_idle ? press_idle() : press_activate();
+}
+
+void WamHardware::take_out(WamFault why) {
+  positions_lost_ = loses_positions(why);
+  const int node = driver_->fault_node();
+  leave_service();
+  make_safe();
+  waits_for_.assign({});
+  fault(fault_reason(why, node));
+}
+
+void WamHardware::leave_service() {
+  path_->go_off();
+  own_controller_->reset();
+  tell_armed(false);
+  if (move_home_.active()) move_home_.fail("the arm is not active any more");
+}
+
+/// Pucks that are idle brake their motors.
+void WamHardware::make_safe() {
+  path_->go_off();
+  send_torques();
+  driver_->send_idle();
+  tell_armed(false);
+}
+
+}  // namespace armature::wam
