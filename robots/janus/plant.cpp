@@ -12,15 +12,13 @@ namespace {
 
 /// Two seconds of states.
 constexpr std::size_t kMostStates = 200;
-/// On a bus that has no time of its own, since the frames have had theirs on another: 1 ns a bit.
-constexpr std::uint32_t kTimelessBitRate = 1'000'000'000;
 
-base::Result<std::unique_ptr<PlantWire>> make_wire(Simulation& simulation,
-                                                   const Plant::Config& config) {
+base::Result<std::unique_ptr<can::HostWire>> make_wire(Simulation& simulation,
+                                                       const Plant::Config& config) {
   base::Diagnostics diagnostics;
   auto wire = config.interface.empty()
-                  ? make_shared_wire(simulation.bus(), config.socket, diagnostics)
-                  : make_interface_wire(simulation.bus(), config.interface, diagnostics);
+                  ? can::make_shared_wire(simulation.bus(), config.socket, diagnostics)
+                  : can::make_interface_wire(simulation.bus(), config.interface, diagnostics);
   if (wire == nullptr) return base::Error{diagnostics.to_text()};
   return wire;
 }
@@ -45,7 +43,7 @@ base::Result<std::unique_ptr<Plant>> Plant::start(const Config& config) {
   simulated.head.inner_step = config.inner_step;
   simulated.head.begin = platform::monotonic_now();
   simulated.urdf = config.urdf;
-  simulated.bit_rate = config.interface.empty() ? kBitRate : kTimelessBitRate;
+  simulated.bit_rate = config.interface.empty() ? kBitRate : can::kTimelessBitRate;
   simulated.clock = platform::monotonic_now;
   simulated.bus_name = config.interface.empty() ? config.socket : config.interface;
   auto simulation = Simulation::make(simulated);
@@ -55,7 +53,7 @@ base::Result<std::unique_ptr<Plant>> Plant::start(const Config& config) {
   return std::unique_ptr<Plant>(new Plant(std::move(simulation).value(), std::move(wire).value()));
 }
 
-Plant::Plant(std::unique_ptr<Simulation> simulation, std::unique_ptr<PlantWire> wire)
+Plant::Plant(std::unique_ptr<Simulation> simulation, std::unique_ptr<can::HostWire> wire)
     : simulation_(std::move(simulation)),
       wire_(std::move(wire)),
       states_(kMostStates, rt::WhenFull::kRefuse, PlantState{}),

@@ -10,9 +10,9 @@
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
+#include "armature/can/host_wire.hpp"
 #include "armature/platform/thread.hpp"
 #include "armature/rt/ring.hpp"
-#include "robots/janus/plant_wire.hpp"
 #include "robots/janus/simulation.hpp"
 
 namespace armature::janus {
@@ -53,12 +53,12 @@ class Plant {
   std::uint64_t states_lost() const { return states_lost_.load(std::memory_order_relaxed); }
 
  private:
-  Plant(std::unique_ptr<Simulation> simulation, std::unique_ptr<PlantWire> wire);
+  Plant(std::unique_ptr<Simulation> simulation, std::unique_ptr<can::HostWire> wire);
   void run();
   void tell();
 
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<PlantWire> wire_;
+  std::unique_ptr<can::HostWire> wire_;
   rt::Ring<PlantState> states_;
   std::atomic<std::uint64_t> states_lost_{0};
   std::atomic<bool> stopping_{false};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "robots/janus/plant_wire.hpp"
+#include "armature/can/host_wire.hpp"
 
 #include <utility>
 
@@ -7,29 +7,29 @@
 #include "armature/can/socket_can.hpp"
 #include "armature/rt/wakeup.hpp"
 
-namespace armature::janus {
+namespace armature::can {
 namespace {
 
-class SharedWire final : public PlantWire {
+class SharedWire final : public HostWire {
  public:
-  explicit SharedWire(std::unique_ptr<can::BusServer> server) : server_(std::move(server)) {}
+  explicit SharedWire(std::unique_ptr<BusServer> server) : server_(std::move(server)) {}
   void take() override { server_->take(); }
   void give() override { server_->give(); }
   void wait_until(base::Time deadline) override { server_->wait_until(deadline); }
 
  private:
-  std::unique_ptr<can::BusServer> server_;
+  std::unique_ptr<BusServer> server_;
 };
 
 /// Carries frames between the interface and a station of the virtual bus. What either does not take
 /// is lost, as on a wire that nobody hears; both count it.
-class InterfaceWire final : public PlantWire {
+class InterfaceWire final : public HostWire {
  public:
-  InterfaceWire(can::VirtualBus& bus, const std::string& interface)
+  InterfaceWire(VirtualBus& bus, const std::string& interface)
       : inside_(bus.add_station("interface")), outside_(interface) {}
 
   bool open(base::Diagnostics& diagnostics) {
-    can::BusOptions options;
+    BusOptions options;
     options.on_news = [this] { news_.notify(); };
     return inside_.open({}, diagnostics) && outside_.open(options, diagnostics);
   }
@@ -38,32 +38,32 @@ class InterfaceWire final : public PlantWire {
   void wait_until(base::Time deadline) override { news_.wait_until(deadline); }
 
  private:
-  static void carry(can::Bus& from, can::Bus& to) {
-    can::Arrival arrival;
-    while (from.receive(arrival) == can::ReceiveStatus::kReceived) {
+  static void carry(Bus& from, Bus& to) {
+    Arrival arrival;
+    while (from.receive(arrival) == ReceiveStatus::kReceived) {
       static_cast<void>(to.send(arrival.frame));
     }
   }
 
   rt::Wakeup news_;
-  can::VirtualStation& inside_;
-  can::SocketCan outside_;
+  VirtualStation& inside_;
+  SocketCan outside_;
 };
 
 }  // namespace
 
-std::unique_ptr<PlantWire> make_shared_wire(can::VirtualBus& bus, const std::string& path,
-                                            base::Diagnostics& diagnostics) {
-  auto server = can::BusServer::open(bus, path, diagnostics);
+std::unique_ptr<HostWire> make_shared_wire(VirtualBus& bus, const std::string& path,
+                                           base::Diagnostics& diagnostics) {
+  auto server = BusServer::open(bus, path, diagnostics);
   if (server == nullptr) return nullptr;
   return std::make_unique<SharedWire>(std::move(server));
 }
 
-std::unique_ptr<PlantWire> make_interface_wire(can::VirtualBus& bus, const std::string& interface,
-                                               base::Diagnostics& diagnostics) {
+std::unique_ptr<HostWire> make_interface_wire(VirtualBus& bus, const std::string& interface,
+                                              base::Diagnostics& diagnostics) {
   auto wire = std::make_unique<InterfaceWire>(bus, interface);
   if (!wire->open(diagnostics)) return nullptr;
   return wire;
 }
 
-}  // namespace armature::janus
+}  // namespace armature::can

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -8,16 +9,20 @@
 #include "armature/base/time.hpp"
 #include "armature/can/virtual_bus.hpp"
 
-namespace armature::janus {
+namespace armature::can {
+
+/// Of a virtual bus that has no time of its own, since its frames have had theirs on an interface:
+/// 1 ns a bit.
+constexpr std::uint32_t kTimelessBitRate = 1'000'000'000;
 
 /// What connects the virtual bus of a plant with hosts in other processes. One thread takes,
 /// advances the bus, gives, and waits.
-class PlantWire {
+class HostWire {
  public:
-  PlantWire() = default;
-  PlantWire(const PlantWire&) = delete;
-  PlantWire& operator=(const PlantWire&) = delete;
-  virtual ~PlantWire() = default;
+  HostWire() = default;
+  HostWire(const HostWire&) = delete;
+  HostWire& operator=(const HostWire&) = delete;
+  virtual ~HostWire() = default;
 
   /// What hosts have sent goes to the virtual bus; never waits.
   virtual void take() = 0;
@@ -28,11 +33,12 @@ class PlantWire {
 };
 
 /// Hosts connect to a socket file; nullptr after an error.
-std::unique_ptr<PlantWire> make_shared_wire(can::VirtualBus& bus, const std::string& path,
-                                            base::Diagnostics& diagnostics);
+std::unique_ptr<HostWire> make_shared_wire(VirtualBus& bus, const std::string& path,
+                                           base::Diagnostics& diagnostics);
 
 /// Hosts are on a CAN interface of this machine; nullptr after an error.
-std::unique_ptr<PlantWire> make_interface_wire(can::VirtualBus& bus, const std::string& interface,
-                                               base::Diagnostics& diagnostics);
+/// @param bus  with `kTimelessBitRate`
+std::unique_ptr<HostWire> make_interface_wire(VirtualBus& bus, const std::string& interface,
+                                              base::Diagnostics& diagnostics);
 
-}  // namespace armature::janus
+}  // namespace armature::can
