@@ -47,7 +47,6 @@ class WamHardware final : public component::Component {
   component::Outcome on_start() override;
   void on_stop() override;
   void on_cleanup() override;
-  component::Outcome on_reset() override;
 
   // wam_hardware_set_up.cpp
   component::Outcome set_up_path();

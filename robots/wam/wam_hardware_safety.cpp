@@ -17,12 +17,6 @@ constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
 }  // namespace
 
-component::Outcome WamHardware::on_reset() {
-  if (!positions_lost_) return component::accepted();
-  return component::refused(
-      "the pucks have lost their positions: put the arm at home, and begin the program again");
-}
-
 /// @return it runs on
 bool WamHardware::supervise() {
   const std::string_view told = safety_state(driver_->board_mode());

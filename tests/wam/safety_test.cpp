@@ -192,13 +192,18 @@ TEST_F(WamInMotion, IdledByTheOperatorItIsDisarmedAndWaitsForTheNextActivation) 
 
 TEST_F(WamInMotion, EstopIsAFaultAndPositionsAreLostUntilItIsConfiguredAnew) {
   ASSERT_EQ(arm.call("WAM", "estop"), "");
-  expect_fault_within(50ms, "E-stop: the pucks have lost their positions");
+  expect_fault_within(50ms, "E-stop, positions are lost");
   expect_braked();
-  const auto reset = arm.application().reset_component("WAM");
-  EXPECT_FALSE(reset);
-  EXPECT_THAT(std::string(reset.reason()), HasSubstr("put the arm at home"));
-  EXPECT_TRUE(arm.application().stop().ok());
-  arm.start_active();
+  exec::Application& application = arm.application();
+  ASSERT_TRUE(application.reset_component("WAM"));
+  const auto started = application.start_component("WAM");
+  EXPECT_FALSE(started);
+  EXPECT_THAT(std::string(started.reason()), HasSubstr("put the arm at home"));
+  ASSERT_TRUE(application.clean_up_component("WAM"));
+  ASSERT_TRUE(application.start_component("WAM"));
+  start_stopped();
+  arm.run_for(1s);
+  EXPECT_EQ(arm.safety_state(), "ACTIVATED");
   EXPECT_NEAR(arm.positions()[1], -2.0, 0.01) << "the operator has carried it home";
   expect_moves_only_once_armed();
 }
@@ -324,7 +329,8 @@ TEST_F(WamInMotion, APuckThatHasLostItsZeroIsNamedAndTheArmHasToBePutAtHome) {
   arm.hardware().emulated()->station().send(set_frame(to_node(6), number, 20000));
   expect_fault_within(5 * Arm::kPeriod, "puck 6 told a position that cannot be");
   expect_braked();
-  EXPECT_FALSE(arm.application().reset_component("WAM"));
+  ASSERT_TRUE(arm.application().reset_component("WAM"));
+  EXPECT_FALSE(arm.application().start_component("WAM"));
 }
 
 TEST_F(WamInMotion, MovesHomeSlowlyOnCommand) {
