@@ -23,7 +23,8 @@ std::vector<base::Time> times_of(const exec::BlackBoxReport& report, const std::
   return times;
 }
 
-TEST(WamBlackBox, HasTheLastFiveHundredCyclesOfStatesAndCommandsWithTheFault) {
+/// In real time of every cycle; simulated time is not to spend itself on it, so there a third.
+TEST(WamBlackBox, HasStatesAndCommandsOfTheLastSecondAndTheFault) {
   std::vector<exec::BlackBoxReport> reports;
   Arm arm("npid7.yaml", {}, [&](exec::ApplicationOptions& options) {
     options.black_box.write = [&](const exec::BlackBoxReport& report) {
@@ -40,11 +41,12 @@ TEST(WamBlackBox, HasTheLastFiveHundredCyclesOfStatesAndCommandsWithTheFault) {
   EXPECT_EQ(reports[0].component, "WAM");
   EXPECT_THAT(reports[0].reason, HasSubstr("velocity fault"));
   for (const char* channel : {"WAM.jointsDataPort", "Actuator.Torque", "BridgeRef.reference"}) {
-    auto times = times_of(reports[0], channel);
-    std::erase_if(times, [&](base::Time time) { return time > reports[0].time; });
-    ASSERT_GE(times.size(), 500u) << channel;
-    for (std::size_t i = times.size() - 500; i < times.size(); ++i) {
-      ASSERT_EQ(times[i] - times[i - 1], Arm::kPeriod) << channel;
+    const auto times = times_of(reports[0], channel);
+    ASSERT_FALSE(times.empty()) << channel;
+    EXPECT_LE(times.front(), reports[0].time - 1s) << channel;
+    EXPECT_TRUE(std::ranges::find(times, reports[0].time) != times.end()) << channel;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      EXPECT_LE(times[i] - times[i - 1], 3 * Arm::kPeriod);
     }
   }
 }
