@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamHardware: from its properties to an arm that is ready for its cycle.
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
@@ -21,7 +22,10 @@ constexpr double kAtHome = 1e-6;  // [rad]
 }  // namespace
 
 Outcome WamHardware::on_configure() {
-  if (joints_ != 4 && joints_ != 7) return component::refused("joints is not 4 or 7");
+  if (joints_ != 4 && joints_ != 7) {
+    return component::refused("joints is " + std::to_string(joints_) +
+                              ", expected 4, or 7 with the wrist");
+  }
   numbers_ = joints_ == 4 ? &wam4() : &wam7();
   if (Outcome outcome = set_up_path(); !outcome) return outcome;
   if (Outcome outcome = make_link(); !outcome) return outcome;

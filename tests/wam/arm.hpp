@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,7 +25,9 @@ class Arm {
  public:
   static constexpr base::Duration kPeriod = std::chrono::milliseconds(2);
 
-  explicit Arm(const std::string& file, std::vector<std::string> overrides = {}) {
+  using Adjust = std::function<void(exec::ApplicationOptions&)>;
+  explicit Arm(const std::string& file, std::vector<std::string> overrides = {},
+               const Adjust& adjust = {}) {
     deploy::DeploymentOptions options;
     options.library_folders = {LIBRARIES};
     options.document.overrides = std::move(overrides);
@@ -34,6 +37,7 @@ class Arm {
     deployment_.options.log = [this](const rt::LogRecord& record) {
       log += record.message() + "\n";
     };
+    if (adjust) adjust(deployment_.options);
     application_ =
         std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
   }
