@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,10 @@ struct Case {
   const char* host;
 };
 
+void PrintTo(const Case& tested, std::ostream* out) {
+  *out << tested.joints << " joints, from " << tested.emulator << " to " << tested.host;
+}
+
 const ArmNumbers& numbers_of(const Case& tested) { return tested.joints == 4 ? wam4() : wam7(); }
 
 /// A process that is killed at the end.
@@ -72,6 +77,7 @@ class EmulatorProcess {
     config.emulator = Emulator::standard(tested.joints);
     config.emulator.board.heartbeat_timeout = 5s;
     config.arm.inner_step = 1ms;
+    config.arm.coulomb_friction = friction(tested);
     config.urdf = tested.joints == 4 ? kWam4Urdf : kWam7Urdf;
     config.interface = tested.emulator;
     auto emulator = RunningEmulator::start(config);
@@ -85,6 +91,14 @@ class EmulatorProcess {
       }
     }
     ::_exit(1);
+  }
+
+  /// Joint 1 turns freely; the others stay, or they would be out of sight between two readings
+  /// while nobody controls them.
+  static std::vector<double> friction(const Case& tested) {
+    std::vector<double> torques(tested.joints, 50.0);
+    torques[0] = 0.0;
+    return torques;
   }
 
   std::array<int, 2> pipe_{};
@@ -101,8 +115,8 @@ class EmulatorOnCan : public ::testing::TestWithParam<Case> {
     WamStartup::Config config;
     config.motors = GetParam().joints;
     config.home = motors_at_home();
-    config.presence_window = 50ms;
-    config.answer_window = 300ms;
+    config.presence_window = 100ms;
+    config.answer_window = 2s;
     config.boot_timeout = 20s;
     startup = WamStartup::make(*bus, config).value();
   }
@@ -178,10 +192,8 @@ TEST_P(EmulatorOnCan, AHostOnTheOtherEndStartsItUpRunsItsCycleAndTurnsAJoint) {
   EXPECT_EQ(startup->record().motors, GetParam().joints);
   const auto home = motors_at_home();
 
-  const auto t0 = now();
   int complete = 0;
   for (int i = 0; i < kCycles; ++i) complete += cycle() ? 1 : 0;
-  printf("DEBUG complete %d in %lld us\n", complete, static_cast<long long>((now() - t0) / 1us));
   EXPECT_GE(complete, kCycles * 99 / 100);
   EXPECT_EQ(driver->fault(), WamFault::kNone) << to_text(driver->fault());
   EXPECT_NEAR(driver->motor(0).position, home[0], 0.1);
@@ -190,11 +202,13 @@ TEST_P(EmulatorOnCan, AHostOnTheOtherEndStartsItUpRunsItsCycleAndTurnsAJoint) {
   ASSERT_TRUE(comes_true_in_the_cycle([this] { return driver->active(); }));
   const double before = driver->motor(0).position;
   EXPECT_TRUE(
-      comes_true_in_the_cycle([&] { return driver->motor(0).position > before + 1.0; }, 0.05))
+      comes_true_in_the_cycle([&] { return driver->motor(0).position > before + 0.5; }, 0.005))
       << to_text(driver->fault());
 }
 
-TEST_P(EmulatorOnCan, APuckThatFallsSilentIsNamed) {
+class BrokenEmulatorOnCan : public EmulatorOnCan {};
+
+TEST_P(BrokenEmulatorOnCan, APuckThatFallsSilentIsNamed) {
   ASSERT_TRUE(start()) << startup->diagnostics().to_text();
   ASSERT_TRUE(comes_true_in_the_cycle([this] { return driver->motor(2).known; }));
   emulator.say("fault puck 3 silent");
@@ -202,13 +216,16 @@ TEST_P(EmulatorOnCan, APuckThatFallsSilentIsNamed) {
   EXPECT_EQ(driver->fault_node(), 3);
 }
 
+std::string name_of(const ::testing::TestParamInfo<Case>& tested) {
+  return "Of" + std::to_string(tested.param.joints) + "JointsOn" + tested.param.host;
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernel, EmulatorOnCan,
                          ::testing::Values(Case{4, "vcan0", "vcan0"}, Case{7, "vcan0", "vcan0"},
                                            Case{4, "can0", "can1"}, Case{7, "can0", "can1"}),
-                         [](const auto& test) {
-                           return "Of" + std::to_string(test.param.joints) + "JointsOn" +
-                                  test.param.host;
-                         });
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Kernel, BrokenEmulatorOnCan, ::testing::Values(Case{7, "can0", "can1"}),
+                         name_of);
 
 }  // namespace
 }  // namespace armature::wam
