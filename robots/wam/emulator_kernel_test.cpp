@@ -87,7 +87,8 @@ class EmulatorProcess {
       const ssize_t size = ::read(pipe_[0], said.data(), said.size());
       if (size <= 0) break;
       for (const auto& line : input.take({said.data(), static_cast<std::size_t>(size)})) {
-        emulator.value()->give(parse_emulator_command(line, tested.joints).value());
+        if (!emulator.value()->give(parse_emulator_command(line, tested.joints).value()))
+          ::_exit(2);
       }
     }
     ::_exit(1);
@@ -207,6 +208,14 @@ TEST_P(EmulatorOnCan, AHostOnTheOtherEndStartsItUpRunsItsCycleAndTurnsAJoint) {
 }
 
 class BrokenEmulatorOnCan : public EmulatorOnCan {};
+
+TEST_P(BrokenEmulatorOnCan, ASilentBoardIsNamedAndNothingStandsStill) {
+  emulator.say("fault board silent");
+  startup->connect(now());
+  EXPECT_EQ(talk(), WamProgress::kFailed) << "in E-stop there is nobody else";
+  emulator.say("fault board heals");
+  EXPECT_TRUE(start()) << startup->diagnostics().to_text();
+}
 
 TEST_P(BrokenEmulatorOnCan, APuckThatFallsSilentIsNamed) {
   ASSERT_TRUE(start()) << startup->diagnostics().to_text();

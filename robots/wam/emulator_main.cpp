@@ -139,8 +139,8 @@ class Session {
     const auto parsed = parse_emulator_command(command, joints_);
     if (!parsed) {
       screen_.say(parsed.error());
-    } else if (!emulator_.give(parsed.value())) {
-      screen_.say("'" + command + "' was not done: too many commands at once, say it again");
+    } else if (const auto given = emulator_.give(parsed.value()); !given) {
+      screen_.say("'" + command + "' is not done: " + given.error());
     }
   }
 

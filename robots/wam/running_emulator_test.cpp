@@ -37,7 +37,8 @@ class Running : public ::testing::Test {
     EXPECT_TRUE(host->open({}, diagnostics)) << diagnostics.to_text();
   }
   void say(const std::string& command) {
-    EXPECT_TRUE(emulator->give(parse_emulator_command(command, 7).value()));
+    const auto given = emulator->give(parse_emulator_command(command, 7).value());
+    EXPECT_TRUE(given.ok()) << given.error();
   }
   template <typename Condition>
   static bool comes_true(const Condition& condition) {
