@@ -69,6 +69,11 @@ std::string load_json(const fs::path& path, base::Diagnostics& diagnostics) {
   return {};
 }
 
+bool was_simulated(const Run& run) {
+  const auto summary = nlohmann::json::parse(run.summary, nullptr, false);
+  return summary.is_object() && summary.value("time", "") == "simulated";
+}
+
 void load_recording(const std::string& path, Run& run, base::Diagnostics& diagnostics) {
   run.recording = path;
   const auto loaded = record::load_mcap(path, record::Unclosed::kReadToLastChunk);
@@ -84,6 +89,7 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
                             std::to_string(loaded.value().samples.size()) + " samples");
   }
   run.signals = signals_of(loaded.value());
+  if (!was_simulated(run)) begin_at_zero(run.signals);
   run.joints = joints_of(run.signals);
   run.efforts = efforts_of(run.signals);
   if (run.joints.empty()) {
