@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -81,6 +82,7 @@ class EmulatorProcess {
     config.urdf = tested.joints == 4 ? kWam4Urdf : kWam7Urdf;
     config.interface = tested.emulator;
     auto emulator = RunningEmulator::start(config);
+    if (!emulator) std::fputs(emulator.error().c_str(), stderr);
     EmulatorInput input(EmulatorInput::Kind::kLines);
     std::array<char, 256> said{};
     while (emulator) {
