@@ -76,7 +76,7 @@ class EmulatorProcess {
   [[noreturn]] void run(const Case& tested) const {
     RunningEmulator::Config config;
     config.emulator = Emulator::standard(tested.joints);
-    config.emulator.board.heartbeat_timeout = 5s;
+    config.emulator.board.heartbeat_timeout = 20s;
     config.arm.inner_step = 1ms;
     config.arm.coulomb_friction = friction(tested);
     config.urdf = tested.joints == 4 ? kWam4Urdf : kWam7Urdf;
@@ -154,7 +154,7 @@ class EmulatorOnCan : public ::testing::TestWithParam<Case> {
     startup->zero(now());
     if (talk() != WamProgress::kDone) return false;
     driver.emplace(
-        WamDriver::make(*bus, startup->record(), {.reply_timeout = 300ms, .torque_timeout = 1s})
+        WamDriver::make(*bus, startup->record(), {.reply_timeout = 2s, .torque_timeout = 5s})
             .value());
     driver->start(now());
     return true;
