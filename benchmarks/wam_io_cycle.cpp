@@ -3,7 +3,7 @@
 //
 // How long a cycle of the WAM takes by a hand-written loop without components: the driver, the
 // arm's own joint controller and the compensation of its gravity, at 500 Hz on the emulated arm
-// while it moves. Prints JSON.
+// while it moves. Prints JSON, with the names that janus_io_cycle has for its hand-written loop.
 //
 // A cycle begins with the request of positions and ends when the last torque frame has been on the
 // wire. Its time is that on the bus, which is simulated and so exact, and that of the computation,
@@ -154,9 +154,9 @@ class Loop {
       cycles.push_back(bus.back() + computing[cycles.size()]);
     }
     const double think = in_us(Puck::Config{}.reply_delay);
-    return {{"cycle_us", median(cycles)},
-            {"bus_us", median(bus)},
-            {"computing_us", median(computing)},
+    return {{"monolithic_cycle_us", median(cycles)},
+            {"monolithic_bus_us", median(bus)},
+            {"monolithic_computing_us", median(computing)},
             {"wire_us", median(frames)},
             {"pucks_us", think},
             {"bus_without_pucks_of_wire", (median(bus) - think) / median(frames)},

@@ -35,7 +35,9 @@ class InterfaceWire final : public HostWire {
   bool open(base::Diagnostics& diagnostics) {
     BusOptions options;
     options.on_news = [this] { news_.notify(); };
-    const BusOptions deaf{.filters = {{Frame::kMostExtended, Frame::kMostExtended}}};
+    // All but deaf: what comes is of no interest.
+    const BusOptions deaf{
+        .filters = {{.id = Frame::kMostExtended, .mask = Frame::kMostExtended, .extended = true}}};
     return inside_.open({}, diagnostics) && acknowledging_.open(deaf, diagnostics) &&
            outside_.open(options, diagnostics);
   }

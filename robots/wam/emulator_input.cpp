@@ -15,11 +15,11 @@ struct Key {
 
 /// Small letters only: a terminal sends capitals for the arrow keys.
 constexpr auto kKeys = std::to_array<Key>({{'e', "estop", "E-stop"},
-                                           {'r', "release", "release it"},
+                                           {'r', "release", "release"},
                                            {'i', "idle", "Shift+Idle"},
                                            {'a', "activate", "Shift+Activate"},
-                                           {'h', "home", "carry home"},
-                                           {'?', "help", "all commands"},
+                                           {'h', "home", "home"},
+                                           {'?', "help", "help"},
                                            {'q', "quit", "quit"}});
 
 constexpr char kEscape = '\x1b';
@@ -79,8 +79,8 @@ void EmulatorInput::take_letter(char typed, std::vector<std::string>& commands) 
 
 std::string emulator_keys() {
   std::string all;
-  for (const Key& key : kKeys) all += std::string(1, key.letter) + " " + key.name + "   ";
-  return all + ": a command";
+  for (const Key& key : kKeys) all += std::string(1, key.letter) + " " + key.name + "  ";
+  return all + ": line";
 }
 
 }  // namespace armature::wam

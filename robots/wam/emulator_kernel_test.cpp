@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -75,12 +76,13 @@ class EmulatorProcess {
   [[noreturn]] void run(const Case& tested) const {
     RunningEmulator::Config config;
     config.emulator = Emulator::standard(tested.joints);
-    config.emulator.board.heartbeat_timeout = 5s;
+    config.emulator.board.heartbeat_timeout = 20s;
     config.arm.inner_step = 1ms;
     config.arm.coulomb_friction = friction(tested);
     config.urdf = tested.joints == 4 ? kWam4Urdf : kWam7Urdf;
     config.interface = tested.emulator;
     auto emulator = RunningEmulator::start(config);
+    if (!emulator) std::fputs(emulator.error().c_str(), stderr);
     EmulatorInput input(EmulatorInput::Kind::kLines);
     std::array<char, 256> said{};
     while (emulator) {
@@ -152,7 +154,7 @@ class EmulatorOnCan : public ::testing::TestWithParam<Case> {
     startup->zero(now());
     if (talk() != WamProgress::kDone) return false;
     driver.emplace(
-        WamDriver::make(*bus, startup->record(), {.reply_timeout = 300ms, .torque_timeout = 1s})
+        WamDriver::make(*bus, startup->record(), {.reply_timeout = 2s, .torque_timeout = 5s})
             .value());
     driver->start(now());
     return true;
