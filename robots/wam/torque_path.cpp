@@ -81,6 +81,7 @@ TorquePath::TorquePath(const Config& config, control::Transmission transmission,
 
 void TorquePath::measure(std::span<const double> positions, std::span<const double> velocities) {
   finite_ = all_finite(positions) && all_finite(velocities);
+  measured_anew_ = true;
   if (!finite_) return;
   std::ranges::copy(positions, positions_.begin());
   std::ranges::copy(velocities, velocities_.begin());
@@ -101,6 +102,7 @@ void TorquePath::begin_to_hold() {
   std::ranges::copy(positions_, motion_.begin());
   std::ranges::copy(velocities_, motion_.begin() + static_cast<std::ptrdiff_t>(joints()));
   brake_.begin(motion_);
+  measured_anew_ = false;
   holder_.reset();
 }
 
@@ -113,7 +115,7 @@ bool TorquePath::begin_to_drive() {
 }
 
 void TorquePath::step_hold(base::Time now) {
-  const std::vector<double>& reference = brake_.step();
+  const std::vector<double>& reference = measured_anew_ ? brake_.step() : motion_;
   holder_.step(std::span(reference).first(joints()), positions_, driving_);
   send(now);
 }

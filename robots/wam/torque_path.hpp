@@ -90,7 +90,8 @@ class TorquePath {
   std::vector<control::JointLimiter> limiters_;
   control::HandOver hand_over_;
   Mode mode_ = Mode::kOff;
-  bool finite_ = false;  ///< what was measured
+  bool finite_ = false;         ///< what was measured
+  bool measured_anew_ = false;  ///< since it began to hold: the reference has moved on, too
   int clipped_ = 0;
   std::vector<double> positions_;
   std::vector<double> velocities_;

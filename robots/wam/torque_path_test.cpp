@@ -116,6 +116,27 @@ TEST_F(TorquePathTest, BrakesAMovingArmWithTheDeclaredAcceleration) {
   EXPECT_NEAR(at[0], posture[0] + 0.1, 1e-9);
 }
 
+/// Whether it was measured before or after it was disarmed in a cycle.
+TEST_F(TorquePathTest, BeginningToHoldAMovingArmMakesNoStep) {
+  for (const bool measured_after : {false, true}) {
+    make();
+    const Vector rates{0.5, 0.0, 0.0, 0.0};
+    Vector at = posture;
+    measure(at, rates);
+    path->begin_to_hold();
+    Vector before;
+    for (int i = 0; i < 10; ++i) {
+      if (i > 0 || measured_after) at[0] += 0.5 * 0.002;
+      if (i > 0 || measured_after) measure(at, rates);
+      hold_for(1);
+      if (i > 0) {
+        EXPECT_LT(std::abs(torques()[0] - before[0]), 0.5) << i;
+      }
+      before = torques();
+    }
+  }
+}
+
 TEST_F(TorquePathTest, PassesACommandOnTopOfTheWeightOnceItHasGrown) {
   make();
   arm_it();

@@ -148,7 +148,7 @@ void WamHardware::on_arm() {
 
 void WamHardware::disarm(std::string_view why) {
   const bool was_armed = armed();
-  if (path_->mode() != TorquePath::Mode::kOff) path_->begin_to_hold();
+  if (was_armed) path_->begin_to_hold();
   tell_armed(false);
   if (was_armed) log_warning("disarmed, and holds the arm where it is: {}", why);
   if (move_home_.active()) move_home_.fail("disarmed");

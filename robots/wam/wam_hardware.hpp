@@ -109,7 +109,7 @@ class WamHardware final : public component::Component {
   component::Property<double> idle_patience_{
       this, "idle_patience",
       5.0,  "how long to wait at the configuration for the arm to be brought to idle",
-      "s",  component::range(0.0, 3600.0)};
+      "s",  component::range(0.0, 7.0)};
   component::Property<bool> at_home_{
       this, "at_home", false,
       "the operator has put the arm at home: pucks that lost their positions are told them there"};

@@ -139,6 +139,22 @@ class WamInMotion : public ::testing::Test {
       EXPECT_TRUE(puck.state() == PuckState::kOff || puck.mode() == PuckMode::kIdle) << i;
     }
   }
+  void expect_rests() {
+    const Vector rest = arm.positions();
+    arm.run_for(5s);
+    EXPECT_LT(largest_apart(arm.positions(), rest), 0.002);
+  }
+  /// Of a motor's torque from cycle to cycle [Nm].
+  double largest_step_of(int cycles) {
+    Vector torques = arm.motor_torques();
+    double step = 0.0;
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      arm.cycle();
+      step = std::max(step, largest_apart(arm.motor_torques(), torques));
+      torques = arm.motor_torques();
+    }
+    return step;
+  }
   void return_to_service() {
     ASSERT_TRUE(arm.application().reset_component("WAM")) << arm.reason("WAM");
     ASSERT_TRUE(arm.application().start_component("WAM")) << arm.reason("WAM");
@@ -274,41 +290,47 @@ TEST_F(WamInMotion, ASilentSafetyBoardIsNamed) {
   expect_fault_within(300ms, "the safety board is silent");
 }
 
-TEST_F(WamInMotion, ATorqueReferenceThatStaysAwayDisarmsItAndItIsHeld) {
+TEST_F(WamInMotion, ATorqueReferenceThatStaysAwayDisarmsItAndItIsBrakedSmoothlyAndHeld) {
+  const Vector at = arm.positions();
   ASSERT_TRUE(arm.application().stop_component("Controller"));
-  arm.run_for(4 * Arm::kPeriod);
+  EXPECT_LT(largest_step_of(1000), 0.1) << "of 1.8 Nm that a motor may have";
   EXPECT_EQ(arm.state("WAM"), State::kRunning);
-  arm.run_for(1s);
   EXPECT_FALSE(arm.armed());
-  const Vector rest = arm.positions();
-  arm.run_for(5s);
-  EXPECT_LT(largest_apart(arm.positions(), rest), 0.002);
   EXPECT_THAT(arm.log, HasSubstr("no torques come any more"));
+  EXPECT_LT(largest_apart(arm.positions(), at), 0.05);
+  expect_rests();
 }
 
 TEST_F(WamInMotion, DisarmingBrakesItSmoothlyToRestWhereItIsHeld) {
   const Vector at = arm.positions();
-  Vector torques = arm.motor_torques();
-  double step = 0.0;
   ASSERT_EQ(arm.call("Arming", "disarm"), "");
-  for (int cycle = 0; cycle < 1000; ++cycle) {
-    arm.cycle();
-    step = std::max(step, largest_apart(arm.motor_torques(), torques));
-    torques = arm.motor_torques();
-  }
-  EXPECT_LT(step, 0.1) << "of 1.8 Nm that a motor may have";
+  EXPECT_LT(largest_step_of(1000), 0.1) << "of 1.8 Nm that a motor may have";
   EXPECT_LT(largest_apart(arm.positions(), at), 0.05);
-  const Vector rest = arm.positions();
+  expect_rests();
+}
+
+TEST_F(WamInMotion, ATorqueThatIsNoNumberIsAFaultOfWhoToldItAndTheArmIsBrakedAndHeld) {
+  auto& actuator = *arm.application().find("Actuator");
+  ASSERT_TRUE(arm.application().run_in_thread_of(actuator, [&] {
+    auto* const controller = arm.application().find("Controller");
+    for (component::OutputPortBase* port : controller->interface().outputs) {
+      if (port->name() != "act") continue;
+      const Vector torques(7, std::numeric_limits<double>::quiet_NaN());
+      static_cast<void>(static_cast<component::OutputPort<Vector>*>(port)->write(torques));
+    }
+  }));
   arm.run_for(2s);
-  EXPECT_LT(largest_apart(arm.positions(), rest), 0.002);
+  EXPECT_EQ(arm.state("Actuator"), State::kException);
+  EXPECT_THAT(arm.reason("Actuator"), HasSubstr("the torque for joint 1 is nan"));
+  EXPECT_EQ(arm.state("WAM"), State::kRunning);
+  EXPECT_FALSE(arm.armed());
+  expect_rests();
 }
 
 TEST_F(WamInMotion, StopIsASmoothMotionToRestAndTheArmStaysArmed) {
   ASSERT_EQ(arm.call("Arming", "stop"), "");
   arm.run_for(2s);
-  const Vector rest = arm.positions();
-  arm.run_for(2s);
-  EXPECT_LT(largest_apart(arm.positions(), rest), 0.002);
+  expect_rests();
   EXPECT_TRUE(arm.armed());
 }
 
