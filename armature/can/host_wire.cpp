@@ -22,16 +22,22 @@ class SharedWire final : public HostWire {
 };
 
 /// Carries frames between the interface and a station of the virtual bus. What either does not take
-/// is lost, as on a wire that nobody hears; both count it.
+/// is lost, as on a wire that nobody hears; both count it. Frames of the virtual bus are always
+/// acknowledged, since the interface is there: who is not would try again without end, and on a bus
+/// without a time of its own that is faster than it can be simulated.
 class InterfaceWire final : public HostWire {
  public:
   InterfaceWire(VirtualBus& bus, const std::string& interface)
-      : inside_(bus.add_station("interface")), outside_(interface) {}
+      : inside_(bus.add_station("interface")),
+        acknowledging_(bus.add_station("acknowledging")),
+        outside_(interface) {}
 
   bool open(base::Diagnostics& diagnostics) {
     BusOptions options;
     options.on_news = [this] { news_.notify(); };
-    return inside_.open({}, diagnostics) && outside_.open(options, diagnostics);
+    const BusOptions deaf{.filters = {{Frame::kMostExtended, Frame::kMostExtended}}};
+    return inside_.open({}, diagnostics) && acknowledging_.open(deaf, diagnostics) &&
+           outside_.open(options, diagnostics);
   }
   void take() override { carry(outside_, inside_); }
   void give() override { carry(inside_, outside_); }
@@ -47,6 +53,7 @@ class InterfaceWire final : public HostWire {
 
   rt::Wakeup news_;
   VirtualStation& inside_;
+  VirtualStation& acknowledging_;
   SocketCan outside_;
 };
 

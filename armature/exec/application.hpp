@@ -181,6 +181,8 @@ class Application final {
   component::Outcome stop_component(std::string_view name);
   component::Outcome recover_component(std::string_view name);
   component::Outcome reset_component(std::string_view name);
+  /// To kPreOperational: the next start configures it anew. Refused unless it is stopped.
+  component::Outcome clean_up_component(std::string_view name);
   /// Goes over to another mode between two cycles, see exec/modes.hpp; refused, all is as it was.
   component::Outcome switch_mode(std::string_view name);
   base::Result<void> set_property(std::string_view component, std::string_view property,

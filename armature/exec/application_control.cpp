@@ -114,6 +114,16 @@ Outcome Application::reset_component(std::string_view name) {
   return change(name, [](Component& component) { return component.reset(); });
 }
 
+Outcome Application::clean_up_component(std::string_view name) {
+  return change(name, [](Component& component) {
+    if (component.state() != component::State::kStopped) {
+      return component::refused("cannot be cleaned up: it is not stopped");
+    }
+    component.cleanup();
+    return component::accepted();
+  });
+}
+
 base::Result<void> Application::set_property(std::string_view name, std::string_view property_name,
                                              const types::Value& value) {
   Component* const component = find(name);

@@ -101,6 +101,18 @@ TEST_P(Control, OneComponentStopsAndStartsWhileTheOthersRun) {
   EXPECT_EQ(application().start_component("Gain").reason(), "cannot start while Running");
 }
 
+TEST_P(Control, AComponentThatWasCleanedUpIsConfiguredAnewByItsStart) {
+  EXPECT_THAT(std::string(application().clean_up_component("Gain").reason()),
+              ::testing::HasSubstr("not stopped"));
+  ASSERT_TRUE(application().stop_component("Gain"));
+  ASSERT_TRUE(application().clean_up_component("Gain"));
+  EXPECT_EQ(gain_->state(), State::kPreOperational);
+  ASSERT_TRUE(application().start_component("Gain"));
+  EXPECT_EQ(gain_->state(), State::kRunning);
+  ASSERT_TRUE(wait_for_steps(3));
+  EXPECT_TRUE(application().value_of("Sink", "In"));
+}
+
 TEST_P(Control, WorkRunsAsTheComponentsCodeAndAnExceptionFaultsIt) {
   std::thread::id where;
   std::string who;

@@ -177,7 +177,9 @@ class Inspector::Service final : public InspectorService {
     if (name == "stop") return &exec::Application::stop_component;
     if (name == "reset") return &exec::Application::reset_component;
     if (name == "recover") return &exec::Application::recover_component;
-    throw Failure("a component's change is start, stop, reset or recover, not '" + name + "'");
+    if (name == "cleanup") return &exec::Application::clean_up_component;
+    throw Failure("a component's change is start, stop, reset, recover or cleanup, not '" + name +
+                  "'");
   }
 
   template <typename T>

@@ -229,7 +229,7 @@ TEST_F(InspectorTest, ChangesTheStateOfAComponent) {
   EXPECT_EQ(change("stop").value().state, "Stopped");
   EXPECT_EQ(change("start").value().state, "Running");
   EXPECT_THAT(change("recover").error(), HasSubstr("Axis"));
-  EXPECT_THAT(change("burn").error(), HasSubstr("start, stop, reset or recover, not 'burn'"));
+  EXPECT_THAT(change("burn").error(), HasSubstr("reset, recover or cleanup, not 'burn'"));
 }
 
 TEST_F(InspectorTest, WhenTooManyRequestsWaitMoreAreRefused) {

@@ -22,8 +22,13 @@ constexpr std::size_t kLargestText = 256u << 20;
 /// The recordings and folders in `folder`, each by their names.
 struct Content {
   std::vector<std::string> recordings;
+  std::vector<std::string> black_boxes;
   std::vector<std::string> folders;
 };
+
+bool is_black_box(const fs::path& file) {
+  return file.filename().string().starts_with("blackbox-");
+}
 
 Content content_of(const fs::path& folder, base::Diagnostics& diagnostics) {
   Content content;
@@ -32,11 +37,15 @@ Content content_of(const fs::path& folder, base::Diagnostics& diagnostics) {
        each.increment(failure)) {
     std::error_code ignored;
     if (each->is_directory(ignored)) content.folders.push_back(each->path().string());
-    if (each->path().extension() == ".mcap") content.recordings.push_back(each->path().string());
+    if (each->path().extension() != ".mcap") continue;
+    (is_black_box(each->path()) ? content.black_boxes : content.recordings)
+        .push_back(each->path().string());
   }
   if (failure) {
     diagnostics.error({}, "cannot read the folder '" + folder.string() + "': " + failure.message());
   }
+  // Of a run that recorded nothing else they show what led to its faults.
+  if (content.recordings.empty()) content.recordings.swap(content.black_boxes);
   std::sort(content.recordings.begin(), content.recordings.end(), before_by_number);
   std::sort(content.folders.begin(), content.folders.end(), before_by_number);
   return content;
@@ -60,6 +69,11 @@ std::string load_json(const fs::path& path, base::Diagnostics& diagnostics) {
   return {};
 }
 
+bool was_simulated(const Run& run) {
+  const auto summary = nlohmann::json::parse(run.summary, nullptr, false);
+  return summary.is_object() && summary.value("time", "") == "simulated";
+}
+
 void load_recording(const std::string& path, Run& run, base::Diagnostics& diagnostics) {
   run.recording = path;
   const auto loaded = record::load_mcap(path, record::Unclosed::kReadToLastChunk);
@@ -75,6 +89,7 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
                             std::to_string(loaded.value().samples.size()) + " samples");
   }
   run.signals = signals_of(loaded.value());
+  if (!was_simulated(run)) begin_at_zero(run.signals);
   run.joints = joints_of(run.signals);
   run.efforts = efforts_of(run.signals);
   if (run.joints.empty()) {

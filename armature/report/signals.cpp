@@ -99,6 +99,16 @@ Signals signals_of(const record::McapRecording& recording) {
   return signals;
 }
 
+void begin_at_zero(Signals& signals) {
+  double begin_s = std::numeric_limits<double>::infinity();
+  for (const Signal& signal : signals.all) {
+    if (!signal.time_s.empty()) begin_s = std::min(begin_s, signal.time_s.front());
+  }
+  for (Signal& signal : signals.all) {
+    for (double& time_s : signal.time_s) time_s -= begin_s;
+  }
+}
+
 bool before_by_number(const std::string& left, const std::string& right) {
   std::string_view a = left;
   std::string_view b = right;

@@ -28,6 +28,9 @@ struct Signals {
 
 Signals signals_of(const record::McapRecording& recording);
 
+/// A real run's times are those of the machine's clock: the first sample becomes time 0.
+void begin_at_zero(Signals& signals);
+
 /// Sorts names as people count: PID2 before PID10.
 bool before_by_number(const std::string& left, const std::string& right);
 

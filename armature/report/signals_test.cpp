@@ -85,5 +85,15 @@ TEST(Thinned, LeavesWhatFitsAsItIs) {
   EXPECT_EQ(thinned(signal, 2).values, signal.values);
 }
 
+TEST(Signals, OfARealRunBeginAtZero) {
+  Signals signals{{{"A", "", "", {29000.5, 29001.0}, {1.0, 2.0}},
+                   {"B", "", "", {29000.25}, {3.0}},
+                   {"C", "", "", {}, {}}},
+                  {}};
+  begin_at_zero(signals);
+  EXPECT_THAT(signals.all[0].time_s, ElementsAre(0.25, 0.75));
+  EXPECT_THAT(signals.all[1].time_s, ElementsAre(0.0));
+}
+
 }  // namespace
 }  // namespace armature::report

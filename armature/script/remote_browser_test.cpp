@@ -128,6 +128,10 @@ TEST(RemoteBrowser, ChangesComponents) {
   EXPECT_EQ(away.type("stop"),
             "error: stop takes the name of a component: stop Joint1; `quit` leaves");
   EXPECT_THAT(away.type("recover Axis"), HasSubstr("error: Axis: "));
+  EXPECT_THAT(away.type("cleanup Axis"), HasSubstr("error: Axis: cannot be cleaned up"));
+  EXPECT_EQ(away.type("stop Axis"), "Axis: Stopped");
+  EXPECT_EQ(away.type("cleanup Axis"), "Axis: PreOperational");
+  EXPECT_EQ(away.type("start"), "Axis: Running");
 }
 
 TEST(RemoteBrowser, WatchesValues) {

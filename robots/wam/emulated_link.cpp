@@ -2,6 +2,7 @@
 #include "robots/wam/emulated_link.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "armature/platform/clock.hpp"
@@ -15,7 +16,8 @@ base::Result<std::unique_ptr<EmulatedLink>> EmulatedLink::make(const ArmNumbers&
   if (!arm) return base::Error{arm.error()};
   const bool real = config.time == Time::kReal;
   const base::Time begin = real ? platform::monotonic_now() : config.begin;
-  std::unique_ptr<EmulatedLink> link(new EmulatedLink(std::move(arm).value(), config.time, begin));
+  std::unique_ptr<EmulatedLink> link(
+      new EmulatedLink(numbers, std::move(arm).value(), config.time, begin));
   Emulator::Config emulated = Emulator::standard(numbers.joints());
   emulated.bus_name = "emulator";
   emulated.begin = begin;
@@ -45,6 +47,7 @@ base::Time EmulatedLink::now() {
 }
 
 void EmulatedLink::wait_for_news(base::Time deadline) {
+  keep_holding();
   if (time_ == Time::kSimulated) return emulator_->advance_to_next_event(deadline);
   const base::Time next = emulator_->next_event();
   {
@@ -55,7 +58,21 @@ void EmulatedLink::wait_for_news(base::Time deadline) {
 }
 
 void EmulatedLink::advance_to(base::Time now) {
+  keep_holding();
   if (now > emulator_->now()) emulator_->advance_to(now);
+}
+
+/// Whoever carries the arm lets go when it is there, so he takes it again.
+void EmulatedLink::keep_holding() {
+  if (held_ && !motors_.carried()) motors_.carry_to(home_);
+}
+
+double EmulatedLink::from_home() const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < home_.size(); ++i) {
+    most = std::max(most, std::abs(motors_.arm().joint_position(i) - home_[i]));
+  }
+  return most;
 }
 
 }  // namespace armature::wam

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <string>
+#include <utility>
+#include <vector>
 
 #include "armature/base/result.hpp"
 #include "robots/wam/arm_motors.hpp"
@@ -38,16 +39,26 @@ class EmulatedLink final : public WamLink {
   base::Time now() override;
   void wait_for_news(base::Time deadline) override;
 
+  /// The operator carries the arm home, which lies without power or is braked, and holds it there
+  /// until `let_go`.
+  void hold_at_home() { held_ = true; }
+  void let_go() { held_ = false; }
+  /// [rad] of the joint that is furthest from home.
+  double from_home() const;
+
   Emulator& emulator() { return *emulator_; }
   ArmMotors& motors() { return motors_; }
   can::VirtualStation& station() { return *host_; }
 
  private:
-  EmulatedLink(ArmSimulation arm, Time time, base::Time begin)
-      : time_(time), motors_(std::move(arm), begin) {}
+  EmulatedLink(const ArmNumbers& numbers, ArmSimulation arm, Time time, base::Time begin)
+      : time_(time), home_(numbers.home), motors_(std::move(arm), begin) {}
   void advance_to(base::Time now);
+  void keep_holding();
 
   const Time time_;
+  const std::vector<double>& home_;
+  bool held_ = false;
   base::Duration ahead_{};  ///< of the application's clock
   ArmMotors motors_;
   std::unique_ptr<Emulator> emulator_;

@@ -33,11 +33,14 @@ constexpr Number kCount{"COUNT", 1, 1'000'000, true};
 constexpr Number kMilliseconds{"MS", 0, 10'000, false};
 constexpr Number kVolts{"VOLTS", 0, 200, false};
 
+constexpr bool kNeedsBitRate = true;
+
 struct Row {
   const char* words;  ///< N stands for the number of a puck
   Number number;
   const char* meaning;
   void (*act)(const Arm& arm, const Command& command);
+  bool needs_bit_rate = false;
 };
 
 Puck& puck_of(const Arm& arm, const Command& command) { return arm.emulator.puck(command.motor); }
@@ -121,9 +124,10 @@ constexpr auto kRows = std::to_array<Row>({
     {"fault bus corrupt", kCount, "the next frames are destroyed, and so sent again",
      [](const Arm& arm, const Command& command) {
        arm.emulator.bus().corrupt_next(frames_of(command));
-     }},
+     },
+     kNeedsBitRate},
     {"fault bus cut", kNoNumber, "nobody hears anybody",
-     [](const Arm& arm, const Command&) { arm.emulator.bus().set_cut(true); }},
+     [](const Arm& arm, const Command&) { arm.emulator.bus().set_cut(true); }, kNeedsBitRate},
     {"fault bus heals", kNoNumber, "is no longer cut",
      [](const Arm& arm, const Command&) { arm.emulator.bus().set_cut(false); }},
 });
@@ -177,7 +181,7 @@ base::Error wrong_number(const Row& row, const std::string& found) {
 }
 
 base::Result<EmulatorCommand> parse_as(const Row& row, const Words& words, std::size_t motors) {
-  EmulatorCommand command{.act = row.act};
+  EmulatorCommand command{.act = row.act, .needs_bit_rate = row.needs_bit_rate};
   const Words wanted = words_in(row.words);
   if (const auto n = std::find(wanted.begin(), wanted.end(), "N"); n != wanted.end()) {
     const std::string& word = words[static_cast<std::size_t>(n - wanted.begin())];

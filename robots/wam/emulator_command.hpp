@@ -23,6 +23,8 @@ struct EmulatorCommand {
   void (*act)(const EmulatedArm& arm, const EmulatorCommand& command) = nullptr;
   std::size_t motor = 0;  ///< whose puck, from 0
   double value = 0.0;     ///< in the unit of the command
+  /// Has frames sent again, which a bus without a time of its own does too fast to be simulated.
+  bool needs_bit_rate = false;
 
   /// @thread the one that advances the emulator
   void apply(const EmulatedArm& arm) const { act(arm, *this); }

@@ -153,6 +153,15 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
   EXPECT_EQ(seen.size(), 28u);
 }
 
+TEST_F(EmulatorCommands, WhatHasFramesSentAgainNeedsABusWithABitRate) {
+  for (const char* line : {"fault bus cut", "fault bus corrupt 3"}) {
+    EXPECT_TRUE(parse_emulator_command(line, 7).value().needs_bit_rate) << line;
+  }
+  for (const char* line : {"fault bus lose 3", "fault bus heals", "fault puck 1 bus-off"}) {
+    EXPECT_FALSE(parse_emulator_command(line, 7).value().needs_bit_rate) << line;
+  }
+}
+
 TEST_F(EmulatorCommands, WhatIsWrongIsSaidWithWhatWasExpected) {
   EXPECT_EQ(mistake_in("activat"), "'activat' is no command; did you mean 'activate'?");
   EXPECT_EQ(mistake_in("dance"), "'dance' is no command; 'help' lists them all");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The emulated arm as a process of its own.
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,14 @@ struct Arguments {
   std::string state;
   std::string log;
 };
+
+/// Some texts come with a word for their severity, or a line's end.
+std::string as_error(std::string text) {
+  constexpr std::string_view kSeverity = "error: ";
+  if (text.starts_with(kSeverity)) text.erase(0, kSeverity.size());
+  while (text.ends_with('\n')) text.pop_back();
+  return "armature-wam-emulator: error: " + text;
+}
 
 /// Where lines for machines go, if anywhere.
 class Lines {
@@ -97,7 +106,7 @@ class Session {
     while (!quit_ && !stop.received()) {
       listen(stop);
       if (const auto told = tell(begin); !told) {
-        screen_.say("armature-wam-emulator: error: " + told.error());
+        screen_.say(as_error(told.error()));
         return kFailed;
       }
     }
@@ -130,8 +139,8 @@ class Session {
     const auto parsed = parse_emulator_command(command, joints_);
     if (!parsed) {
       screen_.say(parsed.error());
-    } else if (!emulator_.give(parsed.value())) {
-      screen_.say("'" + command + "' was not done: too many commands at once, say it again");
+    } else if (const auto given = emulator_.give(parsed.value()); !given) {
+      screen_.say("'" + command + "' is not done: " + given.error());
     }
   }
 
@@ -183,7 +192,7 @@ int run(const Arguments& arguments) {
   EmulatorScreen screen(platform::is_terminal(platform::kStandardInput) &&
                         platform::is_terminal(platform::kStandardError));
   const auto fail = [&](const std::string& text) {
-    screen.say("armature-wam-emulator: error: " + text);
+    screen.say(as_error(text));
     return kFailed;
   };
   Lines states;

@@ -98,6 +98,24 @@ const char* sentence_for(BoardMode mode) {
   return "?";
 }
 
+/// One line if all do the same, as they do when power comes or goes.
+template <typename Tell>
+void tell_pucks(const EmulatorState& before, const EmulatorState& state, Tell tell) {
+  std::vector<std::size_t> changed;
+  bool same = true;
+  for (std::size_t i = 0; i < state.motors; ++i) {
+    same = same && state.pucks[i] == state.pucks[0];
+    if (state.pucks[i] != before.pucks[i]) changed.push_back(i);
+  }
+  if (same && changed.size() == state.motors) {
+    tell(std::string("all pucks: ") + name_of(state.pucks[0]));
+    return;
+  }
+  for (const std::size_t i : changed) {
+    tell("puck " + std::to_string(i + 1) + ": " + name_of(state.pucks[i]));
+  }
+}
+
 }  // namespace
 
 std::string json_line(const EmulatorState& state, double time) {
@@ -154,10 +172,7 @@ std::vector<std::string> EmulatorChanges::take(const EmulatorState& state, doubl
   if (before_ && state.zeroed != before_->zeroed) {
     tell(state.zeroed ? "board: positions are zeroed" : "board: positions are no longer zeroed");
   }
-  for (std::size_t i = 0; before_ && i < state.motors; ++i) {
-    if (state.pucks[i] == before_->pucks[i]) continue;
-    tell("puck " + std::to_string(i + 1) + ": " + name_of(state.pucks[i]));
-  }
+  if (before_) tell_pucks(*before_, state, tell);
   if (before_ && state.carried != before_->carried) {
     tell(state.carried ? "arm: is carried home" : "arm: is let go");
   }

@@ -59,6 +59,10 @@ TEST(EmulatorReport, PeopleAreToldOfChangesOnly) {
                           HasSubstr("board: positions are zeroed"), HasSubstr("puck 3: monitor"),
                           HasSubstr("arm: is carried home"), HasSubstr("arm: its simulation")));
   EXPECT_THAT(changes.take(state, 3.0), IsEmpty());
+  state.pucks.fill(PuckState::kOff);
+  changes.take(state, 4.0);
+  state.pucks.fill(PuckState::kBooting);
+  EXPECT_THAT(changes.take(state, 5.0), ElementsAre("     5.000 s  all pucks: booting"));
 }
 
 }  // namespace

@@ -138,8 +138,14 @@ EmulatorState RunningEmulator::look() const {
   return state;
 }
 
-bool RunningEmulator::give(const EmulatorCommand& command) {
-  return commands_.push(command) == rt::PushResult::kTaken;
+base::Result<void> RunningEmulator::give(const EmulatorCommand& command) {
+  const can::VirtualBus& bus = emulator_->bus();
+  if (command.needs_bit_rate && bus.bit_rate() == can::kTimelessBitRate) {
+    return base::Error{"this fault is for virtual buses; use 'ip link set " + bus.name() +
+                       " down' to cut an interface"};
+  }
+  if (commands_.push(command) == rt::PushResult::kTaken) return {};
+  return base::Error{"too many commands at once; give it again"};
 }
 
 bool RunningEmulator::take_state(EmulatorState& state) {

@@ -65,8 +65,9 @@ class RunningEmulator {
 
   /// What the thread asked of the system and got.
   const platform::ThreadGrant& grant() const { return thread_->grant(); }
-  /// Within `kSampleTime`; false if there are too many already.
-  bool give(const EmulatorCommand& command);
+  /// Is done within `kSampleTime`. An error if there are too many already, or if it is for virtual
+  /// buses and this is an interface.
+  base::Result<void> give(const EmulatorCommand& command);
   /// The next state: every `kSampleTime`, and at once when anything but motion, torques and the
   /// number of frames changes; false if there is none.
   bool take_state(EmulatorState& state);

@@ -39,13 +39,13 @@ component::Reason fault_reason(WamFault fault, int node) {
       return of_puck(node, " is silent: check its cable and power, then reset, start, arm");
     case WamFault::kPositionJump:
       return of_puck(node,
-                     " told a position that cannot be, its zero is lost: put the arm at home and "
-                     "begin the program again");
+                     " told a position that cannot be, its zero is lost: put the arm at home, then "
+                     "reset, cleanup, start");
     case WamFault::kBoardSilent:
       return "the safety board is silent: check its cable and power, then reset, start, arm";
     case WamFault::kEstop:
-      return "E-stop: the pucks have lost their positions; put the arm at home, pull the button "
-             "out, and begin the program again";
+      return "E-stop, positions are lost: put the arm at home, release the button, then reset, "
+             "cleanup, start";
     case WamFault::kIdled:
       return "the safety board is idle: press Shift+Activate, then arm";
     case WamFault::kVelocity:

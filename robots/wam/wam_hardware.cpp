@@ -2,6 +2,7 @@
 #include "robots/wam/wam_hardware.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -32,7 +33,7 @@ Outcome WamHardware::on_start() {
   read_at_ = base::Time::min();
   idle_seen_ = asks_ = commanded_ = false;
   without_command_ = 0;
-  idled_at_.reset();
+  out_since_.reset();
   waits_for_.assign({});
   lost_answers_.assign(0);
   cycles_without_command_.assign(0);
@@ -43,6 +44,9 @@ Outcome WamHardware::on_start() {
 void WamHardware::on_stop() { make_safe(); }
 
 void WamHardware::on_cleanup() {
+  // What was sent last gets on its way.
+  const base::Time end = link_->now() + std::chrono::milliseconds(2);
+  while (link_->now() < end) link_->wait_for_news(end);
   driver_.reset();
   link_->bus().close();
 }

@@ -47,7 +47,6 @@ class WamHardware final : public component::Component {
   component::Outcome on_start() override;
   void on_stop() override;
   void on_cleanup() override;
-  component::Outcome on_reset() override;
 
   // wam_hardware_set_up.cpp
   component::Outcome set_up_path();
@@ -67,7 +66,7 @@ class WamHardware final : public component::Component {
 
   // Safety.
   bool supervise();
-  void wait_for_cause();
+  void wait_for_cause(WamFault fault);
   void watch_activation();
   void ask_for_activation();
   void help_to_activate();
@@ -91,7 +90,7 @@ class WamHardware final : public component::Component {
   void press_reset() { emulated_->emulator().board().reset(); }
   void press_idle() { emulated_->emulator().board().shift_idle(); }
   void press_activate() { emulated_->emulator().board().shift_activate(); }
-  void carry() { emulated_->motors().carry_to(numbers_->home); }
+  void carry() { emulated_->hold_at_home(); }
   component::Outcome estop() { return press(&WamHardware::press_estop, estop_); }
   component::Outcome release_estop() { return press(&WamHardware::press_reset, release_estop_); }
   component::Outcome shift_idle() { return press(&WamHardware::press_idle, shift_idle_); }
@@ -172,8 +171,9 @@ class WamHardware final : public component::Component {
   component::Command<> shift_activate_{this, "shiftActivate",
                                        component::serve<&WamHardware::shift_activate>,
                                        "presses Shift+Activate of the emulated pendant"};
-  component::Command<> carry_home_{this, "carryHome", component::serve<&WamHardware::carry_home>,
-                                   "the emulated operator carries the arm home"};
+  component::Command<> carry_home_{
+      this, "carryHome", component::serve<&WamHardware::carry_home>,
+      "the emulated operator carries the arm home, and holds it until it is active"};
 
   component::Attribute<component::Reason> safety_state_{
       this, "safety_state", {}, "of the safety board: E-STOP, IDLE or ACTIVATED"};
@@ -196,13 +196,13 @@ class WamHardware final : public component::Component {
   std::optional<WamMotion> motion_;
 
   base::Time read_at_ = base::Time::min();
-  bool positions_lost_ = false;  ///< until it is configured anew
-  bool commanded_ = false;       ///< in this cycle
-  int without_command_ = 0;      ///< cycles in a row
-  bool idle_seen_ = false;       ///< since the start
-  bool asks_ = false;            ///< for activation
-  base::Time pressed_at_{};      ///< by the emulated operator
-  std::optional<base::Time> idled_at_;
+  bool positions_lost_ = false;          ///< until it is configured anew
+  bool commanded_ = false;               ///< in this cycle
+  int without_command_ = 0;              ///< cycles in a row
+  bool idle_seen_ = false;               ///< since the start
+  bool asks_ = false;                    ///< for activation
+  base::Time pressed_at_{};              ///< by the emulated operator
+  std::optional<base::Time> out_since_;  ///< its cause is not known yet
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
   Vector data_;

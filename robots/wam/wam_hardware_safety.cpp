@@ -9,47 +9,48 @@ namespace armature::wam {
 namespace {
 
 /// Until then the board says why it went to idle; the driver asks it at once.
-constexpr base::Duration kCauseTime = std::chrono::milliseconds(150);
+constexpr base::Duration kIdleCauseTime = std::chrono::milliseconds(150);
+/// Until then it says whether it was E-stop that made pucks silent.
+constexpr base::Duration kSilenceCauseTime = std::chrono::milliseconds(30);
 /// Between two keys of the emulated operator.
 constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
 }  // namespace
 
-component::Outcome WamHardware::on_reset() {
-  if (!positions_lost_) return component::accepted();
-  return component::refused(
-      "the pucks have lost their positions: put the arm at home, and begin the program again");
-}
-
-/// @return it is in service
+/// @return it runs on
 bool WamHardware::supervise() {
-  const std::string_view state = safety_state(driver_->board_mode());
-  if (safety_state_.get().view() != state) {
-    safety_state_.assign(state);
-    if (driver_->board_mode()) log_info("the safety board is in {}", state);
+  const std::string_view told = safety_state(driver_->board_mode());
+  if (safety_state_.get().view() != told) {
+    safety_state_.assign(told);
+    if (driver_->board_mode()) log_info("the safety board is in {}", told);
   }
   const WamFault fault = driver_->fault();
-  if (fault == WamFault::kIdled) {
-    wait_for_cause();
-  } else if (fault != WamFault::kNone) {
-    take_out(fault);
-    return false;
-  } else {
+  if (fault == WamFault::kNone) {
     watch_activation();
+  } else if (fault == WamFault::kIdled || fault == WamFault::kPuckSilent) {
+    wait_for_cause(fault);
+  } else {
+    take_out(fault);
   }
-  return true;
+  return state() == component::State::kRunning;
 }
 
-/// A fault of the board becomes one of this component; without one it was the operator.
-void WamHardware::wait_for_cause() {
-  if (!idled_at_) {
-    idled_at_ = link_->now();
+/// Out of service at once. A fault of the board becomes one of this component; without one it was
+/// the operator who idled the arm.
+void WamHardware::wait_for_cause(WamFault fault) {
+  if (!out_since_) {
+    out_since_ = link_->now();
     leave_service();
+    if (fault == WamFault::kPuckSilent) make_safe();
   }
-  if (link_->now() - *idled_at_ < kCauseTime) return;
-  idled_at_.reset();
-  driver_->acknowledge();
-  log_warning("the operator has idled the arm; it is disarmed");
+  const base::Duration past = link_->now() - *out_since_;
+  if (fault == WamFault::kPuckSilent) {
+    if (past >= kSilenceCauseTime) take_out(fault);
+  } else if (past >= kIdleCauseTime) {
+    out_since_.reset();
+    driver_->acknowledge();
+    log_warning("the operator has idled the arm; it is disarmed");
+  }
 }
 
 void WamHardware::watch_activation() {
@@ -60,6 +61,7 @@ void WamHardware::watch_activation() {
   asks_ = false;
   waits_for_.assign({});
   path_->begin_to_hold();
+  if (emulated_ != nullptr) emulated_->let_go();
   log_info("holds the arm where it is");
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamHardware: from its properties to an arm that is ready for its cycle.
+#include <chrono>
+#include <string>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
@@ -13,8 +15,17 @@ namespace armature::wam {
 
 using component::Outcome;
 
+namespace {
+
+constexpr double kAtHome = 1e-6;  // [rad]
+
+}  // namespace
+
 Outcome WamHardware::on_configure() {
-  if (joints_ != 4 && joints_ != 7) return component::refused("joints is not 4 or 7");
+  if (joints_ != 4 && joints_ != 7) {
+    return component::refused("joints is " + std::to_string(joints_) +
+                              ", expected 4, or 7 with the wrist");
+  }
   numbers_ = joints_ == 4 ? &wam4() : &wam7();
   if (Outcome outcome = set_up_path(); !outcome) return outcome;
   if (Outcome outcome = make_link(); !outcome) return outcome;
@@ -94,11 +105,12 @@ Outcome WamHardware::connect() {
   return component::accepted();
 }
 
-/// As an operator would: carries the arm home if it lies without power, then lets it have some.
+/// As an operator would: carries the arm home if it lies without power, lets it have some, and
+/// holds it until it holds itself.
 void WamHardware::help_to_idle() {
   SafetyBoard& board = emulated_->emulator().board();
-  if (!board.power()) carry();
-  while (emulated_->motors().carried()) {
+  emulated_->hold_at_home();
+  while (emulated_->from_home() > kAtHome) {
     emulated_->wait_for_news(emulated_->now() + std::chrono::milliseconds(10));
   }
   board.reset();

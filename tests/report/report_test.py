@@ -322,6 +322,17 @@ class Mistakes(unittest.TestCase):
         self.assertGreater(samples, 20)
         self.assertLess(samples, 290)
 
+    def test_a_black_box_is_no_recording_of_the_run_unless_it_is_all_there_is(self):
+        run = self.copy()
+        box = os.path.join(run, "blackbox-Joint1.mcap")
+        shutil.copy(os.path.join(run, "janus.mcap"), box)
+        done = armature("report", self.folder)
+        self.assertEqual((done.returncode, done.stderr.count("warning")), (0, 0), done.stderr)
+        self.assertIn("janus.mcap", load(os.path.join(self.folder, "report.json"))["runs"]["run"]["recording"])
+        os.remove(os.path.join(run, "janus.mcap"))
+        self.assertEqual(armature("report", self.folder).returncode, 0)
+        self.assertEqual(load(os.path.join(self.folder, "report.json"))["runs"]["run"]["recording"], box)
+
     def test_a_recording_without_positions_says_what_was_looked_for_and_shows_the_rest(self):
         self.run_short(os.path.join(self.folder, "run"), "--set", "Reporter.what=[PID1.Out]")
         done = armature("report", self.folder)

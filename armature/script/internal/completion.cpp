@@ -98,7 +98,7 @@ void add_topics(const std::vector<Topic>& topics, std::set<std::string>& words) 
 
 bool names_components(std::string_view command) {
   return command == "ls" || command == "start" || command == "stop" || command == "reset" ||
-         command == "recover";
+         command == "recover" || command == "cleanup";
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ Robot::Changed LocalRobot::change(const std::string& component, const std::strin
   const auto outcome = [&] {
     if (change == "start") return application_.start_component(component);
     if (change == "stop") return application_.stop_component(component);
+    if (change == "cleanup") return application_.clean_up_component(component);
     if (change == "reset") return application_.reset_component(component);
     return application_.recover_component(component);
   }();

@@ -164,6 +164,7 @@ const RemoteBrowser::Command* RemoteBrowser::find_command(std::string_view name)
                                       {"stop", &act<&RemoteBrowser::stop_components>},
                                       {"reset", &act<&RemoteBrowser::reset>},
                                       {"recover", &act<&RemoteBrowser::recover>},
+                                      {"cleanup", &act<&RemoteBrowser::clean_up>},
                                       {"wait", &act<&RemoteBrowser::wait>},
                                       {"cancel", &act<&RemoteBrowser::cancel>},
                                       {"quit", &act<&RemoteBrowser::quit>},

@@ -45,7 +45,7 @@ class Robot {
     std::string refusal;  ///< empty if it was done
     std::string state;    ///< what it is in now
   };
-  /// @param change  start, stop, reset or recover
+  /// @param change  start, stop, reset, recover or cleanup
   virtual Changed change(const std::string& component, const std::string& change) = 0;
 };
 

@@ -84,7 +84,9 @@ void SharedCommands::start(const Words& names) {
   if (!names.empty()) return change(names, "start");
   std::vector<ComponentStatus> resting = robot_.components();
   std::erase_if(resting, [](const ComponentStatus& one) {
-    return one.state != component::name_of(State::kStopped) || !one.autostart;
+    const bool rests = one.state == component::name_of(State::kStopped) ||
+                       one.state == component::name_of(State::kPreOperational);
+    return !rests || !one.autostart;
   });
   std::ranges::sort(resting, {}, &ComponentStatus::start_order);
   if (resting.empty()) surface_.say("no component is stopped");
@@ -105,6 +107,11 @@ void SharedCommands::reset(const Words& names) {
   const Words all = names.empty() ? all_in(State::kException) : names;
   if (all.empty()) surface_.say("no component is in an exception");
   change(all, "reset");
+}
+
+void SharedCommands::clean_up(const Words& names) {
+  if (names.empty()) mistake("cleanup takes the name of a component: cleanup Joint1");
+  change(names, "cleanup");
 }
 
 void SharedCommands::recover(const Words& names) {

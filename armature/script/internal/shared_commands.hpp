@@ -42,6 +42,7 @@ class SharedCommands {
   void stop_components(const Words& names);
   void reset(const Words& names);
   void recover(const Words& names);
+  void clean_up(const Words& names);
 
  private:
   void change(const Words& names, const std::string& change);

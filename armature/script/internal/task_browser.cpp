@@ -82,6 +82,7 @@ const TaskBrowser::Command* TaskBrowser::find_command(std::string_view name) {
                                       {"stop", &act<&TaskBrowser::stop_components>},
                                       {"reset", &act<&TaskBrowser::reset>},
                                       {"recover", &act<&TaskBrowser::recover>},
+                                      {"cleanup", &act<&TaskBrowser::clean_up>},
                                       {"run", &act<&TaskBrowser::run>},
                                       {"wait", &act<&TaskBrowser::wait>},
                                       {"cancel", &act<&TaskBrowser::cancel>},

@@ -30,7 +30,7 @@ std::vector<Topic> lua_commands() {
       {"threads", "threads", "how often each thread ran, how long its cycles take, its load", ""},
       {"faults", "faults", "who does not run, and why", ""},
       {"start", "start [COMPONENT ...]", "starts a component, and configures it before if need be",
-       "start Joint1\nWithout a name: every component that is stopped, writers before readers, "
+       "start Joint1\nWithout a name: every component that does not run, writers before readers, "
        "but for those that the deployment does not start."},
       {"stop", "stop COMPONENT ...", "stops a component; `quit` stops the application",
        "stop Joint1"},
@@ -39,6 +39,9 @@ std::vector<Topic> lua_commands() {
       {"recover", "recover [COMPONENT ...]",
        "takes a component out of its run-time error, to running",
        "recover Joint1\nWithout a name: every component that is in an error."},
+      {"cleanup", "cleanup COMPONENT ...",
+       "has a component that is stopped forget its configuration; `start` configures it anew",
+       "reset WAM\ncleanup WAM\nstart WAM"},
       {"run", "run SECONDS", "lets simulated time pass; in real time the same as wait",
        "run 5\nCtrl-C ends it early."},
       {"wait", "wait [SECONDS]", "waits so long, or until the commands that were begun have ended",

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hardware's component alone, on the emulated arm.
+#include "robots/wam/wam_hardware.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/testing/harness.hpp"
+#include "robots/wam/test_arms.hpp"
+
+namespace armature::wam {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+class WamHardwareTest : public ::testing::Test {
+ protected:
+  WamHardwareTest() : bench(std::make_unique<WamHardware>("WAM"), 2ms) {
+    bench.component().context().simulated = true;
+    bench.set("joints", 4);
+    bench.set("robot_description", description_of(wam4()));
+    bench.set("PositionMin", Vector{-3.0});
+    bench.set("PositionMax", Vector{3.2});
+    for (const char* limit : {"MaxVelocity", "MaxAcceleration", "MaxTorqueGrowth"}) {
+      bench.set(limit, Vector{5.0});
+    }
+    for (const char* most : {"MaxControlTorque", "MaxTorque"}) bench.set(most, Vector{50.0});
+  }
+  std::string refusal() { return std::string(bench.start().reason()); }
+  void start() { ASSERT_TRUE(bench.start()) << bench.reason(); }
+  void cycle(int times = 1) {
+    for (int i = 0; i < times; ++i) {
+      bench.advance(2ms);
+      EXPECT_TRUE(bench.call<bool>("getJointSensorsOperation").value());
+    }
+  }
+  const Vector& data() { return bench.output<Vector>("jointsDataPort"); }
+  WamHardware& hardware() { return static_cast<WamHardware&>(bench.component()); }
+
+  testing::Harness bench;
+};
+
+TEST_F(WamHardwareTest, AReadingHasPositionsVelocitiesAndTorquesOfAllJoints) {
+  start();
+  cycle(200);
+  const Vector weight(hardware().torque_path().weight().begin(),
+                      hardware().torque_path().weight().end());
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(data()[i], wam4().home[i], 1e-3);
+    EXPECT_NEAR(data()[4 + i], 0.0, 0.05);
+    EXPECT_NEAR(data()[8 + i], weight[i], 0.5);
+  }
+}
+
+TEST_F(WamHardwareTest, IsReadOnceInACycleWhoeverAsks) {
+  start();
+  cycle(10);
+  const std::uint64_t answers = hardware().emulated()->emulator().puck(0).counters().answers;
+  bench.advance(2ms);
+  bench.raise("Sample");
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(bench.call<bool>("getJointSensorsOperation").value());
+  EXPECT_EQ(hardware().emulated()->emulator().puck(0).counters().answers, answers + 1);
+}
+
+TEST_F(WamHardwareTest, ItsOwnControllerAnswersPositionsWithTheTorquesOfItsLaw) {
+  start();
+  cycle(200);
+  auto law = JointController::make({.gains = wam4().gains}).value();
+  Vector reference(data().begin(), data().begin() + 4);
+  reference[0] += 2e-4;
+  Vector expected(4);
+  for (int i = 0; i < 10; ++i) {
+    cycle();
+    law.step(reference, Vector(data().begin(), data().begin() + 4), expected);
+    bench.write("posRefPort", reference);
+    EXPECT_EQ(bench.output<Vector>("ControlDataPort"), expected);
+  }
+  EXPECT_GT(expected[0], 0.1);
+}
+
+TEST_F(WamHardwareTest, KeysOfThePendantArePressedByItsOwnCommands) {
+  start();
+  cycle(200);
+  ASSERT_EQ(hardware().emulated()->emulator().board().mode(), BoardMode::kActive);
+  EXPECT_TRUE(bench.call("shiftIdle"));
+  cycle();
+  EXPECT_EQ(hardware().emulated()->emulator().board().mode(), BoardMode::kIdle);
+}
+
+TEST_F(WamHardwareTest, ARunThatFindsTheArmActiveHasItIdledFirst) {
+  start();
+  cycle(200);
+  bench.stop();
+  ASSERT_TRUE(bench.component().start());
+  cycle(30);
+  EXPECT_EQ(hardware().torque_path().mode(), TorquePath::Mode::kOff);
+  EXPECT_THAT(bench.log(), Contains(HasSubstr("waits for Shift+Idle, then Shift+Activate: the arm "
+                                              "was active before")));
+  cycle(200);
+  EXPECT_EQ(hardware().torque_path().mode(), TorquePath::Mode::kHolding);
+}
+
+TEST_F(WamHardwareTest, ABusThatIsNotThereIsNamed) {
+  bench.set("bus", "virtual:/nowhere/wam.bus");
+  EXPECT_THAT(refusal(), HasSubstr("/nowhere/wam.bus"));
+}
+
+TEST_F(WamHardwareTest, MistakesInItsPropertiesAreNamed) {
+  bench.set("MaxTorque", Vector{50.0, 50.0});
+  EXPECT_THAT(refusal(), HasSubstr("MaxTorque"));
+  bench.set("MaxTorque", Vector{50.0});
+  bench.set("robot_description", description_of(wam7()));
+  EXPECT_THAT(refusal(), HasSubstr("wam7.urdf moves 7 joints, expected joints = 4"));
+  bench.set("joints", 5);
+  EXPECT_THAT(refusal(), HasSubstr("joints is 5, expected 4, or 7 with the wrist"));
+}
+
+}  // namespace
+}  // namespace armature::wam
