@@ -254,7 +254,7 @@ std::vector<Breakage> breakages() {
       {.name = "EmergencyStop",
        .happens = [](auto& arm, auto&) { arm.board().estop(); },
        .after = After::kLost,
-       .said = "E-stop: the pucks have lost their positions"},
+       .said = "E-stop, positions are lost"},
       {.name = "ShiftIdle",
        .happens = [](auto& arm, auto&) { arm.board().shift_idle(); },
        .after = After::kIdled,
@@ -264,6 +264,8 @@ std::vector<Breakage> breakages() {
        .happens = lose_zero,
        .after = After::kLost,
        .said = "told a position that cannot be",
+       // The board does not know of it, so the pucks are told where home is only after E-stop.
+       .ends = [](auto& arm) { arm.board().estop(); },
        .of_wrist = true},
       flooded("GarbageOfLittleUrgency", {},
               [](unsigned n) { return garbage_frame(0x7f0 + n % 8, 8, n); }),

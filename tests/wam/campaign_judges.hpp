@@ -141,11 +141,11 @@ class RestWatch {
 
   /// Of the joint that moved most while the arm was held [rad].
   double moved() const { return moved_; }
-  /// Of the rate with which its weight turns a joint at most, and 0.05 rad/s.
+  /// Of the rate with which its weight turns a joint at most, and 0.1 rad/s.
   double largest_sinking() const { return sinking_; }
 
  private:
-  static constexpr double kStill = 0.05;  ///< [rad/s], what other joints and the winding add
+  static constexpr double kStill = 0.1;  ///< [rad/s], what other joints and their stops add
 
   static Vector damping(const ArmNumbers& numbers) {
     Vector all(numbers.joints());
