@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is always so, whatever breaks: judged on the bus and on the simulated arm.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/can/virtual_bus.hpp"
+#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/transmission.hpp"
+#include "robots/wam/puck_protocol.hpp"
+#include "tests/wam/campaign_arm.hpp"
+
+namespace armature::wam {
+
+/// Reads the torque frames of the host off the bus. Steps are those from one frame to the next, of
+/// the joints, which is where they are limited; motors 1 to 4 drive joints 1 to 4 alone, and 5 to 7
+/// those of the wrist, so each frame tells of its own joints.
+class TorqueWatch {
+ public:
+  explicit TorqueWatch(CampaignArm& arm)
+      : host_(&arm.link().station()),
+        number_(arm.hardware().driver().arm().torque_number),
+        transmission_(control::Transmission::make(numbers_of(arm).transmission).value()),
+        growth_(arm.value<Vector>("WAM", "MaxTorqueGrowth")),
+        motors_(arm.joints()),
+        joints_(arm.joints()),
+        sent_(arm.joints()) {
+    for (std::size_t motor = 0; motor < arm.joints(); ++motor) {
+      units_per_nm_.push_back(arm.emulator().puck(motor).properties().get(Property::kIpnm));
+      most_.push_back(arm.emulator().puck(motor).properties().get(Property::kMt));
+    }
+    rounding_ = rounding();
+  }
+
+  static const ArmNumbers& numbers_of(CampaignArm& arm) {
+    return arm.joints() == 4 ? wam4() : wam7();
+  }
+
+  void look_at(const can::WireEvent& event) {
+    if (event.sender != host_ || event.outcome != can::Outcome::kGood) return;
+    const std::optional<Address> address = address_of(event.frame);
+    const bool lower = address && address->group && is(*address, Group::kLowerArm);
+    if (!lower && !(address && address->group && is(*address, Group::kWrist))) return;
+    if (const auto torques = parse_torques(event.frame, number_)) {
+      judge(*torques, lower ? 0 : kTorquesPerFrame);
+    }
+  }
+
+  /// Of MaxTorqueGrowth, without what rounding to puck units makes of it.
+  double largest_step() const { return largest_step_; }
+  /// Of what the puck gives at most.
+  double largest_torque() const { return largest_torque_; }
+  std::uint64_t frames() const { return frames_; }
+
+ private:
+  static bool is(const Address& address, Group group) {
+    return address.to == static_cast<int>(group);
+  }
+
+  void judge(const Torques& torques, std::size_t first) {
+    ++frames_;
+    std::fill(motors_.begin(), motors_.end(), 0.0);
+    const std::size_t end = std::min<std::size_t>(first + kTorquesPerFrame, motors_.size());
+    for (std::size_t motor = first; motor < end; ++motor) {
+      const double units = torques[motor - first];
+      largest_torque_ = std::max(largest_torque_, std::abs(units) / most_[motor]);
+      motors_[motor] = units / units_per_nm_[motor];
+    }
+    transmission_.joint_torques(motors_, joints_);
+    for (std::size_t joint = first; joint < end; ++joint) {
+      const double step = grown(sent_[joint], joints_[joint]) - rounding_[joint];
+      largest_step_ = std::max(largest_step_, step / growth_[joint]);
+      sent_[joint] = joints_[joint];
+    }
+  }
+  /// Away from 0; back to it there is no limit.
+  static double grown(double before, double now) {
+    return now > 0.0 ? now - std::max(before, 0.0) : std::min(before, 0.0) - now;
+  }
+  /// Of each motor one unit [N m].
+  Vector rounding() const {
+    Vector rounding(sent_.size()), turn(sent_.size()), motors(sent_.size());
+    for (std::size_t joint = 0; joint < sent_.size(); ++joint) {
+      std::fill(turn.begin(), turn.end(), 0.0);
+      turn[joint] = 1.0;
+      transmission_.motor_angles(turn, motors);
+      for (std::size_t i = 0; i < motors.size(); ++i) {
+        rounding[joint] += std::abs(motors[i]) / units_per_nm_[i];
+      }
+    }
+    return rounding;
+  }
+
+  const can::VirtualStation* host_;
+  int number_;
+  control::Transmission transmission_;
+  Vector growth_;
+  Vector motors_;
+  Vector joints_;
+  Vector sent_;
+  Vector units_per_nm_;
+  Vector most_;
+  Vector rounding_;
+  double largest_step_ = 0.0;
+  double largest_torque_ = 0.0;
+  std::uint64_t frames_ = 0;
+};
+
+/// Looks at the arm that nobody has armed, once it has come to rest. Held by its own controller it
+/// stays where it is; idle or without power it sinks as fast as its weight turns shorted motors
+/// (MODEL.md), and no faster.
+class RestWatch {
+ public:
+  explicit RestWatch(CampaignArm& arm) : damping_(damping(TorqueWatch::numbers_of(arm))) {
+    base::Diagnostics diagnostics;
+    const std::string urdf = std::string(WAM "/") + std::string(TorqueWatch::numbers_of(arm).urdf);
+    links_ = control::InverseDynamics::load(urdf, {.gravity = {0.0, 0.0, -kGravity}}, diagnostics);
+    EXPECT_TRUE(links_) << diagnostics.to_text();
+  }
+
+  /// It is carried, or is let rest.
+  void forget() { resting_ = false; }
+  void look_at(CampaignArm& arm) {
+    const bool held = arm.any_puck_drives();
+    const Vector positions = arm.positions();
+    if (!resting_ || held != held_) rest_ = positions;
+    resting_ = true;
+    held_ = held;
+    if (held) {
+      moved_ = std::max(moved_, largest_apart(positions, rest_));
+    } else {
+      judge_sinking(arm, positions);
+    }
+  }
+
+  /// Of the joint that moved most while the arm was held [rad].
+  double moved() const { return moved_; }
+  /// Of the rate with which its weight turns a joint at most, and 0.1 rad/s.
+  double largest_sinking() const { return sinking_; }
+
+ private:
+  static constexpr double kStill = 0.1;  ///< [rad/s], what other joints and their stops add
+
+  static Vector damping(const ArmNumbers& numbers) {
+    Vector all(numbers.joints());
+    for (std::size_t joint = 0; joint < all.size(); ++joint) {
+      for (std::size_t motor = 0; motor < all.size(); ++motor) {
+        const MotorNumbers& winding = numbers.motors[motor];
+        const double turns = numbers.transmission.turns[motor * all.size() + joint];
+        all[joint] += turns * turns * winding.torque_constant * winding.torque_constant /
+                      winding.resistance_ohm;
+      }
+    }
+    return all;
+  }
+  void judge_sinking(CampaignArm& arm, const Vector& positions) {
+    Vector weight(positions.size());
+    links_->gravity(positions, weight);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const double most = std::abs(weight[i]) / damping_[i] + kStill;
+      sinking_ = std::max(sinking_, std::abs(arm.simulated().joint_velocity(i)) / most);
+    }
+  }
+
+  Vector damping_;
+  std::optional<control::InverseDynamics> links_;
+  bool resting_ = false;
+  bool held_ = false;
+  Vector rest_;
+  double moved_ = 0.0;
+  double sinking_ = 0.0;
+};
+
+}  // namespace armature::wam

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that may break in the arm, at random times of a motion, many times over, in simulated
+// time. Whatever it is: torques on the bus stay within the pucks' and do not jump, the arm ends as
+// it was promised, does not move before it is armed again, and then does what it is told.
+//
+//     WAM_CAMPAIGN_RUNS=1000 wam_deployed_campaign    as many runs of each, and a table of them
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "armature/base/seconds.hpp"
+#include "armature/record/black_box_file.hpp"
+#include "armature/record/mcap_reader.hpp"
+#include "tests/wam/campaign_arm.hpp"
+#include "tests/wam/campaign_faults.hpp"
+#include "tests/wam/campaign_judges.hpp"
+
+namespace armature::wam {
+namespace {
+
+using namespace std::chrono_literals;
+using component::State;
+using ::testing::HasSubstr;
+
+constexpr int kRunsInTests = 4;
+/// The promised stop is over then, and the arm at rest.
+constexpr base::Duration kAtRestWithin = 600ms;
+constexpr const char* kFiles[] = {"npid4.yaml", "npid7.yaml", "computed_torque4.yaml",
+                                  "computed_torque7.yaml"};
+
+int runs_of_each() {
+  const char* wanted = std::getenv("WAM_CAMPAIGN_RUNS");
+  return wanted == nullptr ? kRunsInTests : std::atoi(wanted);
+}
+
+/// What all runs of a breakage had at most.
+struct Figures {
+  int runs = 0;
+  double step = 0.0;
+  double torque = 0.0;
+  double moved = 0.0;
+  double sinking = 0.0;
+  std::set<std::string> states;
+};
+std::map<std::string, Figures>& table() {
+  static std::map<std::string, Figures> all;
+  return all;
+}
+
+const char* file_for(const Breakage& breakage, std::size_t run) {
+  return kFiles[(breakage.of_wrist ? 2 * run + 1 : run) % std::size(kFiles)];
+}
+
+/// A run of the arm in which something breaks.
+class CampaignRun {
+ public:
+  CampaignRun(const Breakage& breakage, int number)
+      : breakage_(breakage),
+        random_(static_cast<Random::result_type>(20261122 + number)),
+        arm_(file_for(breakage, static_cast<std::size_t>(number)),
+             [this](const exec::BlackBoxReport& report) {
+               reports_.push_back(report);
+               return std::string();
+             }) {}
+  ~CampaignRun() {
+    if (!torques_) return;
+    arm_.emulator().bus().set_tap({});  // stopping still sends
+    note();
+  }
+
+  void begin() {
+    ASSERT_NO_FATAL_FAILURE(arm_.start_active());
+    torques_.emplace(arm_);
+    rest_.emplace(arm_);
+    arm_.emulator().bus().set_tap(
+        [this](const can::WireEvent& event) { torques_->look_at(event); });
+    run_for(200ms);
+    rest_->forget();
+    ASSERT_NO_FATAL_FAILURE(arm_.arm());
+    target_ = any_target();
+    ASSERT_EQ(arm_.move_to(target_, kMotion), "");
+    run_for(std::chrono::milliseconds(200 + random_() % 3600));
+  }
+  void break_it() {
+    broken_at_ = arm_.application().now();
+    breakage_.happens(arm_, random_);
+  }
+
+  void expect_goes_on() {
+    run_for(base::from_seconds(kMotion + 0.5));
+    state_ = states();
+    EXPECT_TRUE(arm_.armed()) << arm_.log;
+    EXPECT_LT(largest_apart(arm_.positions(), target_), 0.02);
+    breakage_.ends(arm_);
+  }
+  /// It brakes smoothly, stays there, and does not go on by itself when the cause is gone.
+  void expect_brakes() {
+    run_for(1s);
+    const Vector at_rest = arm_.positions();
+    run_for(500ms);
+    put_back_into_service();
+    run_for(500ms);
+    state_ = states();
+    EXPECT_TRUE(arm_.armed()) << arm_.log;
+    EXPECT_LT(largest_apart(arm_.positions(), at_rest), 0.005);
+    expect_moves();
+  }
+  void expect_ends_as_promised() {
+    run_for(kAtRestWithin);
+    state_ = states();
+    EXPECT_FALSE(arm_.armed());
+    const bool out = breakage_.after == After::kFault || breakage_.after == After::kLost;
+    EXPECT_EQ(arm_.state("WAM"), out ? State::kException : State::kRunning) << arm_.log;
+    EXPECT_TRUE(out || !arm_.passes_torques());
+    EXPECT_THAT(out ? arm_.reason("WAM") : arm_.log, HasSubstr(breakage_.said));
+    if (breakage_.after == After::kIdled) {
+      EXPECT_EQ(arm_.safety_state(), "IDLE");
+      EXPECT_THAT(arm_.waits_for(), HasSubstr("Shift+Activate"));
+    }
+    run_unarmed_for(500ms);
+  }
+  void expect_black_box() const;
+  void expect_comes_back() {
+    breakage_.ends(arm_);
+    if (breakage_.after == After::kLost) {
+      ASSERT_NO_FATAL_FAILURE(begin_program_again());
+    } else {
+      ASSERT_NO_FATAL_FAILURE(let_it_be_active());
+    }
+    run_unarmed_for(400ms);
+    EXPECT_FALSE(arm_.armed()) << "nothing arms itself";
+    expect_moves();
+  }
+
+  void judge() {
+    EXPECT_LE(torques_->largest_step(), 1.0);
+    EXPECT_LE(torques_->largest_torque(), 1.0);
+    if (!breakage_.brakes) return;
+    EXPECT_LE(rest_->moved(), 0.01);
+    EXPECT_LE(rest_->largest_sinking(), 1.0);
+  }
+
+ private:
+  static constexpr double kMotion = 4.0;  // [s]
+
+  void run_for(base::Duration duration) {
+    for (base::Duration passed{}; passed < duration; passed += CampaignArm::kPeriod) arm_.cycle();
+  }
+  void run_unarmed_for(base::Duration duration) {
+    for (base::Duration passed{}; passed < duration; passed += CampaignArm::kPeriod) {
+      arm_.cycle();
+      rest_->look_at(arm_);
+    }
+    rest_->forget();
+  }
+  Vector any_target() {
+    Vector target{0.8, -1.0, 0.5, 2.0, -0.8, 0.6, 0.8};
+    std::uniform_real_distribution<double> some(-1.0, 1.0);
+    for (double& angle : target) angle *= some(random_);
+    target[1] = -1.4 + 0.4 * some(random_);
+    target[3] = 2.4 + 0.5 * some(random_);
+    target.resize(arm_.joints());
+    return target;
+  }
+
+  /// What an operator does when the cause is gone.
+  void put_back_into_service() {
+    for (int round = 0; round < 3; ++round) {
+      for (const auto& entry : arm_.application().blueprint().components) {
+        const std::string& name = entry.component->name();
+        if (arm_.state(name) == State::kException) {
+          static_cast<void>(arm_.application().reset_component(name));
+        }
+        if (arm_.state(name) == State::kStopped) {
+          static_cast<void>(arm_.application().start_component(name));
+        }
+      }
+      run_for(20ms);
+    }
+  }
+  /// An active arm that holds itself is left as it is.
+  void let_it_be_active() {
+    const bool was_held = arm_.any_puck_drives() && arm_.board().mode() == BoardMode::kActive;
+    if (!was_held) arm_.board().shift_idle();
+    put_back_into_service();
+    run_for(200ms);
+    if (was_held) return;
+    ASSERT_NO_FATAL_FAILURE(do_as_it_says());
+  }
+  /// Presses the keys that the hardware asks for.
+  void do_as_it_says() {
+    EXPECT_EQ(arm_.safety_state(), "IDLE") << arm_.log;
+    EXPECT_NE(arm_.waits_for(), "");
+    for (int i = 0; i < 3 && arm_.safety_state() != "ACTIVATED"; ++i) {
+      if (arm_.waits_for().starts_with("Shift+Idle")) arm_.board().shift_idle();
+      if (arm_.waits_for().starts_with("Shift+Activate")) arm_.board().shift_activate();
+      run_for(200ms);
+    }
+    ASSERT_EQ(arm_.safety_state(), "ACTIVATED") << arm_.log;
+    run_for(500ms);
+  }
+  /// The emulated operator puts the arm at home.
+  void begin_program_again() {
+    if (breakage_.said != std::string("is silent")) {
+      ASSERT_TRUE(arm_.application().reset_component("WAM"));
+      const auto started = arm_.application().start_component("WAM");
+      EXPECT_FALSE(started) << "without its positions";
+      EXPECT_THAT(std::string(started.reason()), HasSubstr("put the arm at home"));
+    }
+    arm_.set("WAM", "emulated_operator", true);
+    EXPECT_TRUE(arm_.application().stop().ok());
+    arm_.board().reset();
+    arm_.link().motors().carry_to(TorqueWatch::numbers_of(arm_).home);
+    while (arm_.link().motors().carried()) {
+      arm_.emulator().advance_to(arm_.emulator().now() + 10ms);
+    }
+    ASSERT_NO_FATAL_FAILURE(arm_.start_active());
+    run_for(500ms);
+  }
+  void expect_moves() {
+    const Vector rest = arm_.positions();
+    if (!arm_.armed()) {
+      ASSERT_NO_FATAL_FAILURE(arm_.arm());
+      run_for(200ms);
+      EXPECT_LT(largest_apart(arm_.positions(), rest), 0.005) << "arming moves nothing";
+    }
+    Vector target = arm_.believed();
+    const auto lower = arm_.value<Vector>("Generator", "lower");
+    const auto upper = arm_.value<Vector>("Generator", "upper");
+    for (std::size_t i = 0; i < target.size(); ++i) {
+      target[i] = std::clamp(target[i], lower[i] + 0.1, upper[i] - 0.1);
+    }
+    target[0] += target[0] > 0.0 ? -0.1 : 0.1;
+    ASSERT_EQ(arm_.move_to(target, 1.0), "") << arm_.log;
+    run_for(1500ms);
+    EXPECT_LT(largest_apart(arm_.positions(), target), 0.02) << arm_.log;
+    EXPECT_TRUE(arm_.armed()) << arm_.log;
+  }
+
+  std::string states() {
+    std::string text(component::name_of(arm_.state("WAM")));
+    const std::string reason = arm_.reason("WAM");
+    if (!reason.empty()) text += " (" + reason.substr(0, reason.find_first_of(":,;")) + ")";
+    return text + ", board " + arm_.safety_state() + (arm_.armed() ? ", armed" : "");
+  }
+  void note() {
+    Figures& all = table()[breakage_.name];
+    ++all.runs;
+    all.step = std::max(all.step, torques_->largest_step());
+    all.torque = std::max(all.torque, torques_->largest_torque());
+    all.moved = std::max(all.moved, rest_->moved());
+    all.sinking = std::max(all.sinking, rest_->largest_sinking());
+    all.states.insert(state_);
+  }
+
+  const Breakage& breakage_;
+  Random random_;
+  std::vector<exec::BlackBoxReport> reports_;
+  CampaignArm arm_;
+  std::optional<TorqueWatch> torques_;
+  std::optional<RestWatch> rest_;
+  Vector target_;
+  base::Time broken_at_{};
+  std::string state_;
+};
+
+/// Written and read again, it has each cycle of the last second before the fault.
+void CampaignRun::expect_black_box() const {
+  const bool faulted = breakage_.after == After::kFault || breakage_.after == After::kLost;
+  if (!faulted) return;
+  ASSERT_FALSE(reports_.empty());
+  const exec::BlackBoxReport& report = reports_.front();
+  const std::string folder = ::testing::TempDir() + "wam_campaign";
+  std::filesystem::create_directories(folder);
+  const auto written = record::write_black_box(report, folder);
+  ASSERT_TRUE(written) << written.error();
+  const auto box = record::load_mcap(written.value());
+  std::filesystem::remove(written.value());
+  ASSERT_TRUE(box) << box.error();
+  std::set<base::Time> cycles;
+  for (const auto& sample : box.value().samples) {
+    if (sample.time <= report.time && sample.time > report.time - 1s) cycles.insert(sample.time);
+  }
+  EXPECT_GE(cycles.size(), 499u) << report.incomplete;
+  EXPECT_LE(report.time - broken_at_, 400ms);
+}
+
+class WamCampaign : public ::testing::TestWithParam<Breakage> {};
+INSTANTIATE_TEST_SUITE_P(Everything, WamCampaign, ::testing::ValuesIn(breakages()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_P(WamCampaign, AtAnyTimeItEndsAsPromised) {
+  for (int number = 0; number < runs_of_each(); ++number) {
+    SCOPED_TRACE("run " + std::to_string(number));
+    CampaignRun run(GetParam(), number);
+    ASSERT_NO_FATAL_FAILURE(run.begin());
+    ASSERT_NO_FATAL_FAILURE(run.break_it());
+    switch (GetParam().after) {
+      case After::kGoesOn:
+        run.expect_goes_on();
+        break;
+      case After::kBrakes:
+        run.expect_brakes();
+        break;
+      default:
+        run.expect_ends_as_promised();
+        run.expect_black_box();
+        ASSERT_NO_FATAL_FAILURE(run.expect_comes_back());
+    }
+    run.judge();
+    if (HasFailure()) return;
+  }
+}
+
+/// For people who have asked for many runs.
+class Table : public ::testing::Environment {
+ public:
+  void TearDown() override {
+    if (std::getenv("WAM_CAMPAIGN_RUNS") == nullptr) return;
+    std::printf("%-28s %5s %9s %9s %10s %9s  %s\n", "fault", "runs", "step", "torque", "moved",
+                "sinking", "hardware afterwards");
+    for (const auto& [name, all] : table()) {
+      std::string states;
+      for (const std::string& state : all.states) states += (states.empty() ? "" : "; ") + state;
+      std::printf("%-28s %5d %9.3f %9.3f %10.5f %9.2f  %s\n", name.c_str(), all.runs, all.step,
+                  all.torque, all.moved, all.sinking, states.c_str());
+    }
+  }
+};
+const auto* const kTable = ::testing::AddGlobalTestEnvironment(new Table);
+
+}  // namespace
+}  // namespace armature::wam
