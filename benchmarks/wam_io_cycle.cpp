@@ -158,6 +158,7 @@ class Loop {
             {"monolithic_bus_us", median(bus)},
             {"monolithic_computing_us", median(computing)},
             {"wire_us", median(frames)},
+            {"period_us", in_us(kCycleTime)},
             {"pucks_us", think},
             {"bus_without_pucks_of_wire", (median(bus) - think) / median(frames)},
             {"cycles", kCycles}};

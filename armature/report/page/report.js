@@ -322,15 +322,15 @@
   function busCycle() {
     if (!data.io) return;
     const part = section('The cycle on the bus', data.io.doc ?? '');
-    const modes = Object.entries(data.io).filter(([, mode]) => isNumber(mode?.cycle_us));
+    const modes = Object.entries(data.io).filter(([, mode]) => isNumber(mode?.cycle_us ?? mode?.monolithic_cycle_us));
     const columns = [
-      ['cycle', 'µs', (mode) => short(mode.cycle_us, 4)],
-      ['of it computed', 'µs', (mode) => short(mode.computing_us, 3)],
+      ['cycle', 'µs', (mode) => mode.cycle_us && short(mode.cycle_us, 4)],
+      ['of it computed', 'µs', (mode) => mode.computing_us && short(mode.computing_us, 3)],
       ['hand-written loop', 'µs', (mode) => mode.monolithic_cycle_us && short(mode.monolithic_cycle_us, 4)],
-      ['ratio', '', (mode) => mode.monolithic_cycle_us && (mode.cycle_us / mode.monolithic_cycle_us).toFixed(4)],
+      ['ratio', '', (mode) => mode.cycle_us && mode.monolithic_cycle_us && (mode.cycle_us / mode.monolithic_cycle_us).toFixed(4)],
       ['on the bus', 'µs', (mode) => mode.bus_us && short(mode.bus_us, 4)],
       ['frames on the wire', 'µs', (mode) => short(mode.wire_us, 4)],
-      ['of wire + 90 µs', '', (mode, name) => name === 'synchronous' && (mode.cycle_us / (mode.wire_us + 90)).toFixed(4)],
+      ['of wire + 90 µs', '', (mode, name) => name === 'synchronous' && mode.cycle_us && (mode.cycle_us / (mode.wire_us + 90)).toFixed(4)],
       ['load of the bus', '', (mode) => mode.period_us && `${Math.round(100 * mode.wire_us / mode.period_us)} %`],
     ].filter(([, , text]) => modes.some(([name, mode]) => text(mode, name)));
     part.append(table([['mode', ''], ...columns.map(([title, unit]) => [title, unit])],
