@@ -121,8 +121,8 @@ Breakage flooded(const char* name, const Breakage& promised, Garbage::Make make)
 
 /// The n-th of what is on the way from the generator to the arm.
 std::string component_on_the_way(CampaignArm& arm, std::size_t n) {
-  std::vector<std::string> names{"Generator", "BridgeRef", "Controller", "Actuator",
-                                 "Sensor",    "Arming",    "Reference"};
+  std::vector<std::string> names{"Generator", "BridgeRef", "Controller",
+                                 "Actuator",  "Sensor",    "Arming"};
   for (std::size_t joint = 1; joint <= arm.joints(); ++joint) {
     const std::string pid = "PID" + std::to_string(joint);
     if (arm.application().find(pid) != nullptr) names.push_back(pid);
