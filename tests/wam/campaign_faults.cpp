@@ -111,14 +111,18 @@ Breakage flooded(const char* name, const Breakage& promised, Garbage::Make make)
                          Random&) { *garbage = std::make_unique<Garbage>(arm, make); },
           .after = promised.after,
           .said = promised.said,
-          .ends = [=](CampaignArm&) { (*garbage)->end(); },
+          .ends =
+              [=](CampaignArm& arm) {
+                (*garbage)->end();
+                if (!promised.brakes) arm.board().estop();
+              },
           .brakes = promised.brakes};
 }
 
 /// The n-th of what is on the way from the generator to the arm.
 std::string component_on_the_way(CampaignArm& arm, std::size_t n) {
-  std::vector<std::string> names{"Generator", "BridgeRef", "Controller", "Actuator",
-                                 "Sensor",    "Arming",    "Reference"};
+  std::vector<std::string> names{"Generator", "BridgeRef", "Controller",
+                                 "Actuator",  "Sensor",    "Arming"};
   for (std::size_t joint = 1; joint <= arm.joints(); ++joint) {
     const std::string pid = "PID" + std::to_string(joint);
     if (arm.application().find(pid) != nullptr) names.push_back(pid);
@@ -175,6 +179,7 @@ std::vector<Breakage> breakages() {
       arm.emulator().puck(i).set_dead(false);
       arm.emulator().puck(i).delay_replies({});
     }
+    arm.board().estop();
   };
   const auto stop = [](const char* component) {
     return [component](CampaignArm& arm, Random&) {
@@ -205,7 +210,7 @@ std::vector<Breakage> breakages() {
        .said = "is silent"},
       {.name = "DeadPuck",
        .happens = [](auto& arm, auto& random) { any_puck(arm, random).set_dead(true); },
-       .after = After::kFault,
+       .after = After::kLost,
        .said = "is silent",
        .ends = puts_right,
        .brakes = false},
@@ -238,9 +243,13 @@ std::vector<Breakage> breakages() {
        .ends = [](auto& arm) { arm.link().station().set_dead(false); }},
       {.name = "HeartbeatLostByACutBus",
        .happens = [](auto& arm, auto&) { arm.emulator().bus().set_cut(true); },
-       .after = After::kFault,
+       .after = After::kLost,
        .said = "is silent",
-       .ends = [](auto& arm) { arm.emulator().bus().set_cut(false); },
+       .ends =
+           [](auto& arm) {
+             arm.emulator().bus().set_cut(false);
+             arm.board().estop();
+           },
        .brakes = false},
       {.name = "BusOff",
        .happens = [](auto& arm, auto&) { arm.link().station().force_bus_off(); },
@@ -275,7 +284,7 @@ std::vector<Breakage> breakages() {
                                      n);
               }),
       flooded("GarbageOfGreatUrgency",
-              {.after = After::kFault, .said = "is silent", .brakes = false},
+              {.after = After::kLost, .said = "is silent", .brakes = false},
               [](unsigned n) { return garbage_frame(0x010 + n % 8, 8, n); }),
       {.name = "AComponentThrows",
        .happens = [](auto& arm,

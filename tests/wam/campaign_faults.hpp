@@ -31,7 +31,8 @@ struct Breakage {
   /// Of the reason for a fault, or of the hardware's log where it is disarmed.
   const char* said = "";
   std::function<void(CampaignArm&)> ends = [](CampaignArm&) {};
-  /// False where a puck hears nobody: its motor goes on as it was told last, whatever is done.
+  /// False where a puck hears nobody: its motor goes on as it was told last, also
+  /// when the puck hears again, until E-stop takes its power.
   bool brakes = true;
   bool of_wrist = false;  ///< only the arm with seven joints has it
 };
