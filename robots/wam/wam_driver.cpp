@@ -316,6 +316,9 @@ void WamDriver::raise(WamFault fault, int node) {
   fault_ = fault;
   fault_node_ = node;
   clear_torques();
+  if (fault != WamFault::kPositionJump) return;
+  // Whoever starts the arm up next has to write its home position again.
+  static_cast<void>(send(set_frame(to_node(kBoardNode), arm_.zero_number, 0)));
 }
 
 bool WamDriver::acknowledge() {

@@ -27,6 +27,7 @@ Outcome WamHardware::on_start() {
   if (positions_lost_) return component::refused(fault_reason(WamFault::kEstop, 0));
   link_->begin_run(time());
   driver_->start(link_->now());
+  driver_->send_idle();  // A puck may have missed that the board went to idle.
   path_->go_off();
   motion_->forget();
   own_controller_->reset();

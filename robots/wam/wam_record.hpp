@@ -37,6 +37,7 @@ struct WamRecord {
   int motor_mode_number = 0;  ///< MODE
   int board_mode_number = 0;  ///< MODE of the safety board
   int pendant_number = 0;     ///< PEN
+  int zero_number = 0;        ///< ZERO of the safety board
 
   friend bool operator==(const WamRecord&, const WamRecord&) = default;
 };

@@ -126,6 +126,7 @@ void WamStartup::check_board() {
   record_.board_version = board.version;
   record_.board_mode_number = board_number(Property::kMode);
   record_.pendant_number = board_number(Property::kPen);
+  record_.zero_number = board_number(Property::kZero);
   met_before ? check_pucks() : reset_limits(0);
 }
 

@@ -76,6 +76,7 @@ TEST(WamStartup, ReadsWhatThePucksAre) {
   EXPECT_EQ(record.torque_number, 42);
   EXPECT_EQ(record.board_mode_number, 8);
   EXPECT_EQ(record.pendant_number, 43);
+  EXPECT_EQ(record.zero_number, 42);
   EXPECT_THAT(bench.said(), IsEmpty());
 }
 

@@ -353,6 +353,8 @@ TEST_F(WamInMotion, APuckThatHasLostItsZeroIsNamedAndTheArmHasToBePutAtHome) {
   expect_braked();
   ASSERT_TRUE(arm.application().reset_component("WAM"));
   EXPECT_FALSE(arm.application().start_component("WAM"));
+  arm.let_emulator_run(2ms);
+  EXPECT_FALSE(board().zeroed()) << "whoever asks it next has to write the home position again";
 }
 
 TEST_F(WamInMotion, MovesHomeSlowlyOnCommand) {
