@@ -141,9 +141,11 @@ StreamStatus StreamSocket::finish_connect() {
   if (connected_) return StreamStatus::kDone;
   pollfd polled{.fd = socket_, .events = POLLOUT, .revents = 0};
   if (::poll(&polled, 1, 0) == 0) return StreamStatus::kLater;
-  socklen_t size = sizeof error_;
-  if (::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error_, &size) != 0) error_ = errno;
-  if (error_ != 0) return StreamStatus::kGone;
+  int error = 0;
+  socklen_t size = sizeof error;
+  if (::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error, &size) != 0) error = errno;
+  error_ = error;
+  if (error != 0) return StreamStatus::kGone;
   begin_to_flow();
   return StreamStatus::kDone;
 }
@@ -214,7 +216,8 @@ StreamStatus StreamSocket::wait_until(short events, base::Duration limit) const 
 void StreamSocket::shut_down() { ::shutdown(socket_, SHUT_RDWR); }
 
 std::string StreamSocket::problem() const {
-  return error_ == 0 ? "the other side has ended it" : std::generic_category().message(error_);
+  const int error = error_;
+  return error == 0 ? "the other side has ended it" : std::generic_category().message(error);
 }
 
 base::Result<std::unique_ptr<StreamListener>> StreamListener::listen_tcp(const std::string& host,

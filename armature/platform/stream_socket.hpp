@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -62,8 +63,8 @@ class StreamSocket {
   const int socket_;
   const std::string other_end_;
   bool connected_;
-  int error_ = 0;
-  base::Duration limit_{};  ///< how long the socket waits to receive; 0: forever
+  std::atomic<int> error_ = 0;  ///< who sends and who receives may both find it gone
+  base::Duration limit_{};      ///< how long the socket waits to receive; 0: forever
 };
 
 /// Where others connect to.
