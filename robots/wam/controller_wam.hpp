@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "armature/library/base/changes.hpp"
 #include "armature/library/base/controller.hpp"
-#include "robots/wam/joint_controller.hpp"
 
 namespace armature::wam {
 
-/// The arm's own controller (paper 3, ControllerWAM): JointController, in the place of another
-/// Controller; the hardware compensates gravity. Gains are one number for each joint, or one for
-/// all; without any they are the vendor's for so many joints. A start neither kicks nor has a past.
+/// The arm's own controller in the place of another Controller (paper 3, ControllerWAM and figure
+/// 6): has WamHardware compute the torques, which knows the law and its gains; their way to the
+/// arm is that of any other controller's. A torque that is no finite number is a fault.
 /// @rt nonblocking, no allocation, O(joints)
 class ControllerWam final : public library::Controller {
  public:
@@ -22,18 +19,20 @@ class ControllerWam final : public library::Controller {
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
   void controller_now(const std::vector<double>& measured) override;
-  component::Outcome set_up();
-  base::Result<std::vector<JointGains>> gains() const;
+  void on_torques(const std::vector<double>& torques);
 
-  using Numbers = component::Property<std::vector<double>>;
-  Numbers kp_{this, "Kp", {}, "of the vendor, if none", "Nm/rad"};
-  Numbers ki_{this, "Ki", {}, "of the vendor, if none", "Nm/(rad s)"};
-  Numbers kd_{this, "Kd", {}, "of the vendor, if none", "Nm s/rad"};
-  Numbers max_torque_{this, "MaxTorque", {}, "of the vendor, if none", "Nm"};
-  library::Changes changes_{joints_, period_, kp_, ki_, kd_, max_torque_};
-  std::optional<JointController> law_;
-  bool begun_ = false;  ///< since the start
-  std::vector<double> torques_;
+  component::OutputPort<std::vector<double>> position_reference_{
+      this, "posRef", "positions for the arm's own controller", "rad", component::size_of(joints_)};
+  component::InputPort<std::vector<double>> control_data_{
+      this,
+      "ControlData",
+      "torques of the arm's own controller",
+      "V",
+      component::on_data<&ControllerWam::on_torques>,
+      component::size_of(joints_),
+      component::leads_to("act")};
+  std::vector<double> positions_;
+  bool asked_ = false;  ///< in this sampling period, and not answered yet
 };
 
 }  // namespace armature::wam

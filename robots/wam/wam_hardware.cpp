@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/rt/guard.hpp"
 #include "robots/wam/safety_text.hpp"
 
@@ -30,7 +31,7 @@ Outcome WamHardware::on_start() {
   driver_->send_idle();  // A puck may have missed that the board went to idle.
   path_->go_off();
   motion_->forget();
-  own_controller_->reset();
+  followed_ = base::Time::min();
   read_at_ = base::Time::min();
   idle_seen_ = asks_ = commanded_ = false;
   without_command_ = 0;
@@ -121,6 +122,11 @@ void WamHardware::on_torque(const Vector& torques) {
 
 void WamHardware::on_position(const Vector& reference) {
   if (!motion_->known()) return;
+  const base::Duration pause = kMostWithoutCommand * base::from_seconds(parameters_.period());
+  if (base::later(followed_, pause) < time()) {
+    own_controller_->reset_to(reference, motion_->positions());
+  }
+  followed_ = time();
   own_controller_->step(reference, motion_->positions(), own_torques_);
   control_data_.write(own_torques_);
 }
@@ -140,7 +146,7 @@ void WamHardware::on_arm() {
     log_error("not armed: the arm is not active, it waits for {}", waits_for_.get().view());
     return tell_armed(false);
   }
-  own_controller_->reset();
+  followed_ = base::Time::min();
   without_command_ = 0;
   commanded_ = true;  // from the next cycle on
   tell_armed(true);

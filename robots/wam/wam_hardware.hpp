@@ -196,13 +196,14 @@ class WamHardware final : public component::Component {
   std::optional<WamMotion> motion_;
 
   base::Time read_at_ = base::Time::min();
-  bool positions_lost_ = false;          ///< until it is configured anew
-  bool commanded_ = false;               ///< in this cycle
-  int without_command_ = 0;              ///< cycles in a row
-  bool idle_seen_ = false;               ///< since the start
-  bool asks_ = false;                    ///< for activation
-  base::Time pressed_at_{};              ///< by the emulated operator
-  std::optional<base::Time> out_since_;  ///< its cause is not known yet
+  base::Time followed_ = base::Time::min();  ///< by its own controller; min(): it has no past
+  bool positions_lost_ = false;              ///< until it is configured anew
+  bool commanded_ = false;                   ///< in this cycle
+  int without_command_ = 0;                  ///< cycles in a row
+  bool idle_seen_ = false;                   ///< since the start
+  bool asks_ = false;                        ///< for activation
+  base::Time pressed_at_{};                  ///< by the emulated operator
+  std::optional<base::Time> out_since_;      ///< its cause is not known yet
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
   Vector data_;

@@ -96,7 +96,7 @@ void WamHardware::take_out(WamFault why) {
 
 void WamHardware::leave_service() {
   path_->go_off();
-  own_controller_->reset();
+  followed_ = base::Time::min();
   tell_armed(false);
   if (move_home_.active()) move_home_.fail("the arm is not active any more");
 }

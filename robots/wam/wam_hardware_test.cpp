@@ -78,11 +78,31 @@ TEST_F(WamHardwareTest, ItsOwnControllerAnswersPositionsWithTheTorquesOfItsLaw) 
   Vector expected(4);
   for (int i = 0; i < 10; ++i) {
     cycle();
+    if (i == 0) law.reset_to(reference, Vector(data().begin(), data().begin() + 4));
     law.step(reference, Vector(data().begin(), data().begin() + 4), expected);
     bench.write("posRefPort", reference);
     EXPECT_EQ(bench.output<Vector>("ControlDataPort"), expected);
   }
   EXPECT_GT(expected[0], 0.1);
+}
+
+TEST_F(WamHardwareTest, ItsOwnControllerHasNoPastAfterAPause) {
+  start();
+  cycle(200);
+  Vector reference(data().begin(), data().begin() + 4);
+  reference[0] += 1e-3;
+  const auto torque = [&] {
+    cycle();
+    reference[0] = data()[0] + 1e-3;
+    bench.write("posRefPort", reference);
+    return bench.output<Vector>("ControlDataPort")[0];
+  };
+  const double first = torque();
+  EXPECT_NEAR(first, wam4().gains[0].kp * 1e-3, 0.01) << "it does not kick";
+  for (int i = 0; i < 2000; ++i) torque();
+  EXPECT_GT(torque(), first + 0.005) << "the integral";
+  cycle(10);
+  EXPECT_NEAR(torque(), first, 1e-9);
 }
 
 TEST_F(WamHardwareTest, KeysOfThePendantArePressedByItsOwnCommands) {

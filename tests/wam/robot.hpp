@@ -22,7 +22,7 @@ class Robot {
  public:
   struct Config {
     int joints = 7;
-    std::string controller;  ///< npid, controller_wam, computed_torque or gravity_pd
+    std::string controller;  ///< npid, computed_torque or gravity_pd
     std::vector<std::string> overrides{};
   };
   static constexpr base::Duration kPeriod = std::chrono::milliseconds(2);
@@ -77,7 +77,7 @@ class Robot {
  private:
   static std::string text_for(const Config& config) {
     const std::string joints = std::to_string(config.joints);
-    const bool compensates = config.controller == "npid" || config.controller == "controller_wam";
+    const bool compensates = config.controller == "npid";
     return "application: wam-on-the-bench\ninclude: " + config.controller + joints + ".yaml\n" +
            "components:\n  Sensor: {model: BenchArm, peers: [Sampler], properties: {joints: " +
            joints + ", robot_description: \"${description}\", compensates_gravity: " +

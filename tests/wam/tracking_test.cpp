@@ -151,5 +151,13 @@ TEST_P(ComparedOverTheBus, ComputedTorqueTracksTheThreeHeavyJointsThreeTimesAsWe
   }
 }
 
+TEST_P(ComparedOverTheBus, TheArmsOwnControllerIsThePidsInAnotherForm) {
+  const Tour& pids = tour_of(GetParam(), "npid");
+  const Tour& own = tour_of(GetParam(), "controller_wam");
+  for (std::size_t i = 0; i < pids.largest.size(); ++i) {
+    EXPECT_NEAR(own.largest[i], pids.largest[i], 1e-4) << "joint " << i + 1;
+  }
+}
+
 }  // namespace
 }  // namespace armature::wam
