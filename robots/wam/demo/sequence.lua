@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- The arm with 7 joints through a sequence of motions with two controllers, which take turns in motion:
 --   armature run robots/wam/demo/two_controllers.yaml --sim --script robots/wam/demo/sequence.lua
--- Before it stops it goes home, as the deployment has it.
+-- Before it stops it goes home, as arm7.yaml has it.
 
 while WAM.safety_state ~= "ACTIVATED" do wait(0.1) end
 wait(1)   -- it holds itself
