@@ -86,8 +86,10 @@ bool SharedBus::open(const BusOptions& options, base::Diagnostics& diagnostics) 
 bool SharedBus::connect(base::Diagnostics& diagnostics) {
   auto connected = platform::PacketSocket::connect(path_);
   if (!connected) {
-    diagnostics.error({}, "bus '" + name() + "': " + connected.error(),
-                      "start what has the bus first, such as armature-janus-plant --bus " + path_);
+    diagnostics.error(
+        {}, "bus '" + name() + "': " + connected.error(),
+        "start what has the bus first: armature-janus-plant or armature-wam-emulator --bus " +
+            path_);
     return false;
   }
   socket_ = std::move(connected).value();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/library/base/max_age.hpp"
 
@@ -19,7 +20,7 @@ Outcome AicHost::on_configure() {
   link_ = std::move(link).value();
   base::Diagnostics diagnostics;
   if (!link_->open(AicDriver::bus_options(config), diagnostics)) {
-    return component::refused(diagnostics.to_text());
+    return component::refused(base::as_reason(diagnostics));
   }
   auto driver = AicDriver::make(link_->bus(), config);
   if (!driver) return component::refused(driver.error());

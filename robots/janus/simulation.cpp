@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/diagnostic.hpp"
 
 namespace armature::janus {
@@ -14,7 +15,7 @@ base::Result<std::unique_ptr<Simulation>> Simulation::make(const Config& config)
   std::unique_ptr<Simulation> made(new Simulation(std::move(head).value(), config));
   base::Diagnostics diagnostics;
   for (const auto& card : made->cards_) {
-    if (!card->power_on(diagnostics)) return base::Error{diagnostics.to_text()};
+    if (!card->power_on(diagnostics)) return base::Error{base::as_reason(diagnostics)};
   }
   return made;
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/control/transmission.hpp"
 
@@ -36,7 +37,8 @@ class Talk {
     for (;;) {
       const WamProgress progress = startup_.poll(link_.now());
       if (progress == WamProgress::kDone) return {};
-      if (progress == WamProgress::kFailed) return base::Error{startup_.diagnostics().to_text()};
+      if (progress == WamProgress::kFailed)
+        return base::Error{base::as_reason(startup_.diagnostics())};
       if (progress == WamProgress::kWaitingForIdle && !may_go_on()) return base::Error{refusal()};
       link_.wait_for_news(startup_.deadline());
     }

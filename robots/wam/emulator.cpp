@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/diagnostic.hpp"
 
 namespace armature::wam {
@@ -47,7 +48,7 @@ base::Result<std::unique_ptr<Emulator>> Emulator::make(const Config& config, Mot
   if (!mistake.empty()) return base::Error{"emulated WAM on '" + config.bus_name + "': " + mistake};
   std::unique_ptr<Emulator> made(new Emulator(config, motors));
   base::Diagnostics diagnostics;
-  if (!made->board_.switch_on(diagnostics)) return base::Error{diagnostics.to_text()};
+  if (!made->board_.switch_on(diagnostics)) return base::Error{base::as_reason(diagnostics)};
   return made;
 }
 

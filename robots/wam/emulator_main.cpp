@@ -41,13 +41,7 @@ struct Arguments {
   std::string log;
 };
 
-/// Some texts come with a word for their severity, or a line's end.
-std::string as_error(std::string text) {
-  constexpr std::string_view kSeverity = "error: ";
-  if (text.starts_with(kSeverity)) text.erase(0, kSeverity.size());
-  while (text.ends_with('\n')) text.pop_back();
-  return "armature-wam-emulator: error: " + text;
-}
+std::string as_error(const std::string& text) { return "armature-wam-emulator: error: " + text; }
 
 /// Where lines for machines go, if anywhere.
 class Lines {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/diagnostic.hpp"
 #include "armature/platform/clock.hpp"
 
@@ -21,7 +22,7 @@ base::Result<std::unique_ptr<can::HostWire>> make_wire(can::VirtualBus& bus,
   auto wire = config.interface.empty()
                   ? can::make_shared_wire(bus, config.socket, diagnostics)
                   : can::make_interface_wire(bus, config.interface, diagnostics);
-  if (wire == nullptr) return base::Error{diagnostics.to_text()};
+  if (wire == nullptr) return base::Error{base::as_reason(diagnostics)};
   return wire;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/platform/clock.hpp"
 #include "robots/wam/arm_connection.hpp"
@@ -31,7 +32,7 @@ Outcome WamHardware::on_configure() {
   if (Outcome outcome = make_link(); !outcome) return outcome;
   base::Diagnostics diagnostics;
   if (!link_->open(WamDriver::bus_options(), diagnostics)) {
-    return component::refused(diagnostics.to_text());
+    return component::refused(base::as_reason(diagnostics));
   }
   if (Outcome outcome = connect(); !outcome) {
     link_->bus().close();
