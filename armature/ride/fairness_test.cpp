@@ -56,16 +56,16 @@ TEST_F(PendingTest, AMoreUrgentOneOvertakesThoseOfOtherConnections) {
 }
 
 TEST_F(PendingTest, ConnectionsTakeTurns) {
-  for (const std::uint32_t name : {11, 12, 13}) push(a_, 0, name);
-  for (const std::uint32_t name : {21, 22}) push(b_, 0, name);
-  for (const std::uint32_t name : {31, 32}) push(c_, 0, name);
+  for (const std::uint32_t name : {11u, 12u, 13u}) push(a_, 0, name);
+  for (const std::uint32_t name : {21u, 22u}) push(b_, 0, name);
+  for (const std::uint32_t name : {31u, 32u}) push(c_, 0, name);
   EXPECT_THAT(pop_all(), ElementsAre(11, 21, 31, 12, 22, 32, 13));
 }
 
 TEST_F(PendingTest, WhoHasSentASingleSmallOneComesBeforeThoseWhoHaveSentMuch) {
   const std::vector<std::byte> large(4096);
   pending_.push(a_, Message{.header = {.identifier = 11}, .body = large});
-  for (const std::uint32_t name : {21, 22}) push(b_, 0, name);
+  for (const std::uint32_t name : {21u, 22u}) push(b_, 0, name);
   push(c_, 0, 31);
   EXPECT_THAT(pop_all(), ElementsAre(31, 11, 21, 22));
 }
