@@ -150,13 +150,13 @@ class DeployedOnCan : public ::testing::TestWithParam<Case> {
     ASSERT_TRUE(host.says("Arming.arm: done"));
   }
   /// Or it would sink before its pucks are told that it is there.
-  bool is_held_at_home_until(const std::string& told) {
+  testing::AssertionResult is_held_at_home_until(const std::string& told) {
     const base::Time end = platform::monotonic_now() + kPatience;
-    while (!host.says(told, 20ms)) {
-      if (platform::monotonic_now() > end) return false;
+    while (true) {
       arm.type("home");
+      const testing::AssertionResult said = host.says(told, 20ms);
+      if (said || platform::monotonic_now() > end) return said;
     }
-    return true;
   }
   /// What the browser shows for an expression.
   void expect_shown(const std::string& expression, const std::string& expected) {
