@@ -188,6 +188,35 @@ function(armature_test_program)
   set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 endfunction()
 
+# armature_kernel_test(NAME wam_deployed_kernel_test SOURCES on_can_kernel_test.cpp
+#                      WITH armature wam ${PROJECT_SOURCE_DIR}/robots/wam/deployments)
+#
+# A test that runs on the kernel of scripts/test-socketcan, or is skipped where there is none. WITH:
+# targets, files and folders that it starts or reads, which are there at the paths that they have here.
+function(armature_kernel_test)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;WITH")
+  armature_test_program(NAME ${arg_NAME} SOURCES ${arg_SOURCES} USES ${arg_USES})
+  if(NOT TARGET kernel_tests)
+    add_custom_target(kernel_tests)
+  endif()
+  add_dependencies(kernel_tests ${arg_NAME})
+  set(with)
+  foreach(each IN LISTS arg_WITH)
+    if(TARGET ${each})
+      add_dependencies(${arg_NAME} ${each})
+      get_target_property(type ${each} TYPE)
+      if(type STREQUAL EXECUTABLE)
+        set(each $<TARGET_FILE:${each}>)
+      else()
+        set(each $<TARGET_LINKER_FILE:${each}>) # by which it is loaded
+      endif()
+    endif()
+    list(APPEND with ${each})
+  endforeach()
+  add_test(NAME ${arg_NAME} COMMAND ${PROJECT_SOURCE_DIR}/scripts/test-socketcan $<TARGET_FILE:${arg_NAME}> ${with})
+  set_tests_properties(${arg_NAME} PROPERTIES LABELS slow TIMEOUT 600 SKIP_RETURN_CODE 77)
+endfunction()
+
 # armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)
 #
 # A libFuzzer target with its corpus in the folder corpus/<NAME> beside it. With ARMATURE_FUZZ the

@@ -15,8 +15,9 @@
 #include "robots/janus/janus_urdf.hpp"
 #include "robots/janus/plant.hpp"
 
-// The plant in a process of its own and a host, on the interfaces of scripts/test-socketcan. That
-// machine is emulated, so nobody is impatient here.
+// The plant in a process of its own and a host, on the interfaces of scripts/test-socketcan. Time
+// there is counted in instructions, so it is the same for all runs: this tests a rate and the
+// driver's own timeouts, whatever else the machine does.
 
 namespace armature::janus {
 namespace {
@@ -33,8 +34,8 @@ class PlantProcess {
  public:
   explicit PlantProcess(const char* interface) : process_(::fork()) {
     if (process_ != 0) return;
-    auto plant = Plant::start(
-        {.urdf = kJanusUrdf, .urdf_name = "janus.urdf", .interface = interface, .inner_step = 1ms});
+    auto plant =
+        Plant::start({.urdf = kJanusUrdf, .urdf_name = "janus.urdf", .interface = interface});
     while (plant) ::pause();
     ::_exit(1);
   }
@@ -53,8 +54,7 @@ class PlantProcess {
 class PlantOnCan : public ::testing::TestWithParam<Interfaces> {
  protected:
   void SetUp() override {
-    const AicDriver::Config config{
-        .cards = {1, 2}, .mode = AicMode::kSynchronous, .answer_timeout = 300ms};
+    const AicDriver::Config config{.cards = {1, 2}, .mode = AicMode::kSynchronous};
     base::Diagnostics diagnostics;
     ASSERT_TRUE(link.open(AicDriver::bus_options(config), diagnostics)) << diagnostics.to_text();
     driver.emplace(AicDriver::make(link.bus(), config).value());
@@ -69,7 +69,7 @@ class PlantOnCan : public ::testing::TestWithParam<Interfaces> {
   }
   template <typename Condition>
   static bool comes_true(const Condition& condition) {
-    const base::Time end = platform::monotonic_now() + 20s;
+    const base::Time end = platform::monotonic_now() + 5s;
     while (!condition()) {
       if (platform::monotonic_now() > end) return false;
     }
@@ -98,6 +98,20 @@ TEST_P(PlantOnCan, AHostOnTheOtherEndTurnsAJoint) {
   EXPECT_TRUE(turn());
   EXPECT_FALSE(report(1).actuator_on);
   EXPECT_TRUE(driver->card(0).counts_exact);
+}
+
+TEST_P(PlantOnCan, EachOfAThousandCyclesInASecondHasItsAnswers) {
+  constexpr base::Duration kPeriod = 1ms;
+  constexpr int kCycles = 1000;
+  const base::Time begin = link.now();
+  int complete = 0;
+  for (int i = 1; i <= kCycles; ++i) {
+    platform::sleep_until(begin + i * kPeriod);
+    complete += read() ? 1 : 0;
+    driver->send_motors();
+  }
+  EXPECT_EQ(complete, kCycles);
+  EXPECT_LT(link.now(), begin + (kCycles + 1) * kPeriod);
 }
 
 TEST_P(PlantOnCan, WithoutItsHostTheCardsWatchdogTrips) {

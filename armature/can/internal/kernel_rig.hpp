@@ -13,8 +13,8 @@
 #include "armature/can/socket_can.hpp"
 #include "armature/platform/clock.hpp"
 
-// For tests on the kernel of scripts/test-socketcan. What the kernel does there takes its own time,
-// so these tests wait for what is to come true, and fail when it does not in a long while.
+// For tests on the kernel of scripts/test-socketcan. What the kernel does takes its own time, so
+// these tests wait for what is to come true, and fail when it does not in a long while.
 
 namespace armature::can::internal {
 
@@ -23,7 +23,7 @@ inline void shell(const std::string& command) {
 }
 
 inline bool comes_true(const std::function<bool()>& condition) {
-  constexpr base::Duration kLongWhile = std::chrono::seconds(10);
+  constexpr base::Duration kLongWhile = std::chrono::seconds(2);
   const base::Time end = platform::monotonic_now() + kLongWhile;
   while (!condition()) {
     if (platform::monotonic_now() > end) return false;
