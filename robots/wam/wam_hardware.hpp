@@ -43,9 +43,19 @@ class WamHardware final : public component::Component {
  private:
   using Vector = std::vector<double>;
 
+  /// Has the pucks braked whatever it is that ends a run: a stop, a fault, an exception.
+  class Ending final : public component::Step {
+   public:
+    explicit Ending(WamHardware& arm) : arm_(arm) { arm.add_step(*this, true); }
+    void step() override {}
+    void halt(std::string_view /*reason*/) override { arm_.make_safe(); }
+
+   private:
+    WamHardware& arm_;
+  };
+
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
-  void on_stop() override;
   void on_cleanup() override;
 
   // wam_hardware_set_up.cpp
@@ -66,7 +76,9 @@ class WamHardware final : public component::Component {
 
   // Safety.
   bool supervise();
-  void wait_for_cause(WamFault fault);
+  base::Duration be_out();
+  void wait_for_cause();
+  void wait_for_puck();
   void watch_activation();
   void ask_for_activation();
   void help_to_activate();
@@ -195,6 +207,7 @@ class WamHardware final : public component::Component {
   std::optional<WamDriver> driver_;
   std::optional<WamMotion> motion_;
 
+  Ending ending_{*this};
   base::Time read_at_ = base::Time::min();
   bool positions_lost_ = false;          ///< until it is configured anew
   bool commanded_ = false;               ///< in this cycle
@@ -203,6 +216,7 @@ class WamHardware final : public component::Component {
   bool asks_ = false;                    ///< for activation
   base::Time pressed_at_{};              ///< by the emulated operator
   std::optional<base::Time> out_since_;  ///< its cause is not known yet
+  bool cuts_power_ = false;              ///< has asked for it since
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
   Vector data_;
