@@ -129,6 +129,8 @@ void WamHardware::send_torques() {
   const std::span<const double> torques = path_->motor_torques();
   for (std::size_t i = 0; i < torques.size(); ++i) driver_->set_torque(i, torques[i], now);
   driver_->send_torques(now);
+  std::ranges::copy(path_->joint_torques(), sent_.begin());
+  sent_torques_.write(sent_);
 }
 
 // ---- Arming

@@ -156,6 +156,12 @@ class WamHardware final : public component::Component {
       this, "jointsDataPort",
       "[q1..qN, qd1..qdN, tau1..tauN]: positions rad, velocities rad/s, torques Nm", "",
       component::size_of(joints_, 3)};
+  component::OutputPort<Vector> sent_torques_{
+      this, "sentTorquePort", "of the joints, as they were sent last: after all limits", "Nm",
+      component::size_of(joints_)};
+  component::OutputPort<int> board_state_{
+      this, "safetyStatePort",
+      "of the board, as it said last: 0 E-STOP, 1 IDLE, 2 ACTIVATED; -1 before it did"};
   component::OutputPorts<bool> armed_{this, "Armed", joints_, "torques are passed"};
   component::Operation<bool()> get_joint_sensors_{
       this, "getJointSensorsOperation", component::serve<&WamHardware::get_joint_sensors>,
@@ -219,6 +225,7 @@ class WamHardware final : public component::Component {
   bool cuts_power_ = false;              ///< has asked for it since
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
+  Vector sent_;
   Vector data_;
 };
 

@@ -22,10 +22,12 @@ constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
 /// @return it runs on
 bool WamHardware::supervise() {
-  const std::string_view told = safety_state(driver_->board_mode());
+  const auto mode = driver_->board_mode();
+  board_state_.write(mode ? static_cast<int>(*mode) : -1);
+  const std::string_view told = safety_state(mode);
   if (safety_state_.get().view() != told) {
     safety_state_.assign(told);
-    if (driver_->board_mode()) log_info("the safety board is in {}", told);
+    if (mode) log_info("the safety board is in {}", told);
   }
   const WamFault fault = driver_->fault();
   if (fault == WamFault::kNone) {
