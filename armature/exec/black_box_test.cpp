@@ -188,6 +188,26 @@ TEST(BlackBoxOfAnApplication, KeepsNoMoreThanItsMemoryAndHistory) {
   EXPECT_THAT(samples(small.reports[0], "Double.Out"), Contains("2000: 398"));
 }
 
+TEST(BlackBoxOfAnApplication, InSimulatedTimeMoreMemoryHasMorePictures) {
+  const auto pictures_with = [](std::size_t memory) {
+    Kept kept;
+    Blueprint blueprint = chain(200);
+    for (int i = 0; i < 100; ++i) {  // enough values for several milliseconds
+      blueprint.add<Counter>("More" + std::to_string(i), Activity::periodic(10ms, 50));
+    }
+    ApplicationOptions options = kept.options(true);
+    options.black_box.history = 1s;
+    options.black_box.memory = memory;
+    Application application(std::move(blueprint), std::move(options));
+    EXPECT_TRUE(application.start().ok());
+    application.run_for(3s);
+    EXPECT_THAT(kept.reports, SizeIs(1));
+    return samples(kept.reports.at(0), "Source.Count").size();
+  };
+  EXPECT_LE(pictures_with(64u << 10), 60u);
+  EXPECT_GE(pictures_with(4u << 20), 100u) << "each cycle of a second";
+}
+
 TEST(BlackBoxOfAnApplication, OfManyFaultsAFewAreWritten) {
   Kept kept;
   Blueprint blueprint;

@@ -7,6 +7,7 @@ void BoardWatch::start(base::Time now) {
   asked_ = Asked::kNothing;
   mode_due_ = now;
   pendant_due_ = now + config_.period / 2;
+  hears_again_ = now;
   missed_modes_ = 0;
   mode_.reset();
   pendant_.reset();
@@ -29,6 +30,15 @@ std::optional<can::Frame> BoardWatch::question(base::Time now) {
   deadline_ = now + config_.answer_timeout;
   const bool mode = asked_ == Asked::kMode;
   return get_frame(to_node(kBoardNode), mode ? config_.mode_number : config_.pendant_number);
+}
+
+void BoardWatch::hear(const can::Frame& frame, base::Time now) {
+  const std::optional<Message> told = parse_message(frame);
+  if (!told || !told->set || told->number != config_.mode_number || now < hears_again_) return;
+  const bool obeys = told->value == static_cast<int>(PuckMode::kTorque);
+  if (obeys == (mode_ == BoardMode::kActive)) return;
+  hears_again_ = now + config_.period;
+  ask_mode_soon(now);
 }
 
 void BoardWatch::take_back(base::Time now) {

@@ -40,6 +40,10 @@ class BoardWatch {
   /// A frame from the board to the host.
   /// @return whether it was an answer that was waited for
   bool take(const can::Frame& frame);
+  /// What the board says to all, the modes that it sets the pucks to. These frames are inferred
+  /// (PROTOCOL.md), so nothing is believed of them but that there is news: MODE is asked for at
+  /// once, for that reason once in a period.
+  void hear(const can::Frame& frame, base::Time now);
   /// What was asked last did not get on its way, so its answer is not missed.
   void take_back(base::Time now);
 
@@ -64,6 +68,7 @@ class BoardWatch {
   base::Time deadline_{};  ///< of the answer
   base::Time mode_due_{};
   base::Time pendant_due_{};
+  base::Time hears_again_ = base::Time::min();
   int missed_modes_ = 0;
   std::optional<BoardMode> mode_;
   std::optional<PendantWord> pendant_;

@@ -37,6 +37,11 @@ component::Reason fault_reason(WamFault fault, int node) {
       return "the bus is off or unplugged: check cable and power, then reset, start, arm";
     case WamFault::kPuckSilent:
       return of_puck(node, " is silent: check its cable and power, then reset, start, arm");
+    case WamFault::kPowerCut:
+      return of_puck(
+          node,
+          " is silent, and may drive on as it was told last, so its power was cut: check "
+          "its cable, put the arm at home, then reset, cleanup, start");
     case WamFault::kPositionJump:
       return of_puck(node,
                      " told a position that cannot be, its zero is lost: put the arm at home, then "
@@ -79,10 +84,6 @@ std::string_view activation_request(const std::optional<PendantWord>& pendant, b
 
 bool shows_fault(const PendantWord& pendant) {
   return std::ranges::find(pendant.levels, Level::kFault) != pendant.levels.end();
-}
-
-bool loses_positions(WamFault fault) {
-  return fault == WamFault::kEstop || fault == WamFault::kPositionJump;
 }
 
 }  // namespace armature::wam

@@ -27,7 +27,4 @@ std::string_view activation_request(const std::optional<PendantWord>& pendant, b
 /// Whether the pendant shows a fault, which keeps the arm from being activated.
 bool shows_fault(const PendantWord& pendant);
 
-/// Positions are lost with it: the arm has to be put at home.
-bool loses_positions(WamFault fault);
-
 }  // namespace armature::wam

@@ -12,6 +12,9 @@ namespace armature::wam {
 namespace {
 
 constexpr std::uint32_t kDestinationBits = 0x41f;
+/// Between two positions; cycles were not run if it is longer, and a motor that turns 100 rad/s may
+/// come a quarter of a turn further.
+constexpr base::Duration kLongestCompared = std::chrono::milliseconds(10);
 constexpr base::Duration kShortestWatch = std::chrono::milliseconds(50);
 
 bool usable(can::BusState state) {
@@ -42,53 +45,7 @@ std::string check(const WamRecord& arm, const WamDriver::Config& config) {
   return "";
 }
 
-WamFault fault_of(Monitor monitor) {
-  switch (monitor) {
-    case Monitor::kVelocity:
-      return WamFault::kVelocity;
-    case Monitor::kTorque:
-      return WamFault::kTorque;
-    case Monitor::kVoltage:
-      return WamFault::kVoltage;
-    case Monitor::kHeartbeat:
-      return WamFault::kHeartbeat;
-    case Monitor::kOther:
-      return WamFault::kOther;
-  }
-  return WamFault::kOther;
-}
-
 }  // namespace
-
-const char* to_text(WamFault fault) {
-  switch (fault) {
-    case WamFault::kNone:
-      return "none";
-    case WamFault::kNoBus:
-      return "no bus";
-    case WamFault::kPuckSilent:
-      return "puck silent";
-    case WamFault::kPositionJump:
-      return "position jump";
-    case WamFault::kBoardSilent:
-      return "safety board silent";
-    case WamFault::kEstop:
-      return "E-stop";
-    case WamFault::kIdled:
-      return "idled";
-    case WamFault::kVelocity:
-      return "velocity";
-    case WamFault::kTorque:
-      return "torque";
-    case WamFault::kVoltage:
-      return "voltage";
-    case WamFault::kHeartbeat:
-      return "heartbeat";
-    case WamFault::kOther:
-      return "other";
-  }
-  return "?";
-}
 
 base::Result<WamDriver> WamDriver::make(can::Bus& bus, const WamRecord& arm, const Config& config) {
   const std::string mistake = check(arm, config);
@@ -102,6 +59,7 @@ can::BusOptions WamDriver::bus_options() {
   for (const Group group : {Group::kPositions, Group::kReplies, Group::kJointPositions}) {
     options.filters.push_back({.id = identifier(to_group(group)), .mask = kDestinationBits});
   }
+  options.filters.push_back({.id = identifier(from_node(kBoardNode, Group::kAll))});
   return options;
 }
 
@@ -119,6 +77,7 @@ void WamDriver::start(base::Time now) {
   deadline_ = base::Time::max();
   fault_ = WamFault::kNone;
   fault_node_ = 0;
+  cuts_power_ = board_heard_ = false;
   mode_seen_.reset();
   watch_.start(now);
   accounts_.fill({});
@@ -221,14 +180,6 @@ void WamDriver::finish(base::Time now) {
   }
 }
 
-/// The board knows whether it was E-stop that took the puck's power.
-void WamDriver::judge_silence(std::size_t motor, base::Time now) {
-  if (motors_[motor].cycles_without < config_.most_without || fault_ != WamFault::kNone) return;
-  raise(accounts_[motor].jumped ? WamFault::kPositionJump : WamFault::kPuckSilent,
-        motors_[motor].node);
-  watch_.ask_mode_soon(now);
-}
-
 // ---- Frames
 
 void WamDriver::take_frames(base::Time now) {
@@ -247,6 +198,8 @@ void WamDriver::take(const can::Arrival& arrival, base::Time now) {
   const int most = static_cast<int>(arm_.motors);
   if (address == from_node(kBoardNode, Group::kReplies)) {
     if (watch_.take(arrival.frame)) judge_board(now);
+  } else if (address == from_node(kBoardNode, Group::kAll)) {
+    watch_.hear(arrival.frame, now);
   } else if (address && address->group && address->to == static_cast<int>(Group::kPositions) &&
              address->from >= 1 && address->from <= most) {
     take_position(static_cast<std::size_t>(address->from - 1), arrival);
@@ -269,9 +222,10 @@ void WamDriver::take_position(std::size_t motor, const can::Arrival& arrival) {
     return;
   }
   const std::int32_t turn = arm_.pucks[motor].counts_per_turn;
-  const bool comparable = known.known && known.cycles_without < config_.most_without;
+  const bool recent = account.doubtful || arrival.time - known.position_time < kLongestCompared;
+  const bool comparable = known.known && known.cycles_without < config_.most_without && recent;
   if (comparable && std::abs(positions->motor - known.counts) > turn / 4) {
-    account.jumped = true;
+    account.jumped = account.doubtful = true;
     ++known.counters.jumps;
     return;
   }
@@ -280,57 +234,7 @@ void WamDriver::take_position(std::size_t motor, const can::Arrival& arrival) {
   known.joint_counts = positions->joint;
   known.position_time = arrival.time;
   known.known = known.fresh = true;
-}
-
-// ---- The safety board
-
-void WamDriver::judge_board(base::Time now) {
-  if (const auto before = std::exchange(mode_seen_, watch_.mode());
-      before && *before != *mode_seen_) {
-    judge_drop(*before, now);
-  }
-  if (mode_seen_ == BoardMode::kEstop) raise(WamFault::kEstop);
-  if (std::exchange(pendants_seen_, watch_.pendant_answers()) != watch_.pendant_answers()) {
-    name_drop();
-  }
-}
-
-void WamDriver::judge_drop(BoardMode before, base::Time now) {
-  if (before != BoardMode::kActive || watch_.mode() != BoardMode::kIdle) return;
-  raise(WamFault::kIdled);
-  watch_.ask_pendant_soon(now);
-}
-
-void WamDriver::name_drop() {
-  if (fault_ != WamFault::kIdled || !watch_.pendant()) return;
-  for (std::size_t i = 0; i < kMonitors; ++i) {
-    const auto monitor = static_cast<Monitor>(i);
-    if (watch_.pendant()->level(monitor) != Level::kFault) continue;
-    fault_ = fault_of(monitor);
-    return;
-  }
-}
-
-void WamDriver::raise(WamFault fault, int node) {
-  if (fault_ != WamFault::kNone && fault != WamFault::kEstop) return;
-  fault_ = fault;
-  fault_node_ = node;
-  clear_torques();
-  if (fault != WamFault::kPositionJump) return;
-  // Whoever starts the arm up next has to write its home position again.
-  static_cast<void>(send(set_frame(to_node(kBoardNode), arm_.zero_number, 0)));
-}
-
-bool WamDriver::acknowledge() {
-  if (fault_ == WamFault::kEstop || fault_ == WamFault::kPositionJump) return false;
-  fault_ = WamFault::kNone;
-  fault_node_ = 0;
-  clear_torques();
-  for (WamMotor& each : motors_) {
-    each.known = each.known && each.cycles_without < config_.most_without;
-    each.cycles_without = 0;
-  }
-  return true;
+  account.doubtful = false;
 }
 
 // ---- Torques

@@ -30,6 +30,7 @@ enum class WamFault : std::uint8_t {
   kNone,
   kNoBus,         ///< the bus was off or down
   kPuckSilent,    ///< a puck has not answered for too many cycles; see `fault_node`
+  kPowerCut,      ///< such a puck stayed silent, and `cut_power` has led to E-stop
   kPositionJump,  ///< a puck told positions that cannot be; its zero is lost
   kBoardSilent,   ///< the safety board has not answered
   kEstop,         ///< E-stop: the pucks have lost power and their positions
@@ -41,6 +42,8 @@ enum class WamFault : std::uint8_t {
   kOther,
 };
 const char* to_text(WamFault fault);
+/// Positions are not to be believed after it: the arm has to be put at home.
+bool loses_positions(WamFault fault);
 
 /// What became of a torque that was set.
 enum class WamTorque {
@@ -144,17 +147,25 @@ class WamDriver {
 
   /// Torques are obeyed: the board is active, and there is no fault.
   bool active() const { return fault_ == WamFault::kNone && watch_.mode() == BoardMode::kActive; }
+  /// After kPuckSilent: a puck is silent still, and the board has answered since, so it is not the
+  /// bus. Such a puck may hear nobody, and its motor goes on as it was told last.
+  bool needs_power_cut() const;
+  /// Asks the board for E-stop, which ends that. The fault becomes kPowerCut when the board says
+  /// that it has done so; boards with firmware below 197 do not.
+  /// @return as `send_torques`
+  can::SendStatus cut_power(base::Time now);
+
   /// As the board said last; none before it did.
   std::optional<BoardMode> board_mode() const { return watch_.mode(); }
   /// What the pendant shows; none before the board told, or if its firmware tells something else.
   std::optional<PendantWord> pendant() const { return watch_.pendant(); }
-  /// The first since `start` or `acknowledge`, except that kEstop replaces any other, and that
-  /// kIdled becomes what the board names within 100 ms.
+  /// The first since `start` or `acknowledge`, except that kPositionJump replaces it, kEstop and
+  /// kPowerCut replace any other, and kIdled becomes what the board names within 100 ms.
   WamFault fault() const { return fault_; }
-  /// The puck of kPuckSilent and kPositionJump; else 0.
+  /// The puck of kPuckSilent, kPowerCut and kPositionJump; else 0.
   int fault_node() const { return fault_node_; }
   /// Ends a fault, as an act of the operator; all torques are 0.
-  /// @return false for kEstop and kPositionJump, which need `WamStartup` and `start`
+  /// @return false for what loses positions, which needs `WamStartup` and `start`
   bool acknowledge();
 
   std::size_t motors() const { return arm_.motors; }
@@ -167,9 +178,10 @@ class WamDriver {
  private:
   /// What the driver keeps of a motor for itself.
   struct Account {
-    bool asked = false;   ///< in this reading
-    bool owes = false;    ///< did not answer when it was asked last
-    bool jumped = false;  ///< in this reading
+    bool asked = false;     ///< in this reading
+    bool owes = false;      ///< did not answer when it was asked last
+    bool jumped = false;    ///< in this reading
+    bool doubtful = false;  ///< it jumped, and has told no good position since
     std::int16_t torque = 0;
     base::Time torque_time = base::Time::min();
   };
@@ -183,16 +195,21 @@ class WamDriver {
   bool nobody_asked() const;
   bool all_answered() const;
   void finish(base::Time now);
+
+  // wam_driver_safety.cpp
+  bool silent(std::size_t motor) const {
+    return motors_[motor].cycles_without >= config_.most_without;
+  }
   void judge_silence(std::size_t motor, base::Time now);
+  void judge_board(base::Time now);
+  void judge_drop(BoardMode before, base::Time now);
+  void name_drop(base::Time now);
+  void raise(WamFault fault, int node = 0);
 
   void take_frames(base::Time now);
   void take(const can::Arrival& arrival, base::Time now);
   void take_position(std::size_t motor, const can::Arrival& arrival);
-  void judge_board(base::Time now);
-  void judge_drop(BoardMode before, base::Time now);
-  void name_drop();
 
-  void raise(WamFault fault, int node = 0);
   void clear_torques();
   std::int16_t torque_to_send(std::size_t motor, base::Time now);
   can::SendStatus send(const can::Frame& frame);
@@ -211,6 +228,8 @@ class WamDriver {
   std::uint64_t pendants_seen_ = 0;
   WamFault fault_ = WamFault::kNone;
   int fault_node_ = 0;
+  bool cuts_power_ = false;
+  bool board_heard_ = false;  ///< since a puck was found to be silent
   WamBusCounters bus_counters_;
 };
 

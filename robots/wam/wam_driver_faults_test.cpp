@@ -324,10 +324,21 @@ TEST(WamDriverFaults, WhatMovedWhileAPuckWasSilentIsNoJump) {
   Driving bench;
   bench.puck(3).set_dead(true);
   bench.cycles_until_fault(10);
+  bench.tell("00A#B7006400");  // the board is to look away
   bench.rotors.set_state(2, bench.rotors.angle(2) + 20.0, 0.0);
   bench.run(10);
   bench.puck(3).set_dead(false);
   EXPECT_TRUE(bench.driver->acknowledge());
+  bench.run(4);
+  EXPECT_EQ(bench.driver->fault(), WamFault::kNone);
+  EXPECT_EQ(bench.driver->motor(2).counts, bench.puck(3).counts());
+}
+
+TEST(WamDriverFaults, WhatMovedWhileNoCyclesWereRunIsNoJump) {
+  Driving bench;
+  bench.tell("00A#B7006400");
+  bench.advance(12ms);
+  bench.rotors.set_state(2, bench.rotors.angle(2) + 20.0, 0.0);
   bench.run(4);
   EXPECT_EQ(bench.driver->fault(), WamFault::kNone);
   EXPECT_EQ(bench.driver->motor(2).counts, bench.puck(3).counts());
@@ -342,6 +353,67 @@ TEST(WamDriverFaults, APuckThatHasLostItsZeroIsNamed) {
   EXPECT_EQ(bench.driver->fault_node(), 3);
   bench.expect_quiet();
   EXPECT_FALSE(bench.driver->acknowledge()) << "its positions are wrong for good";
+}
+
+/// Which would have its positions believed after Shift+Idle.
+TEST(WamDriverFaults, ALostZeroIsNamedAlsoWhereTheBoardTakesItForAVelocity) {
+  for (const int node : {1, 2, 3, 4}) {
+    Driving bench;
+    const auto frame = set_frame(to_node(node), 48, bench.puck(node).counts() + 20000);
+    bench.tell(std::string(can::to_text(frame).view()));
+    bench.run(20);
+    EXPECT_EQ(bench.board().pendant().level(Monitor::kVelocity), Level::kFault);
+    EXPECT_EQ(bench.driver->fault(), WamFault::kPositionJump) << node;
+    EXPECT_EQ(bench.driver->fault_node(), node);
+    EXPECT_FALSE(bench.board().zeroed());
+    EXPECT_FALSE(bench.driver->acknowledge());
+  }
+}
+
+TEST(WamDriverFaults, AWrongPositionThatTheBoardTakesForAVelocityIsAVelocityFaultIfItIsOver) {
+  Driving bench;
+  bench.puck(3).spoil_replies(ReplySpoil::kWrongProperty, 1);  // of a position its upper bits
+  bench.run(20);
+  EXPECT_EQ(bench.counters(3).jumps, 1u);
+  EXPECT_EQ(bench.driver->fault(), WamFault::kVelocity);
+  EXPECT_TRUE(bench.board().zeroed());
+}
+
+TEST(WamDriverFaults, APuckThatHearsNobodyHasItsPowerCut) {
+  Driving bench;
+  bench.torques[2] = 0.01;
+  bench.run(2);
+  bench.puck(3).set_dead(true);
+  bench.run(3);
+  EXPECT_FALSE(bench.driver->needs_power_cut()) << "the board has not answered yet";
+  bench.run(3);
+  EXPECT_EQ(bench.puck(3).torque(), 27) << "it goes on as it was told last";
+  ASSERT_TRUE(bench.driver->needs_power_cut());
+  EXPECT_EQ(bench.driver->cut_power(bench.now()), can::SendStatus::kSent);
+  bench.run(3);
+  EXPECT_EQ(bench.board().mode(), BoardMode::kEstop);
+  EXPECT_TRUE(bench.rotors.braked(2));
+  EXPECT_EQ(bench.driver->fault(), WamFault::kPowerCut);
+  EXPECT_EQ(bench.driver->fault_node(), 3);
+  bench.expect_quiet();
+  EXPECT_EQ(bench.driver->fault(), WamFault::kPowerCut);
+  EXPECT_FALSE(bench.driver->acknowledge());
+}
+
+TEST(WamDriverFaults, NoPowerIsCutForAPuckThatAnswersAgainNorWithoutABoard) {
+  Driving bench;
+  bench.puck(3).set_dead(true);
+  bench.run(4);
+  bench.puck(3).set_dead(false);
+  bench.run(4);
+  EXPECT_EQ(bench.driver->fault(), WamFault::kPuckSilent);
+  EXPECT_FALSE(bench.driver->needs_power_cut());
+
+  Driving unplugged;
+  unplugged.host.set_dead(true);
+  unplugged.run(10);
+  EXPECT_EQ(unplugged.driver->fault(), WamFault::kPuckSilent);
+  EXPECT_FALSE(unplugged.driver->needs_power_cut());
 }
 
 // ---- Faults of the bus

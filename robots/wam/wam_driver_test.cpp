@@ -273,6 +273,42 @@ TEST(WamDriver, NeverAsksForMoreThanTheBoardAllows) {
   EXPECT_EQ(bench.board().counters().refused, 1u) << "that of this test";
 }
 
+TEST(WamDriver, WhatTheBoardTellsThePucksHasItAskedForItsModeAtOnce) {
+  Hosted bench;
+  bench.start();
+  for (int offset = 0; offset < 30; ++offset) {
+    bench.run(10 + offset);
+    bench.board().shift_activate();
+    bench.run(3);
+    EXPECT_TRUE(bench.driver->active()) << offset;
+    bench.run(60);
+    bench.board().shift_idle();
+    bench.run(3);
+    EXPECT_EQ(bench.driver->board_mode(), BoardMode::kIdle) << offset;
+    EXPECT_TRUE(bench.driver->acknowledge());
+    bench.run(60);
+  }
+}
+
+/// These frames are inferred, so the board's answer alone is believed.
+TEST(WamDriver, WhatSaysThatItTellsThePucksIsNotBelievedAndAskedAboutOnceInAPeriod) {
+  Hosted bench;
+  bench.start();
+  bench.run(60);
+  can::VirtualStation& other = bench.emulator->bus().add_station("other");
+  base::Diagnostics diagnostics;
+  ASSERT_TRUE(other.open({}, diagnostics));
+  bench.take_own();
+  for (int i = 0; i < 500; ++i) {
+    other.send(can::data_frame(0x540, {0x88, 0, 2, 0, 0, 0}));
+    bench.run(1);
+    EXPECT_FALSE(bench.driver->active());
+  }
+  int modes = 0;
+  for (const auto& frame : bench.take_own()) modes += frame == "00A#08";
+  EXPECT_LE(modes, 40) << "in a second";
+}
+
 TEST(WamDriver, AFloodOfBroadcastsIsIgnored) {
   Hosted bench;
   bench.start_active();

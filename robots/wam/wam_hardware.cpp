@@ -36,14 +36,13 @@ Outcome WamHardware::on_start() {
   idle_seen_ = asks_ = commanded_ = false;
   without_command_ = 0;
   out_since_.reset();
+  cuts_power_ = false;
   waits_for_.assign({});
   lost_answers_.assign(0);
   cycles_without_command_.assign(0);
   arming_ = arm_.bound() ? &arm_.source()->owner() : nullptr;
   return component::accepted();
 }
-
-void WamHardware::on_stop() { make_safe(); }
 
 void WamHardware::on_cleanup() {
   // What was sent last gets on its way.
@@ -136,6 +135,8 @@ void WamHardware::send_torques() {
   const std::span<const double> torques = path_->motor_torques();
   for (std::size_t i = 0; i < torques.size(); ++i) driver_->set_torque(i, torques[i], now);
   driver_->send_torques(now);
+  std::ranges::copy(path_->joint_torques(), sent_.begin());
+  sent_torques_.write(sent_);
 }
 
 // ---- Arming

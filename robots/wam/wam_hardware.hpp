@@ -43,9 +43,19 @@ class WamHardware final : public component::Component {
  private:
   using Vector = std::vector<double>;
 
+  /// Has the pucks braked whatever it is that ends a run: a stop, a fault, an exception.
+  class Ending final : public component::Step {
+   public:
+    explicit Ending(WamHardware& arm) : arm_(arm) { arm.add_step(*this, true); }
+    void step() override {}
+    void halt(std::string_view /*reason*/) override { arm_.make_safe(); }
+
+   private:
+    WamHardware& arm_;
+  };
+
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
-  void on_stop() override;
   void on_cleanup() override;
 
   // wam_hardware_set_up.cpp
@@ -66,7 +76,9 @@ class WamHardware final : public component::Component {
 
   // Safety.
   bool supervise();
-  void wait_for_cause(WamFault fault);
+  base::Duration be_out();
+  void wait_for_cause();
+  void wait_for_puck();
   void watch_activation();
   void ask_for_activation();
   void help_to_activate();
@@ -144,6 +156,12 @@ class WamHardware final : public component::Component {
       this, "jointsDataPort",
       "[q1..qN, qd1..qdN, tau1..tauN]: positions rad, velocities rad/s, torques Nm", "",
       component::size_of(joints_, 3)};
+  component::OutputPort<Vector> sent_torques_{
+      this, "sentTorquePort", "of the joints, as they were sent last: after all limits", "Nm",
+      component::size_of(joints_)};
+  component::OutputPort<int> board_state_{
+      this, "safetyStatePort",
+      "of the board, as it said last: 0 E-STOP, 1 IDLE, 2 ACTIVATED; -1 before it did"};
   component::OutputPorts<bool> armed_{this, "Armed", joints_, "torques are passed"};
   component::Operation<bool()> get_joint_sensors_{
       this, "getJointSensorsOperation", component::serve<&WamHardware::get_joint_sensors>,
@@ -195,6 +213,7 @@ class WamHardware final : public component::Component {
   std::optional<WamDriver> driver_;
   std::optional<WamMotion> motion_;
 
+  Ending ending_{*this};
   base::Time read_at_ = base::Time::min();
   base::Time followed_ = base::Time::min();  ///< by its own controller; min(): it has no past
   bool positions_lost_ = false;              ///< until it is configured anew
@@ -204,8 +223,10 @@ class WamHardware final : public component::Component {
   bool asks_ = false;                        ///< for activation
   base::Time pressed_at_{};                  ///< by the emulated operator
   std::optional<base::Time> out_since_;      ///< its cause is not known yet
+  bool cuts_power_ = false;                  ///< has asked for it since
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
+  Vector sent_;
   Vector data_;
 };
 

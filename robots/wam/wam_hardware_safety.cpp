@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamHardware: what the safety board, the pucks and the bus say, and what becomes of it.
 #include <chrono>
+#include <utility>
 
 #include "robots/wam/safety_text.hpp"
 #include "robots/wam/wam_hardware.hpp"
@@ -10,8 +11,10 @@ namespace {
 
 /// Until then the board says why it went to idle; the driver asks it at once.
 constexpr base::Duration kIdleCauseTime = std::chrono::milliseconds(150);
-/// Until then it says whether it was E-stop that made pucks silent.
+/// Until then it says whether it was E-stop that made pucks silent, and those that can hear answer.
 constexpr base::Duration kSilenceCauseTime = std::chrono::milliseconds(30);
+/// Until then it has cut the power of those that do not.
+constexpr base::Duration kPowerCutTime = std::chrono::milliseconds(50);
 /// Between two keys of the emulated operator.
 constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
@@ -19,38 +22,53 @@ constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
 /// @return it runs on
 bool WamHardware::supervise() {
-  const std::string_view told = safety_state(driver_->board_mode());
+  const auto mode = driver_->board_mode();
+  board_state_.write(mode ? static_cast<int>(*mode) : -1);
+  const std::string_view told = safety_state(mode);
   if (safety_state_.get().view() != told) {
     safety_state_.assign(told);
-    if (driver_->board_mode()) log_info("the safety board is in {}", told);
+    if (mode) log_info("the safety board is in {}", told);
   }
   const WamFault fault = driver_->fault();
   if (fault == WamFault::kNone) {
     watch_activation();
-  } else if (fault == WamFault::kIdled || fault == WamFault::kPuckSilent) {
-    wait_for_cause(fault);
+  } else if (fault == WamFault::kIdled) {
+    wait_for_cause();
+  } else if (fault == WamFault::kPuckSilent) {
+    wait_for_puck();
   } else {
     take_out(fault);
   }
   return state() == component::State::kRunning;
 }
 
-/// Out of service at once. A fault of the board becomes one of this component; without one it was
-/// the operator who idled the arm.
-void WamHardware::wait_for_cause(WamFault fault) {
+/// Out of service at once, to look for the cause.
+/// @return since when
+base::Duration WamHardware::be_out() {
   if (!out_since_) {
     out_since_ = link_->now();
     leave_service();
-    if (fault == WamFault::kPuckSilent) make_safe();
   }
-  const base::Duration past = link_->now() - *out_since_;
-  if (fault == WamFault::kPuckSilent) {
-    if (past >= kSilenceCauseTime) take_out(fault);
-  } else if (past >= kIdleCauseTime) {
-    out_since_.reset();
-    driver_->acknowledge();
-    log_warning("the operator has idled the arm; it is disarmed");
-  }
+  return link_->now() - *out_since_;
+}
+
+/// A fault of the board becomes one of this component; without one it was the operator who idled
+/// the arm.
+void WamHardware::wait_for_cause() {
+  if (be_out() < kIdleCauseTime) return;
+  out_since_.reset();
+  driver_->acknowledge();
+  log_warning("the operator has idled the arm; it is disarmed");
+}
+
+/// A puck that answers again hears that it is idle. Of one that does not, nobody knows what it
+/// drives its motor with.
+void WamHardware::wait_for_puck() {
+  if (!out_since_) make_safe();
+  const base::Duration past = be_out();
+  if (past < kSilenceCauseTime) return;
+  if (!driver_->needs_power_cut() || past >= kPowerCutTime) return take_out(WamFault::kPuckSilent);
+  if (!std::exchange(cuts_power_, true)) driver_->cut_power(link_->now());
 }
 
 void WamHardware::watch_activation() {
@@ -89,7 +107,6 @@ void WamHardware::take_out(WamFault why) {
   positions_lost_ = loses_positions(why);
   const int node = driver_->fault_node();
   leave_service();
-  make_safe();
   waits_for_.assign({});
   fault(fault_reason(why, node));
 }
@@ -103,6 +120,7 @@ void WamHardware::leave_service() {
 
 /// Pucks that are idle brake their motors.
 void WamHardware::make_safe() {
+  if (!driver_) return;  // it was not configured
   path_->go_off();
   send_torques();
   driver_->send_idle();

@@ -60,6 +60,7 @@ Outcome WamHardware::set_up_path() {
   if (!path) return component::refused(path.error());
   path_.emplace(std::move(path).value());
   own_torques_.assign(numbers_->joints(), 0.0);
+  sent_.assign(numbers_->joints(), 0.0);
   data_.assign(3 * numbers_->joints(), 0.0);
   clipped_.assign(0);
   return component::accepted();

@@ -56,12 +56,11 @@ void restart_puck(CampaignArm& arm, Random& random) {
   puck.set_power(true);
 }
 
-/// Of the wrist: the board takes such a jump of the other four for a velocity.
+/// The board takes such a jump of the lower arm for a velocity.
 void lose_zero(CampaignArm& arm, Random& random) {
-  const int node = 5 + static_cast<int>(random() % 3);
-  const std::int32_t counts = arm.emulator().puck(static_cast<std::size_t>(node - 1)).counts();
-  arm.link().station().send(
-      set_frame(to_node(node), arm.hardware().driver().arm().position_number, counts + 20000));
+  const Puck& puck = any_puck(arm, random);
+  arm.link().station().send(set_frame(
+      to_node(puck.node()), arm.hardware().driver().arm().position_number, puck.counts() + 20000));
 }
 
 /// Somebody who sends frames, as many as there is room for.
@@ -211,9 +210,8 @@ std::vector<Breakage> breakages() {
       {.name = "DeadPuck",
        .happens = [](auto& arm, auto& random) { any_puck(arm, random).set_dead(true); },
        .after = After::kLost,
-       .said = "is silent",
-       .ends = puts_right,
-       .brakes = false},
+       .said = "is silent, and may drive on",
+       .ends = puts_right},
       {.name = "PuckThatComesBackInTime", .happens = die_for(1)},
       {.name = "PuckThatComesBackTooLate",
        .happens = die_for(10),
@@ -274,8 +272,7 @@ std::vector<Breakage> breakages() {
        .after = After::kLost,
        .said = "told a position that cannot be",
        // The board does not know of it, so the pucks are told where home is only after E-stop.
-       .ends = [](auto& arm) { arm.board().estop(); },
-       .of_wrist = true},
+       .ends = [](auto& arm) { arm.board().estop(); }},
       flooded("GarbageOfLittleUrgency", {},
               [](unsigned n) { return garbage_frame(0x7f0 + n % 8, 8, n); }),
       flooded("GarbageForTheHost", {},

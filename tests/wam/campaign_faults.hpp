@@ -31,10 +31,9 @@ struct Breakage {
   /// Of the reason for a fault, or of the hardware's log where it is disarmed.
   const char* said = "";
   std::function<void(CampaignArm&)> ends = [](CampaignArm&) {};
-  /// False where a puck hears nobody: its motor goes on as it was told last, also
-  /// when the puck hears again, until E-stop takes its power.
+  /// False where neither pucks nor board hear anybody: motors go on as they were told last, until
+  /// the operator's E-stop takes their power. Judged from there on.
   bool brakes = true;
-  bool of_wrist = false;  ///< only the arm with seven joints has it
 };
 
 /// What the test prints of it.

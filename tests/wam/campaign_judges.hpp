@@ -113,11 +113,13 @@ class TorqueWatch {
 };
 
 /// Looks at the arm that nobody has armed, once it has come to rest. Held by its own controller it
-/// stays where it is; idle or without power it sinks as fast as its weight turns shorted motors
-/// (MODEL.md), and no faster.
+/// stays where it is, but for the way in which it stops what sank; idle or without power it sinks
+/// as fast as its weight turns shorted motors (MODEL.md), and no faster.
 class RestWatch {
  public:
-  explicit RestWatch(CampaignArm& arm) : damping_(damping(TorqueWatch::numbers_of(arm))) {
+  explicit RestWatch(CampaignArm& arm)
+      : damping_(damping(TorqueWatch::numbers_of(arm))),
+        most_(arm.value<Vector>("WAM", "MaxAcceleration")) {
     base::Diagnostics diagnostics;
     const std::string urdf = std::string(WAM "/") + std::string(TorqueWatch::numbers_of(arm).urdf);
     links_ = control::InverseDynamics::load(urdf, {.gravity = {0.0, 0.0, -kGravity}}, diagnostics);
@@ -129,23 +131,28 @@ class RestWatch {
   void look_at(CampaignArm& arm) {
     const bool held = arm.any_puck_drives();
     const Vector positions = arm.positions();
-    if (!resting_ || held != held_) rest_ = positions;
+    if (!resting_ || held != held_) begin_at(arm, positions);
     resting_ = true;
     held_ = held;
     if (held) {
-      moved_ = std::max(moved_, largest_apart(positions, rest_));
+      judge_rest(positions);
     } else {
-      judge_sinking(arm, positions);
+      judge_sinking(positions);
     }
   }
 
-  /// Of the joint that moved most while the arm was held [rad].
+  /// Of the joint that moved most while the arm was held, beyond its way to stop [rad].
   double moved() const { return moved_; }
-  /// Of the rate with which its weight turns a joint at most, and 0.1 rad/s.
+  /// Of the rate with which its weight turns a joint at most, and 0.01 rad/s.
   double largest_sinking() const { return sinking_; }
 
  private:
-  static constexpr double kStill = 0.1;  ///< [rad/s], what other joints and their stops add
+  static constexpr double kCycle = 0.002;  ///< [s]
+  static constexpr int kWindow = 50;       ///< cycles
+  static constexpr double kStill = 0.01;   ///< [rad/s], what other joints and their stops add
+
+  /// [s] of three cycles, in which who is activated begins to hold.
+  static constexpr double kReaction = 0.006;
 
   static Vector damping(const ArmNumbers& numbers) {
     Vector all(numbers.joints());
@@ -159,20 +166,49 @@ class RestWatch {
     }
     return all;
   }
-  void judge_sinking(CampaignArm& arm, const Vector& positions) {
+  /// An arm that sinks is stopped as smoothly as it is told to.
+  void begin_at(CampaignArm& arm, const Vector& positions) {
+    rest_ = positions;
+    sinking_cycles_ = 0;
+    way_.assign(positions.size(), 0.0);
+    for (std::size_t i = 0; i < way_.size(); ++i) {
+      const double speed = std::abs(arm.simulated().joint_velocity(i));
+      way_[i] = speed * kReaction + speed * speed / (2.0 * most_[i % most_.size()]);
+    }
+  }
+  void judge_rest(const Vector& positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      moved_ = std::max(moved_, std::abs(positions[i] - rest_[i]) - way_[i]);
+    }
+  }
+  /// In each tenth of a second: a joint that comes to its stop throws the others for less.
+  void judge_sinking(const Vector& positions) {
+    if (sinking_cycles_ == 0) {
+      sinks_from_ = positions;
+      may_sink_.assign(positions.size(), 0.0);
+    }
     Vector weight(positions.size());
     links_->gravity(positions, weight);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      const double most = std::abs(weight[i]) / damping_[i] + kStill;
-      sinking_ = std::max(sinking_, std::abs(arm.simulated().joint_velocity(i)) / most);
+      may_sink_[i] += (std::abs(weight[i]) / damping_[i] + kStill) * kCycle;
+    }
+    if (++sinking_cycles_ < kWindow) return;
+    sinking_cycles_ = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      sinking_ = std::max(sinking_, std::abs(positions[i] - sinks_from_[i]) / may_sink_[i]);
     }
   }
 
   Vector damping_;
+  Vector most_;  ///< [rad/s^2], with which it is stopped
   std::optional<control::InverseDynamics> links_;
   bool resting_ = false;
   bool held_ = false;
   Vector rest_;
+  Vector way_;
+  int sinking_cycles_ = 0;
+  Vector sinks_from_;
+  Vector may_sink_;
   double moved_ = 0.0;
   double sinking_ = 0.0;
 };

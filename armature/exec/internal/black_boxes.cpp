@@ -21,12 +21,18 @@ constexpr std::size_t kNotes = 48;  // of each thread
 constexpr std::size_t kFewestPictures = 4;
 
 /// So many values are copied in a millisecond: half a percent of a thread's time. Simulated time
-/// passes as fast as threads compute, so that there it is no more than a few percent of that.
+/// passes as fast as threads compute, so that there it is no more than a few percent of that,
+/// unless whoever deploys it has reserved memory for more.
 constexpr std::size_t kValuesPerMillisecond = 1024;
 constexpr std::size_t kValuesPerSimulatedMillisecond = 8;
 
-base::Duration interval_for(std::size_t values, bool simulated) {
-  const std::size_t rate = simulated ? kValuesPerSimulatedMillisecond : kValuesPerMillisecond;
+std::size_t simulated_rate(std::size_t memory) {
+  const std::size_t in_proportion =
+      kValuesPerSimulatedMillisecond * memory / BlackBoxOptions{}.memory;
+  return std::clamp(in_proportion, kValuesPerSimulatedMillisecond, kValuesPerMillisecond);
+}
+
+base::Duration interval_for(std::size_t values, std::size_t rate) {
   return std::chrono::milliseconds(1 + values / rate);
 }
 
@@ -76,6 +82,7 @@ void BlackBoxes::set_engines(const std::vector<std::unique_ptr<Engine>>& engines
   noticed_.reset();
   written_ = 0;
   if (!options_.write || options_.history <= base::Duration::zero()) return;
+  const std::size_t rate = simulated ? simulated_rate(options_.memory) : kValuesPerMillisecond;
   double wanted = 0.0;
   std::vector<base::Duration> intervals;
   for (std::size_t t = 0; t < engines.size(); ++t) {
@@ -85,8 +92,7 @@ void BlackBoxes::set_engines(const std::vector<std::unique_ptr<Engine>>& engines
       const Component& component = *blueprint.components[each].component;
       if (&component.context() == &engines[t]->context()) box.add(component);
     }
-    intervals.push_back(
-        std::max(interval_for(box.values(), simulated), period_of(plan.threads[t])));
+    intervals.push_back(std::max(interval_for(box.values(), rate), period_of(plan.threads[t])));
     wanted += static_cast<double>(box.picture_size()) *
               static_cast<double>(options_.history / intervals.back() + 1);
   }
