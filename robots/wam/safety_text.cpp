@@ -8,6 +8,7 @@ namespace armature::wam {
 namespace {
 
 component::Reason of_puck(int node, std::string_view what) {
+  if (node == kEveryNode) return component::Reason("every puck").append(what);
   char digits[12];
   const auto end = std::to_chars(std::begin(digits), std::end(digits), node).ptr;
   component::Reason reason("puck ");
@@ -36,6 +37,10 @@ component::Reason fault_reason(WamFault fault, int node) {
     case WamFault::kNoBus:
       return "the bus is off or unplugged: check cable and power, then reset, start, arm";
     case WamFault::kPuckSilent:
+      if (node == kEveryNode) {
+        return "every puck is silent: check bus and power, and that an arm that another process "
+               "emulates keeps up, then reset, start, arm";
+      }
       return of_puck(node, " is silent: check its cable and power, then reset, start, arm");
     case WamFault::kPowerCut:
       return of_puck(

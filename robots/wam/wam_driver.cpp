@@ -176,8 +176,8 @@ void WamDriver::finish(base::Time now) {
     ++known.cycles_without;
     account.owes = account.asked && !account.jumped;
     if (account.owes) ++known.counters.missed;
-    judge_silence(motor, now);
   }
+  for (std::size_t motor = 0; motor < arm_.motors; ++motor) judge_silence(motor, now);
 }
 
 // ---- Frames

@@ -42,6 +42,8 @@ enum class WamFault : std::uint8_t {
   kOther,
 };
 const char* to_text(WamFault fault);
+/// Where a fault is of all pucks alike.
+constexpr int kEveryNode = -1;
 /// Positions are not to be believed after it: the arm has to be put at home.
 bool loses_positions(WamFault fault);
 
@@ -162,7 +164,7 @@ class WamDriver {
   /// The first since `start` or `acknowledge`, except that kPositionJump replaces it, kEstop and
   /// kPowerCut replace any other, and kIdled becomes what the board names within 100 ms.
   WamFault fault() const { return fault_; }
-  /// The puck of kPuckSilent, kPowerCut and kPositionJump; else 0.
+  /// The puck of kPuckSilent, kPowerCut and kPositionJump, or kEveryNode; else 0.
   int fault_node() const { return fault_node_; }
   /// Ends a fault, as an act of the operator; all torques are 0.
   /// @return false for what loses positions, which needs `WamStartup` and `start`

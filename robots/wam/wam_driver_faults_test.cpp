@@ -413,6 +413,7 @@ TEST(WamDriverFaults, NoPowerIsCutForAPuckThatAnswersAgainNorWithoutABoard) {
   unplugged.host.set_dead(true);
   unplugged.run(10);
   EXPECT_EQ(unplugged.driver->fault(), WamFault::kPuckSilent);
+  EXPECT_EQ(unplugged.driver->fault_node(), kEveryNode);
   EXPECT_FALSE(unplugged.driver->needs_power_cut());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamDriver: what the safety board says, what pucks do not, and which fault that is.
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "robots/wam/wam_driver.hpp"
@@ -76,7 +77,10 @@ void WamDriver::judge_silence(std::size_t motor, base::Time now) {
   const int node = motors_[motor].node;
   if (accounts_[motor].doubtful) return raise(WamFault::kPositionJump, node);
   if (fault_ != WamFault::kNone) return;
-  raise(WamFault::kPuckSilent, node);
+  const bool others_are_too = std::ranges::all_of(
+      std::span(motors_).first(arm_.motors),
+      [this](const WamMotor& each) { return each.cycles_without >= config_.most_without; });
+  raise(WamFault::kPuckSilent, others_are_too ? kEveryNode : node);
   board_heard_ = false;
   watch_.ask_mode_soon(now);
 }
