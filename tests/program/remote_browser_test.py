@@ -123,10 +123,10 @@ class Pipe(WithARobot):
                                       "1.5 m/s\n")
 
     def test_operations_are_called_and_commands_followed_to_their_end(self):
-        done = self.browse("Lift:top()\nLift:travel(0.4)\nwait\nLift:height()\n")
+        done = self.browse("Lift:top()\nLift:travel(2)\nwait\nLift:height()\n")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout, "3\nLift.travel: under way; `wait` waits for its end\n"
-                                      "Lift.travel: done\n0.4\n")
+                                      "Lift.travel: done\n2\n")
 
     def test_a_command_is_cancelled(self):
         done = self.browse("Lift:travel(3)\ncancel\nwait\ncancel\n")
@@ -388,9 +388,10 @@ class AtATerminal(WithARobot):
         self.expect("Lift")
         self.type(".To\t\r")
         self.expect("3 m")
-        self.type("Lift:tr\t0.1)\r")
+        self.type("Lift:tr\t3)\r")
         self.expect("under way")
-        self.expect("Lift.travel: done")
+        self.type("cancel\r")
+        self.expect("Lift.travel: cancelled")
         self.expect("lift> ")
         self.leave()
 
