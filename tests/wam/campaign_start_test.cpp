@@ -31,7 +31,7 @@ void PrintTo(const Misfit& misfit, std::ostream* out) { *out << misfit.name; }
 
 const Misfit kMisfits[] = {
     {.name = "FirmwareOfWhichNothingIsKnown", .told_version = 20, .said = "firmware 20"},
-    {.name = "FirmwareWithOtherNumbersThanTheOthers",
+    {.name = "FirmwareWithOtherNumbers",
      .told_version = 60,
      .said = "which have different numbers for"},
     {.name = "FirmwareThatItHasNot", .told_version = 64, .said = "has IPNM 0, expected above 0"},
@@ -100,6 +100,7 @@ class CampaignStart {
     EXPECT_EQ(torques, 0) << "frames to motors that nothing is known of";
     EXPECT_FALSE(arm_.any_puck_drives());
     EXPECT_EQ(arm_.board().mode(), BoardMode::kIdle);
+    campaign_table()[misfit_.name].states.insert("refused");
     arm_.emulator().bus().set_tap({});
   }
 

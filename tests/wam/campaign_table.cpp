@@ -46,8 +46,9 @@ class Table : public ::testing::Environment {
   static void print(const std::string& name, const CampaignFigures& all) {
     std::string states;
     for (const std::string& state : all.states) states += (states.empty() ? "" : "; ") + state;
-    std::printf("%-32s %5d %9.3f %9.3f %10.5f %9.2f %6zu  %s\n", name.c_str(), all.runs, all.step,
-                all.torque, all.moved, all.sinking, all.cycles_kept, states.c_str());
+    const std::string kept = all.cycles_kept ? std::to_string(*all.cycles_kept) : "-";
+    std::printf("%-32s %5d %9.3f %9.3f %10.5f %9.2f %6s  %s\n", name.c_str(), all.runs, all.step,
+                all.torque, all.moved, all.sinking, kept.c_str(), states.c_str());
     for (const int number : all.failed) std::printf("%-32s FAILED: run %d\n", name.c_str(), number);
   }
 };

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct CampaignFigures {
   double torque = 0.0;
   double moved = 0.0;
   double sinking = 0.0;
-  std::size_t cycles_kept = kCyclesKept;  ///< the least, before a fault
+  std::optional<std::size_t> cycles_kept;  ///< the least, before a fault
   std::set<std::string> states;
 };
 std::map<std::string, CampaignFigures>& campaign_table();

@@ -235,7 +235,8 @@ class CampaignRun {
     all.torque = std::max(all.torque, torques_->largest_torque());
     all.moved = std::max(all.moved, rest_->moved());
     all.sinking = std::max(all.sinking, rest_->largest_sinking());
-    all.cycles_kept = std::min(all.cycles_kept, cycles_kept_);
+    if (cycles_kept_)
+      all.cycles_kept = std::min(all.cycles_kept.value_or(*cycles_kept_), *cycles_kept_);
     all.states.insert(state_);
   }
 
@@ -248,7 +249,7 @@ class CampaignRun {
   Vector target_;
   base::Time broken_at_{};
   std::string state_;
-  std::size_t cycles_kept_ = kCyclesKept;
+  std::optional<std::size_t> cycles_kept_;
 };
 
 /// How many cycles before `end` follow one another without a gap.
@@ -283,8 +284,9 @@ void CampaignRun::expect_black_box() {
   }
   for (const char* channel : {"WAM.jointsDataPort", "WAM.sentTorquePort", "WAM.safetyStatePort",
                               "Actuator.Torque", "BridgeRef.reference"}) {
-    cycles_kept_ = std::min(cycles_kept_, cycles_before(report.time, times[channel]));
-    EXPECT_GE(cycles_kept_, kCyclesKept) << channel;
+    const std::size_t cycles = cycles_before(report.time, times[channel]);
+    EXPECT_GE(cycles, kCyclesKept) << channel;
+    cycles_kept_ = std::min(cycles_kept_.value_or(cycles), cycles);
   }
   EXPECT_EQ(report.incomplete, "");
   EXPECT_LE(report.time - broken_at_, 400ms);
