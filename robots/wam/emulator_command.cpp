@@ -32,6 +32,7 @@ constexpr Number kNoNumber{};
 constexpr Number kCount{"COUNT", 1, 1'000'000, true};
 constexpr Number kMilliseconds{"MS", 0, 10'000, false};
 constexpr Number kVolts{"VOLTS", 0, 200, false};
+constexpr Number kVersion{"VERSION", 0, 255, true};
 
 constexpr bool kNeedsBitRate = true;
 
@@ -93,6 +94,10 @@ constexpr auto kRows = std::to_array<Row>({
     {"fault puck N wrong-byte", kCount, "has no zero in their second byte",
      spoil<ReplySpoil::kSecondByte>},
     {"fault puck N twice", kCount, "sends them twice", spoil<ReplySpoil::kTwice>},
+    {"fault puck N firmware", kVersion, "says that it has this firmware, and has it not",
+     [](const Arm& arm, const Command& command) {
+       puck_of(arm, command).tell_version(static_cast<int>(command.value));
+     }},
     {"fault puck N bus-off", kNoNumber, "its controller has made too many errors",
      [](const Arm& arm, const Command& command) {
        puck_of(arm, command).station().force_bus_off();

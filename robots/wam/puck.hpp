@@ -100,6 +100,8 @@ class Puck {
   void spoil_replies(ReplySpoil how, int count = 1);
   /// Answers come later by this; 0 ends it.
   void delay_replies(base::Duration by) { late_by_ = by; }
+  /// It says that it has this firmware; its properties keep their numbers.
+  void tell_version(int version) { store_.set_default(Property::kVers, version); }
 
   int node() const { return config_.node; }
   PuckState state() const { return state_; }

@@ -149,9 +149,11 @@ class WamDriver {
 
   /// Torques are obeyed: the board is active, and there is no fault.
   bool active() const { return fault_ == WamFault::kNone && watch_.mode() == BoardMode::kActive; }
-  /// After kPuckSilent: a puck is silent still, and the board has answered since, so it is not the
+  /// A puck is silent now, whatever the fault is.
+  bool any_silent() const;
+  /// After kPuckSilent: one is silent still, and the board has answered since, so it is not the
   /// bus. Such a puck may hear nobody, and its motor goes on as it was told last.
-  bool needs_power_cut() const;
+  bool needs_power_cut() const { return board_heard_ && any_silent(); }
   /// Asks the board for E-stop, which ends that. The fault becomes kPowerCut when the board says
   /// that it has done so; boards with firmware below 197 do not.
   /// @return as `send_torques`

@@ -85,8 +85,7 @@ void WamDriver::judge_silence(std::size_t motor, base::Time now) {
   watch_.ask_mode_soon(now);
 }
 
-bool WamDriver::needs_power_cut() const {
-  if (!board_heard_) return false;
+bool WamDriver::any_silent() const {
   for (std::size_t motor = 0; motor < arm_.motors; ++motor) {
     if (silent(motor)) return true;
   }

@@ -61,14 +61,16 @@ void WamHardware::wait_for_cause() {
   log_warning("the operator has idled the arm; it is disarmed");
 }
 
-/// A puck that answers again hears that it is idle. Of one that does not, nobody knows what it
+/// A puck that answers again has heard that it is idle. Of one that does not, nobody knows what it
 /// drives its motor with.
 void WamHardware::wait_for_puck() {
-  if (!out_since_) make_safe();
   const base::Duration past = be_out();
+  driver_->send_idle();  // in each cycle: it may have missed the last
   if (past < kSilenceCauseTime) return;
-  if (!driver_->needs_power_cut() || past >= kPowerCutTime) return take_out(WamFault::kPuckSilent);
-  if (!std::exchange(cuts_power_, true)) driver_->cut_power(link_->now());
+  if (past >= kPowerCutTime || !driver_->any_silent()) return take_out(WamFault::kPuckSilent);
+  if (driver_->needs_power_cut() && !std::exchange(cuts_power_, true)) {
+    driver_->cut_power(link_->now());
+  }
 }
 
 void WamHardware::watch_activation() {

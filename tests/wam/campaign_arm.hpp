@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/deployment.hpp"
+#include "robots/wam/emulator_command.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {
@@ -124,6 +125,17 @@ class CampaignArm {
     }
     FAIL() << component << " has no output " << port;
   }
+
+  /// A command of the emulator, in which N stands for the puck.
+  void tell_emulator(std::string command, int puck) {
+    if (const auto n = command.find('N'); n != std::string::npos) {
+      command.replace(n, 1, std::to_string(puck));
+    }
+    const auto parsed = parse_emulator_command(command, joints());
+    ASSERT_TRUE(parsed) << parsed.error();
+    parsed.value().apply({emulator(), link().motors(), numbers()});
+  }
+  const ArmNumbers& numbers() { return joints() == 4 ? wam4() : wam7(); }
 
   /// Where the joints really are [rad].
   Vector positions() {

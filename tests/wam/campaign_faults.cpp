@@ -19,14 +19,6 @@ Puck& any_puck(CampaignArm& arm, Random& random) {
   return arm.emulator().puck(random() % arm.joints());
 }
 
-std::function<void(CampaignArm&, Random&)> lose_replies(int count) {
-  return [count](CampaignArm& arm, Random& random) { any_puck(arm, random).lose_replies(count); };
-}
-
-std::function<void(CampaignArm&, Random&)> board_finds(Monitor monitor) {
-  return [monitor](CampaignArm& arm, Random&) { arm.board().fail(monitor); };
-}
-
 /// Dead for that many cycles.
 std::function<void(CampaignArm&, Random&)> die_for(int cycles) {
   return [cycles](CampaignArm& arm, Random& random) {
@@ -172,6 +164,18 @@ void send_no_number(CampaignArm& arm, Random& random) {
 
 }  // namespace
 
+int node_for(OfPuck puck, CampaignArm& arm, Random& random) {
+  const auto joints = static_cast<int>(arm.joints());
+  const int first = puck == OfPuck::kWrist ? 5 : 1;
+  const int last = puck == OfPuck::kLowerArm ? 4 : joints;
+  return first + static_cast<int>(random() % static_cast<unsigned>(last - first + 1));
+}
+
+void break_arm(const Breakage& breakage, CampaignArm& arm, Random& random) {
+  if (breakage.happens) return breakage.happens(arm, random);
+  arm.tell_emulator(breakage.command, node_for(breakage.puck, arm, random));
+}
+
 std::vector<Breakage> breakages() {
   const auto puts_right = [](CampaignArm& arm) {
     for (std::size_t i = 0; i < arm.joints(); ++i) {
@@ -186,14 +190,14 @@ std::vector<Breakage> breakages() {
     };
   };
   return {
-      {.name = "OneReplyLost", .happens = lose_replies(1)},
+      {.name = "OneReplyLost", .command = "fault puck N lose 1"},
       // Who owes an answer is left out of the next request: three cycles without a position.
       {.name = "TwoRepliesLost",
-       .happens = lose_replies(2),
+       .command = "fault puck N lose 2",
        .after = After::kFault,
        .said = "is silent"},
       {.name = "ThreeRepliesLost",
-       .happens = lose_replies(3),
+       .command = "fault puck N lose 3",
        .after = After::kFault,
        .said = "is silent"},
       {.name = "AReplyLostOfEachPuck",
@@ -208,25 +212,63 @@ std::vector<Breakage> breakages() {
        .after = After::kFault,
        .said = "is silent"},
       {.name = "DeadPuck",
-       .happens = [](auto& arm, auto& random) { any_puck(arm, random).set_dead(true); },
+       .command = "fault puck N silent",
        .after = After::kLost,
        .said = "is silent, and may drive on",
        .ends = puts_right},
+      // Nobody knows whether it hears.
+      {.name = "PuckThatIsAlwaysLate",
+       .command = "fault puck N delay 1.5",
+       .after = After::kLost,
+       .said = "is silent, and may drive on",
+       .ends = puts_right},
+      {.name = "AnswerOfAWrongLength", .command = "fault puck N wrong-length 1"},
+      {.name = "AnswersThatComeTwice", .command = "fault puck N twice 10"},
+      // Of a position these are other numbers.
+      {.name = "WristTellsWrongUpperBits",
+       .command = "fault puck N wrong-property 1",
+       .puck = OfPuck::kWrist},
+      {.name = "WristTellsWrongMiddleBits",
+       .command = "fault puck N wrong-byte 1",
+       .puck = OfPuck::kWrist},
+      {.name = "LowerArmTellsWrongUpperBits",
+       .command = "fault puck N wrong-property 1",
+       .puck = OfPuck::kLowerArm,
+       .after = After::kFault,
+       .said = "velocity fault"},
+      {.name = "LowerArmTellsWrongMiddleBits",
+       .command = "fault puck N wrong-byte 1",
+       .puck = OfPuck::kLowerArm,
+       .after = After::kFault,
+       .said = "velocity fault"},
+      {.name = "BusOffOfAPuck", .command = "fault puck N bus-off"},
       {.name = "PuckThatComesBackInTime", .happens = die_for(1)},
       {.name = "PuckThatComesBackTooLate",
        .happens = die_for(10),
        .after = After::kFault,
        .said = "is silent"},
       {.name = "VelocityFault",
-       .happens = board_finds(Monitor::kVelocity),
+       .command = "fault board velocity",
        .after = After::kFault,
        .said = "velocity fault"},
       {.name = "TorqueFault",
-       .happens = board_finds(Monitor::kTorque),
+       .command = "fault board torque",
        .after = After::kFault,
        .said = "torque fault"},
+      {.name = "HeartbeatFault",
+       .command = "fault board heartbeat",
+       .after = After::kFault,
+       .said = "heartbeat fault"},
       {.name = "VoltageFault",
-       .happens = [](auto& arm, auto&) { arm.board().set_supply(25.0); },
+       .command = "fault board voltage",
+       .after = After::kFault,
+       .said = "voltage fault"},
+      {.name = "FaultThatTheBoardDoesNotName",
+       .command = "fault board other",
+       .after = After::kFault,
+       .said = "does not name"},
+      {.name = "WeakSupply",
+       .command = "fault board supply 25",
        .after = After::kFault,
        .said = "voltage fault",
        .ends = [](auto& arm) { arm.board().set_supply(48.0); }},
@@ -240,7 +282,7 @@ std::vector<Breakage> breakages() {
        .said = "is silent",
        .ends = [](auto& arm) { arm.link().station().set_dead(false); }},
       {.name = "HeartbeatLostByACutBus",
-       .happens = [](auto& arm, auto&) { arm.emulator().bus().set_cut(true); },
+       .command = "fault bus cut",
        .after = After::kLost,
        .said = "is silent",
        .ends =
@@ -254,10 +296,34 @@ std::vector<Breakage> breakages() {
        .after = After::kFault,
        .said = "the bus is off or unplugged"},
       {.name = "SilentBoard",
-       .happens = [](auto& arm, auto&) { arm.board().set_dead(true); },
+       .command = "fault board silent",
        .after = After::kFault,
        .said = "the safety board is silent",
        .ends = [](auto& arm) { arm.board().set_dead(false); }},
+      {.name = "BoardLosesAnswers", .command = "fault board lose 2"},
+      {.name = "BoardLosesAllAnswers",
+       .command = "fault board lose 1000",
+       .after = After::kFault,
+       .said = "the safety board is silent",
+       .ends = [](auto& arm) { arm.board().lose_replies(0); }},
+      {.name = "BoardIsLate",
+       .command = "fault board delay 5",
+       .ends = [](auto& arm) { arm.board().delay_replies({}); }},
+      {.name = "BoardIsTooLate",
+       .command = "fault board delay 20",
+       .after = After::kFault,
+       .said = "the safety board is silent",
+       .ends = [](auto& arm) { arm.board().delay_replies({}); }},
+      {.name = "AFrameLost", .command = "fault bus lose 1"},
+      {.name = "ManyFramesLost",
+       .command = "fault bus lose 40",
+       .after = After::kFault,
+       .said = "is silent"},
+      {.name = "FramesDestroyed", .command = "fault bus corrupt 5"},
+      {.name = "ManyFramesDestroyed",
+       .command = "fault bus corrupt 40",
+       .after = After::kFault,
+       .said = "the bus is off or unplugged"},
       {.name = "EmergencyStop",
        .happens = [](auto& arm, auto&) { arm.board().estop(); },
        .after = After::kLost,

@@ -24,9 +24,15 @@ enum class After {
   kLost,    ///< the same, and pucks have lost their positions: the program is begun again
 };
 
+/// Whose puck a command of the emulator is for.
+enum class OfPuck { kAny, kLowerArm, kWrist };
+
 struct Breakage {
   const char* name = "";
   std::function<void(CampaignArm&, Random&)> happens{};
+  /// Of the emulator, in place of `happens`; N stands for a puck.
+  const char* command = "";
+  OfPuck puck = OfPuck::kAny;
   After after = After::kGoesOn;
   /// Of the reason for a fault, or of the hardware's log where it is disarmed.
   const char* said = "";
@@ -34,11 +40,15 @@ struct Breakage {
   /// False where neither pucks nor board hear anybody: motors go on as they were told last, until
   /// the operator's E-stop takes their power. Judged from there on.
   bool brakes = true;
+  bool of_wrist() const { return puck == OfPuck::kWrist; }
 };
 
 /// What the test prints of it.
 inline void PrintTo(const Breakage& breakage, std::ostream* out) { *out << breakage.name; }
 
 std::vector<Breakage> breakages();
+/// Any of these.
+int node_for(OfPuck puck, CampaignArm& arm, Random& random);
+void break_arm(const Breakage& breakage, CampaignArm& arm, Random& random);
 
 }  // namespace armature::wam

@@ -6,11 +6,8 @@
 //     WAM_CAMPAIGN_RUNS=1000 wam_deployed_campaign    as many runs of each, and a table of them
 //     WAM_CAMPAIGN_RUN=16 wam_deployed_campaign       that run of each, such as one that failed
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,6 +21,7 @@
 #include "tests/wam/campaign_arm.hpp"
 #include "tests/wam/campaign_faults.hpp"
 #include "tests/wam/campaign_judges.hpp"
+#include "tests/wam/campaign_table.hpp"
 
 namespace armature::wam {
 namespace {
@@ -32,44 +30,8 @@ using namespace std::chrono_literals;
 using component::State;
 using ::testing::HasSubstr;
 
-constexpr int kRunsInTests = 4;
-constexpr std::size_t kCyclesKept = 500;
 /// The promised stop is over then, and the arm at rest.
 constexpr base::Duration kAtRestWithin = 600ms;
-constexpr const char* kFiles[] = {"npid4.yaml", "npid7.yaml", "computed_torque4.yaml",
-                                  "computed_torque7.yaml"};
-
-std::optional<int> number_in_environment(const char* name) {
-  const char* text = std::getenv(name);
-  if (text == nullptr) return std::nullopt;
-  return std::atoi(text);
-}
-/// By their numbers, which are their seeds.
-std::vector<int> runs_of_each() {
-  if (const auto only = number_in_environment("WAM_CAMPAIGN_RUN")) return {*only};
-  std::vector<int> all(
-      static_cast<std::size_t>(number_in_environment("WAM_CAMPAIGN_RUNS").value_or(kRunsInTests)));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
-/// What all runs of a breakage had at most.
-struct Figures {
-  int runs = 0;
-  std::vector<int> failed;  ///< their numbers
-  double step = 0.0;
-  double torque = 0.0;
-  double moved = 0.0;
-  double sinking = 0.0;
-  std::size_t cycles_kept = kCyclesKept;  ///< the least, before a fault
-  std::set<std::string> states;
-};
-std::map<std::string, Figures>& table() {
-  static std::map<std::string, Figures> all;
-  return all;
-}
-
-const char* file_for(std::size_t run) { return kFiles[run % std::size(kFiles)]; }
 
 /// A run of the arm in which something breaks.
 class CampaignRun {
@@ -77,7 +39,7 @@ class CampaignRun {
   CampaignRun(const Breakage& breakage, int number)
       : breakage_(breakage),
         random_(static_cast<Random::result_type>(20261122 + number)),
-        arm_(file_for(static_cast<std::size_t>(number)),
+        arm_(campaign_file(number, breakage.of_wrist()),
              [this](const exec::BlackBoxReport& report) {
                reports_.push_back(report);
                return std::string();
@@ -103,7 +65,7 @@ class CampaignRun {
   }
   void break_it() {
     broken_at_ = arm_.application().now();
-    breakage_.happens(arm_, random_);
+    break_arm(breakage_, arm_, random_);
   }
 
   void expect_goes_on() {
@@ -268,13 +230,13 @@ class CampaignRun {
     return text + ", board " + arm_.safety_state() + (arm_.armed() ? ", armed" : "");
   }
   void note() {
-    Figures& all = table()[breakage_.name];
-    ++all.runs;
+    CampaignFigures& all = campaign_table()[breakage_.name];
     all.step = std::max(all.step, torques_->largest_step());
     all.torque = std::max(all.torque, torques_->largest_torque());
     all.moved = std::max(all.moved, rest_->moved());
     all.sinking = std::max(all.sinking, rest_->largest_sinking());
-    all.cycles_kept = std::min(all.cycles_kept, cycles_kept_);
+    if (cycles_kept_)
+      all.cycles_kept = std::min(all.cycles_kept.value_or(*cycles_kept_), *cycles_kept_);
     all.states.insert(state_);
   }
 
@@ -287,7 +249,7 @@ class CampaignRun {
   Vector target_;
   base::Time broken_at_{};
   std::string state_;
-  std::size_t cycles_kept_ = kCyclesKept;
+  std::optional<std::size_t> cycles_kept_;
 };
 
 /// How many cycles before `end` follow one another without a gap.
@@ -322,8 +284,9 @@ void CampaignRun::expect_black_box() {
   }
   for (const char* channel : {"WAM.jointsDataPort", "WAM.sentTorquePort", "WAM.safetyStatePort",
                               "Actuator.Torque", "BridgeRef.reference"}) {
-    cycles_kept_ = std::min(cycles_kept_, cycles_before(report.time, times[channel]));
-    EXPECT_GE(cycles_kept_, kCyclesKept) << channel;
+    const std::size_t cycles = cycles_before(report.time, times[channel]);
+    EXPECT_GE(cycles, kCyclesKept) << channel;
+    cycles_kept_ = std::min(cycles_kept_.value_or(cycles), cycles);
   }
   EXPECT_EQ(report.incomplete, "");
   EXPECT_LE(report.time - broken_at_, 400ms);
@@ -352,38 +315,9 @@ void run_once(const Breakage& breakage, int number) {
   run.judge();
 }
 
-int failures() {
-  return ::testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
-}
-
-/// A run that failed does not keep the others from being made.
 TEST_P(WamCampaign, AtAnyTimeItEndsAsPromised) {
-  for (const int number : runs_of_each()) {
-    SCOPED_TRACE("run " + std::to_string(number) + " of " + GetParam().name);
-    const int before = failures();
-    run_once(GetParam(), number);
-    if (failures() != before) table()[GetParam().name].failed.push_back(number);
-  }
+  make_runs(GetParam().name, [](int number) { run_once(GetParam(), number); });
 }
-
-/// For people who have asked for many runs.
-class Table : public ::testing::Environment {
- public:
-  void TearDown() override {
-    if (std::getenv("WAM_CAMPAIGN_RUNS") == nullptr) return;
-    std::printf("%-30s %5s %9s %9s %10s %9s %6s  %s\n", "fault", "runs", "step", "torque", "moved",
-                "sinking", "kept", "hardware afterwards");
-    for (const auto& [name, all] : table()) {
-      std::string states;
-      for (const std::string& state : all.states) states += (states.empty() ? "" : "; ") + state;
-      std::printf("%-30s %5d %9.3f %9.3f %10.5f %9.2f %6zu  %s\n", name.c_str(), all.runs, all.step,
-                  all.torque, all.moved, all.sinking, all.cycles_kept, states.c_str());
-      for (const int number : all.failed)
-        std::printf("%-30s FAILED: run %d\n", name.c_str(), number);
-    }
-  }
-};
-const auto* const kTable = ::testing::AddGlobalTestEnvironment(new Table);
 
 }  // namespace
 }  // namespace armature::wam

@@ -37,6 +37,16 @@ TEST_F(WamInMotion, APuckThatStaysSilentHasItsPowerCutAndTheArmHasToBePutAtHome)
   expect_moves_only_once_armed();
 }
 
+/// What tells the pucks that they are idle is lost too, so it is said in every cycle.
+TEST_F(WamInMotion, PucksThatMissedThatTheyAreIdleHearItAsSoonAsTheyHear) {
+  arm.emulator().bus().lose_next(40);
+  expect_fault_within(60ms, "puck 1 is silent");
+  expect_braked();
+  EXPECT_NE(board().mode(), BoardMode::kEstop);
+  return_to_service();
+  expect_moves_only_once_armed();
+}
+
 TEST_F(WamInMotion, AnExceptionOfTheHardwareHasThePucksBrakedAtOnce) {
   arm.application().run_in_thread_of(*arm.application().find("WAM"),
                                      [] { throw std::runtime_error("out of order"); });

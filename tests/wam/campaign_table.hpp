@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often what may break breaks, and a table of what came of it.
+//
+//     WAM_CAMPAIGN_RUNS=1000 wam_deployed_campaign    as many runs of each, and the table
+//     WAM_CAMPAIGN_RUN=16 wam_deployed_campaign       that run of each, such as one that failed
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace armature::wam {
+
+/// Cycles of which the black box of a fault has states and commands.
+constexpr std::size_t kCyclesKept = 500;
+
+/// What all runs of a breakage had at most.
+struct CampaignFigures {
+  int runs = 0;
+  std::vector<int> failed;  ///< their numbers
+  double step = 0.0;
+  double torque = 0.0;
+  double moved = 0.0;
+  double sinking = 0.0;
+  std::optional<std::size_t> cycles_kept;  ///< the least, before a fault
+  std::set<std::string> states;
+};
+std::map<std::string, CampaignFigures>& campaign_table();
+
+/// Of the deployment whose turn it is.
+const char* campaign_file(int run, bool with_wrist);
+
+/// Calls `run` with the number of each run, which is its seed, within a test. A run that fails does
+/// not keep the others from being made.
+void make_runs(const std::string& name, const std::function<void(int)>& run);
+
+}  // namespace armature::wam
