@@ -214,7 +214,7 @@ function(armature_kernel_test)
     list(APPEND with ${each})
   endforeach()
   add_test(NAME ${arg_NAME} COMMAND ${PROJECT_SOURCE_DIR}/scripts/test-socketcan $<TARGET_FILE:${arg_NAME}> ${with})
-  set_tests_properties(${arg_NAME} PROPERTIES LABELS slow TIMEOUT 600 SKIP_RETURN_CODE 77)
+  set_tests_properties(${arg_NAME} PROPERTIES LABELS slow TIMEOUT 1200 SKIP_RETURN_CODE 77)
 endfunction()
 
 # armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)

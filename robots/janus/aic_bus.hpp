@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "armature/can/bus_link.hpp"
 #include "robots/janus/aic_host.hpp"
-#include "robots/janus/can_link.hpp"
 
 namespace armature::janus {
 
@@ -17,9 +17,9 @@ class AicBus final : public AicHost {
   using AicHost::AicHost;
 
  private:
-  base::Result<std::unique_ptr<AicLink>> make_link() override {
-    return std::unique_ptr<AicLink>(
-        std::make_unique<CanLink>(bus_.get(), static_cast<std::uint32_t>(bit_rate_.get())));
+  base::Result<std::unique_ptr<can::Link>> make_link() override {
+    return std::unique_ptr<can::Link>(
+        std::make_unique<can::BusLink>(bus_.get(), static_cast<std::uint32_t>(bit_rate_.get())));
   }
 
   component::Property<std::string> bus_{

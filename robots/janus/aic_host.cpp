@@ -45,7 +45,7 @@ Outcome AicHost::make_config(AicDriver::Config& config) const {
 }
 
 Outcome AicHost::on_start() {
-  link_->begin_cycle(time());
+  link_->begin_run(time());
   driver_->start(link_->now());
   read_at_ = base::Time::min();
   lost_answers_.assign(0);

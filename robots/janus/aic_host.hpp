@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "armature/can/link.hpp"
 #include "armature/component/author.hpp"
 #include "armature/library/base/limited_effort.hpp"
 #include "robots/janus/aic_driver.hpp"
-#include "robots/janus/aic_link.hpp"
 
 namespace armature::janus {
 
@@ -41,7 +41,7 @@ class AicHost : public component::Component {
 
  protected:
   /// Not opened yet.
-  virtual base::Result<std::unique_ptr<AicLink>> make_link() = 0;
+  virtual base::Result<std::unique_ptr<can::Link>> make_link() = 0;
   const std::vector<int>& cards() const { return numbers_; }
 
   component::Outcome on_configure() override;
@@ -107,7 +107,7 @@ class AicHost : public component::Component {
     bool motor_set = false;  ///< and not sent yet
     base::Time motor_set_at{};
   };
-  std::unique_ptr<AicLink> link_;
+  std::unique_ptr<can::Link> link_;
   std::optional<AicDriver> driver_;
   std::vector<Account> accounts_;
   std::size_t motors_set_ = 0;

@@ -9,9 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "armature/can/bus_link.hpp"
 #include "armature/platform/clock.hpp"
 #include "robots/janus/aic_driver.hpp"
-#include "robots/janus/can_link.hpp"
 #include "robots/janus/janus_urdf.hpp"
 #include "robots/janus/plant.hpp"
 
@@ -90,7 +90,7 @@ class PlantOnCan : public ::testing::TestWithParam<Interfaces> {
   }
 
   PlantProcess plant{GetParam().plant};
-  CanLink link{GetParam().host, kBitRate};
+  can::BusLink link{GetParam().host, kBitRate};
   std::optional<AicDriver> driver;
 };
 

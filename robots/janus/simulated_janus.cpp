@@ -13,7 +13,7 @@ double SimulatedJanus::position(std::size_t joint) {
   return simulation.head().position(joint, simulation.now());
 }
 
-base::Result<std::unique_ptr<AicLink>> SimulatedJanus::make_link() {
+base::Result<std::unique_ptr<can::Link>> SimulatedJanus::make_link() {
   for (const int number : cards()) {
     if (number >= 1 && number <= static_cast<int>(kJoints)) continue;
     return base::Error{"cards has " + std::to_string(number) +
@@ -26,7 +26,7 @@ base::Result<std::unique_ptr<AicLink>> SimulatedJanus::make_link() {
       simulated ? time() : platform::monotonic_now());
   if (!made) return base::Error{made.error()};
   link_ = made.value().get();
-  return std::unique_ptr<AicLink>(std::move(made).value());
+  return std::unique_ptr<can::Link>(std::move(made).value());
 }
 
 }  // namespace armature::janus

@@ -23,7 +23,7 @@ class SimulatedJanus final : public AicHost {
   can::VirtualStation& station() { return link_->station(); }
 
  private:
-  base::Result<std::unique_ptr<AicLink>> make_link() override;
+  base::Result<std::unique_ptr<can::Link>> make_link() override;
   void let_time_pass() { link_->begin_cycle(time()); }
 
   component::Property<std::string> urdf_{this, "robot_description", "", "file with the head's URDF",

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <memory>
 
-#include "robots/janus/aic_link.hpp"
+#include "armature/can/link.hpp"
 #include "robots/janus/simulation.hpp"
 
 namespace armature::janus {
 
 /// The simulated robot in the host's own thread, which lets time pass there whenever it looks.
-class SimulatedLink final : public AicLink {
+class SimulatedLink final : public can::Link {
  public:
   enum class Time {
     kSimulated,  ///< waiting takes no time: the simulation runs ahead of the application's clock

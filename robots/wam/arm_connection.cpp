@@ -30,7 +30,7 @@ const char* state_text(std::optional<BoardMode> mode) {
 /// Talks until what was begun last is done.
 class Talk {
  public:
-  Talk(WamLink& link, WamStartup& startup, const ArmConnectionConfig& config)
+  Talk(can::Link& link, WamStartup& startup, const ArmConnectionConfig& config)
       : link_(link), startup_(startup), config_(config) {}
 
   base::Result<void> finish() {
@@ -59,7 +59,7 @@ class Talk {
            " s: pull the E-stop button out, press Shift+Idle, and start again";
   }
 
-  WamLink& link_;
+  can::Link& link_;
   WamStartup& startup_;
   const ArmConnectionConfig& config_;
   std::optional<base::Time> waits_until_;
@@ -87,7 +87,7 @@ std::string home_text(const ArmNumbers& numbers) {
 
 }  // namespace
 
-base::Result<WamRecord> connect_arm(WamLink& link, const ArmNumbers& numbers,
+base::Result<WamRecord> connect_arm(can::Link& link, const ArmNumbers& numbers,
                                     const ArmConnectionConfig& config,
                                     std::vector<std::string>& warnings) {
   auto made = WamStartup::make(link.bus(), startup_config(numbers));

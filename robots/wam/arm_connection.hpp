@@ -9,8 +9,8 @@
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
+#include "armature/can/link.hpp"
 #include "robots/wam/arm_numbers.hpp"
-#include "robots/wam/wam_link.hpp"
 #include "robots/wam/wam_record.hpp"
 #include "robots/wam/wam_startup.hpp"
 
@@ -29,7 +29,7 @@ struct ArmConnectionConfig {
 /// positions. The error says why not, and what to do. Takes seconds of the link's time.
 /// @param link      whose bus is open
 /// @param warnings  what is odd but works
-base::Result<WamRecord> connect_arm(WamLink& link, const ArmNumbers& numbers,
+base::Result<WamRecord> connect_arm(can::Link& link, const ArmNumbers& numbers,
                                     const ArmConnectionConfig& config,
                                     std::vector<std::string>& warnings);
 

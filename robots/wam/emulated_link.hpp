@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
+#include "armature/can/link.hpp"
 #include "robots/wam/arm_motors.hpp"
 #include "robots/wam/arm_numbers.hpp"
 #include "robots/wam/emulator.hpp"
-#include "robots/wam/wam_link.hpp"
 
 namespace armature::wam {
 
 /// The emulated arm in the host's own thread, which lets time pass there whenever it looks.
-class EmulatedLink final : public WamLink {
+class EmulatedLink final : public can::Link {
  public:
   enum class Time {
     kSimulated,  ///< waiting takes no time: the emulator runs ahead of the application's clock

@@ -13,7 +13,6 @@
 #include "robots/wam/emulated_link.hpp"
 #include "robots/wam/torque_path.hpp"
 #include "robots/wam/wam_driver.hpp"
-#include "robots/wam/wam_link.hpp"
 #include "robots/wam/wam_motion.hpp"
 #include "robots/wam/wam_parameters.hpp"
 
@@ -208,7 +207,7 @@ class WamHardware final : public component::Component {
   const component::Component* arming_ = nullptr;  ///< who arms it, and could take that back
   std::optional<TorquePath> path_;
   std::optional<JointController> own_controller_;
-  std::unique_ptr<WamLink> link_;
+  std::unique_ptr<can::Link> link_;
   EmulatedLink* emulated_ = nullptr;
   std::optional<WamDriver> driver_;
   std::optional<WamMotion> motion_;

@@ -6,9 +6,9 @@
 
 #include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
+#include "armature/can/bus_link.hpp"
 #include "armature/platform/clock.hpp"
 #include "robots/wam/arm_connection.hpp"
-#include "robots/wam/can_link.hpp"
 #include "robots/wam/safety_text.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
@@ -72,7 +72,7 @@ Outcome WamHardware::make_link() {
   if (emulated && emulated_ != nullptr) return component::accepted();
   emulated_ = nullptr;
   if (!emulated) {
-    link_ = std::make_unique<CanLink>(bus_);
+    link_ = std::make_unique<can::BusLink>(bus_, kBitRate);
     return component::accepted();
   }
   EmulatedLink::Config config;

@@ -8,6 +8,7 @@
 
 #include "armature/base/fixed_text.hpp"
 #include "armature/can/bus.hpp"
+#include "armature/can/bus_link.hpp"
 #include "armature/can/bus_server.hpp"
 #include "armature/can/frame.hpp"
 #include "armature/can/shared_bus.hpp"
@@ -104,6 +105,17 @@ TEST(RealtimeCan, ABusOfAnotherProcess) {
   expect_realtime("SharedBus::receive", [&] { card.receive(arrival); });
   expect_realtime("SharedBus::receive, with the bus's status", [&] { host.receive(arrival); });
   EXPECT_EQ(arrival.frame, data_frame(0x080, {7}));
+}
+
+TEST(RealtimeCan, ALinkToABus) {
+  BusLink to_nobody("can0", 1'000'000);
+  Link& link = to_nobody;
+  base::Time now{};
+  expect_realtime("Link::begin_run", [&] { link.begin_run(now); });
+  expect_realtime("Link::begin_cycle", [&] { link.begin_cycle(now); });
+  expect_realtime("Link::now", [&] { now = link.now(); });
+  EXPECT_GT(now, base::Time{});
+  expect_realtime("Link::wait_for_news", [&] { link.wait_for_news(link.now()); });
 }
 
 TEST(RealtimeCan, TheStateOfABus) {

@@ -5,28 +5,30 @@
 #include "armature/base/time.hpp"
 #include "armature/can/bus.hpp"
 
-namespace armature::wam {
+namespace armature::can {
 
-/// How a host reaches the arm: a bus, the time on it, and waiting for what it brings.
-class WamLink {
+/// How a host reaches its devices: a bus, the time on it, and waiting for what it brings. The bus
+/// is outside this process (`BusLink`), or the host itself lets time pass on it.
+class Link {
  public:
-  WamLink() = default;
-  WamLink(const WamLink&) = delete;
-  WamLink& operator=(const WamLink&) = delete;
-  virtual ~WamLink() = default;
+  Link() = default;
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+  virtual ~Link() = default;
 
-  virtual can::Bus& bus() = 0;
+  virtual Bus& bus() = 0;
   /// Opens the bus; `on_news` of the options is the link's own.
   /// @return false after an error, each named in `diagnostics`
-  virtual bool open(can::BusOptions options, base::Diagnostics& diagnostics) = 0;
+  virtual bool open(BusOptions options, base::Diagnostics& diagnostics) = 0;
 
   /// A run of the host begins.
   /// @param time  of the application
-  virtual void begin_run(base::Time time) = 0;
+  /// @rt nonblocking, no allocation
+  /// @thread the host's, as for what follows
+  virtual void begin_run(base::Time time) { begin_cycle(time); }
   /// A cycle of the host begins.
   /// @param time  of the cycle
   /// @rt nonblocking, no allocation
-  /// @thread the host's, as for what follows
   virtual void begin_cycle(base::Time time) = 0;
   /// The time that it is, for the driver.
   /// @rt nonblocking, no allocation
@@ -36,4 +38,4 @@ class WamLink {
   virtual void wait_for_news(base::Time deadline) = 0;
 };
 
-}  // namespace armature::wam
+}  // namespace armature::can
