@@ -12,6 +12,7 @@
 #include "armature/can/bus.hpp"
 #include "robots/wam/board_watch.hpp"
 #include "robots/wam/puck_protocol.hpp"
+#include "robots/wam/puck_torque.hpp"
 #include "robots/wam/wam_record.hpp"
 
 namespace armature::wam {
@@ -132,7 +133,7 @@ class WamDriver {
   WamReading reading() const { return reading_; }
   base::Time deadline() const { return deadline_; }
 
-  /// For `send_torques`, until it is set anew or `torque_timeout` has passed.
+  /// For `send_torques`, until it is set anew or `torque_timeout` has passed; as a PuckTorque.
   /// @param torque  [Nm]
   WamTorque set_torque(std::size_t motor, double torque, base::Time now);
   /// A frame for motors 1 to 4, and one for 5 to 7.
@@ -170,7 +171,7 @@ class WamDriver {
     bool asked = false;   ///< in this reading
     bool owes = false;    ///< did not answer when it was asked last
     bool jumped = false;  ///< in this reading
-    std::int16_t torque = 0;
+    PuckTorque torque;
     base::Time torque_time = base::Time::min();
   };
 
