@@ -6,8 +6,8 @@
 namespace armature::wam {
 
 /// A torque in the whole units that a puck takes. What rounding down leaves of it is added to the
-/// next one, so that the mean of what is sent is what was wanted: rounded down alone, the torques of
-/// all motors would be half a unit too low in the mean, and the arm would creep.
+/// next one, so that the mean of what is sent is what was wanted: rounded down alone, the torques
+/// of all motors would be half a unit too low in the mean, and the arm would creep.
 class PuckTorque {
  public:
   /// @param units  finite, and so few that a puck takes them

@@ -276,7 +276,7 @@ void WamDriver::take_position(std::size_t motor, const can::Arrival& arrival) {
     return;
   }
   known.counts = positions->motor;
-  known.position = positions->motor * 2.0 * std::numbers::pi / turn;
+  known.position = (positions->motor + 0.5) * 2.0 * std::numbers::pi / turn;
   known.joint_counts = positions->joint;
   known.position_time = arrival.time;
   known.known = known.fresh = true;

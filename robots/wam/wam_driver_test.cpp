@@ -97,6 +97,7 @@ TEST(WamDriver, PositionsAreThoseOfTheMotorsShafts) {
   EXPECT_EQ(bench.read(), WamReading::kComplete);
   EXPECT_EQ(bench.driver->motor(1).counts, -36833);
   EXPECT_NEAR(bench.driver->motor(1).position, -56.5, kCount);
+  EXPECT_EQ(bench.driver->motor(1).position, (bench.driver->motor(1).counts + 0.5) * kCount);
   EXPECT_NEAR(bench.driver->motor(3).position, -56.34, kCount);
   EXPECT_TRUE(bench.driver->motor(6).fresh);
   EXPECT_LE(bench.now() - bench.driver->motor(0).position_time, 1ms);
