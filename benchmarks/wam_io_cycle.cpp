@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: wam_io_cycle WAM_FOLDER
+// usage: wam_io_cycle WAM_FOLDER LIBRARY_FOLDER
 //
-// How long a cycle of the WAM takes by a hand-written loop without components: the driver, the
-// arm's own joint controller and the compensation of its gravity, at 500 Hz on the emulated arm
-// while it moves. Prints JSON, with the names that janus_io_cycle has for its hand-written loop.
+// How long a cycle of the WAM takes at 500 Hz on the emulated arm while it moves: as its
+// deployments have it, with a PID for each joint and with computed torque, and by a hand-written
+// loop without components, which does what the PIDs' deployment does at least: the driver, the
+// arm's own joint controller and the compensation of its gravity. Prints JSON, which `armature
+// report` shows if it is io.json in the folder of the runs.
 //
-// A cycle begins with the request of positions and ends when the last torque frame has been on the
-// wire. Its time is that on the bus, which is simulated and so exact, and that of the computation,
-// which was measured, without what the simulation of the arm took.
+// A cycle begins with the Sample event, or the loop's request of positions, and ends when the last
+// torque frame has been on the wire. Its time is that on the bus, which is simulated and so exact,
+// and that of the computation, which was measured: all that the application did in the period, its
+// generator and arming included, or all that the loop did, without what the simulation of the arm
+// took.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -25,6 +29,7 @@
 
 #include "armature/control/inverse_dynamics.hpp"
 #include "armature/platform/clock.hpp"
+#include "benchmarks/wam_deployed_cycle.hpp"
 #include "robots/wam/arm_motors.hpp"
 #include "robots/wam/emulator.hpp"
 #include "robots/wam/joint_controller.hpp"
@@ -55,6 +60,29 @@ double median(std::vector<double> values) {
 
 double in_us(base::Duration duration) { return static_cast<double>(duration.count()) * 1e-3; }
 
+/// The medians of cycles.
+struct Times {
+  double cycle_us = 0.0;
+  double bus_us = 0.0;
+  double computing_us = 0.0;
+  double wire_us = 0.0;
+};
+
+Times times_of(const DeployedCycles& cycles) {
+  std::vector<double> all, bus, frames;
+  for (const CycleOnWire& cycle : cycles_on_wire(cycles.begins, cycles.wire, kCycleTime)) {
+    bus.push_back(in_us(cycle.bus));
+    frames.push_back(in_us(cycle.frames));
+    all.push_back(bus.back() + cycles.computing_us[all.size()]);
+  }
+  return {median(all), median(bus), median(cycles.computing_us), median(frames)};
+}
+
+/// Home is at the stops of joints 2 and 4.
+double target_of(const ArmNumbers& arm, std::size_t joint) {
+  return arm.home[joint] + (joint == 3 ? -kFar : kFar);
+}
+
 control::InverseDynamics load_dynamics(const std::string& file) {
   base::Diagnostics diagnostics;
   auto dynamics =
@@ -67,7 +95,8 @@ control::InverseDynamics load_dynamics(const std::string& file) {
 class Controller {
  public:
   Controller(const ArmNumbers& arm, const std::string& urdf)
-      : home_(arm.home),
+      : arm_(arm),
+        home_(arm.home),
         transmission_(must(control::Transmission::make(arm.transmission))),
         dynamics_(load_dynamics(urdf)),
         controller_(must(JointController::make({.gains = arm.gains}))),
@@ -79,7 +108,9 @@ class Controller {
 
   /// @param way  from 0 at home to 1
   void step(double way) {
-    for (std::size_t i = 0; i < home_.size(); ++i) reference[i] = reference_at(i, way);
+    for (std::size_t i = 0; i < home_.size(); ++i) {
+      reference[i] = home_[i] + (target_of(arm_, i) - home_[i]) * way;
+    }
     transmission_.joint_angles(motors, joints);
     controller_.step(reference, joints, torques_);
     if (!dynamics_.gravity(joints, gravity_)) throw std::runtime_error("no finite torques");
@@ -91,11 +122,7 @@ class Controller {
   }
 
  private:
-  /// Home is at the stops of joints 2 and 4.
-  double reference_at(std::size_t joint, double way) const {
-    return home_[joint] + (joint == 3 ? -kFar : kFar) * way;
-  }
-
+  const ArmNumbers& arm_;
   const std::vector<double>& home_;
   control::Transmission transmission_;
   control::InverseDynamics dynamics_;
@@ -133,35 +160,18 @@ class Loop {
     if (!driver_->active()) throw std::runtime_error("the arm is not active");
   }
 
-  nlohmann::ordered_json measure() {
-    std::vector<can::WireEvent> log;
-    log.reserve(kCycles * 13);
-    emulator_->bus().set_tap([&](const can::WireEvent& event) { log.push_back(event); });
-    std::vector<base::Time> begins;
-    std::vector<double> computing;
+  DeployedCycles run() {
+    DeployedCycles cycles;
+    cycles.wire.reserve(kCycles * 13);
+    emulator_->bus().set_tap([&](const can::WireEvent& event) { cycles.wire.push_back(event); });
     for (std::size_t i = 0; i < kCycles; ++i) {
-      begins.push_back(now());
+      cycles.begins.push_back(now());
       const double way = static_cast<double>(i) / kCycles;
-      computing.push_back(step((1.0 - std::cos(3.141592653589793 * way)) / 2.0));
+      cycles.computing_us.push_back(step((1.0 - std::cos(3.141592653589793 * way)) / 2.0));
       check(i);
     }
-    std::vector<double> bus;
-    std::vector<double> frames;
-    std::vector<double> cycles;
-    for (const CycleOnWire& cycle : cycles_on_wire(begins, log, kCycleTime)) {
-      bus.push_back(in_us(cycle.bus));
-      frames.push_back(in_us(cycle.frames));
-      cycles.push_back(bus.back() + computing[cycles.size()]);
-    }
-    const double think = in_us(Puck::Config{}.reply_delay);
-    return {{"monolithic_cycle_us", median(cycles)},
-            {"monolithic_bus_us", median(bus)},
-            {"monolithic_computing_us", median(computing)},
-            {"wire_us", median(frames)},
-            {"period_us", in_us(kCycleTime)},
-            {"pucks_us", think},
-            {"bus_without_pucks_of_wire", (median(bus) - think) / median(frames)},
-            {"cycles", kCycles}};
+    emulator_->bus().set_tap(nullptr);
+    return cycles;
   }
 
  private:
@@ -234,23 +244,61 @@ class Loop {
   std::optional<WamDriver> driver_;
 };
 
+/// What the deployment `controller` needs.
+nlohmann::ordered_json measure_deployed(const ArmNumbers& arm, const std::string& controller,
+                                        const std::string& folder, const std::string& libraries) {
+  std::vector<double> target;
+  for (std::size_t i = 0; i < arm.joints(); ++i) target.push_back(target_of(arm, i));
+  const std::string file =
+      folder + "/deployments/" + controller + std::to_string(arm.joints()) + ".yaml";
+  const Times times = times_of(run_deployed(file, libraries, target, kCycles, kCycleTime));
+  const double think = in_us(Puck::Config{}.reply_delay);
+  return {{"cycle_us", times.cycle_us},
+          {"bus_us", times.bus_us},
+          {"computing_us", times.computing_us},
+          {"wire_us", times.wire_us},
+          {"period_us", in_us(kCycleTime)},
+          {"pucks_us", think},
+          {"bus_of_wire", times.bus_us / times.wire_us},
+          {"bus_without_pucks_of_wire", (times.bus_us - think) / times.wire_us},
+          {"cycles", kCycles}};
+}
+
+/// The same, beside the hand-written loop.
+nlohmann::ordered_json measure(const ArmNumbers& arm, const std::string& folder,
+                               const std::string& libraries) {
+  nlohmann::ordered_json measured = measure_deployed(arm, "npid", folder, libraries);
+  const Times its = times_of(Loop(arm, folder).run());
+  measured["monolithic_cycle_us"] = its.cycle_us;
+  measured["monolithic_bus_us"] = its.bus_us;
+  measured["monolithic_computing_us"] = its.computing_us;
+  return measured;
+}
+
 }  // namespace
 }  // namespace armature::wam
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: wam_io_cycle WAM_FOLDER\n";
+  if (argc != 3) {
+    std::cerr << "usage: wam_io_cycle WAM_FOLDER LIBRARY_FOLDER\n";
     return 2;
   }
+  using armature::wam::measure;
+  using armature::wam::measure_deployed;
+  using armature::wam::wam4;
+  using armature::wam::wam7;
   try {
     nlohmann::ordered_json all{
         {"doc",
-         "From the request of positions to the end of the last torque frame at 500 Hz: the "
-         "simulated time on the bus and the measured time of computing, the median of 2500 cycles "
-         "of a hand-written loop; wire_us is the frames' own time, pucks_us what the pucks take "
-         "to answer."}};
-    all["wam7"] = armature::wam::Loop(armature::wam::wam7(), argv[1]).measure();
-    all["wam4"] = armature::wam::Loop(armature::wam::wam4(), argv[1]).measure();
+         "From the Sample event to the end of the last torque frame at 500 Hz: the simulated time "
+         "on the bus and the measured time of computing, the median of 2500 cycles of a motion; "
+         "the "
+         "hand-written loop drives the arm without components. wire_us is the frames' own time, "
+         "pucks_us what the pucks take to answer, which is assumed."}};
+    all["wam7"] = measure(wam7(), argv[1], argv[2]);
+    all["wam7_computed_torque"] = measure_deployed(wam7(), "computed_torque", argv[1], argv[2]);
+    all["wam4"] = measure(wam4(), argv[1], argv[2]);
+    all["wam4_computed_torque"] = measure_deployed(wam4(), "computed_torque", argv[1], argv[2]);
     std::cout << all.dump(2) << '\n';
   } catch (const std::exception& error) {
     std::cerr << "wam_io_cycle: error: " << error.what() << '\n';

@@ -48,7 +48,12 @@ base::Time EmulatedLink::now() {
 
 void EmulatedLink::wait_for_news(base::Time deadline) {
   keep_holding();
-  if (time_ == Time::kSimulated) return emulator_->advance_to_next_event(deadline);
+  if (time_ == Time::kSimulated) {
+    const std::uint64_t begin = platform::ticks();
+    emulator_->advance_to_next_event(deadline);
+    ticks_spent_ += platform::ticks() - begin;
+    return;
+  }
   const base::Time next = emulator_->next_event();
   {
     const rt::PermitScope waiting;
@@ -59,7 +64,9 @@ void EmulatedLink::wait_for_news(base::Time deadline) {
 
 void EmulatedLink::advance_to(base::Time now) {
   keep_holding();
+  const std::uint64_t begin = platform::ticks();
   if (now > emulator_->now()) emulator_->advance_to(now);
+  ticks_spent_ += platform::ticks() - begin;
 }
 
 /// Whoever carries the arm lets go when it is there, so he takes it again.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -46,6 +47,12 @@ class EmulatedLink final : public can::Link {
   /// [rad] of the joint that is furthest from home.
   double from_home() const;
 
+  /// What this machine has spent on the simulation of the arm and its bus, which a host of a real
+  /// arm would not have to: ticks of platform::ticks().
+  std::uint64_t ticks_spent() const { return ticks_spent_; }
+  /// Of the emulator's clock, before the application's.
+  base::Duration ahead() const { return ahead_; }
+
   Emulator& emulator() { return *emulator_; }
   ArmMotors& motors() { return motors_; }
   can::VirtualStation& station() { return *host_; }
@@ -59,7 +66,8 @@ class EmulatedLink final : public can::Link {
   const Time time_;
   const std::vector<double>& home_;
   bool held_ = false;
-  base::Duration ahead_{};  ///< of the application's clock
+  base::Duration ahead_{};
+  std::uint64_t ticks_spent_ = 0;
   ArmMotors motors_;
   std::unique_ptr<Emulator> emulator_;
   can::VirtualStation* host_ = nullptr;

@@ -230,7 +230,7 @@ void WamDriver::take_position(std::size_t motor, const can::Arrival& arrival) {
     return;
   }
   known.counts = positions->motor;
-  known.position = positions->motor * 2.0 * std::numbers::pi / turn;
+  known.position = (positions->motor + 0.5) * 2.0 * std::numbers::pi / turn;
   known.joint_counts = positions->joint;
   known.position_time = arrival.time;
   known.known = known.fresh = true;
@@ -240,14 +240,14 @@ void WamDriver::take_position(std::size_t motor, const can::Arrival& arrival) {
 // ---- Torques
 
 void WamDriver::clear_torques() {
-  for (Account& account : accounts_) account.torque = 0;
+  for (Account& account : accounts_) account.torque = {};
 }
 
 WamTorque WamDriver::set_torque(std::size_t motor, double torque, base::Time now) {
   Account& account = accounts_[motor];
   WamCounters& counters = motors_[motor].counters;
   account.torque_time = now;
-  account.torque = 0;
+  account.torque.set(0.0);
   if (!std::isfinite(torque)) {
     ++counters.not_finite;
     return WamTorque::kNotFinite;
@@ -255,7 +255,7 @@ WamTorque WamDriver::set_torque(std::size_t motor, double torque, base::Time now
   const PuckRecord& puck = arm_.pucks[motor];
   const double most = puck.most_torque;
   const double units = torque * puck.units_per_nm;
-  account.torque = torque_value(std::clamp(units, -most, most));
+  account.torque.set(std::clamp(units, -most, most));
   if (std::abs(units) <= most) return WamTorque::kTaken;
   ++counters.limited;
   return WamTorque::kLimited;
@@ -277,9 +277,9 @@ can::SendStatus WamDriver::send_torques(base::Time now) {
 
 std::int16_t WamDriver::torque_to_send(std::size_t motor, base::Time now) {
   Account& account = accounts_[motor];
-  if (!active() || account.torque == 0) return 0;
-  if (now < base::later(account.torque_time, config_.torque_timeout)) return account.torque;
-  account.torque = 0;
+  if (!active() || account.torque.is_zero()) return 0;
+  if (now < base::later(account.torque_time, config_.torque_timeout)) return account.torque.next();
+  account.torque = {};
   ++motors_[motor].counters.stale;
   return 0;
 }

@@ -12,6 +12,7 @@
 #include "armature/can/bus.hpp"
 #include "robots/wam/board_watch.hpp"
 #include "robots/wam/puck_protocol.hpp"
+#include "robots/wam/puck_torque.hpp"
 #include "robots/wam/wam_record.hpp"
 
 namespace armature::wam {
@@ -71,7 +72,8 @@ struct WamCounters {
 struct WamMotor {
   int node = 0;
   std::int32_t counts = 0;  ///< the last position that was good
-  double position = 0.0;    ///< the same [rad], of the motor's shaft
+  double position =
+      0.0;  ///< [rad] of the motor's shaft, in the middle between this count and the next
   base::Time position_time{};
   bool known = false;                        ///< there was a position
   bool fresh = false;                        ///< it is of the reading that was begun last
@@ -137,7 +139,7 @@ class WamDriver {
   WamReading reading() const { return reading_; }
   base::Time deadline() const { return deadline_; }
 
-  /// For `send_torques`, until it is set anew or `torque_timeout` has passed.
+  /// For `send_torques`, until it is set anew or `torque_timeout` has passed; as a PuckTorque.
   /// @param torque  [Nm]
   WamTorque set_torque(std::size_t motor, double torque, base::Time now);
   /// A frame for motors 1 to 4, and one for 5 to 7.
@@ -186,7 +188,7 @@ class WamDriver {
     bool owes = false;      ///< did not answer when it was asked last
     bool jumped = false;    ///< in this reading
     bool doubtful = false;  ///< it jumped, and has told no good position since
-    std::int16_t torque = 0;
+    PuckTorque torque;
     base::Time torque_time = base::Time::min();
   };
 

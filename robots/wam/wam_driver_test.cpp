@@ -97,6 +97,7 @@ TEST(WamDriver, PositionsAreThoseOfTheMotorsShafts) {
   EXPECT_EQ(bench.read(), WamReading::kComplete);
   EXPECT_EQ(bench.driver->motor(1).counts, -36833);
   EXPECT_NEAR(bench.driver->motor(1).position, -56.5, kCount);
+  EXPECT_EQ(bench.driver->motor(1).position, (bench.driver->motor(1).counts + 0.5) * kCount);
   EXPECT_NEAR(bench.driver->motor(3).position, -56.34, kCount);
   EXPECT_TRUE(bench.driver->motor(6).fresh);
   EXPECT_LE(bench.now() - bench.driver->motor(0).position_time, 1ms);
@@ -187,7 +188,7 @@ TEST(WamDriver, TorquesAreLimitedToThePucksMost) {
   EXPECT_EQ(bench.board().mode(), BoardMode::kActive);
 }
 
-TEST(WamDriver, TorquesAreRoundedDown) {
+TEST(WamDriver, TheFirstTorquesAreRoundedDown) {
   Hosted bench;
   bench.start_active();
   const auto torques = motor_torques({1, 1, 1, 0.99, 1, 1, 1});
@@ -200,6 +201,39 @@ TEST(WamDriver, TorquesAreRoundedDown) {
   const auto lower = parse_torques(can::parse_frame(sent[0]).value(), 42);
   EXPECT_EQ(lower, (Torques{-65, -33, -129, -149}));
   EXPECT_EQ(sent[1], "402#AA000029EEDB4000");
+}
+
+TEST(WamDriver, TheMeanOfThePucksTorquesIsWhatWasSet) {
+  Hosted bench;
+  bench.start_active();
+  const auto torques = motor_torques({1, 1, 1, 0.99, 0.1, 0.2, 0.5});
+  for (std::size_t i = 0; i < 7; ++i) bench.torques[i] = torques[i];
+  std::array<double, 7> sums{};
+  constexpr int kCycles = 16;
+  for (int cycle = 0; cycle < kCycles; ++cycle) {
+    bench.run(1);
+    for (std::size_t i = 0; i < 7; ++i) sums[i] += bench.puck(static_cast<int>(i) + 1).torque();
+  }
+  EXPECT_TRUE(bench.driver->active());
+  for (std::size_t i = 0; i < 7; ++i) {
+    const double units = bench.puck(static_cast<int>(i) + 1).properties().get(Property::kIpnm);
+    EXPECT_NEAR(sums[i], kCycles * torques[i] * units, 1.0) << "motor " << i;
+  }
+}
+
+TEST(WamDriver, AfterAStartTheFirstTorqueIsRoundedDownAgain) {
+  Hosted bench;
+  bench.start_active();
+  bench.torques[0] = 0.1001;  // 270.27 units
+  bench.run(3);
+  for (int start = 0; start < 5; ++start) {
+    bench.driver->start(bench.now());
+    bench.torques[0].reset();
+    bench.run(50);
+    bench.torques[0] = 0.1001;
+    bench.run(1);
+    EXPECT_EQ(bench.puck(1).torque(), 270);
+  }
 }
 
 TEST(WamDriver, WhatIsNoNumberIsSentAsZeroAndCounted) {

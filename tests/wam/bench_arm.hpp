@@ -19,6 +19,7 @@
 #include "armature/library/base/actuator.hpp"
 #include "armature/library/base/sensor.hpp"
 #include "robots/wam/arm_simulation.hpp"
+#include "robots/wam/puck_torque.hpp"
 
 namespace armature::wam {
 
@@ -29,32 +30,26 @@ constexpr double kLargestTorque[] = {1.8, 1.8, 1.8, 1.6, 0.6, 0.6, 0.0916};  // 
 constexpr double kUnitsPerTorque[] = {2700, 2700, 2700, 2700, 6500, 6500, 17474};
 constexpr double kCountsPerRad = 4096.0 / (2.0 * std::numbers::pi);
 
+/// In the middle between two counts, as the driver takes it.
 inline double rounded_angle(double angle) {
-  return std::floor(angle * kCountsPerRad) / kCountsPerRad;
+  return (std::floor(angle * kCountsPerRad) + 0.5) / kCountsPerRad;
 }
-inline double rounded_torque(std::size_t motor, double torque) {
-  return std::floor(torque * kUnitsPerTorque[motor]) / kUnitsPerTorque[motor];
-}
-
-/// What rounding takes from the joints' torques at most [N m].
-inline std::vector<double> rounding_of_pucks(const ArmNumbers& arm) {
-  const auto transmission = control::Transmission::make(arm.transmission).value();
-  std::vector<double> rounding(arm.joints(), 0.0), motors(arm.joints());
-  for (std::size_t joint = 0; joint < arm.joints(); ++joint) {
-    std::vector<double> turn(arm.joints(), 0.0);
-    turn[joint] = 1.0;
-    transmission.motor_angles(turn, motors);
-    for (std::size_t i = 0; i < arm.joints(); ++i) {
-      rounding[joint] += std::abs(motors[i]) / kUnitsPerTorque[i];
-    }
+/// What pucks drive the motors with, in their steps.
+class PuckTorques {
+ public:
+  explicit PuckTorques(std::size_t motors) : torques_(motors) {}
+  double step(std::size_t motor, double torque) {
+    torques_[motor].set(torque * kUnitsPerTorque[motor]);
+    return torques_[motor].next() / kUnitsPerTorque[motor];
   }
-  return rounding;
-}
 
-/// The arm and its encoders. With `rounds` it measures and drives in the steps of pucks, and has as
-/// much Coulomb friction as these take from torques, without which an arm that is not controlled
-/// creeps. A torque acts a millisecond after the Sample that it answers, as on a
-/// bus, and each motor's is limited as its puck limits it. Braked until the first torques come.
+ private:
+  std::vector<PuckTorque> torques_;
+};
+
+/// The arm and its encoders. With `rounds` it measures and drives in the steps of pucks, as the
+/// driver does. A torque acts a millisecond after the Sample that it answers, as on a bus, and each
+/// motor's is limited as its puck limits it. Braked until the first torques come.
 class BenchArm final : public library::Sensor {
  public:
   using Sensor::Sensor;
@@ -67,9 +62,7 @@ class BenchArm final : public library::Sensor {
  private:
   component::Outcome on_configure() override {
     const ArmNumbers& numbers = arm_of(joints_);
-    ArmSimulation::Config config{.urdf_file = urdf_, .start = start_};
-    if (rounds_) config.coulomb_friction = rounding_of_pucks(numbers);
-    auto made = ArmSimulation::load(numbers, config);
+    auto made = ArmSimulation::load(numbers, {.urdf_file = urdf_, .start = start_});
     if (!made) return component::refused(made.error());
     arm_.emplace(std::move(made).value());
     transmission_.emplace(control::Transmission::make(numbers.transmission).value());
@@ -82,6 +75,7 @@ class BenchArm final : public library::Sensor {
     joint_torques_.assign(count, 0.0);
     motor_torques_.assign(count, 0.0);
     motor_angles_.assign(count, 0.0);
+    pucks_.emplace(count);
     return component::accepted();
   }
   component::Outcome on_start() override {
@@ -121,7 +115,7 @@ class BenchArm final : public library::Sensor {
     for (std::size_t i = 0; i < motor_torques_.size(); ++i) {
       const double torque = std::clamp(motor_torques_[i], -kLargestTorque[i], kLargestTorque[i]);
       if (torque != motor_torques_[i]) ++limited_;
-      arm_->set_torque(i, rounds_ ? rounded_torque(i, torque) : torque);
+      arm_->set_torque(i, rounds_ ? pucks_->step(i, torque) : torque);
     }
   }
 
@@ -140,6 +134,7 @@ class BenchArm final : public library::Sensor {
   std::optional<ArmSimulation> arm_;
   std::optional<control::Transmission> transmission_;
   std::optional<control::InverseDynamics> links_;
+  std::optional<PuckTorques> pucks_;
   std::optional<base::Time> sampled_;
   bool driven_ = false;
   int limited_ = 0;
