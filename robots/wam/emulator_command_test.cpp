@@ -141,7 +141,7 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
   for (std::string line; std::getline(lines, line);) {
     std::string command = line.substr(2, 34);
     for (const auto& [name, number] :
-         {std::pair{" N", " 3"}, {" COUNT", " 2"}, {" MS", " 1.5"}, {" VOLTS", " 48"}}) {
+         {std::pair{" N", " 3"}, {" COUNT", " 2"}, {" MS", " 1.5"}, {" VOLTS", " 48"}, {" VERSION", " 170"}}) {
       if (const auto at = command.find(name); at != std::string::npos) {
         command.replace(at, std::string(name).size(), number);
       }
@@ -150,7 +150,7 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
     advance(1ms);
     seen.insert(command);
   }
-  EXPECT_EQ(seen.size(), 28u);
+  EXPECT_EQ(seen.size(), 29u);
 }
 
 TEST_F(EmulatorCommands, WhatHasFramesSentAgainNeedsABusWithABitRate) {

@@ -40,7 +40,7 @@ TEST_F(WamInMotion, APuckThatStaysSilentHasItsPowerCutAndTheArmHasToBePutAtHome)
 /// What tells the pucks that they are idle is lost too, so it is said in every cycle.
 TEST_F(WamInMotion, PucksThatMissedThatTheyAreIdleHearItAsSoonAsTheyHear) {
   arm.emulator().bus().lose_next(40);
-  expect_fault_within(60ms, "puck 1 is silent");
+  expect_fault_within(60ms, "every puck is silent");
   expect_braked();
   EXPECT_NE(board().mode(), BoardMode::kEstop);
   return_to_service();
