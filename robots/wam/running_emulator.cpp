@@ -11,6 +11,8 @@
 namespace armature::wam {
 namespace {
 
+/// The arm is never simulated later, or the next frame would have to wait until it was.
+constexpr base::Duration kMostBehind = std::chrono::milliseconds(1);
 constexpr std::size_t kMostCommands = 64;
 /// Two seconds of states, and of a busy bus.
 constexpr std::size_t kMostStates = 200;
@@ -98,7 +100,7 @@ void RunningEmulator::run() {
     obey();
     wire_->give();
     tell();
-    wire_->wait_until(std::min(emulator_->next_event(), told_.time + kSampleTime));
+    wire_->wait_until(std::min(emulator_->next_event(), emulator_->now() + kMostBehind));
   }
 }
 
