@@ -148,6 +148,7 @@ class DeployedOnCan : public ::testing::TestWithParam<Case> {
     ASSERT_TRUE(host.says("holds the arm where it is"));
     host.type("Arming:arm()");
     ASSERT_TRUE(host.says("Arming.arm: done"));
+    host.type("run 1");  // until then torques grow slowly
   }
   /// Or it would sink before its pucks are told that it is there.
   testing::AssertionResult is_held_at_home_until(const std::string& told) {
