@@ -32,7 +32,7 @@ void ArmMotors::advance_to(base::Time now) {
 }
 
 void ArmMotors::drive(std::size_t motor, double torque) {
-  carried_ = false;
+  carried_ = arrived_ = false;
   arm_.set_torque(motor, torque);
 }
 
@@ -44,6 +44,7 @@ void ArmMotors::carry_to(const std::vector<double>& joints) {
     furthest = std::max(furthest, std::abs(to_[i] - from_[i]));
   }
   carried_ = true;
+  arrived_ = false;
   carried_since_ = now_;
   carried_for_ = std::chrono::duration_cast<base::Duration>(
       std::chrono::duration<double>(furthest / kCarryingRate));
@@ -52,11 +53,11 @@ void ArmMotors::carry_to(const std::vector<double>& joints) {
 /// Whoever carries it holds it: at the end it is at rest.
 void ArmMotors::carry() {
   const base::Duration left = carried_for_ - (now_ - carried_since_);
-  carried_ = left > base::Duration{};
+  arrived_ = left <= base::Duration{};
   for (std::size_t i = 0; i < to_.size(); ++i) {
-    const double rate = carried_ ? (to_[i] - from_[i]) / in_seconds(carried_for_) : 0.0;
+    const double rate = arrived_ ? 0.0 : (to_[i] - from_[i]) / in_seconds(carried_for_);
     velocities_[i] = rate;
-    positions_[i] = to_[i] - (carried_ ? rate * in_seconds(left) : 0.0);
+    positions_[i] = to_[i] - (arrived_ ? 0.0 : rate * in_seconds(left));
   }
   arm_.set_state(positions_, velocities_);
 }

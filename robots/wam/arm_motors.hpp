@@ -27,11 +27,13 @@ class ArmMotors final : public Motors {
   void drive(std::size_t motor, double torque) override;
   void brake(std::size_t motor) override { arm_.brake(motor); }
 
-  /// An operator carries the arm to a posture, in a straight line of its joints, and lets go there,
-  /// or as soon as a motor drives.
+  /// An operator carries the arm to a posture, in a straight line of its joints, and holds it there
+  /// until a motor drives.
   /// @param joints  [rad], as many as the arm has
   void carry_to(const std::vector<double>& joints);
   bool carried() const { return carried_; }
+  /// Carried, it has come to where it is held.
+  bool arrived() const { return arrived_; }
 
   /// Where it really is, for tests and pictures.
   const ArmSimulation& arm() const { return arm_; }
@@ -42,6 +44,7 @@ class ArmMotors final : public Motors {
   ArmSimulation arm_;
   base::Time now_;
   bool carried_ = false;
+  bool arrived_ = false;
   base::Time carried_since_{};
   base::Duration carried_for_{};
   std::vector<double> from_;  ///< [rad] of the joints

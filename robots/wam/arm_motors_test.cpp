@@ -66,19 +66,22 @@ TEST_P(Motored, SinksSlowlyWhileItsMotorsAreBraked) {
   EXPECT_LT(fallen, 0.2);
 }
 
-TEST_P(Motored, AnOperatorCarriesItHomeSlowlyAndLetsGoThere) {
+TEST_P(Motored, AnOperatorCarriesItHomeSlowlyAndHoldsItThere) {
   ArmMotors motors(simulation_of(arm(), raised(arm())), base::Time{});
   motors.carry_to(arm().home);
   double fastest = 0.0;
   Vector before = joints_of(motors);
-  for (base::Time now{}; motors.carried(); now += 10ms) {
+  base::Time now{};
+  for (; !motors.arrived(); now += 10ms) {
     ASSERT_LT(now, base::Time{20s});
     motors.advance_to(now);
     fastest = std::max(fastest, largest_difference(joints_of(motors), before) / 0.01);
     before = joints_of(motors);
   }
   EXPECT_NEAR(fastest, ArmMotors::kCarryingRate, 1e-6);
+  motors.advance_to(now + 10s);
   EXPECT_EQ(joints_of(motors), arm().home);
+  EXPECT_TRUE(motors.carried());
 }
 
 TEST_P(Motored, WhoCarriesItLetsGoAsSoonAsAMotorDrives) {

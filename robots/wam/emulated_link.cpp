@@ -69,7 +69,7 @@ void EmulatedLink::advance_to(base::Time now) {
   ticks_spent_ += platform::ticks() - begin;
 }
 
-/// Whoever carries the arm lets go when it is there, so he takes it again.
+/// A motor that drives has whoever holds the arm let go, so he takes it again.
 void EmulatedLink::keep_holding() {
   if (held_ && !motors_.carried()) motors_.carry_to(home_);
 }

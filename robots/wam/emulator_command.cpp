@@ -72,7 +72,8 @@ constexpr auto kRows = std::to_array<Row>({
      [](const Arm& arm, const Command&) { board_of(arm).shift_idle(); }},
     {"activate", kNoNumber, "Shift+Activate: the pucks obey torques",
      [](const Arm& arm, const Command&) { board_of(arm).shift_activate(); }},
-    {"home", kNoNumber, "carries the arm to its home position; lets go as soon as a motor drives",
+    {"home", kNoNumber,
+     "carries the arm to its home position and holds it there until a motor drives",
      [](const Arm& arm, const Command&) { arm.motors.carry_to(arm.numbers.home); }},
 
     {"fault puck N silent", kNoNumber, "neither hears nor is heard; its motor goes on",

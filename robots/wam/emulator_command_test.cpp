@@ -140,8 +140,11 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
   std::set<std::string> seen;
   for (std::string line; std::getline(lines, line);) {
     std::string command = line.substr(2, 34);
-    for (const auto& [name, number] :
-         {std::pair{" N", " 3"}, {" COUNT", " 2"}, {" MS", " 1.5"}, {" VOLTS", " 48"}, {" VERSION", " 170"}}) {
+    for (const auto& [name, number] : {std::pair{" N", " 3"},
+                                       {" COUNT", " 2"},
+                                       {" MS", " 1.5"},
+                                       {" VOLTS", " 48"},
+                                       {" VERSION", " 170"}}) {
       if (const auto at = command.find(name); at != std::string::npos) {
         command.replace(at, std::string(name).size(), number);
       }

@@ -197,7 +197,7 @@ class CampaignRun {
     EXPECT_TRUE(arm_.application().stop().ok());
     arm_.board().reset();
     arm_.link().motors().carry_to(TorqueWatch::numbers_of(arm_).home);
-    while (arm_.link().motors().carried()) {
+    while (!arm_.link().motors().arrived()) {
       arm_.emulator().advance_to(arm_.emulator().now() + 10ms);
     }
     ASSERT_NO_FATAL_FAILURE(arm_.start_active());

@@ -141,23 +141,15 @@ std::vector<double> last(const std::string& name) {
 class DeployedOnCan : public ::testing::TestWithParam<Case> {
  protected:
   void be_ready_and_armed() {
+    arm.type("home");
     arm.type("release");
     arm.type("idle");
-    ASSERT_TRUE(is_held_at_home_until("waits for Shift+Activate"));
+    ASSERT_TRUE(host.says("waits for Shift+Activate"));
     arm.type("activate");
     ASSERT_TRUE(host.says("holds the arm where it is"));
     host.type("Arming:arm()");
     ASSERT_TRUE(host.says("Arming.arm: done"));
     host.type("run 1");  // until then torques grow slowly
-  }
-  /// Or it would sink before its pucks are told that it is there.
-  testing::AssertionResult is_held_at_home_until(const std::string& told) {
-    const base::Time end = platform::monotonic_now() + kPatience;
-    while (true) {
-      arm.type("home");
-      const testing::AssertionResult said = host.says(told, 20ms);
-      if (said || platform::monotonic_now() > end) return said;
-    }
   }
   /// What the browser shows for an expression.
   void expect_shown(const std::string& expression, const std::string& expected) {
