@@ -125,6 +125,13 @@ TEST_F(EmulatorCommands, TripTheBoardsMonitorsAndLowerItsSupply) {
   EXPECT_EQ(emulator->board().pendant().level(Monitor::kVoltage), Level::kFault);
 }
 
+TEST_F(EmulatorCommands, HaveAPuckTellAnotherFirmware) {
+  say("fault puck 3 firmware 64");
+  EXPECT_EQ(emulator->puck(2).properties().get(Property::kVers), 64);
+  EXPECT_EQ(emulator->puck(2).properties().number(Property::kCts), 68) << "that of firmware 175";
+  EXPECT_EQ(emulator->puck(1).properties().get(Property::kVers), 175);
+}
+
 TEST_F(EmulatorCommands, CutTheBus) {
   power_up();
   say("fault bus cut");
@@ -140,8 +147,11 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
   std::set<std::string> seen;
   for (std::string line; std::getline(lines, line);) {
     std::string command = line.substr(2, 34);
-    for (const auto& [name, number] :
-         {std::pair{" N", " 3"}, {" COUNT", " 2"}, {" MS", " 1.5"}, {" VOLTS", " 48"}}) {
+    for (const auto& [name, number] : {std::pair{" N", " 3"},
+                                       {" COUNT", " 2"},
+                                       {" MS", " 1.5"},
+                                       {" VOLTS", " 48"},
+                                       {" VERSION", " 64"}}) {
       if (const auto at = command.find(name); at != std::string::npos) {
         command.replace(at, std::string(name).size(), number);
       }
@@ -150,7 +160,7 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
     advance(1ms);
     seen.insert(command);
   }
-  EXPECT_EQ(seen.size(), 28u);
+  EXPECT_EQ(seen.size(), 29u);
 }
 
 TEST_F(EmulatorCommands, WhatHasFramesSentAgainNeedsABusWithABitRate) {
