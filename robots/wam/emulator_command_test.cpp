@@ -125,6 +125,13 @@ TEST_F(EmulatorCommands, TripTheBoardsMonitorsAndLowerItsSupply) {
   EXPECT_EQ(emulator->board().pendant().level(Monitor::kVoltage), Level::kFault);
 }
 
+TEST_F(EmulatorCommands, HaveAPuckTellAnotherFirmware) {
+  say("fault puck 3 firmware 64");
+  EXPECT_EQ(emulator->puck(2).properties().get(Property::kVers), 64);
+  EXPECT_EQ(emulator->puck(2).properties().number(Property::kCts), 68) << "that of firmware 175";
+  EXPECT_EQ(emulator->puck(1).properties().get(Property::kVers), 175);
+}
+
 TEST_F(EmulatorCommands, CutTheBus) {
   power_up();
   say("fault bus cut");
@@ -144,7 +151,7 @@ TEST_F(EmulatorCommands, EachCommandThatIsListedIsUnderstood) {
                                        {" COUNT", " 2"},
                                        {" MS", " 1.5"},
                                        {" VOLTS", " 48"},
-                                       {" VERSION", " 170"}}) {
+                                       {" VERSION", " 64"}}) {
       if (const auto at = command.find(name); at != std::string::npos) {
         command.replace(at, std::string(name).size(), number);
       }

@@ -392,6 +392,15 @@ TEST(WamDriver, ACycleAllocatesNothing) {
   EXPECT_EQ(guard.watch([&] { bench.run(3); }), 0u) << guard.report();
   bench.board().fail(Monitor::kVelocity);
   EXPECT_EQ(guard.watch([&] { bench.run(60); }), 0u) << guard.report();
+  bench.puck(3).set_dead(true);
+  EXPECT_EQ(guard.watch([&] {
+    bench.driver->acknowledge();
+    bench.run(6);
+    EXPECT_TRUE(bench.driver->needs_power_cut());
+    bench.driver->cut_power(bench.now());
+  }),
+            0u)
+      << guard.report();
   EXPECT_EQ(guard.watch([&] {
     bench.driver->acknowledge();
     bench.driver->send_idle();

@@ -55,6 +55,18 @@ void lose_zero(CampaignArm& arm, Random& random) {
       to_node(puck.node()), arm.hardware().driver().arm().position_number, puck.counts() + 20000));
 }
 
+/// Of a puck of the lower arm, where they are far from being right.
+void tell_wrong_middle_bits(CampaignArm& arm, Random& random) {
+  int node = node_for(OfPuck::kLowerArm, arm, random);
+  const auto nearly_right = [&] {
+    const auto counts = arm.emulator().puck(static_cast<std::size_t>(node - 1)).counts();
+    return (counts >> 8 & 0xff) < 16;  // they become 1
+  };
+  for (int i = 0; i < 4 && nearly_right(); ++i) node = node % 4 + 1;
+  ASSERT_FALSE(nearly_right());
+  arm.tell_emulator("fault puck N wrong-byte 1", node);
+}
+
 /// Somebody who sends frames, as many as there is room for.
 class Garbage {
  public:
@@ -237,8 +249,7 @@ std::vector<Breakage> breakages() {
        .after = After::kFault,
        .said = "velocity fault"},
       {.name = "LowerArmTellsWrongMiddleBits",
-       .command = "fault puck N wrong-byte 1",
-       .puck = OfPuck::kLowerArm,
+       .happens = tell_wrong_middle_bits,
        .after = After::kFault,
        .said = "velocity fault"},
       {.name = "BusOffOfAPuck", .command = "fault puck N bus-off"},

@@ -132,11 +132,11 @@ class RestWatch {
   void look_at(CampaignArm& arm) {
     const bool held = arm.any_puck_drives();
     const Vector positions = arm.positions();
-    if (!resting_ || held != held_) begin_at(arm, positions);
+    if (!resting_ || held != held_) begin_at(positions);
     resting_ = true;
     held_ = held;
     if (held) {
-      judge_rest(positions);
+      judge_rest(arm, positions);
     } else {
       judge_sinking(positions);
     }
@@ -152,8 +152,8 @@ class RestWatch {
   static constexpr int kWindow = 50;       ///< cycles
   static constexpr double kStill = 0.01;   ///< [rad/s], what other joints and their stops add
 
-  /// [s] of three cycles, in which who is activated begins to hold.
-  static constexpr double kReaction = 0.006;
+  /// Cycles: three until it is held, two more until torques have grown to its weight.
+  static constexpr int kReaction = 5;
 
   static Vector damping(const ArmNumbers& numbers) {
     Vector all(numbers.joints());
@@ -167,36 +167,39 @@ class RestWatch {
     }
     return all;
   }
-  /// An arm that sinks is stopped as smoothly as it is told to.
-  void begin_at(CampaignArm& arm, const Vector& positions) {
+  void begin_at(const Vector& positions) {
     rest_ = positions;
-    sinking_cycles_ = 0;
     way_.assign(positions.size(), 0.0);
-    for (std::size_t i = 0; i < way_.size(); ++i) {
-      const double speed = std::abs(arm.simulated().joint_velocity(i));
-      way_[i] = speed * kReaction + speed * speed / (2.0 * most_[i % most_.size()]);
-    }
+    cycles_ = sinking_cycles_ = 0;
   }
-  void judge_rest(const Vector& positions) {
+  /// An arm that sinks falls until it is held, and is then stopped as smoothly as it is told to.
+  void judge_rest(CampaignArm& arm, const Vector& positions) {
+    const bool falls = cycles_++ < kReaction;
     for (std::size_t i = 0; i < positions.size(); ++i) {
+      const double speed = std::abs(arm.simulated().joint_velocity(i));
+      const double way =
+          speed * kReaction * kCycle + speed * speed / (2.0 * most_[i % most_.size()]);
+      if (falls) way_[i] = std::max(way_[i], way);
       moved_ = std::max(moved_, std::abs(positions[i] - rest_[i]) - way_[i]);
     }
   }
-  /// In each tenth of a second: a joint that comes to its stop throws the others for less.
+  /// In each tenth of a second: a joint that comes to its stop throws the others for less, and no
+  /// joint is slower at once when its weight becomes less.
   void judge_sinking(const Vector& positions) {
     if (sinking_cycles_ == 0) {
       sinks_from_ = positions;
-      may_sink_.assign(positions.size(), 0.0);
+      heaviest_.assign(positions.size(), 0.0);
     }
     Vector weight(positions.size());
     links_->gravity(positions, weight);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      may_sink_[i] += (std::abs(weight[i]) / damping_[i] + kStill) * kCycle;
+      heaviest_[i] = std::max(heaviest_[i], std::abs(weight[i]));
     }
     if (++sinking_cycles_ < kWindow) return;
     sinking_cycles_ = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      sinking_ = std::max(sinking_, std::abs(positions[i] - sinks_from_[i]) / may_sink_[i]);
+      const double most = (heaviest_[i] / damping_[i] + kStill) * kWindow * kCycle;
+      sinking_ = std::max(sinking_, std::abs(positions[i] - sinks_from_[i]) / most);
     }
   }
 
@@ -207,9 +210,10 @@ class RestWatch {
   bool held_ = false;
   Vector rest_;
   Vector way_;
+  int cycles_ = 0;  ///< since it is held
   int sinking_cycles_ = 0;
   Vector sinks_from_;
-  Vector may_sink_;
+  Vector heaviest_;  ///< [N m], of each joint in this tenth of a second
   double moved_ = 0.0;
   double sinking_ = 0.0;
 };

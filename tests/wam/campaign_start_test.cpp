@@ -30,11 +30,14 @@ struct Misfit {
 void PrintTo(const Misfit& misfit, std::ostream* out) { *out << misfit.name; }
 
 const Misfit kMisfits[] = {
-    {.name = "FirmwareOfWhichNothingIsKnown", .told_version = 20, .said = "firmware 20"},
+    {.name = "FirmwareOfWhichNothingIsKnown",
+     .told_version = 20,
+     .said = "which have different numbers for"},
     {.name = "FirmwareWithOtherNumbers",
      .told_version = 60,
      .said = "which have different numbers for"},
-    {.name = "FirmwareThatItHasNot", .told_version = 64, .said = "has IPNM 0, expected above 0"},
+    // What its numbers mean depends on what the properties are there.
+    {.name = "FirmwareThatItHasNot", .told_version = 64, .said = "expected"},
     {.name = "TorqueOfAnother",
      .property = Property::kPidx,
      .value = 4,

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -264,6 +265,14 @@ std::size_t cycles_before(base::Time end, const std::set<base::Time>& times) {
   return cycles;
 }
 
+/// Several of these programs run at the same time, and files are named by the second.
+std::string own_folder() {
+  const std::string folder =
+      ::testing::TempDir() + "wam_campaign_" + std::to_string(std::random_device{}());
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
 /// Written and read again, it has states and commands of each of the last 500 cycles, where a
 /// component faulted or was stopped.
 void CampaignRun::expect_black_box() {
@@ -271,12 +280,11 @@ void CampaignRun::expect_black_box() {
   ASSERT_FALSE(faulted && reports_.empty());
   if (reports_.empty()) return;
   const exec::BlackBoxReport& report = reports_.front();
-  const std::string folder = ::testing::TempDir() + "wam_campaign";
-  std::filesystem::create_directories(folder);
+  const std::string folder = own_folder();
   const auto written = record::write_black_box(report, folder);
   ASSERT_TRUE(written) << written.error();
   const auto box = record::load_mcap(written.value());
-  std::filesystem::remove(written.value());
+  std::filesystem::remove_all(folder);
   ASSERT_TRUE(box) << box.error();
   std::map<std::string, std::set<base::Time>> times;
   for (const auto& sample : box.value().samples) {
