@@ -52,8 +52,7 @@ class TorqueWatch {
     }
   }
 
-  /// Of MaxTorqueGrowth, without what rounding to puck units makes of it: each torque is sent as
-  /// the whole number below or above it.
+  /// Of MaxTorqueGrowth, without what rounding to puck units makes of it.
   double largest_step() const { return largest_step_; }
   /// Of what the puck gives at most.
   double largest_torque() const { return largest_torque_; }
@@ -75,7 +74,7 @@ class TorqueWatch {
     }
     transmission_.joint_torques(motors_, joints_);
     for (std::size_t joint = first; joint < end; ++joint) {
-      const double step = grown(sent_[joint], joints_[joint]) - 2.0 * rounding_[joint];
+      const double step = grown(sent_[joint], joints_[joint]) - rounding_[joint];
       largest_step_ = std::max(largest_step_, step / growth_[joint]);
       sent_[joint] = joints_[joint];
     }
