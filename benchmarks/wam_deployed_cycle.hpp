@@ -20,9 +20,9 @@ struct DeployedCycles {
 /// one motion. Throws std::runtime_error if the arm does not follow to its end.
 /// @param deployment  a file of robots/wam/deployments
 /// @param libraries   the folder of the component libraries
-/// @param way         [rad] of each joint from home
+/// @param target      [rad] of the joints, where the motion ends
 DeployedCycles run_deployed(const std::string& deployment, const std::string& libraries,
-                            const std::vector<double>& way, std::size_t cycles,
+                            const std::vector<double>& target, std::size_t cycles,
                             base::Duration period);
 
 }  // namespace armature::wam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/report/figures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPointsOfACurve = 8000;
+constexpr std::size_t kPointsOfAllCurves = 250'000;
 constexpr std::size_t kPointsOfASmallCurve = 1200;
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
@@ -27,10 +29,12 @@ Json figures_of(const Joint& joint) {
           {"ise", figures.ise},
           {"itse", figures.itse},
           {"max_abs_error_rad", figures.largest},
+          {"rms_error_rad", joint.rms},
           {"final_error_rad", figures.last},
           {"final_error_counts", in_counts(figures.last)},
           {"at_rest_error_rad", or_null(joint.at_rest)},
           {"at_rest_error_counts", in_counts(joint.at_rest)},
+          {"moved_in_last_10_s_rad", or_null(joint.moved_lately)},
           {"rad_per_count", or_null(joint.rad_per_count)},
           {"period_s", joint.period_s},
           {"samples", joint.time_s.size()},
@@ -38,6 +42,21 @@ Json figures_of(const Joint& joint) {
           {"from_s", joint.measured_since_s},
           {"desired", joint.desired_from},
           {"measured", joint.measured_from}};
+}
+
+/// The worst of the joints; of all errors together the root of the mean square.
+Json figures_of_all(const std::vector<Joint>& joints) {
+  double largest = 0.0;
+  double squares = 0.0;
+  std::optional<double> moved;
+  for (const Joint& joint : joints) {
+    largest = std::max(largest, joint.figures.largest);
+    squares += joint.rms * joint.rms;
+    if (joint.moved_lately) moved = std::max(moved.value_or(0.0), *joint.moved_lately);
+  }
+  return {{"max_abs_error_rad", largest},
+          {"rms_error_rad", std::sqrt(squares / static_cast<double>(joints.size()))},
+          {"moved_in_last_10_s_rad", or_null(moved)}};
 }
 
 Json summary_of(const Run& run) {
@@ -60,16 +79,23 @@ Json curve(const Signal& signal, std::size_t points, double step) {
   return {{"t", rounded(thin.time_s, 1e-4)}, {"v", rounded(thin.values, step)}};
 }
 
-Json curves_of(const Joint& joint) {
+/// So many that a page with many runs can be opened still.
+std::size_t points_of_a_curve(const Runs& runs) {
+  std::size_t curves = 0;
+  for (const Run& run : runs.runs) curves += 3 * run.joints.size() + run.efforts.size();
+  return std::min(kPointsOfACurve, kPointsOfAllCurves / std::max<std::size_t>(curves, 1));
+}
+
+Json curves_of(const Joint& joint, std::size_t points) {
   Signal error{{}, {}, {}, joint.time_s, {}};
   for (std::size_t i = 0; i < joint.time_s.size(); ++i) {
     error.values.push_back(joint.desired[i] - joint.measured[i]);
   }
   Json figures = figures_of(joint);
   figures["curves"] = {
-      {"desired", curve({{}, {}, {}, joint.time_s, joint.desired}, kPointsOfACurve, 1e-5)},
-      {"measured", curve({{}, {}, {}, joint.time_s, joint.measured}, kPointsOfACurve, 1e-5)},
-      {"error", curve(error, kPointsOfACurve, 1e-7)}};
+      {"desired", curve({{}, {}, {}, joint.time_s, joint.desired}, points, 1e-5)},
+      {"measured", curve({{}, {}, {}, joint.time_s, joint.measured}, points, 1e-5)},
+      {"error", curve(error, points, 1e-7)}};
   return figures;
 }
 
@@ -129,17 +155,17 @@ Json timeline_of(const Timeline& timeline) {
           {"cycles", timeline.cycles}};
 }
 
-Json page_of(const Run& run) {
+Json page_of(const Run& run, std::size_t points) {
   Json one{{"name", run.name},
            {"recording", run.recording.substr(run.recording.find_last_of('/') + 1)},
            {"cut_off", run.cut_off},
            {"summary", summary_of(run)}};
   one["joints"] = Json::array();
-  for (const Joint& joint : run.joints) one["joints"].push_back(curves_of(joint));
+  for (const Joint& joint : run.joints) one["joints"].push_back(curves_of(joint, points));
   one["efforts"] = Json::array();
   for (const Effort& effort : run.efforts) {
     Json shown = figures_of(effort);
-    shown["curve"] = curve(effort.signal, kPointsOfACurve, step_for(effort.signal.values));
+    shown["curve"] = curve(effort.signal, points, step_for(effort.signal.values));
     one["efforts"].push_back(std::move(shown));
   }
   one["others"] = others_of(run);
@@ -151,9 +177,20 @@ Json cycle_of(const Runs& runs) {
   return runs.cycle_json.empty() ? Json() : Json::parse(runs.cycle_json, nullptr, false);
 }
 
-}  // namespace
+Json reached_of(const std::vector<Goal>& goals, const Json& report) {
+  const std::string text = report.dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json all = Json::array();
+  for (const Goal& goal : goals) {
+    const Reached found = look_up(goal, text);
+    Json one{{"name", goal.name}, {"unit", goal.unit}, {"value", or_null(found.value)}};
+    one[goal.most ? "most" : "least"] = goal.most ? *goal.most : *goal.least;
+    one["reached"] = found.reached;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
 
-std::string figures_json(const Runs& runs) {
+Json report_of(const Runs& runs) {
   Json report{{"controllers", Json::object()}, {"runs", Json::object()}};
   for (const Run& run : runs.runs) {
     Json& one = report["runs"][run.name];
@@ -162,15 +199,25 @@ std::string figures_json(const Runs& runs) {
     if (run.joints.empty()) continue;
     Json joints = Json::array();
     for (const Joint& joint : run.joints) joints.push_back(figures_of(joint));
-    report["controllers"][run.name] = {{"joints", std::move(joints)}};
+    report["controllers"][run.name] = {{"all", figures_of_all(run.joints)},
+                                       {"joints", std::move(joints)}};
   }
   if (Json cycle = cycle_of(runs); !cycle.is_null()) report["io"] = std::move(cycle);
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  if (!runs.goals.empty()) report["to_reach"] = reached_of(runs.goals, report);
+  return report;
+}
+
+}  // namespace
+
+std::string figures_json(const Runs& runs) {
+  return report_of(runs).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string page_json(const Runs& runs) {
   Json page{{"name", runs.name}, {"runs", Json::array()}, {"io", cycle_of(runs)}};
-  for (const Run& run : runs.runs) page["runs"].push_back(page_of(run));
+  const std::size_t points = points_of_a_curve(runs);
+  for (const Run& run : runs.runs) page["runs"].push_back(page_of(run, points));
+  if (!runs.goals.empty()) page["to_reach"] = report_of(runs)["to_reach"];
   const std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());

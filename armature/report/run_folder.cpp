@@ -149,6 +149,8 @@ Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics) {
     }
   }
   runs.cycle_json = load_json(fs::path(folder) / kCycleFile, diagnostics);
+  const fs::path goals = fs::path(folder) / kGoalsFile;
+  runs.goals = parse_goals(load_json(goals, diagnostics), goals.string(), diagnostics);
   if (runs.runs.empty() && diagnostics.ok()) {
     diagnostics.error({},
                       "no run in '" + folder + "': expected a recording (*.mcap) or " +

@@ -7,6 +7,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/report/effort.hpp"
+#include "armature/report/goals.hpp"
 #include "armature/report/signals.hpp"
 #include "armature/report/timeline.hpp"
 #include "armature/report/tracking.hpp"
@@ -17,6 +18,8 @@ namespace armature::report {
 inline constexpr const char* kTraceFile = "trace.json";
 /// The time of a cycle on the bus, in the folder of the runs.
 inline constexpr const char* kCycleFile = "io.json";
+/// What the runs are to reach, in their folder.
+inline constexpr const char* kGoalsFile = "to_reach.json";
 
 /// A run as its folder has it. Something of it is there: a recording or a summary.
 struct Run {
@@ -34,6 +37,7 @@ struct Runs {
   std::string name;        ///< the folder's
   std::vector<Run> runs;   ///< of the folder itself, or of those in it, by their names
   std::string cycle_json;  ///< the content of kCycleFile; empty: none
+  std::vector<Goal> goals;
 };
 
 /// Reads a run's folder or a folder of run folders. Errors name the file, what was expected and

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586476925286766559;
 constexpr double kSettling_s = 2.0;  ///< after a motion a joint should be where it was sent
+constexpr double kLately_s = 10.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool ends_in(const std::string& text, const std::string& ending) {
@@ -28,7 +29,7 @@ std::string number_of(const std::string& component) {
   return numbered ? component.substr(last + 1) : component;
 }
 
-/// The value that was there at each of the measurements; nan before the first one.
+/// The value that was there at each of the times; nan before the first one.
 std::vector<double> values_at(const std::vector<double>& times, const Signal& signal) {
   std::vector<double> values;
   values.reserve(times.size());
@@ -41,6 +42,18 @@ std::vector<double> values_at(const std::vector<double>& times, const Signal& si
   return values;
 }
 
+/// Just before each measurement; behind a gap, as after a restart, with it, since what was there
+/// before the gap is forgotten.
+std::vector<double> just_before(std::vector<double> times, double period_s) {
+  double last_s = -kNever;
+  for (double& time : times) {
+    const bool gap = last_s > -kNever && time - last_s > 1.5 * period_s;
+    last_s = time;
+    if (!gap) time = std::nextafter(time, -kNever);
+  }
+  return times;
+}
+
 double median_period(const std::vector<double>& times) {
   std::vector<double> periods;
   for (std::size_t i = 1; i < times.size(); ++i) periods.push_back(times[i] - times[i - 1]);
@@ -50,15 +63,20 @@ double median_period(const std::vector<double>& times) {
   return std::round(*middle * 1e9) / 1e9;
 }
 
-Joint make_joint(std::string name, const Signal& desired, const Signal& measured) {
+/// What a reference of the same cycle as a measurement is: for that, or for the next one.
+enum class SameCycle { kForThis, kForNext };
+
+Joint make_joint(std::string name, const Signal& desired, const Signal& measured, SameCycle same) {
   Joint joint;
   joint.name = std::move(name);
   joint.desired_from = desired.name;
   joint.measured_from = measured.name;
   joint.time_s = measured.time_s;
   joint.measured = measured.values;
-  joint.desired = values_at(joint.time_s, desired);
   joint.period_s = median_period(joint.time_s);
+  joint.desired = values_at(
+      same == SameCycle::kForThis ? joint.time_s : just_before(joint.time_s, joint.period_s),
+      desired);
   return joint;
 }
 
@@ -69,7 +87,8 @@ std::vector<Joint> joints_with_a_controller_each(const Signals& signals) {
     const std::string component = desired.name.substr(0, desired.name.size() - 4);
     const Signal* const measured = signals.find(component + ".Sen");
     if (measured == nullptr) continue;
-    found.emplace_back(component, make_joint(number_of(component), desired, *measured));
+    found.emplace_back(component,
+                       make_joint(number_of(component), desired, *measured, SameCycle::kForThis));
   }
   std::sort(found.begin(), found.end(),
             [](const auto& a, const auto& b) { return before_by_number(a.first, b.first); });
@@ -97,7 +116,8 @@ std::vector<Joint> joints_in_vectors(const Signals& signals) {
   const std::size_t count = std::min(measured.size() / 2, desired.size() / 3);
   std::vector<Joint> joints;
   for (std::size_t i = 0; i < count; ++i) {
-    joints.push_back(make_joint(std::to_string(i + 1), *desired[i], *measured[i]));
+    joints.push_back(
+        make_joint(std::to_string(i + 1), *desired[i], *measured[i], SameCycle::kForNext));
   }
   return joints;
 }
@@ -145,6 +165,8 @@ void measure(Joint& joint, const Window& window) {
       control::ErrorMetrics::make({.joints = 1, .period = base::from_seconds(joint.period_s)});
   if (!metrics) return;  // one sample only, or none
   double before_s = kNever;
+  double squares = 0.0;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < joint.time_s.size(); ++i) {
     const double time_s = joint.time_s[i];
     double error = joint.desired[i] - joint.measured[i];
@@ -157,8 +179,13 @@ void measure(Joint& joint, const Window& window) {
       ++joint.missing;
     }
     if (periods > 0.5) metrics.value().step({&error, 1});
+    if (std::isfinite(error)) {
+      squares += error * error;
+      ++count;
+    }
     before_s = time_s;
   }
+  if (count > 0) joint.rms = std::sqrt(squares / static_cast<double>(count));
   joint.figures = metrics.value().of(0);
 }
 
@@ -171,6 +198,22 @@ void look_at_rest(Joint& joint, const Window& window) {
     if (moved || since_s == kNever) since_s = joint.time_s[i];
     if (joint.time_s[i] - since_s < kSettling_s) continue;
     joint.at_rest = std::max(joint.at_rest.value_or(0.0), error);
+  }
+}
+
+void look_at_the_end(Joint& joint, const Window& window) {
+  std::vector<double> times, positions;
+  for (std::size_t i = 0; i < joint.time_s.size(); ++i) {
+    if (!inside(window, joint.time_s[i]) || !std::isfinite(joint.measured[i])) continue;
+    times.push_back(joint.time_s[i]);
+    positions.push_back(joint.measured[i]);
+  }
+  if (times.empty() || times.back() - times.front() < kLately_s) return;
+  const auto begin = std::lower_bound(times.begin(), times.end(), times.back() - kLately_s);
+  const auto first = static_cast<std::size_t>(begin - times.begin());
+  joint.moved_lately = 0.0;
+  for (std::size_t i = first; i < positions.size(); ++i) {
+    joint.moved_lately = std::max(*joint.moved_lately, std::abs(positions[i] - positions[first]));
   }
 }
 
@@ -194,12 +237,16 @@ std::optional<double> rad_per_count(const Signals& signals, const std::string& j
 
 std::vector<Joint> joints_of(const Signals& signals) {
   std::vector<Joint> joints = joints_with_a_controller_each(signals);
-  if (joints.empty()) joints = joints_in_vectors(signals);
-  const Window window = armed_window(signals, joints);
+  const bool in_vectors = joints.empty();
+  if (in_vectors) joints = joints_in_vectors(signals);
+  Window window = armed_window(signals, joints);
+  // The measurement of the cycle in which it was armed came before that.
+  if (in_vectors) window.begin_s = std::nextafter(window.begin_s, kNever);
   for (Joint& joint : joints) {
     joint.rad_per_count = rad_per_count(signals, joint.name);
     measure(joint, window);
     look_at_rest(joint, window);
+    look_at_the_end(joint, window);
   }
   return joints;
 }

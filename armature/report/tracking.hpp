@@ -26,7 +26,11 @@ struct Joint {
 
   /// Of the time in which all joints were armed, if the recording says when; else of all of it.
   control::ErrorMetrics::Figures figures;
+  double rms = 0.0;  ///< of the error [rad]
   double measured_since_s = 0.0;
+  /// How far it was at most from where it was ten seconds before the end of that time [rad]; none:
+  /// the time is shorter.
+  std::optional<double> moved_lately;
   /// The largest |error| from two seconds after the reference stopped until it moved again [rad];
   /// none: it never rested so long.
   std::optional<double> at_rest;
@@ -41,8 +45,10 @@ struct Joint {
 /// - the properties `Joint{i}.GearRatio`, `Joint{i}.PeerName` and, of the component of that name,
 ///   `GearRatio` and `CountsPerTurn`, for what a count of the encoder is.
 ///
-/// Signals of another number of samples are brought together by their times. Empty if there are no
-/// such signals.
+/// Signals of another number of samples are brought together by their times: of components with
+/// `Ref` and `Sen` a measurement has the reference that was written with it; of the vectors the one
+/// that was there when it came, since a reference of the same cycle is the answer to it. Empty if
+/// there are no such signals.
 std::vector<Joint> joints_of(const Signals& signals);
 
 /// The signals that were looked for, for a message.

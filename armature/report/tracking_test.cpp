@@ -76,6 +76,57 @@ TEST(Joints, TheReferenceOfASampleIsTheLastOneUntilThen) {
   EXPECT_EQ(joints[0].measured_since_s, 0.02) << "before, nothing was wanted";
 }
 
+TEST(Joints, InVectorsAReferenceOfTheSameCycleAnswersTheMeasurement) {
+  Signals signals;
+  signals.all.push_back(signal("Bridge.reference[0]", {1.0, 2.0, 3.0}));
+  signals.all.push_back(signal("Bridge.reference[1]", constant(3, 0.0)));
+  signals.all.push_back(signal("Bridge.reference[2]", constant(3, 0.0)));
+  signals.all.push_back(signal("Sensor.sensor[0]", {0.0, 1.0, 2.0}));
+  signals.all.push_back(signal("Sensor.sensor[1]", constant(3, 1.0)));
+  const auto joints = joints_of(signals);
+  ASSERT_EQ(joints.size(), 1u);
+  EXPECT_TRUE(std::isnan(joints[0].desired[0]));
+  EXPECT_EQ(joints[0].desired[1], 1.0);
+  EXPECT_EQ(joints[0].figures.largest, 0.0) << "it follows exactly";
+}
+
+TEST(Joints, BehindAGapInVectorsTheReferenceOfTheSameCycleCounts) {
+  Signals signals;
+  signals.all.push_back(signal("Bridge.reference[0]", {1.0, 1.0, 1.0, 5.0, 5.0, 5.0}));
+  signals.all.push_back(signal("Bridge.reference[1]", constant(6, 0.0)));
+  signals.all.push_back(signal("Bridge.reference[2]", constant(6, 0.0)));
+  signals.all.push_back(signal("Sensor.sensor[0]", {1.0, 1.0, 1.0, 5.0, 5.0, 5.0}));
+  signals.all.push_back(signal("Sensor.sensor[1]", constant(6, 0.0)));
+  for (Signal& each : signals.all) {
+    for (std::size_t i = 3; i < 6; ++i) each.time_s[i] += 1.0;  // a restart elsewhere
+  }
+  EXPECT_EQ(joints_of(signals)[0].figures.largest, 0.0);
+}
+
+TEST(Joints, HaveTheRootOfTheMeanSquareOfTheirErrors) {
+  Signals signals;
+  signals.all.push_back(signal("PID1.Ref", constant(4, 0.0)));
+  signals.all.push_back(signal("PID1.Sen", {0.1, -0.1, kNothing, 0.2}));
+  EXPECT_NEAR(joints_of(signals)[0].rms, std::sqrt(0.06 / 3.0), 1e-12);
+}
+
+TEST(Joints, HowFarTheyMovedAtTheEndIsKnownOfTenSeconds) {
+  std::vector<double> measured = constant(1200, 0.3);
+  for (std::size_t i = 150; i < 1200; ++i) measured[i] = 0.4;
+  measured[700] = 0.45;
+  measured[900] = 0.37;
+  Signals signals;
+  signals.all.push_back(signal("PID1.Ref", constant(1200, 0.4)));
+  signals.all.push_back(signal("PID1.Sen", measured));
+  ASSERT_TRUE(joints_of(signals)[0].moved_lately);
+  EXPECT_NEAR(*joints_of(signals)[0].moved_lately, 0.05, 1e-12);
+  for (Signal& each : signals.all) {
+    each.time_s.resize(900);
+    each.values.resize(900);
+  }
+  EXPECT_FALSE(joints_of(signals)[0].moved_lately) << "of nine seconds it is not";
+}
+
 TEST(Joints, FiguresAreThoseOfTheTimeInWhichAllAreArmed) {
   Signals signals;
   for (const char* pid : {"PID1", "PID2"}) {

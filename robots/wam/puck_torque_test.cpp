@@ -2,6 +2,7 @@
 #include "robots/wam/puck_torque.hpp"
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -36,8 +37,9 @@ TEST(PuckTorque, WhatIsLeftIsAddedToTheNext) {
   PuckTorque torque;
   torque.set(2.25);
   EXPECT_THAT(frames(torque, 8), ElementsAre(2, 2, 2, 3, 2, 2, 2, 3));
-  torque.set(-2.25);
-  EXPECT_THAT(frames(torque, 8), ElementsAre(-3, -2, -2, -2, -3, -2, -2, -2));
+  PuckTorque negative;
+  negative.set(-2.25);
+  EXPECT_THAT(frames(negative, 8), ElementsAre(-3, -2, -2, -2, -3, -2, -2, -2));
 }
 
 TEST(PuckTorque, TheMeanIsWhatWasWantedAlsoWhileItChanges) {
@@ -60,6 +62,37 @@ TEST(PuckTorque, IsNeverMoreThanAUnitOffNorBeyondAWholeNumber) {
   EXPECT_THAT(frames(torque, 100), Each(4860));
   torque.set(-4860.0);
   EXPECT_THAT(frames(torque, 100), Each(-4860));
+}
+
+TEST(PuckTorque, FastItStepsByNoMoreThanAUnitBeyondWhatWasWantedAndKeepsTheMean) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> units(-1000.0, 1000.0);
+  PuckTorque torque;
+  double wanted_before = 0.0, sent_before = 0.0, owed = 0.0;
+  for (int i = 0; i < 100'000; ++i) {
+    double wanted = units(random);
+    if (std::abs(wanted - wanted_before) < 4.0) wanted += 8.0;
+    torque.set(wanted);
+    const double sent = torque.next();
+    const double step = (sent - sent_before) - (wanted - wanted_before);
+    ASSERT_LE(std::abs(step), 1.0 + 1e-9) << "from " << wanted_before << " to " << wanted;
+    owed += wanted - sent;
+    wanted_before = wanted;
+    sent_before = sent;
+  }
+  EXPECT_LT(std::abs(owed), 100.0) << "of 50 000 that rounding down would leave";
+}
+
+TEST(PuckTorque, WhatIsOwedIsBounded) {
+  PuckTorque torque;
+  for (int i = 0; i < 10'000; ++i) {
+    torque.set(i % 2 == 0 ? 100.99 : 50.98);  // the one never lets it up, the other lets it stay
+    torque.next();
+  }
+  torque.set(10.5);
+  int up = 0;
+  for (int i = 0; i < 100; ++i) up += torque.next() - 10;
+  EXPECT_LE(up, 50 + 9);
 }
 
 TEST(PuckTorque, NothingIsNothing) {

@@ -302,8 +302,10 @@ class Mistakes(unittest.TestCase):
         self.write(b"{", "run", "run.json")
         self.write(b'{"traceEvents": 1}', "run", "trace.json")
         self.write(b"[]", "io.json")
+        self.write(b'{"to_reach": [{"name": "speed", "figure": "speed", "most": 1}]}', "to_reach.json")
         self.assert_refused(self.folder, says=["run.json", "expected JSON", "trace.json",
-                                               "traceEvents", "io.json", "a JSON object"])
+                                               "traceEvents", "io.json", "a JSON object", "to_reach.json",
+                                               "goal 1, 'speed', has the figure 'speed'"])
 
     def test_a_page_that_cannot_be_written(self):
         self.copy()

@@ -152,6 +152,17 @@
       el('span', {}, `${run.name}: ${says}, worst joint`))))));
   }
 
+  function toReach() {
+    if (!data.to_reach) return;
+    const part = section('What is to be reached');
+    part.append(table([['', ''], ['found', ''], ['bound', ''], ['', '', 'text']], data.to_reach.map((goal) => {
+      const [unit, by] = goal.unit === 'rad' ? ['mrad', 1e3] : [goal.unit, 1];
+      const bound = isNumber(goal.most) ? `at most ${mark(goal.most * by)}` : `at least ${mark(goal.least * by)}`;
+      return row([goal.name, isNumber(goal.value) ? `${short(goal.value * by)} ${unit}` : 'not measured', `${bound} ${unit}`,
+        el('td', {class: `text ${goal.reached ? 'good' : 'bad'}`}, goal.reached ? 'reached' : 'not reached')]);
+    })));
+  }
+
   const jointNames = [...new Set(tracked.flatMap((run) => run.joints.map((joint) => joint.joint)))];
   const jointOf = (run, name) => run.joints.find((joint) => joint.joint === name);
   const grid = (parent, count) => {
@@ -416,6 +427,7 @@
   }
 
   begin();
+  toReach();
   if (tracked.length > 0) { errors(); figures(); positions(); }
   efforts();
   timelines();
