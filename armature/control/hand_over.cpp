@@ -3,45 +3,68 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 namespace armature::control {
 
-HandOver::HandOver(std::size_t signals) { state_.offsets.assign(signals, 0.0); }
+namespace {
+
+constexpr double kLearning = 0.05;  ///< of the time
+
+}  // namespace
+
+HandOver::HandOver(std::size_t signals) {
+  state_.present.assign(signals, 0.0);
+  state_.offsets.assign(signals, 0.0);
+}
 
 bool HandOver::begin(std::span<const double> present) {
   reset();
-  if (present.size() != state_.offsets.size()) return false;
-  std::copy(present.begin(), present.end(), state_.offsets.begin());
-  state_.pending = true;
+  if (present.size() != state_.present.size()) return false;
+  std::copy(present.begin(), present.end(), state_.present.begin());
+  state_.samples = 0;
   state_.active = true;
   return true;
 }
 
-void HandOver::reset() {
-  state_.pending = false;
-  state_.active = false;
-}
+void HandOver::reset() { state_.active = false; }
 
 void HandOver::step(std::span<double> signals, base::Time now, base::Duration time) {
   if (!state_.active) return;
   if (time <= base::Duration::zero()) return reset();
-  if (std::exchange(state_.pending, false)) {
-    state_.begun = now;
+  if (state_.samples == 0) {
+    begin_at(signals, now);
     for (std::size_t i = 0; i < signals.size(); ++i) {
-      const double present = state_.offsets[i];
-      const double offset = present - signals[i];
-      // A signal that is no number stays one: whoever must stop the joint sees it.
-      state_.offsets[i] = std::isfinite(offset) ? offset : 0.0;
-      if (std::isfinite(offset)) signals[i] = present;
+      if (std::isfinite(state_.present[i])) signals[i] = state_.present[i];
     }
     return;
   }
   const double passed =
       static_cast<double>((now - state_.begun).count()) / static_cast<double>(time.count());
   if (passed >= 1.0) return reset();
+  if (passed <= kLearning) learn(signals);
   const double left = 1.0 - passed * passed * (3.0 - 2.0 * passed);
   for (std::size_t i = 0; i < signals.size(); ++i) signals[i] += left * state_.offsets[i];
+}
+
+/// A signal that is no number stays one: whoever must stop the joint sees it.
+void HandOver::begin_at(std::span<const double> signals, base::Time now) {
+  state_.begun = now;
+  state_.samples = 1;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const double offset = state_.present[i] - signals[i];
+    const bool finite = std::isfinite(offset);
+    state_.offsets[i] = finite ? offset : 0.0;
+    if (!finite) state_.present[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+void HandOver::learn(std::span<const double> signals) {
+  ++state_.samples;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const double offset = state_.present[i] - signals[i];
+    if (std::isfinite(offset)) state_.offsets[i] += (offset - state_.offsets[i]) / state_.samples;
+  }
 }
 
 }  // namespace armature::control

@@ -12,15 +12,18 @@ namespace armature::control {
 /// Has signals go on from where another controller left them: the first output equals the present
 /// one, and what that is apart from the first signal dies away smoothly.
 ///
-///     output[k] = signal[k] + (present - signal[0]) (1 - 3 x^2 + 2 x^3),  x = (t[k] - t[0]) / time
+///     output[k] = signal[k] + (present - mean) (1 - 3 x^2 + 2 x^3),  x = (t[k] - t[0]) / time
 ///
-/// Afterwards, and before anything was taken over, the output is the signal, to the bit.
+/// The mean is that of the signals until then, up to x = 0.05, and stays as it is from there on:
+/// the noise of a single one would be driven with until it has died away. Afterwards, and before
+/// anything was taken over, the output is the signal, to the bit.
 class HandOver {
  public:
   struct State {
-    std::vector<double> offsets;  ///< present - signal[0]; while pending, present
+    std::vector<double> present;  ///< not a number: this signal is not taken over
+    std::vector<double> offsets;  ///< present - mean
     base::Time begun{};
-    bool pending = false;  ///< the next signals are the first
+    int samples = 0;  ///< in the mean
     bool active = false;
   };
 
@@ -49,6 +52,9 @@ class HandOver {
   const State& state() const { return state_; }
 
  private:
+  void begin_at(std::span<const double> signals, base::Time now);
+  void learn(std::span<const double> signals);
+
   State state_;
 };
 

@@ -52,6 +52,18 @@ TEST(HandOver, TheDifferenceDiesAwaySmoothlyAndThenOutputsAreTheSignalsToTheBit)
   EXPECT_FALSE(over.active());
 }
 
+TEST(HandOver, NoiseOfTheFirstSignalDiesAwayAtOnce) {
+  HandOver over(2);
+  ASSERT_TRUE(over.begin(Pair{4.0, 4.0}));
+  const auto noisy = [](int k) { return Pair{k % 2 == 0 ? 1.2 : 0.8, k == 0 ? 2.0 : 1.0}; };
+  step(over, noisy(0), 0s);
+  for (int k = 1; k < 25; ++k) step(over, noisy(k), k * 2ms);
+  const Pair learnt = step(over, {1.0, 1.0}, 60ms);
+  const double left = 1.0 - 0.06 * 0.06 * (3.0 - 0.12);
+  EXPECT_NEAR(learnt[0], 1.0 + left * 3.0, 0.01);
+  EXPECT_NEAR(learnt[1], 1.0 + left * 3.0, 1.0 / 25);
+}
+
 TEST(HandOver, SignalsThatChangeMeanwhileCount) {
   HandOver over(2);
   ASSERT_TRUE(over.begin(Pair{4.0, -4.0}));

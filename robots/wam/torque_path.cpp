@@ -13,6 +13,9 @@ namespace {
 
 using control::JointLimiter;
 
+/// Of each cycle's torque in the mean of the last ten or so.
+constexpr double kSettling = 0.1;
+
 bool all_finite(std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
 }
@@ -74,7 +77,8 @@ TorquePath::TorquePath(const Config& config, control::Transmission transmission,
   }
   hand_over_ = control::HandOver(joints);
   motion_.assign(3 * joints, 0.0);
-  for (auto* numbers : {&positions_, &velocities_, &weight_, &driving_, &torques_, &motors_}) {
+  for (auto* numbers :
+       {&positions_, &velocities_, &weight_, &driving_, &settled_, &torques_, &motors_}) {
     numbers->assign(joints, 0.0);
   }
 }
@@ -103,13 +107,14 @@ void TorquePath::begin_to_hold() {
   std::ranges::copy(velocities_, motion_.begin() + static_cast<std::ptrdiff_t>(joints()));
   brake_.begin(motion_);
   measured_anew_ = false;
+  settled_ = driving_;
   holder_.reset();
 }
 
 bool TorquePath::begin_to_drive() {
   if (mode_ != Mode::kHolding || !finite_) return false;
   for (std::size_t i = 0; i < joints(); ++i) limiters_[i].arm({positions_[i], velocities_[i]});
-  hand_over_.begin(driving_);
+  hand_over_.begin(hand_over_.active() ? driving_ : settled_);
   mode_ = Mode::kDriven;
   return true;
 }
@@ -118,6 +123,9 @@ void TorquePath::step_hold(base::Time now) {
   const std::vector<double>& reference = measured_anew_ ? brake_.step() : motion_;
   holder_.step(std::span(reference).first(joints()), positions_, driving_);
   send(now);
+  for (std::size_t i = 0; i < joints(); ++i) {
+    settled_[i] += kSettling * (driving_[i] - settled_[i]);
+  }
 }
 
 TorquePath::Result TorquePath::step_drive(std::span<const double> command, base::Time now) {

@@ -98,6 +98,7 @@ class TorquePath {
   std::vector<double> motion_;  ///< [q, qd, 0]
   std::vector<double> weight_;
   std::vector<double> driving_;  ///< without the weight
+  std::vector<double> settled_;  ///< what has held it lately, without the noise of single cycles
   std::vector<double> torques_;
   std::vector<double> motors_;
 };

@@ -309,7 +309,7 @@ class Processes(unittest.TestCase):
         self.assertEqual(controller.process.wait(timeout=LONG), 1)
         controller.end()
         self.assertIn("nobody serves there", controller.text())
-        self.assertIn("armature-janus-plant --bus", controller.text())
+        self.assertIn("start what has the bus first: armature-janus-plant", controller.text())
 
     def test_wrong_use_of_the_plant_says_what_is_wrong(self):
         for arguments, code, says in (
