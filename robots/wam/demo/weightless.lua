@@ -11,4 +11,6 @@ wait(2)
 assert(wait(Modes:switch("weightless")))
 wait(2)   -- what the PIDs drove with dies away, and the arm comes to rest
 wait(10)  -- it stays there
+Arming:disarm()  -- a controller that drives nothing brings it nowhere, not home either
+wait(0.1)
 stop()
