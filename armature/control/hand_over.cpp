@@ -7,21 +7,16 @@
 
 namespace armature::control {
 
-namespace {
-
-constexpr double kLearning = 0.05;  ///< of the time
-
-}  // namespace
-
 HandOver::HandOver(std::size_t signals) {
   state_.present.assign(signals, 0.0);
   state_.offsets.assign(signals, 0.0);
 }
 
-bool HandOver::begin(std::span<const double> present) {
+bool HandOver::begin(std::span<const double> present, double learning) {
   reset();
   if (present.size() != state_.present.size()) return false;
   std::copy(present.begin(), present.end(), state_.present.begin());
+  state_.learning = learning;
   state_.samples = 0;
   state_.active = true;
   return true;
@@ -42,7 +37,7 @@ void HandOver::step(std::span<double> signals, base::Time now, base::Duration ti
   const double passed =
       static_cast<double>((now - state_.begun).count()) / static_cast<double>(time.count());
   if (passed >= 1.0) return reset();
-  if (passed <= kLearning) learn(signals);
+  if (passed <= state_.learning) learn(signals);
   const double left = 1.0 - passed * passed * (3.0 - 2.0 * passed);
   for (std::size_t i = 0; i < signals.size(); ++i) signals[i] += left * state_.offsets[i];
 }

@@ -14,14 +14,17 @@ namespace armature::control {
 ///
 ///     output[k] = signal[k] + (present - mean) (1 - 3 x^2 + 2 x^3),  x = (t[k] - t[0]) / time
 ///
-/// The mean is that of the signals until then, up to x = 0.05, and stays as it is from there on:
-/// the noise of a single one would be driven with until it has died away. Afterwards, and before
+/// The mean is that of the first signals, up to x = `learning`, as far as they have come: where
+/// joints are at rest the noise of a single one would be driven with until it has died away. Where
+/// they move, what a controller does about that is no noise, and the first signal counts alone:
+/// `learning` is 0. Afterwards, and before
 /// anything was taken over, the output is the signal, to the bit.
 class HandOver {
  public:
   struct State {
     std::vector<double> present;  ///< not a number: this signal is not taken over
     std::vector<double> offsets;  ///< present - mean
+    double learning = 0.0;
     base::Time begun{};
     int samples = 0;  ///< in the mean
     bool active = false;
@@ -32,9 +35,10 @@ class HandOver {
   explicit HandOver(std::size_t signals = 0);
 
   /// The next output is `present`.
+  /// @param learning  0 to 1
   /// @return false, and nothing is taken over, if these are not as many as the signals
   /// @rt nonblocking, no allocation, O(signals)
-  bool begin(std::span<const double> present);
+  bool begin(std::span<const double> present, double learning = 0.0);
   bool begin(double present) { return begin(std::span(&present, 1)); }
 
   /// Nothing is taken over any more.

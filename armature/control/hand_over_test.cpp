@@ -52,9 +52,9 @@ TEST(HandOver, TheDifferenceDiesAwaySmoothlyAndThenOutputsAreTheSignalsToTheBit)
   EXPECT_FALSE(over.active());
 }
 
-TEST(HandOver, NoiseOfTheFirstSignalDiesAwayAtOnce) {
+TEST(HandOver, WhereItLearnsNoiseOfTheFirstSignalDiesAwayAtOnce) {
   HandOver over(2);
-  ASSERT_TRUE(over.begin(Pair{4.0, 4.0}));
+  ASSERT_TRUE(over.begin(Pair{4.0, 4.0}, 0.05));
   const auto noisy = [](int k) { return Pair{k % 2 == 0 ? 1.2 : 0.8, k == 0 ? 2.0 : 1.0}; };
   step(over, noisy(0), 0s);
   for (int k = 1; k < 25; ++k) step(over, noisy(k), k * 2ms);

@@ -15,6 +15,8 @@ using control::JointLimiter;
 
 /// Of each cycle's torque in the mean of the last ten or so.
 constexpr double kSettling = 0.1;
+/// Of the time of a hand-over: some ten cycles.
+constexpr double kLearning = 0.05;
 
 bool all_finite(std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
@@ -114,7 +116,11 @@ void TorquePath::begin_to_hold() {
 bool TorquePath::begin_to_drive() {
   if (mode_ != Mode::kHolding || !finite_) return false;
   for (std::size_t i = 0; i < joints(); ++i) limiters_[i].arm({positions_[i], velocities_[i]});
-  hand_over_.begin(hand_over_.active() ? driving_ : settled_);
+  if (hand_over_.active()) {
+    hand_over_.begin(driving_);
+  } else {
+    hand_over_.begin(settled_, kLearning);
+  }
   mode_ = Mode::kDriven;
   return true;
 }
