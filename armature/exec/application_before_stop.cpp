@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of Application: what the deployment has done before an orderly stop.
+#include <algorithm>
 #include <string>
 
 #include "armature/exec/application.hpp"
+#include "armature/exec/internal/tool_ticket.hpp"
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec {
@@ -10,7 +12,21 @@ namespace armature::exec {
 base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopSignal* stop) {
   base::Diagnostics diagnostics;
   if (end == RunEnd::kFaulted || end == RunEnd::kStoppedByReaction) return diagnostics;
+  if (options_.before_stop.empty()) return diagnostics;
   if (stop != nullptr && stop->received()) stop = nullptr;  // That is why it is to stop.
+  // What is under way would have what follows refused; whoever began it has gone.
+  const auto under_way = [this] {
+    return std::ranges::any_of(tickets_, [](const auto& ticket) {
+      return ticket->stage() == component::CommandStage::kAccepted;
+    });
+  };
+  for (const auto& ticket : tickets_) {
+    if (ticket->stage() == component::CommandStage::kAccepted) ticket->request_cancel();
+  }
+  if (under_way()) {
+    run_until(
+        now() + options_.before_stop_limit, [&] { return !under_way(); }, stop);
+  }
   for (const CommandName& name : options_.before_stop) {
     if (!in_good_order()) break;
     const std::string problem = run_last(name, stop);

@@ -75,6 +75,16 @@ TEST_P(BeforeStop, ItsCommandsAreDoneOneAfterTheOther) {
   EXPECT_EQ(steps_gone("Right"), 5);
 }
 
+TEST_P(BeforeStop, WhatIsUnderWayIsCancelledFirst) {
+  set("Left", "holds", Value::of(true));
+  auto before = application_->begin("Left", "home", {});
+  ASSERT_TRUE(before) << before.error();
+  application_->run_for(10ms);
+  ASSERT_EQ(before.value().stage(), component::CommandStage::kAccepted);
+  EXPECT_THAT(finish(), HasSubstr("'Left.home' did not end within 1 s")) << "it was begun";
+  EXPECT_EQ(before.value().stage(), component::CommandStage::kCancelled);
+}
+
 TEST_P(BeforeStop, NothingIsDoneAfterAFault) {
   EXPECT_EQ(finish(RunEnd::kFaulted), "");
   EXPECT_EQ(finish(RunEnd::kStoppedByReaction), "");

@@ -21,6 +21,8 @@ namespace {
 constexpr int kMostWithoutCommand = 3;
 /// [rad/s] of all joints together, on the way home.
 constexpr double kHomeRate = 0.5;
+/// In which a motion that was cancelled has come to rest.
+constexpr base::Duration kRestTime = std::chrono::seconds(2);
 
 }  // namespace
 
@@ -171,6 +173,13 @@ void WamHardware::tell_armed(bool armed) {
 Outcome WamHardware::move_home() {
   if (!armed()) return component::refused("the arm is not armed");
   if (!generator_.bound()) return component::refused("it has no peer with a command moveTo");
+  home_asked_at_ = time();
+  send_home();
+  if (home_motion_.stage() != CommandStage::kRefused) return component::accepted();
+  return component::refused(home_motion_.reason());
+}
+
+void WamHardware::send_home() {
   double length = 0.0;
   for (std::size_t i = 0; i < path_->joints(); ++i) {
     length = std::hypot(length, numbers_->home[i] - motion_->positions()[i]);
@@ -178,13 +187,14 @@ Outcome WamHardware::move_home() {
   const rt::PermitScope first_target_makes_room;
   // A motion of which no part is faster than twice its mean.
   home_motion_ = generator_.send(numbers_->home, 2.0 * length / kHomeRate);
-  if (home_motion_.stage() != CommandStage::kRefused) return component::accepted();
-  return component::refused(home_motion_.reason());
 }
 
 void WamHardware::follow_home() {
   move_home_.report(home_motion_.progress());
   if (!home_motion_.ended()) return;
+  // A motion that was cancelled comes to rest first.
+  const bool in_time = time() - home_asked_at_ < kRestTime;
+  if (home_motion_.stage() == CommandStage::kRefused && in_time) return send_home();
   if (home_motion_.stage() == CommandStage::kDone) {
     move_home_.complete();
   } else {

@@ -95,6 +95,7 @@ class WamHardware final : public component::Component {
   // Commands.
   component::Outcome move_home();
   void cancel_home() { home_motion_.cancel(); }
+  void send_home();
   void follow_home();
   component::Outcome press(void (WamHardware::*key)(), component::Command<>& command);
   void press_estop() { emulated_->emulator().board().estop(); }
@@ -223,6 +224,7 @@ class WamHardware final : public component::Component {
   base::Time pressed_at_{};                  ///< by the emulated operator
   std::optional<base::Time> out_since_;      ///< its cause is not known yet
   bool cuts_power_ = false;                  ///< has asked for it since
+  base::Time home_asked_at_{};
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
   Vector sent_;

@@ -251,6 +251,12 @@ TEST_F(WamInMotion, MovesHomeSlowlyOnCommand) {
   EXPECT_LT(largest_apart(arm.positions(), wam7().home), 0.005);
 }
 
+TEST_F(WamInMotion, BeforeTheStopItComesToRestAndGoesHome) {
+  EXPECT_EQ(arm.application().run_before_stop(exec::RunEnd::kTimeUp).to_text(), "");
+  EXPECT_TRUE(arm.armed());
+  EXPECT_LT(largest_apart(arm.positions(), wam7().home), 0.005);
+}
+
 TEST(WamHome, IsRefusedUnarmed) {
   Arm arm("npid4.yaml");
   arm.start_active();
