@@ -251,8 +251,17 @@ TEST_F(WamInMotion, MovesHomeSlowlyOnCommand) {
   EXPECT_LT(largest_apart(arm.positions(), wam7().home), 0.005);
 }
 
-TEST_F(WamInMotion, BeforeTheStopItComesToRestAndGoesHome) {
+TEST(WamHome, BeforeTheStopAMotionComesToRestAndTheArmGoesHome) {
+  Arm arm("npid7.yaml");
+  arm.start_armed();
+  arm.run_for(1500ms);
+  const auto motion = arm.application().begin("Generator", "moveTo",
+                                              {types::Value::of(kTarget), types::Value::of(5.0)});
+  ASSERT_TRUE(motion) << motion.error();
+  arm.run_for(2s);
+  EXPECT_GT(largest_apart(arm.positions(), wam7().home), 0.1);
   EXPECT_EQ(arm.application().run_before_stop(exec::RunEnd::kTimeUp).to_text(), "");
+  EXPECT_EQ(motion.value().stage(), component::CommandStage::kCancelled);
   EXPECT_TRUE(arm.armed());
   EXPECT_LT(largest_apart(arm.positions(), wam7().home), 0.005);
 }
