@@ -67,7 +67,8 @@ Words SharedCommands::all_in(State state) {
   return names;
 }
 
-void SharedCommands::change(const Words& names, const std::string& change) {
+Words SharedCommands::change(const Words& names, const std::string& change) {
+  Words done;
   for (const std::string& name : names) {
     const std::string component = robot_.find(name);
     if (component.empty()) {
@@ -75,13 +76,17 @@ void SharedCommands::change(const Words& names, const std::string& change) {
       continue;
     }
     const Robot::Changed changed = robot_.change(component, change);
-    if (!changed.refusal.empty()) mistake(changed.refusal);
+    changed.refusal.empty() ? done.push_back(component) : mistake(changed.refusal);
     surface_.say(component + ": " + changed.state);
   }
+  return done;
 }
 
 void SharedCommands::start(const Words& names) {
-  if (!names.empty()) return change(names, "start");
+  if (!names.empty()) {
+    change(names, "start");
+    return;
+  }
   std::vector<ComponentStatus> resting = robot_.components();
   std::erase_if(resting, [](const ComponentStatus& one) {
     const bool rests = one.state == component::name_of(State::kStopped) ||
@@ -92,7 +97,17 @@ void SharedCommands::start(const Words& names) {
   if (resting.empty()) surface_.say("no component is stopped");
   Words all;
   for (const ComponentStatus& one : resting) all.push_back(one.name);
-  change(all, "start");
+  start_those_that_stopped_again(change(all, "start"));
+}
+
+/// Hardware may take seconds to start. What it writes has become too old for its readers then, and
+/// those that had been started before it have stopped.
+void SharedCommands::start_those_that_stopped_again(const Words& started) {
+  Words stopped;
+  for (const std::string& name : all_in(State::kStopped)) {
+    if (std::ranges::find(started, name) != started.end()) stopped.push_back(name);
+  }
+  change(stopped, "start");
 }
 
 void SharedCommands::stop_components(const Words& names) {

@@ -45,7 +45,9 @@ class SharedCommands {
   void clean_up(const Words& names);
 
  private:
-  void change(const Words& names, const std::string& change);
+  /// @return whose change was not refused
+  Words change(const Words& names, const std::string& change);
+  void start_those_that_stopped_again(const Words& started);
   Words all_in(component::State state);
 
   Robot& robot_;
