@@ -17,8 +17,9 @@ namespace armature::control {
 /// The mean is that of the first signals, up to x = `learning`, as far as they have come: where
 /// joints are at rest the noise of a single one would be driven with until it has died away. Where
 /// they move, what a controller does about that is no noise, and the first signal counts alone:
-/// `learning` is 0. Afterwards, and before
-/// anything was taken over, the output is the signal, to the bit.
+/// `learning` is 0.
+///
+/// Afterwards, and before anything was taken over, the output is the signal, to the bit.
 class HandOver {
  public:
   struct State {

@@ -8,6 +8,24 @@
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec {
+namespace {
+
+constexpr auto is_under_way = [](const auto& ticket) {
+  return ticket->stage() == component::CommandStage::kAccepted;
+};
+
+/// @return whether a command was under way
+bool cancel_all(const auto& tickets) {
+  bool any = false;
+  for (const auto& ticket : tickets) {
+    if (!is_under_way(ticket)) continue;
+    ticket->request_cancel();
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
 
 base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopSignal* stop) {
   base::Diagnostics diagnostics;
@@ -15,17 +33,10 @@ base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopS
   if (options_.before_stop.empty()) return diagnostics;
   if (stop != nullptr && stop->received()) stop = nullptr;  // That is why it is to stop.
   // What is under way would have what follows refused; whoever began it has gone.
-  const auto under_way = [this] {
-    return std::ranges::any_of(tickets_, [](const auto& ticket) {
-      return ticket->stage() == component::CommandStage::kAccepted;
-    });
-  };
-  for (const auto& ticket : tickets_) {
-    if (ticket->stage() == component::CommandStage::kAccepted) ticket->request_cancel();
-  }
-  if (under_way()) {
+  if (cancel_all(tickets_)) {
     run_until(
-        now() + options_.before_stop_limit, [&] { return !under_way(); }, stop);
+        now() + options_.before_stop_limit,
+        [this] { return std::ranges::none_of(tickets_, is_under_way); }, stop);
   }
   for (const CommandName& name : options_.before_stop) {
     if (!in_good_order()) break;

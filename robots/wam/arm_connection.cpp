@@ -37,8 +37,9 @@ class Talk {
     for (;;) {
       const WamProgress progress = startup_.poll(link_.now());
       if (progress == WamProgress::kDone) return {};
-      if (progress == WamProgress::kFailed)
+      if (progress == WamProgress::kFailed) {
         return base::Error{base::as_reason(startup_.diagnostics())};
+      }
       if (progress == WamProgress::kWaitingForIdle && !may_go_on()) return base::Error{refusal()};
       link_.wait_for_news(startup_.deadline());
     }

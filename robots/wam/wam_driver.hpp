@@ -72,8 +72,8 @@ struct WamCounters {
 struct WamMotor {
   int node = 0;
   std::int32_t counts = 0;  ///< the last position that was good
-  double position =
-      0.0;  ///< [rad] of the motor's shaft, in the middle between this count and the next
+  /// [rad] of the motor's shaft, in the middle between this count and the next.
+  double position = 0.0;
   base::Time position_time{};
   bool known = false;                        ///< there was a position
   bool fresh = false;                        ///< it is of the reading that was begun last

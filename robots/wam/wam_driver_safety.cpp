@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamDriver: what the safety board says, what pucks do not, and which fault that is.
 #include <algorithm>
-#include <span>
+#include <ranges>
 #include <utility>
 
 #include "robots/wam/wam_driver.hpp"
@@ -77,9 +77,9 @@ void WamDriver::judge_silence(std::size_t motor, base::Time now) {
   const int node = motors_[motor].node;
   if (accounts_[motor].doubtful) return raise(WamFault::kPositionJump, node);
   if (fault_ != WamFault::kNone) return;
-  const bool others_are_too = std::ranges::all_of(
-      std::span(motors_).first(arm_.motors),
-      [this](const WamMotor& each) { return each.cycles_without >= config_.most_without; });
+  const bool others_are_too =
+      std::ranges::all_of(std::views::iota(std::size_t{0}, arm_.motors),
+                          [this](std::size_t each) { return silent(each); });
   raise(WamFault::kPuckSilent, others_are_too ? kEveryNode : node);
   board_heard_ = false;
   watch_.ask_mode_soon(now);
