@@ -129,7 +129,7 @@ class Deployed {
     check(application_->start());
     application_->run_for(100ms);
     must(application_->call("Arming", "arm", {}));
-    application_->run_for(100ms);
+    application_->run_for(1s);
     must(application_->call(
         "Generator", "moveTo",
         {types::Value::of(std::vector<double>{1.0, 1.0}), types::Value::of(10.0)}));

@@ -9,8 +9,8 @@ usage: check_layers.py SOURCE_DIR
 - one robot does not include another, and no library includes a robot;
 - the interface compiler, idl/, is a library like those of armature/, which do not include it;
 - public headers include the standard library, Eigen and Armature, nothing else;
-- headers of the operating system are included only by platform/, and by guard/, which stands in
-  front of the C library.
+- headers of the operating system are included only by platform/, by guard/, which stands in front
+  of the C library, and by guardian/, whose process has nothing but that.
 """
 import re
 import sys
@@ -23,7 +23,7 @@ OPERATING_SYSTEM = re.compile(
     r"(aio|cpuid|dirent|dlfcn|errno|execinfo|fcntl|fnmatch|glob|grp|ifaddrs|link|malloc|mqueue|"
     r"netdb|poll|pthread|pwd|sched|semaphore|signal|spawn|strings|syslog|termios|ucontext|unistd|"
     r"wait|x86intrin|immintrin)\.h")
-NEXT_TO_THE_SYSTEM = ("platform", "guard")
+NEXT_TO_THE_SYSTEM = ("platform", "guard", "guardian")
 TEST_ONLY = "testing"
 
 
@@ -109,7 +109,7 @@ class Tree:
 
     def check_foreign(self, path, bracket, name):
         if library_of(path) not in NEXT_TO_THE_SYSTEM and OPERATING_SYSTEM.fullmatch(name):
-            return "only armature/platform and guard include headers of the operating system"
+            return "only armature/platform, guard and guardian include headers of the operating system"
         if path not in self.public or OPERATING_SYSTEM.fullmatch(name):
             return None
         if bracket == '"':
@@ -137,7 +137,8 @@ def library_of(path):
 
 
 def is_test_code(path):
-    return path.endswith("_test.cpp") or path.startswith(f"armature/{TEST_ONLY}/")
+    return (path.endswith("_test.cpp") or path.startswith(f"armature/{TEST_ONLY}/")
+            or Path(path).name.startswith("test_"))
 
 
 def is_public_header(path):

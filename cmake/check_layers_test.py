@@ -57,6 +57,10 @@ class CheckLayers(unittest.TestCase):
     def test_a_product_does_not_include_testing(self):
         self.assert_refused("armature/cli/run.cpp", '"armature/testing/guard.hpp"', "cli may use")
 
+    def test_what_tests_share_includes_testing(self):
+        self.assert_accepted("armature/library/internal/test_joint.hpp",
+                             '"armature/testing/harness.hpp"')
+
     def test_a_test_includes_testing(self):
         self.assert_accepted("armature/base/unit_test.cpp", '"armature/testing/guard.hpp"')
 
@@ -104,7 +108,7 @@ class CheckLayers(unittest.TestCase):
 
     def test_only_platform_includes_headers_of_the_operating_system(self):
         self.assert_accepted("armature/platform/thread.hpp", "<pthread.h>")
-        self.assert_refused("armature/rt/loop.cpp", "<sys/mman.h>", "only armature/platform and guard")
+        self.assert_refused("armature/rt/loop.cpp", "<sys/mman.h>", "only armature/platform, guard and guardian")
 
     def test_what_a_raw_text_includes_is_its_own_affair(self):
         self.write("armature/cli/new.cpp",

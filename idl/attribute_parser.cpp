@@ -2,8 +2,8 @@
 #include "idl/internal/attribute_parser.hpp"
 
 #include "armature/base/near_name.hpp"
+#include "armature/base/utf8.hpp"
 #include "idl/limits.hpp"
-#include "idl/utf8.hpp"
 
 namespace armature::idl::internal {
 namespace {
@@ -53,7 +53,7 @@ class AttributeParser {
     if (unit.text.empty()) {
       reader_.error(unit, "the unit is empty; expected one such as \"rad/s\"",
                     "leave the attribute out for a plain number");
-    } else if (columns_of(unit.text) > kLongestUnit) {
+    } else if (base::columns_of(unit.text) > kLongestUnit) {
       reader_.error(unit, "a unit has at most " + std::to_string(kLongestUnit) + " characters");
     }
     reader_.expect(")", "the unit");

@@ -10,6 +10,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "idl/canonical.hpp"
+#include "idl/internal/in_quotes.hpp"
 #include "idl/internal/structure_sizes.hpp"
 #include "idl/limits.hpp"
 #include "idl/number.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 using internal::Size;
 using internal::StructureSizes;
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 std::string place(const base::Location& where) {
   return where.file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
@@ -36,7 +35,7 @@ class Names {
   void add(const std::string& name, const std::string& what, const base::Location& where) {
     const auto [first, is_new] = first_.emplace(name, where);
     if (is_new) return;
-    diagnostics_.error(where, what + " " + quoted(name) + " is defined twice; the first is at " +
+    diagnostics_.error(where, what + " " + in_quotes(name) + " is defined twice; the first is at " +
                                   place(first->second));
   }
 
@@ -91,7 +90,7 @@ class Checker {
   }
 
   void check_structure(const Structure& structure) {
-    const std::string whole = kind_of(structure) + " " + quoted(structure.name);
+    const std::string whole = kind_of(structure) + " " + in_quotes(structure.name);
     if (structure.members.empty() && structure.complete) {
       diagnostics_.error(structure.where, whole + " has no member; at least one was expected");
     }
@@ -99,7 +98,7 @@ class Checker {
     Names names(diagnostics_);
     for (const Field& member : structure.members) {
       names.add(member.name, "member", member.where);
-      check_field(member, "member " + quoted(member.name));
+      check_field(member, "member " + in_quotes(member.name));
     }
     const Size size = sizes_.of(structure);
     if (size.wire > kLargestBody) {
@@ -109,7 +108,7 @@ class Checker {
   }
 
   void check_interface(const Interface& interface) {
-    const std::string whole = "interface " + quoted(interface.name);
+    const std::string whole = "interface " + in_quotes(interface.name);
     const std::size_t count = interface.operations.size() + interface.events.size();
     if (count == 0 && interface.complete && complete_) {
       diagnostics_.error(
@@ -132,7 +131,7 @@ class Checker {
   }
 
   void check_operation(const Operation& operation) {
-    const std::string whole = "operation " + quoted(operation.name);
+    const std::string whole = "operation " + in_quotes(operation.name);
     refuse_more_than(kMostParameters, operation.parameters.size(), whole, "parameters",
                      operation.where);
     check_type(operation.result);
@@ -140,7 +139,7 @@ class Checker {
     for (const Field& parameter : operation.parameters) {
       const bool named = !parameter.name.empty();
       if (named) names.add(parameter.name, "parameter", parameter.where);
-      check_field(parameter, named ? "parameter " + quoted(parameter.name) : "the parameter");
+      check_field(parameter, named ? "parameter " + in_quotes(parameter.name) : "the parameter");
     }
     const Size size = sizes_.of(operation.parameters);
     const Size result = sizes_.of(operation.result);
@@ -182,7 +181,7 @@ class Checker {
     check_type(field.type);
     if (!is_number(field.type.basic) && !field.unit.empty()) {
       diagnostics_.error(field.where, what + " is no number, and has no unit; its type is " +
-                                          quoted(to_text(field.type)));
+                                          in_quotes(to_text(field.type)));
     }
     if (field.range) check_range(*field.range, field.type, what);
   }
@@ -201,9 +200,9 @@ class Checker {
                                         : base::suggestion(name, event ? events_ : structs_);
     const Structure* other = event ? program_.find_struct(name) : program_.find_event(name);
     if (found == nullptr && other != nullptr)
-      hint = quoted(name) + " is of the other kind: " + kind_of(*other);
+      hint = in_quotes(name) + " is of the other kind: " + kind_of(*other);
     diagnostics_.error(where,
-                       "there is no " + kind + " " + quoted(name) +
+                       "there is no " + kind + " " + in_quotes(name) +
                            "; expected one that is "
                            "defined in this file or imported",
                        std::move(hint));
@@ -213,7 +212,7 @@ class Checker {
     if (is_whole_number(type.basic)) return check_whole_range(range, type.basic, what);
     if (is_number(type.basic)) return check_real_range(range, type.basic, what);
     diagnostics_.error(range.where, what + " is no number, and has no range; its type is " +
-                                        quoted(to_text(type)));
+                                        in_quotes(to_text(type)));
   }
 
   void check_whole_range(const Range& range, Basic type, const std::string& what) {
@@ -226,15 +225,16 @@ class Checker {
     for (const auto& [text, number] : {std::pair(range.low, low), std::pair(range.high, high)}) {
       if (holds(number)) continue;
       diagnostics_.error(
-          range.where, "the range of " + what + " has " + quoted(text) +
-                           "; expected a whole number that " + quoted(name_of(type)) + " holds, " +
-                           to_text(limits.least) + " to " + to_text(limits.greatest));
+          range.where, "the range of " + what + " has " + in_quotes(text) +
+                           "; expected a whole number that " + in_quotes(name_of(type)) +
+                           " holds, " + to_text(limits.least) + " to " + to_text(limits.greatest));
     }
     if (holds(low) && holds(high) && *high < *low) refuse_backwards(range, what);
   }
 
   void check_real_range(const Range& range, Basic type, const std::string& what) {
-    const double most = type == Basic::kFloat ? std::numeric_limits<float>::max()
+    // Up to half a step above the greatest float, decimal numbers mean that one.
+    const double most = type == Basic::kFloat ? std::nextafter(0x1.ffffffp127, 0.0)
                                               : std::numeric_limits<double>::max();
     const auto low = parse_real(range.low);
     const auto high = parse_real(range.high);
@@ -243,9 +243,9 @@ class Checker {
     };
     for (const auto& [text, number] : {std::pair(range.low, low), std::pair(range.high, high)}) {
       if (holds(number)) continue;
-      diagnostics_.error(range.where, "the range of " + what + " has " + quoted(text) +
+      diagnostics_.error(range.where, "the range of " + what + " has " + in_quotes(text) +
                                           "; expected a decimal number that " +
-                                          quoted(name_of(type)) + " holds");
+                                          in_quotes(name_of(type)) + " holds");
     }
     if (holds(low) && holds(high) && *high < *low) refuse_backwards(range, what);
   }

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "armature/base/visible_text.hpp"
 #include "idl/cpp_backend.hpp"
+#include "idl/cpp_name_check.hpp"
 #include "idl/cpp_names.hpp"
 #include "idl/json_backend.hpp"
 #include "idl/output.hpp"
@@ -58,7 +60,7 @@ std::string compile(const CompileOptions& options, const ReadFile& read) {
   std::vector<OutputFile> outputs = write_cpp(loaded.program, names);
   if (options.json) outputs.push_back(write_json(loaded.program, names));
   const base::Result<void> written = write(options, std::move(outputs), loaded);
-  return written ? "" : "rcidl: error: " + written.error() + "\n";
+  return written ? "" : "rcidl: error: " + base::visible_text(written.error()) + "\n";
 }
 
 }  // namespace armature::idl

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "idl/load.hpp"
@@ -11,7 +12,7 @@ namespace armature::idl {
 struct CompileOptions {
   std::string file;
   std::string output_folder;
-  std::string name_space;  ///< empty: each file's name is its namespace
+  std::optional<std::string> name_space;  ///< none: each file's name is its namespace
   bool json = false;
   std::string depends;  ///< a file that make and ninja read; empty: none
 };

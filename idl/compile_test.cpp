@@ -80,7 +80,7 @@ TEST_F(Compile, ANamespaceIsThatOfImportedFilesToo) {
 }
 
 TEST_F(Compile, ANamespaceThatCppCannotHaveIsRefused) {
-  for (const std::string name : {"class", "a::", "1a", "std", "a b", "robot::armature", "-"}) {
+  for (const std::string name : {"class", "a::", "1a", "std", "a b", "robot::armature", "-", ""}) {
     options_.name_space = name;
     EXPECT_THAT(compiled(), HasSubstr("'" + name + "' cannot be a namespace of C++")) << name;
   }
@@ -150,6 +150,53 @@ TEST_F(Compile, WritesJsonIfAskedTo) {
   options_.json = true;
   EXPECT_EQ(compiled(), "");
   EXPECT_EQ(written().count("chassis.json"), 1u);
+}
+
+TEST_F(Compile, NamesThatCppKeepsForItselfAreTaken) {
+  files_["robot/chassis.idl"] =
+      "struct _Pose { int _1; int a__b; }; interface Chassis { struct _Pose __get(int _x); };";
+  EXPECT_EQ(compiled(), "");
+  EXPECT_THAT(content("chassis_types.hpp"), HasSubstr("ARMATURE_STRUCT(Pose_, _1, a_b);"));
+  EXPECT_THAT(content("chassis_types.hpp"), HasSubstr("struct _Pose{int,int} __get(int)"));
+  EXPECT_THAT(content("chassis_client.hpp"), HasSubstr("Answer<Pose_> _get(std::int32_t _x,"));
+}
+
+TEST_F(Compile, AnOperationThatIsCalledLikeTheHandlerOfAnEventIsNamedAnew) {
+  files_["robot/chassis.idl"] =
+      "event Bumped { int x; }; interface Chassis { void on_Bumped(); event Bumped; };";
+  EXPECT_EQ(compiled(), "");
+  EXPECT_THAT(content("chassis_client.hpp"), HasSubstr("Sent on_Bumped_("));
+  EXPECT_THAT(content("chassis_client.hpp"), HasSubstr("Subscription on_Bumped("));
+}
+
+TEST_F(Compile, AFileThatIsCalledLikeAFunctionOfTheCLibraryHasANamespaceOfItsOwn) {
+  options_.file = "time.idl";
+  files_["time.idl"] = "interface I { void f(); };";
+  EXPECT_EQ(compiled(), "");
+  EXPECT_THAT(content("time_types.hpp"), HasSubstr("namespace time_ {"));
+}
+
+TEST_F(Compile, AByteOrderMarkIsNoPartOfTheText) {
+  files_["robot/chassis.idl"] = "\xef\xbb\xbfinterface Chassis { void f(); };";
+  EXPECT_EQ(compiled(), "");
+  files_["robot/chassis.idl"] = "\xef\xbb\xbfinterfac Chassis { void f(); };";
+  EXPECT_THAT(compiled(), HasSubstr("chassis.idl:1:1: error: "));
+}
+
+TEST_F(Compile, TheGreatestFloatMayBeWrittenWithAsManyDigitsAsTellIt) {
+  files_["robot/chassis.idl"] =
+      "interface Chassis { void f([range(-3.4028235e38, 3.4028235e38)] float a); };";
+  EXPECT_EQ(compiled(), "");
+  EXPECT_THAT(content("chassis_service.cpp"), HasSubstr("3.4028235e+38f"));
+  files_["robot/chassis.idl"] = "interface Chassis { void f([range(0, 3.4028236e38)] float a); };";
+  EXPECT_THAT(compiled(), HasSubstr("expected a decimal number that 'float' holds"));
+}
+
+TEST_F(Compile, MessagesShowWhatATerminalWouldObey) {
+  files_["robot/chassis.idl"] = "interface Chassis { \x1b[2J void f(); }; /* \xe2\x80\xae */ x";
+  const std::string answer = compiled();
+  EXPECT_THAT(answer, HasSubstr("interface Chassis { \\x1b[2J void f(); }; /* \\u202e */ x\n"));
+  EXPECT_THAT(answer, ::testing::Not(HasSubstr("\x1b")));
 }
 
 }  // namespace

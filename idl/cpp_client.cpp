@@ -53,7 +53,7 @@ class ClientWriter {
     std::string text = comment(0, doc) + class_head(name, "armature::ride::Placeholder") +
                        " public:\n" + constructor(interface);
     for (const Operation& operation : interface.operations) {
-      text += "\n" + text_.documentation(operation) + function(2, head(operation, true));
+      text += "\n" + text_.documentation(operation) + function(2, head(interface, operation, true));
     }
     for (const EventName& event : interface.events) text += "\n" + subscription(event);
     return text + "};\n";
@@ -71,9 +71,9 @@ class ClientWriter {
            ") {}\n";
   }
 
-  Function head(const Operation& operation, bool in_class) const {
+  Function head(const Interface& interface, const Operation& operation, bool in_class) const {
     Function head;
-    head.name = names_.operation(operation.name);
+    head.name = names_.operation(interface, operation.name);
     head.parameters = text_.parameters(operation);
     head.result = operation.is_command()
                       ? "armature::ride::Sent"
@@ -88,7 +88,7 @@ class ClientWriter {
     const std::string name = text_.event_type(event.name);
     const Function head{"armature::ride::Subscription",
                         "",
-                        "on_" + event.name,
+                        names_.handler(event.name),
                         {"std::function<void(const " + name + "&)> handler"},
                         " {"};
     return comment(2, {"Calls `handler` for each " + event.name +
@@ -97,7 +97,7 @@ class ClientWriter {
   }
 
   std::string defined(const Interface& interface, const Operation& operation) const {
-    Function definition = head(operation, false);
+    Function definition = head(interface, operation, false);
     definition.owner = names_.placeholder(interface) + "::";
     std::string text = function(0, definition);
     const Items names = text_.parameter_names(operation);

@@ -38,7 +38,7 @@ class ServiceWriter {
     std::string text = comment(0, doc) + class_head(name, "armature::ride::Service") +
                        " public:\n  " + name + "();\n";
     for (const Operation& operation : interface.operations) {
-      text += "\n" + text_.documentation(operation) + function(2, head(operation));
+      text += "\n" + text_.documentation(operation) + function(2, head(interface, operation));
     }
     text += "\n";
     if (!interface.events.empty()) text += " protected:\n";
@@ -47,11 +47,11 @@ class ServiceWriter {
            "};\n";
   }
 
-  Function head(const Operation& operation) const {
+  Function head(const Interface& interface, const Operation& operation) const {
     Items parameters = text_.parameters(operation);
     if (operation.later) parameters.push_back(reply_type(operation) + " reply");
     return {"virtual " + (operation.later ? "void" : text_.result_type(operation)), "",
-            names_.operation(operation.name), parameters, " = 0;"};
+            names_.operation(interface, operation.name), parameters, " = 0;"};
   }
 
   std::string reply_type(const Operation& operation) const {
@@ -86,7 +86,7 @@ class ServiceWriter {
     std::string text = constructor + "\n" + function(0, execute_head(name + "::", has_operations));
     if (!has_operations) return text + "  return armature::ride::Executed::kNoSuchOperation;\n}\n";
     text += "  switch (operation) {\n";
-    for (const Operation& operation : interface.operations) text += branch(operation);
+    for (const Operation& operation : interface.operations) text += branch(interface, operation);
     return text +
            "    default:\n      return armature::ride::Executed::kNoSuchOperation;\n  }\n}\n";
   }
@@ -98,7 +98,7 @@ class ServiceWriter {
   }
 
   /// What one operation does with its message.
-  std::string branch(const Operation& operation) const {
+  std::string branch(const Interface& interface, const Operation& operation) const {
     const Items names = text_.parameter_names(operation);
     std::string text = "    case " + hexadecimal(number_of(canonical(text_.program(), operation))) +
                        ": {  // " + operation.name + "\n";
@@ -110,22 +110,28 @@ class ServiceWriter {
       problems.push_back("!parameters.take(" + names[i] + ")");
     }
     problems.emplace_back("!parameters.ended()");
-    for (std::size_t i = 0; i < names.size(); ++i)
-      add_range(problems, operation.parameters[i], names[i]);
-    return text + chain(6, "if (", problems, "||", ") {") + "        " + kMalformed + "      }\n" +
-           execution(operation, names) + "      return armature::ride::Executed::kDone;\n    }\n";
+    text += chain(6, "if (", problems, "||", ") {") + "        " + kMalformed + "      }\n";
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      text += range_check(operation.parameters[i], names[i]);
+    }
+    return text + execution(interface, operation, names) +
+           "      return armature::ride::Executed::kDone;\n    }\n";
   }
 
   /// Ranges of a struct's members are looked at where it is decoded.
-  void add_range(Items& problems, const Field& parameter, const std::string& name) const {
-    if (!parameter.range) return;
-    const Items bounds = text_.bounds(*parameter.range, parameter.type.basic);
-    problems.push_back("!armature::ride::within(" + name + ", " + bounds[0] + ", " + bounds[1] +
-                       ")");
+  std::string range_check(const Field& parameter, const std::string& name) const {
+    if (!parameter.range) return {};
+    Items arguments{literal(name), name};
+    for (const std::string& bound : text_.bounds(*parameter.range, parameter.type.basic)) {
+      arguments.push_back(bound);
+    }
+    return call(6, "if (!parameters.expect_within(", arguments, ")) {") + "        " + kMalformed +
+           "      }\n";
   }
 
-  std::string execution(const Operation& operation, const Items& names) const {
-    const std::string name = names_.operation(operation.name);
+  std::string execution(const Interface& interface, const Operation& operation,
+                        const Items& names) const {
+    const std::string name = names_.operation(interface, operation.name);
     // A variable of execute() may have the operation's name.
     const bool hidden = std::find(names.begin(), names.end(), name) != names.end() ||
                         name == "operation" || name == "parameters" || name == "reply";

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "armature/base/utf8.hpp"
 #include "idl/canonical.hpp"
 #include "idl/internal/cpp_text.hpp"
-#include "idl/utf8.hpp"
 
 namespace armature::idl::internal {
 namespace {
@@ -91,7 +91,7 @@ class TypesWriter {
   std::string declared(const Field& member) const {
     const std::string type = text_.type(member.type);
     const std::string name = names_.member(member.name) + CppText::initial(member.type) + ";";
-    const bool fits = 3 + columns_of(type) + columns_of(name) <= kColumns;
+    const bool fits = 3 + base::columns_of(type) + base::columns_of(name) <= kColumns;
     return comment(2, CppText::described(member)) + "  " + type + (fits ? " " : "\n      ") + name +
            "\n";
   }
@@ -110,19 +110,19 @@ class TypesWriter {
     const std::string begin = "(" + name + ", " + literal(member.unit);
     if (doc.empty()) return begin + ")";
     // "ARMATURE_STRUCT(" before it; `, ` and `));` around it.
-    const std::size_t used = 16 + columns_of(begin) + 5;
+    const std::size_t used = 16 + base::columns_of(begin) + 5;
     return begin + ", " + fitting_literal(doc, kColumns - std::min(used, kColumns - 8)) + ")";
   }
 
   /// A literal of at most `columns`, which ends in `...` if `text` is longer.
   static std::string fitting_literal(const std::string& text, std::size_t columns) {
-    if (columns_of(literal(text)) <= columns) return literal(text);
+    if (base::columns_of(literal(text)) <= columns) return literal(text);
     std::string_view shorter = text;
     while (!shorter.empty()) {
       const std::size_t blank = shorter.rfind(' ');
       shorter = shorter.substr(0, blank == std::string_view::npos ? 0 : blank);
       const std::string cut = literal(std::string(shorter) + " ...");
-      if (!shorter.empty() && columns_of(cut) <= columns) return cut;
+      if (!shorter.empty() && base::columns_of(cut) <= columns) return cut;
     }
     return "\"...\"";
   }
@@ -157,15 +157,15 @@ class TypesWriter {
       checks.push_back(take + "value." + names_.member(member.name) + ")");
     }
     for (const Field& member : structure.members) {
-      if (member.range) checks.push_back(within(member));
+      if (member.range) checks.push_back("from.within(" + ranged(member) + ", value)");
     }
     return returning(head, checks);
   }
 
-  std::string within(const Field& member) const {
+  /// A member with the bounds of its range.
+  std::string ranged(const Field& member) const {
     const Items bounds = text_.bounds(*member.range, member.type.basic);
-    return "armature::ride::within(value." + names_.member(member.name) + ", " + bounds[0] + ", " +
-           bounds[1] + ")";
+    return "value." + names_.member(member.name) + ", " + bounds[0] + ", " + bounds[1];
   }
 
   std::string range_check(const Structure& structure) const {
@@ -173,7 +173,7 @@ class TypesWriter {
     Items checks;
     for (const Field& member : structure.members) {
       const std::string value = "value." + names_.member(member.name);
-      if (member.range) checks.push_back(within(member));
+      if (member.range) checks.push_back("armature::ride::within(" + ranged(member) + ")");
       if (!text_.has_range(member.type)) continue;
       checks.push_back((member.type.is_array() ? "armature::ride::all_in_range(" : "in_range(") +
                        value + ")");
@@ -225,7 +225,7 @@ class TypesWriter {
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
     const std::string behind = "armature::ride::Access::k" + name + "},\n";
     const std::string line = "    {" + literal(canonical) + ", " + behind;
-    if (columns_of(line) <= kColumns + 1) return line;
+    if (base::columns_of(line) <= kColumns + 1) return line;
     return "    {" + long_literal(5, canonical) + ",\n     " + behind;
   }
 

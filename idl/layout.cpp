@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "idl/utf8.hpp"
+#include "armature/base/utf8.hpp"
 
 namespace armature::idl::internal {
 namespace {
@@ -26,7 +26,7 @@ Packed pack(std::size_t column, std::size_t indent, const Items& items, std::str
   for (std::size_t i = 0; i < items.size(); ++i) {
     const bool last = i + 1 == items.size();
     const std::string item = items[i] + (last ? tail : std::string(separator));
-    const std::size_t width = columns_of(item);
+    const std::size_t width = base::columns_of(item);
     const std::size_t blank = i == 0 ? 0 : 1;
     if (i > 0 && column + blank + width > kColumns) {
       packed.text += "\n" + blanks(indent);
@@ -42,7 +42,7 @@ Packed pack(std::size_t column, std::size_t indent, const Items& items, std::str
   }
   if (items.empty()) {
     packed.text = tail;
-    packed.fits = column + columns_of(tail) <= kColumns;
+    packed.fits = column + base::columns_of(tail) <= kColumns;
   }
   return packed;
 }
@@ -77,7 +77,7 @@ void consider(std::optional<Way>& best, const Packed& packed, const std::string&
 void consider_both(std::optional<Way>& best, std::size_t indent, const std::string& before,
                    const std::string& head, const Items& items, const std::string& tail,
                    const Prices& prices) {
-  const std::size_t column = indent + columns_of(head);
+  const std::size_t column = indent + base::columns_of(head);
   if (column > kColumns) return;
   const Packed aligned = pack(column, column, items, ",", tail);
   const std::size_t first = aligned.breaks == 0 ? 0 : kFirstBreak;
@@ -140,15 +140,15 @@ std::string call_with_call(std::size_t indent, const Call& outer, const Call& in
   for (const std::string& each : outer.arguments) head += each + ", ";
   std::optional<Way> best;
   consider_both(best, indent, "", outer.head, arguments, tail, kCall);
-  const std::size_t inside = indent + columns_of(head + inner.head);
+  const std::size_t inside = indent + base::columns_of(head + inner.head);
   const Packed aligned = pack(inside, inside, inner.arguments, ",", tail);
   consider(best, aligned, blanks(indent) + head + inner.head,
            kFirstBreak + aligned.breaks * kDeeper.each);
   if (best) return best->text;
   // Both are divided: the inner one on a line of its own, if need be the outer arguments below.
-  const std::size_t column = indent + columns_of(outer.head);
+  const std::size_t column = indent + base::columns_of(outer.head);
   for (const std::size_t begin : {column, indent + 4}) {
-    const std::size_t inner_column = begin + columns_of(inner.head);
+    const std::size_t inner_column = begin + base::columns_of(inner.head);
     const Packed parts = pack(inner_column, inner_column, inner.arguments, ",", tail);
     std::string text = blanks(indent) + outer.head + (begin == column ? "" : "\n" + blanks(begin));
     for (const std::string& each : outer.arguments) text += each + ",\n" + blanks(begin);
@@ -169,7 +169,7 @@ std::string nested_call(std::size_t indent, const std::string& outer, const std:
 
 std::string chain(std::size_t indent, const std::string& head, const Items& operands,
                   std::string_view operation, const std::string& tail) {
-  const std::size_t column = indent + columns_of(head);
+  const std::size_t column = indent + base::columns_of(head);
   const std::string separator = " " + std::string(operation);
   return blanks(indent) + head + pack(column, column, operands, separator, tail).text + "\n";
 }
@@ -180,13 +180,13 @@ std::string short_function(std::size_t indent, const Function& head, const std::
     line += (&each == &head.parameters.front() ? "" : ", ") + each;
   }
   line += ") { " + statement + " }";
-  if (columns_of(line) <= kColumns) return line + "\n";
+  if (base::columns_of(line) <= kColumns) return line + "\n";
   return function(indent, head) + blanks(indent + 2) + statement + "\n" + blanks(indent) + "}\n";
 }
 
 std::string class_head(const std::string& name, const std::string& base) {
   const std::string line = "class " + name + " : public " + base + " {";
-  if (columns_of(line) <= kColumns) return line + "\n";
+  if (base::columns_of(line) <= kColumns) return line + "\n";
   return "class " + name + "\n    : public " + base + " {\n";
 }
 

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <utility>
 
+#include "armature/base/utf8.hpp"
 #include "idl/limits.hpp"
-#include "idl/utf8.hpp"
 
 namespace armature::idl {
 namespace {
@@ -153,7 +153,7 @@ class Lexer {
   }
 
   void report_stray() {
-    const auto character = code_point_at(text_, at_);
+    const auto character = base::code_point_at(text_, at_);
     const std::size_t end = character ? character->end : at_ + 1;
     if (is_control(peek())) {
       error(at_, "a control character is no part of the language", "remove it");
@@ -184,7 +184,7 @@ class Lexer {
 }  // namespace
 
 std::vector<Token> tokenize(const Source& source, base::Diagnostics& diagnostics) {
-  const std::size_t valid = valid_utf8_length(source.text());
+  const std::size_t valid = base::valid_utf8_length(source.text());
   if (valid == source.text().size()) return Lexer(source, diagnostics).run();
   diagnostics.error(source.location(valid), "this byte is not UTF-8, which was expected",
                     "save the file as UTF-8");

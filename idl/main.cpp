@@ -21,9 +21,11 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.output_folder, "where files are written; made if need be")
       ->type_name("FOLDER")
       ->required();
-  app.add_option("--namespace", options.name_space,
-                 "of the generated C++, also of imported files; otherwise each file's name")
-      ->type_name("NAME");
+  std::string name_space;
+  const CLI::Option* const has_name_space =
+      app.add_option("--namespace", name_space,
+                     "of the generated C++, also of imported files; otherwise each file's name")
+          ->type_name("NAME");
   app.add_flag("--json", options.json, "writes the interface as NAME.json, too");
   app.add_option("--depends", options.depends, "writes which files were read, for ninja and make")
       ->type_name("FILE");
@@ -34,6 +36,7 @@ int main(int argc, char** argv) {
     app.exit(error);
     return asked_for_help ? kDone : kWrongUse;
   }
+  if (has_name_space->count() > 0) options.name_space = name_space;
   const std::string findings = armature::idl::compile(options);
   std::fputs(findings.c_str(), stderr);
   return findings.empty() ? kDone : kFailed;

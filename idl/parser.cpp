@@ -5,6 +5,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "idl/internal/attribute_parser.hpp"
+#include "idl/internal/in_quotes.hpp"
 #include "idl/internal/token_reader.hpp"
 #include "idl/internal/type_parser.hpp"
 
@@ -14,8 +15,6 @@ namespace {
 using internal::Attributes;
 using internal::Mistake;
 using internal::TokenReader;
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 class Parser {
  public:
@@ -73,7 +72,7 @@ class Parser {
     result.where = reader_.where(name);
     reader_.expect("{", "the name of the " + kind);
     result.doc = reader_.doc_between(begin, reader_.position());
-    const std::string whole = kind + " " + quoted(result.name);
+    const std::string whole = kind + " " + in_quotes(result.name);
     const bool closed = in_braces(whole, [&] { result.members.push_back(member(whole)); });
     result.complete = !lost_;
     module_.structures.push_back(std::move(result));
@@ -89,7 +88,7 @@ class Parser {
     result.where = reader_.where(name);
     reader_.expect("{", "the name of the interface");
     result.doc = reader_.doc_between(begin, reader_.position());
-    const bool closed = in_braces("interface " + quoted(result.name), [&] {
+    const bool closed = in_braces("interface " + in_quotes(result.name), [&] {
       if (reader_.is("event")) {
         result.events.push_back(event_name());
       } else {
@@ -130,7 +129,7 @@ class Parser {
     const Token& name = reader_.expect_inner_name("a member of " + whole);
     result.name = name.text;
     result.where = reader_.where(name);
-    reader_.expect(";", "member " + quoted(result.name));
+    reader_.expect(";", "member " + in_quotes(result.name));
     result.doc = reader_.doc_between(begin, reader_.position());
     return result;
   }
@@ -155,11 +154,11 @@ class Parser {
     reader_.take();
     const Token& name = reader_.expect_name("an event");
     if (reader_.is("{")) {
-      reader_.fail(name, "event " + quoted(name.text) + " is defined inside an interface",
+      reader_.fail(name, "event " + in_quotes(name.text) + " is defined inside an interface",
                    "define it before the interface; here is only its name, 'event " +
                        std::string(name.text) + ";'");
     }
-    reader_.expect(";", "event " + quoted(name.text));
+    reader_.expect(";", "event " + in_quotes(name.text));
     return {std::string(name.text), reader_.where(name)};
   }
 
@@ -188,15 +187,15 @@ class Parser {
   }
 
   void parameters(Operation& operation) {
-    const std::string what = "a parameter of " + quoted(operation.name);
-    reader_.expect("(", "operation " + quoted(operation.name));
+    const std::string what = "a parameter of " + in_quotes(operation.name);
+    reader_.expect("(", "operation " + in_quotes(operation.name));
     try {
       if (!reader_.is(")")) {
         do {
           operation.parameters.push_back(parameter(what));
         } while (reader_.take_if(","));
       }
-      if (!reader_.is(")")) reader_.expect(")", "the parameters of " + quoted(operation.name));
+      if (!reader_.is(")")) reader_.expect(")", "the parameters of " + in_quotes(operation.name));
     } catch (const Mistake&) {
       skip_parameters();
       throw;

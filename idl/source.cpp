@@ -6,19 +6,21 @@
 #include <tuple>
 #include <utility>
 
-#include "idl/utf8.hpp"
+#include "armature/base/utf8.hpp"
+#include "armature/base/visible_text.hpp"
 
 namespace armature::idl {
 namespace {
 
 constexpr std::size_t kLongestShownLine = 200;
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // editors put it in front of UTF-8
 
-bool continues_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 std::size_t offset_of_column(std::string_view line, int column) {
   std::size_t at = 0;
   for (int i = 1; i < column && at < line.size(); ++i) {
-    const auto next = code_point_at(line, at);
+    const auto next = base::code_point_at(line, at);
     at = next ? next->end : at + 1;
   }
   return at;
@@ -32,21 +34,21 @@ std::string blank(std::string_view text) {
   }
   std::string without_tabs(text);
   std::erase(without_tabs, '\t');
-  return result + std::string(columns_of(without_tabs), ' ');
+  return result + std::string(base::columns_of(without_tabs), ' ');
 }
 
 std::string caret(std::string_view line, int column) {
   const std::size_t begin = offset_of_column(line, column);
   std::size_t end = begin;
-  while (end < line.size() && continues_word(line[end])) ++end;
+  while (end < line.size() && is_of_word(line[end])) ++end;
   const std::size_t rest = end > begin ? end - begin - 1 : 0;
-  return blank(line.substr(0, begin)) + "^" + std::string(rest, '~');
+  return blank(base::visible_text(line.substr(0, begin))) + "^" + std::string(rest, '~');
 }
 
 std::string excerpt(const base::Location& where, const Source& source) {
   const std::string_view line = source.line(where.line);
   if (line.empty() || line.size() > kLongestShownLine) return {};
-  return std::string(line) + "\n" + caret(line, where.column) + "\n";
+  return base::visible_text(line) + "\n" + caret(line, where.column) + "\n";
 }
 
 const Source* source_of(const base::Location& where, const std::vector<const Source*>& sources) {
@@ -61,7 +63,7 @@ std::string to_text(base::Diagnostic one, const std::vector<const Source*>& sour
   std::string text = base::to_text(one) + "\n";
   const Source* source = source_of(one.where, sources);
   if (source != nullptr && one.where.line > 0) text += excerpt(one.where, *source);
-  if (!hint.empty()) text += "    hint: " + hint + "\n";
+  if (!hint.empty()) text += "    hint: " + base::visible_text(hint) + "\n";
   return text;
 }
 
@@ -69,6 +71,7 @@ std::string to_text(base::Diagnostic one, const std::vector<const Source*>& sour
 
 Source::Source(std::string file, std::string text)
     : file_(std::move(file)), text_(std::move(text)), line_begins_{0} {
+  if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
   for (std::size_t i = 0; i < text_.size(); ++i) {
     if (text_[i] == '\n') line_begins_.push_back(i + 1);
   }
@@ -80,7 +83,7 @@ base::Location Source::location(std::size_t offset) const {
   const std::size_t begin = *std::prev(after);
   int column = 1;
   for (std::size_t at = begin; at < offset; ++column) {
-    const auto next = code_point_at(text_, at);
+    const auto next = base::code_point_at(text_, at);
     at = next ? next->end : at + 1;
   }
   return {file_, static_cast<int>(after - line_begins_.begin()), column};

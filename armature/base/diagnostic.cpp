@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/base/visible_text.hpp"
+
 namespace armature::base {
 namespace {
 
@@ -28,14 +30,89 @@ std::string place(const Location& where) {
   return text + ": ";
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// `text` with each number as `#`.
+std::string without_numbers(std::string_view text) {
+  std::string shape;
+  bool in_number = false;
+  for (const char c : text) {
+    if (!is_digit(c)) shape += c;
+    if (is_digit(c) && !in_number) shape += '#';
+    in_number = is_digit(c);
+  }
+  return shape;
+}
+
+/// The next `'...'` at or after `from`, quotes included; empty if there is none.
+std::string_view next_quoted(std::string_view text, std::size_t from) {
+  const std::size_t begin = text.find('\'', from);
+  if (begin == std::string_view::npos) return {};
+  const std::size_t end = text.find('\'', begin + 1);
+  return end == std::string_view::npos ? text.substr(begin) : text.substr(begin, end + 1 - begin);
+}
+
+/// The message without what it says of the single case: names in quotes and numbers.
+std::string kind_of(const Diagnostic& diagnostic) {
+  const std::string_view text = diagnostic.message;
+  std::string kind(name_of(diagnostic.severity));
+  std::size_t copied = 0;
+  for (auto quoted = next_quoted(text, 0); !quoted.empty(); quoted = next_quoted(text, copied)) {
+    const auto begin = static_cast<std::size_t>(quoted.data() - text.data());
+    kind += without_numbers(text.substr(copied, begin - copied)) + "''";
+    copied = begin + quoted.size();
+  }
+  return kind + without_numbers(text.substr(copied));
+}
+
+std::string place_and_shape(const Diagnostic& diagnostic) {
+  return place(diagnostic.where) + std::string(name_of(diagnostic.severity)) +
+         without_numbers(diagnostic.message);
+}
+
+/// The first part in quotes of `text` in which `other`, of the same shape, differs; empty if none.
+std::string_view differing_name(std::string_view text, std::string_view other) {
+  std::string_view mine = next_quoted(text, 0);
+  std::string_view its = next_quoted(other, 0);
+  while (!mine.empty() && mine == its) {
+    mine = next_quoted(text, static_cast<std::size_t>(mine.data() - text.data()) + mine.size());
+    its = next_quoted(other, static_cast<std::size_t>(its.data() - other.data()) + its.size());
+  }
+  return mine;
+}
+
+/// Has `kept` stand for `more`, too, and for those for which that one stands.
+void join(Diagnostic& kept, const Diagnostic& more) {
+  kept.unshown += more.unshown;
+  const bool same = kept.message == more.message;
+  const std::string name(differing_name(more.message, kept.message));
+  Likewise& likewise = kept.likewise;
+  if (likewise.count == 0) likewise.first = same ? more.likewise.first : name;
+  if (!same) likewise.last = name;
+  if (!more.likewise.last.empty()) likewise.last = more.likewise.last;
+  likewise.count += (same ? 0 : 1) + more.likewise.count;
+}
+
+std::string to_text(const Likewise& likewise) {
+  if (likewise.count == 0) return {};
+  const bool named = !likewise.first.empty();
+  if (likewise.count == 1 && named) return ", likewise " + likewise.first;
+  const std::string count = std::to_string(likewise.count);
+  const std::string others = ", likewise " + count + (likewise.count == 1 ? " other" : " others");
+  return named ? others + ", " + likewise.first + " to " + likewise.last : others;
+}
+
 }  // namespace
 
 std::string to_text(const Diagnostic& diagnostic) {
   std::string text = place(diagnostic.where);
   text += name_of(diagnostic.severity);
-  text += ": " + diagnostic.message;
+  text += ": " + diagnostic.message + to_text(diagnostic.likewise);
+  if (diagnostic.unshown > 0) {
+    text += "; " + std::to_string(diagnostic.unshown) + " more are not shown";
+  }
   if (!diagnostic.hint.empty()) text += " (" + diagnostic.hint + ")";
-  return text;
+  return visible_text(text);
 }
 
 void Diagnostics::error(Location where, std::string message, std::string hint) {
@@ -52,12 +129,38 @@ void Diagnostics::note(Location where, std::string message, std::string hint) {
 
 void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Severity::kError) ++errors_;
-  all_.push_back(std::move(diagnostic));
+  put(std::move(diagnostic));
 }
 
 void Diagnostics::append(const Diagnostics& others) {
-  all_.insert(all_.end(), others.all_.begin(), others.all_.end());
+  for (const Diagnostic& one : others.all_) put(one);
   errors_ += others.errors_;
+}
+
+void Diagnostics::add_likewise(const Diagnostic& diagnostic) {
+  Diagnostic* const like = find_like(diagnostic);
+  if (like == nullptr) return;
+  if (diagnostic.severity == Severity::kError) ++errors_;
+  join(*like, diagnostic);
+}
+
+Diagnostic* Diagnostics::find_like(const Diagnostic& diagnostic) {
+  if (diagnostic.where.line == 0) return nullptr;
+  const auto found = by_place_.find(place_and_shape(diagnostic));
+  return found == by_place_.end() ? nullptr : &all_[found->second];
+}
+
+void Diagnostics::put(Diagnostic diagnostic) {
+  if (Diagnostic* const like = find_like(diagnostic)) return join(*like, diagnostic);
+  const auto leave_out = [&](Diagnostic& last) {
+    last.unshown += 1 + diagnostic.likewise.count + diagnostic.unshown;
+  };
+  if (all_.size() >= kMost) return leave_out(all_.back());
+  Kind& kind = kinds_[kind_of(diagnostic)];
+  if (kind.kept >= kMostOfAKind) return leave_out(all_[kind.last]);
+  kind = {kind.kept + 1, all_.size()};
+  if (diagnostic.where.line > 0) by_place_.emplace(place_and_shape(diagnostic), all_.size());
+  all_.push_back(std::move(diagnostic));
 }
 
 std::string Diagnostics::to_text() const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace armature::base {
@@ -19,26 +20,42 @@ struct Location {
 
 enum class Severity { kNote, kWarning, kError };
 
+/// Findings that differ from another one at the same place in numbers only, as `'G2'` from `'G1'`.
+struct Likewise {
+  std::size_t count = 0;
+  std::string first;  ///< the name in quotes that differs; empty if none does
+  std::string last;
+};
+
 /// One finding about something a user wrote: where, what is wrong, what was expected, how to mend
 /// it.
 struct Diagnostic {
   Severity severity = Severity::kError;
   Location where;
-  std::string message;  ///< names the object, what was found and what was expected
-  std::string hint;     ///< how to mend it; may be empty
+  std::string message;      ///< names the object, what was found and what was expected
+  std::string hint;         ///< how to mend it; may be empty
+  Likewise likewise = {};   ///< for which others it stands
+  std::size_t unshown = 0;  ///< how many more there are that are not kept
 };
 
 /// `file:line:column: error: message (hint)`; parts that are unknown are left out.
 std::string to_text(const Diagnostic& diagnostic);
 
-/// Collects every finding of one run, in the order in which they were found.
+/// Collects the findings of one run, in the order in which they were found. What a range meets many
+/// times at one place is kept once. Of one kind of finding the first `kMostOfAKind` are kept, of
+/// all the first `kMost`, so that no file fills the memory or the screen; all of them are counted.
 class Diagnostics {
  public:
+  static constexpr std::size_t kMostOfAKind = 100;
+  static constexpr std::size_t kMost = 1000;
+
   void error(Location where, std::string message, std::string hint = {});
   void warning(Location where, std::string message, std::string hint = {});
   void note(Location where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
   void append(const Diagnostics& others);
+  /// Adds it if one at its place differs in numbers only; else it is left out.
+  void add_likewise(const Diagnostic& diagnostic);
 
   bool ok() const { return errors_ == 0; }
   std::size_t error_count() const { return errors_; }
@@ -49,8 +66,18 @@ class Diagnostics {
   std::string to_text() const;
 
  private:
+  struct Kind {
+    std::size_t kept = 0;
+    std::size_t last = 0;  ///< index of the last one that is kept
+  };
+
+  void put(Diagnostic diagnostic);
+  Diagnostic* find_like(const Diagnostic& diagnostic);
+
   std::vector<Diagnostic> all_;
   std::size_t errors_ = 0;
+  std::unordered_map<std::string, std::size_t> by_place_;  ///< indices, by place and shape
+  std::unordered_map<std::string, Kind> kinds_;
 };
 
 }  // namespace armature::base

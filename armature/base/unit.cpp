@@ -311,6 +311,15 @@ Result<Unit> parse_unit(std::string_view text) {
   return Parser(text).parse();
 }
 
+namespace {
+
+/// What follows the digits of a number begins as the fraction of one does where commas are usual.
+bool has_decimal_comma(std::string_view rest) {
+  return rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9';
+}
+
+}  // namespace
+
 Result<Quantity> parse_quantity(std::string_view text) {
   const std::string_view whole = trimmed(text);
   double value = 0.0;
@@ -321,7 +330,13 @@ Result<Quantity> parse_quantity(std::string_view text) {
   if (problem != std::errc() || !std::isfinite(value)) {
     return Error{"expected a finite number, such as '0.5' or '10 ms', found " + quoted(whole)};
   }
-  const std::string_view unit = trimmed(whole.substr(static_cast<std::size_t>(end - whole.data())));
+  const std::string_view rest = whole.substr(static_cast<std::size_t>(end - whole.data()));
+  if (has_decimal_comma(rest)) {
+    const std::string before(whole.substr(0, whole.size() - rest.size()));
+    return Error{quoted(whole) + " has a decimal comma; write a point: " +
+                 quoted(before + "." + std::string(rest.substr(1)))};
+  }
+  const std::string_view unit = trimmed(rest);
   if (const Result<Unit> parsed = parse_unit(unit); !parsed) {
     return Error{quoted(whole) + ": " + parsed.error()};
   }

@@ -225,7 +225,7 @@ TEST(Quantity, RefusesANumberBeyondADouble) {
 TEST(Quantity, NamesItsUnknownUnit) {
   EXPECT_EQ(parse_quantity("10 mss").error(), "'10 mss': unknown unit 'mss' (did you mean 'ms'?)");
   EXPECT_EQ(parse_quantity("10 20").error(), "'10 20': unknown unit '20'");
-  EXPECT_EQ(parse_quantity("0,5").error(), "'0,5': unknown unit ',5'");
+  EXPECT_EQ(parse_quantity("0,5").error(), "'0,5' has a decimal comma; write a point: '0.5'");
   EXPECT_EQ(parse_quantity("1.2.3").error(), "'1.2.3': unknown unit '.3'");
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "armature/can/bus.hpp"
 
@@ -14,5 +15,8 @@ namespace armature::can {
 /// can0, a `SocketCan`.
 /// @param bit_rate  that the station has on a virtual bus; an interface has its own
 std::unique_ptr<Bus> make_bus(const std::string& name, std::uint32_t bit_rate);
+
+/// Of another process, which simulates what is on it; else there may be a robot.
+bool is_virtual(std::string_view name);
 
 }  // namespace armature::can

@@ -86,10 +86,11 @@ bool SharedBus::open(const BusOptions& options, base::Diagnostics& diagnostics) 
 bool SharedBus::connect(base::Diagnostics& diagnostics) {
   auto connected = platform::PacketSocket::connect(path_);
   if (!connected) {
-    diagnostics.error(
-        {}, "bus '" + name() + "': " + connected.error(),
-        "start what has the bus first: armature-janus-plant or armature-wam-emulator --bus " +
-            path_);
+    diagnostics.error({}, "bus '" + name() + "': " + connected.error(),
+                      path_.empty()
+                          ? std::string("name the bus by its path: virtual:/tmp/robot.bus")
+                          : "start what has the bus first: armature-janus-plant --bus " + path_ +
+                                ", or armature-wam-emulator --bus virtual:" + path_);
     return false;
   }
   socket_ = std::move(connected).value();

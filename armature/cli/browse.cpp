@@ -5,6 +5,7 @@
 #include "armature/cli/commands.hpp"
 #include "armature/cli/loaded.hpp"
 #include "armature/cli/tls.hpp"
+#include "armature/platform/stop_priority.hpp"
 #include "armature/script/remote_browser.hpp"
 
 namespace armature::cli {
@@ -43,6 +44,7 @@ int browse(const BrowseArguments& arguments, const Console& console) {
     const tls::Options files{arguments.certificate, arguments.key, arguments.authority};
     if (auto transport = load_tls(files, diagnostics)) options.transports = {transport};
   }
+  const platform::Promptness promptness;
   void* const run = load_function("libarmature_script.so", script::kBrowseRemotely,
                                   "the task browser needs", diagnostics);
   console.show(diagnostics);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/cli/companions.hpp"
 
-#include <cstdio>
+#include <string>
 #include <string_view>
 
 #include "armature/cli/loaded.hpp"
+#include "armature/platform/printer.hpp"
+#include "armature/platform/terminal.hpp"
 #include "armature/record/black_box_file.hpp"
 
 namespace armature::cli {
@@ -15,8 +17,7 @@ constexpr const char* kRecordLibrary = "libarmature_record.so";
 
 /// What a script prints is what the program was asked for, so it goes to standard output.
 void print_line(std::string_view line) {
-  std::printf("%.*s\n", static_cast<int>(line.size()), line.data());
-  std::fflush(stdout);
+  platform::print(platform::kStandardOutput, std::string(line) + '\n');
 }
 
 std::unique_ptr<script::Script> load_script(const RunArguments& arguments,

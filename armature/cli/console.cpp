@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/cli/console.hpp"
 
+#include <cerrno>
 #include <cstdio>
 #include <string>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
 #include "armature/base/seconds.hpp"
+#include "armature/cli/arguments.hpp"
 #include "armature/platform/clock.hpp"
+#include "armature/platform/printer.hpp"
+#include "armature/platform/terminal.hpp"
 
 namespace armature::cli {
 namespace {
@@ -24,11 +29,15 @@ std::string_view name_of(base::Severity severity) {
   return "error";
 }
 
+void print_line(std::string_view text) {
+  platform::print(platform::kStandardError, std::string(text) + '\n');
+}
+
 /// Users' files may hold anything; JSON must be UTF-8.
 void print_json(const nlohmann::ordered_json& object) {
   const std::string text =
       object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::fprintf(stderr, "%s\n", text.c_str());
+  print_line(text);
 }
 
 }  // namespace
@@ -40,16 +49,14 @@ void Console::log(const rt::LogRecord& record) const {
 
 void Console::say(rt::LogLevel level, std::string_view text) const {
   if (!json_) {
-    std::fprintf(stderr, "armature: %.*s\n", static_cast<int>(text.size()), text.data());
-    return;
+    return print_line("armature: " + std::string(text));
   }
   print_json({{"level", rt::name_of(level)}, {"component", "armature"}, {"message", text}});
 }
 
 void Console::show(const base::Diagnostics& diagnostics) const {
   if (!json_) {
-    std::fputs(diagnostics.to_text().c_str(), stderr);
-    return;
+    return platform::print(platform::kStandardError, diagnostics.to_text());
   }
   for (const base::Diagnostic& one : diagnostics.all()) {
     print_json({{"level", name_of(one.severity)},
@@ -59,6 +66,23 @@ void Console::show(const base::Diagnostics& diagnostics) const {
                 {"message", one.message},
                 {"hint", one.hint}});
   }
+}
+
+void Console::print(std::string_view text) const {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written && output_error_ == 0) output_error_ = errno;
+}
+
+int Console::complete_output(int code) const {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (!flushed && output_error_ == 0) output_error_ = errno;
+  if (output_error_ == EPIPE || (output_error_ == 0 && std::ferror(stdout) == 0)) return code;
+  const int error = output_error_ != 0 ? output_error_ : EIO;
+  say(rt::LogLevel::kError,
+      "cannot write the standard output: " + std::generic_category().message(error));
+  return code == kDone ? kFailed : code;
 }
 
 void Console::line(rt::LogLevel level, double seconds, std::string_view component,
@@ -71,9 +95,10 @@ void Console::line(rt::LogLevel level, double seconds, std::string_view componen
     return;
   }
   const std::string_view name = rt::name_of(level);
-  std::fprintf(stderr, "%12.6f %-7.*s %.*s: %.*s\n", seconds, static_cast<int>(name.size()),
-               name.data(), static_cast<int>(component.size()), component.data(),
-               static_cast<int>(text.size()), text.data());
+  char head[64];
+  std::snprintf(head, sizeof head, "%12.6f %-7.*s ", seconds, static_cast<int>(name.size()),
+                name.data());
+  print_line(head + std::string(component) + ": " + std::string(text));
 }
 
 }  // namespace armature::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands that look at deployments and models without running anything.
-#include <cstdio>
+#include <set>
 #include <string>
 
 #include "armature/base/diagnostic.hpp"
@@ -25,8 +25,24 @@ int print(const base::Result<std::string>& text, const Console& console) {
     console.say(LogLevel::kError, text.error());
     return kFailed;
   }
-  std::fputs(text.value().c_str(), stdout);
+  console.print(text.value());
   return kDone;
+}
+
+/// False, and says so, if `path` is one of the files that `document` came from.
+bool is_no_source(const std::string& path, const deploy::Document& document,
+                  const Console& console) {
+  std::set<std::string> sources{document.file};
+  for (const auto& each : document.components) sources.insert(each.where.file);
+  for (const auto& each : document.connections) sources.insert(each.where.file);
+  for (const auto& each : document.libraries) sources.insert(each.where.file);
+  for (const std::string& source : sources) {
+    if (!platform::is_same_file(path, source)) continue;
+    console.say(LogLevel::kError,
+                "'" + path + "' is what is read ('" + source + "'): name another file to write");
+    return false;
+  }
+  return true;
 }
 
 int write(const std::string& path, const std::string& content, const Console& console) {
@@ -57,9 +73,9 @@ int check(const CheckArguments& arguments, const Console& console) {
     return kFailed;
   }
   if (arguments.order) {
-    std::fputs(exec::describe_order(deployment.blueprint, deployment.plan).c_str(), stdout);
+    console.print(exec::describe_order(deployment.blueprint, deployment.plan));
   }
-  if (arguments.load_table) std::fputs(deployment.schedule.to_text().c_str(), stdout);
+  if (arguments.load_table) console.print(deployment.schedule.to_text());
   console.say(LogLevel::kInfo,
               arguments.load.file + ": " + std::to_string(deployment.blueprint.components.size()) +
                   " components, " + std::to_string(deployment.plan.connections.size()) +
@@ -80,7 +96,10 @@ int graph(const GraphArguments& arguments, const Console& console) {
   } else {
     picture = deploy::graph_as_svg(deployment.blueprint, deployment.plan);
   }
-  if (!arguments.output.empty()) return write(arguments.output, picture, console);
+  if (!arguments.output.empty()) {
+    if (!is_no_source(arguments.output, deployment.document, console)) return kWrongUse;
+    return write(arguments.output, picture, console);
+  }
   return print(picture, console);
 }
 
@@ -119,6 +138,7 @@ int convert(const std::string& from, const std::string& to, const Console& conso
   }
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
+  if (!is_no_source(to, document, console)) return kWrongUse;
   return write(to, text, console);
 }
 
@@ -129,7 +149,7 @@ int new_component(const std::string& name, const Console& console) {
     return kFailed;
   }
   for (const std::string& file : made.value().files) {
-    std::printf("%s/%s\n", made.value().folder.c_str(), file.c_str());
+    console.print(made.value().folder + "/" + file + "\n");
   }
   console.say(LogLevel::kInfo, "made " + made.value().folder + "; its README.md says how to build");
   return kDone;

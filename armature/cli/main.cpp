@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "armature/base/near_name.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/cli/commands.hpp"
+#include "armature/platform/printer.hpp"
 
 namespace armature::cli {
 
@@ -51,11 +55,11 @@ class CommandLine {
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      const bool asked_for_help = error.get_exit_code() == 0;
+      if (error.get_exit_code() != 0) return wrong_use(error);
       app_.exit(error);
-      return asked_for_help ? kDone : kWrongUse;
+      return console_.complete_output(kDone);
     }
-    return chosen_();
+    return console_.complete_output(chosen_());
   }
 
  private:
@@ -70,6 +74,61 @@ class CommandLine {
       return "there is no command '" + word + "' (" + base::suggestion(word, names) + ")";
     }
     return {};
+  }
+
+  int wrong_use(const CLI::ParseError& error) {
+    const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    const std::string unknown = unknown_option();
+    if (unknown.empty() || !is_extra) {
+      app_.exit(error);
+    } else {
+      console_.say(rt::LogLevel::kError, unknown);
+    }
+    return kWrongUse;
+  }
+
+  /// CLI11 would not say what was meant.
+  std::string unknown_option() const {
+    std::vector<std::string> names;
+    std::string chosen = "armature";
+    const auto add_options = [&names](const CLI::App& of) {
+      for (const CLI::Option* option : of.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      }
+    };
+    add_options(app_);
+    for (const CLI::App* command : app_.get_subcommands()) {
+      chosen += " " + command->get_name();
+      add_options(*command);
+    }
+    for (const std::string& word : run_.command_line) {
+      const std::string name = word.substr(0, word.find('='));
+      const bool known = std::find(names.begin(), names.end(), name) != names.end();
+      if (!name.starts_with("--") || name.size() == 2 || known) continue;
+      const std::string near = base::near_name(name, names);
+      return "'" + chosen + "' has no option '" + name + "' (" +
+             (near.empty() ? chosen + " --help lists them" : "did you mean '" + near + "'?") + ")";
+    }
+    return {};
+  }
+
+  /// What is not in `names` is refused with the nearest, or all of them.
+  static CLI::Validator one_of(std::vector<std::string> names) {
+    const auto check = [names = std::move(names)](const std::string& text) {
+      if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+      return "unknown value '" + text + "' (" + base::suggestion(text, names) + ")";
+    };
+    return CLI::Validator(check, "");
+  }
+
+  /// A misspelt folder would only be missed when a library is not found.
+  static CLI::Validator folder() {
+    const auto check = [](const std::string& text) {
+      std::error_code ignored;
+      if (std::filesystem::is_directory(text, ignored)) return std::string();
+      return "there is no folder '" + text + "'";
+    };
+    return CLI::Validator(check, "");
   }
 
   void add_load_options(CLI::App& command, LoadArguments& load) {
@@ -87,6 +146,7 @@ class CommandLine {
   void add_folders(CLI::App& command, std::vector<std::string>& folders) {
     command.add_option("-L,--library-path", folders, "where component libraries are looked for")
         ->type_name("FOLDER")
+        ->check(folder())
         ->allow_extra_args(false);
   }
 
@@ -110,23 +170,19 @@ class CommandLine {
     script->type_name("FILE");
     command->add_flag("--browse", run_.browse, "commands it line by line: the task browser")
         ->excludes(script);
-    static const std::map<std::string, exec::RealtimeMode> kModes{
-        {"off", exec::RealtimeMode::kOff},
-        {"prefer", exec::RealtimeMode::kPrefer},
-        {"require", exec::RealtimeMode::kRequire}};
     command
         ->add_option("--listen", run_.listen,
                      "where other processes reach it: tcp://127.0.0.1:4242, unix:/run/robot.sock")
         ->type_name("ADDRESS")
         ->allow_extra_args(false);
-    command->add_option("--realtime", run_.realtime, "off, prefer (default) or require")
-        ->transform(CLI::CheckedTransformer(kModes).description(""))
+    command->add_option("--realtime", realtime_, "off, prefer (default) or require")
+        ->check(one_of({"off", "prefer", "require"}))
         ->type_name("MODE");
     command
         ->add_flag("--guard{report}", guard_,
                    "watches real-time threads for allocation, locks and I/O; --guard=abort ends at "
                    "the first")
-        ->check(CLI::IsMember({"report", "abort"}).description(""));
+        ->check(one_of({"report", "abort"}));
     command->add_option("--write-times", run_.write_times, "writes measured execution times");
     command->add_option("--out", run_.output_folder, "the folder for recordings; made if need be")
         ->type_name("FOLDER");
@@ -134,6 +190,8 @@ class CommandLine {
         ->type_name("FILE");
     command->add_flag("--statistics", run_.statistics, "prints cycles and latencies at the end");
     command->callback([this] {
+      if (realtime_ == "off") run_.realtime = exec::RealtimeMode::kOff;
+      if (realtime_ == "require") run_.realtime = exec::RealtimeMode::kRequire;
       if (guard_ == "report") run_.guard = rt::GuardMode::kReport;
       if (guard_ == "abort") run_.guard = rt::GuardMode::kAbort;
       chosen_ = [this] { return run(run_, console_); };
@@ -168,7 +226,7 @@ class CommandLine {
     CLI::App* command = app_.add_subcommand("graph", "draws the wiring");
     add_load_options(*command, graph_.load);
     command->add_option("--format", graph_.format, "svg (default), dot or mermaid")
-        ->check(CLI::IsMember({"svg", "dot", "mermaid"}).description(""));
+        ->check(one_of({"svg", "dot", "mermaid"}));
     command->add_option("-o,--output", graph_.output, "file to write; standard output otherwise");
     command->callback([this] { chosen_ = [this] { return graph(graph_, console_); }; });
   }
@@ -214,6 +272,7 @@ class CommandLine {
   GraphArguments graph_;
   ModelsArguments models_;
   ReportArguments report_;
+  std::string realtime_ = "prefer";
   std::string guard_;
   std::string from_;
   std::string to_;
@@ -225,6 +284,7 @@ class CommandLine {
 }  // namespace armature::cli
 
 int main(int argc, char** argv) {
+  armature::platform::survive_lost_outputs();
   armature::cli::Console console;
   return armature::cli::CommandLine(console).execute(argc, argv);
 }

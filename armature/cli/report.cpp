@@ -43,6 +43,11 @@ bool write_run_summary(const std::string& folder, const report::RunFacts& facts,
 int report(const ReportArguments& arguments, const Console& console) {
   void* const function = function_of_report(report::kWriteReport, console);
   if (function == nullptr) return kFailed;
+  if (!arguments.page.empty() && !arguments.page.ends_with(".html")) {
+    console.say(rt::LogLevel::kError,
+                "--out is the page, whose name ends in .html, not '" + arguments.page + "'");
+    return kWrongUse;
+  }
   base::Diagnostics diagnostics;
   report::Written written;
   reinterpret_cast<report::WriteReport>(function)({arguments.folder, arguments.page}, written,

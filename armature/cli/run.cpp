@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "armature/cli/burial.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/companions.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/cli/network.hpp"
 #include "armature/cli/report.hpp"
+#include "armature/cli/run_texts.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/schedule.hpp"
 #include "armature/platform/clock.hpp"
+#include "armature/platform/death_watch.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/platform/memory.hpp"
+#include "armature/platform/printer.hpp"
 #include "armature/platform/process.hpp"
+#include "armature/platform/stop_priority.hpp"
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::cli {
@@ -38,57 +46,6 @@ void release_what_loads() {
                                              "libpugixml.so",         "liburdfdom_model.so",
                                              "libtinyxml.so",         "libconsole_bridge.so"};
   platform::release_code(kLibraries);
-}
-
-void tell_verdict(const exec::Application& application, const Console& console) {
-  for (const exec::Verdict::Line& line : application.verdict().lines) {
-    const bool granted = line.refusals.empty();
-    console.say(granted ? LogLevel::kInfo : LogLevel::kWarning,
-                line.subject + ": asked for " + line.requested + ", got " + line.granted);
-    for (const std::string& refusal : line.refusals) {
-      console.say(LogLevel::kWarning, "  refused: " + refusal);
-    }
-  }
-}
-
-std::string microseconds(double ns) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f us", ns / 1000.0);
-  return text;
-}
-
-void tell_statistics(const exec::Application& application, bool all, const Console& console) {
-  const double tick_ns = platform::tick_period_ns();
-  for (const exec::ThreadStatistics& thread : application.thread_statistics()) {
-    if (thread.cycles_run == 0) continue;
-    const bool lossy = thread.cycles_skipped > 0 || thread.log_lines_dropped > 0;
-    if (!all && !lossy) continue;
-    std::string text = "thread " + thread.name + ": " + std::to_string(thread.cycles_run) +
-                       " cycles run, " + std::to_string(thread.cycles_skipped) + " skipped";
-    const auto in_ns = [&](std::uint64_t ticks) { return static_cast<double>(ticks) * tick_ns; };
-    text += "; a cycle took " + microseconds(in_ns(thread.cycle_ticks.percentile(0.5))) +
-            " (median), " + microseconds(in_ns(thread.cycle_ticks.most)) + " at most";
-    if (thread.latency_ns.count > 0) {
-      text += "; woke " + microseconds(static_cast<double>(thread.latency_ns.percentile(0.5))) +
-              " late (median), " + microseconds(static_cast<double>(thread.latency_ns.most)) +
-              " at most";
-    }
-    if (thread.log_lines_dropped > 0) {
-      text += "; " + std::to_string(thread.log_lines_dropped) + " log lines dropped";
-    }
-    console.say(lossy ? LogLevel::kWarning : LogLevel::kInfo, text);
-  }
-}
-
-/// Names every component that did not get to the end in good order.
-void tell_casualties(const exec::Application& application, const Console& console) {
-  for (const exec::ComponentEntry& entry : application.blueprint().components) {
-    const component::Component& component = *entry.component;
-    if (component.reason().empty()) continue;
-    console.say(LogLevel::kWarning, component.name() + " (" +
-                                        std::string(component::name_of(component.state())) +
-                                        "): " + std::string(component.reason()));
-  }
 }
 
 bool write_times_file(const std::string& path, const exec::Application& application,
@@ -127,17 +84,37 @@ bool passed_guard(const RunArguments& arguments, const Console& console) {
 
 /// The summary of a run before this one would be taken for this one's if it does not get to its
 /// end.
-bool make_output_folder(const std::string& folder, const Console& console) {
+bool make_output_folder(const std::string& folder, platform::FolderLock& lock,
+                        const Console& console) {
   if (folder.empty()) return true;
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (!failure) {
-    std::error_code ignored;  // to write it will fail, too, and be told
-    std::filesystem::remove(folder + '/' + report::kSummaryFile, ignored);
-    return true;
+  if (failure) {
+    console.say(LogLevel::kError, "cannot make the folder '" + folder + "': " + failure.message());
+    return false;
   }
-  console.say(LogLevel::kError, "cannot make the folder '" + folder + "': " + failure.message());
-  return false;
+  auto locked = platform::FolderLock::take(folder);
+  if (!locked) {
+    console.say(LogLevel::kError, locked.error() + "; give --out another folder");
+    return false;
+  }
+  lock = std::move(locked).value();
+  std::error_code ignored;  // to write it will fail, too, and be told
+  std::filesystem::remove(folder + '/' + report::kSummaryFile, ignored);
+  return true;
+}
+
+/// What is written at the end only would be missed when it is too late.
+bool can_write_at_the_end(const RunArguments& arguments, const Console& console) {
+  if (arguments.write_times.empty()) return true;
+  const auto writable = platform::expect_writable(arguments.write_times);
+  if (!writable) console.say(LogLevel::kError, writable.error());
+  if (writable && platform::is_same_file(arguments.write_times, arguments.load.file)) {
+    console.say(LogLevel::kError, "'" + arguments.write_times +
+                                      "' is the deployment: name another file for the times");
+    return false;
+  }
+  return writable.ok();
 }
 
 bool complete(record::TimelineWriter* timeline, const Console& console) {
@@ -153,10 +130,24 @@ int exit_code(exec::RunEnd end, const exec::Application& application) {
   return by_reaction ? kStoppedByReaction : kDone;
 }
 
-int start(exec::Application& application, const RunArguments& arguments, const Console& console) {
+/// What a start says that loading did not: it checks the plan again.
+base::Diagnostics news_in(const base::Diagnostics& all, const base::Diagnostics& told) {
+  base::Diagnostics news;
+  for (const base::Diagnostic& each : all.all()) {
+    const bool known = std::ranges::any_of(told.all(), [&](const base::Diagnostic& other) {
+      return base::to_text(other) == base::to_text(each);
+    });
+    if (!known) news.add(each);
+  }
+  return news;
+}
+
+/// @param told  of the same deployment, already
+int start(exec::Application& application, const RunArguments& arguments,
+          const base::Diagnostics& told, const Console& console) {
   const base::Diagnostics diagnostics = application.start();
   tell_verdict(application, console);
-  console.show(diagnostics);
+  console.show(news_in(diagnostics, told));
   if (diagnostics.ok()) return kDone;
   const bool refused = arguments.realtime == exec::RealtimeMode::kRequire && !arguments.simulated &&
                        !application.verdict().complete();
@@ -199,6 +190,15 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
   return options;
 }
 
+/// A thread that hangs or is dead still uses everything: leaves without taking it down.
+[[noreturn]] void leave_now(int code, std::optional<platform::Printer>& printer) {
+  printer.reset();
+  if (const platform::Death* const death = platform::DeathWatch::death()) {
+    platform::DeathWatch::conclude(*death);
+  }
+  platform::exit_now(code);
+}
+
 void let_run(exec::Application& application, const Companions& companions,
              const RunArguments& arguments, const platform::StopSignal& stop,
              base::Diagnostics& mistakes, report::RunFacts& facts) {
@@ -214,6 +214,115 @@ void let_run(exec::Application& application, const Companions& companions,
   facts.wall_time = platform::monotonic_now() - wall_begin;
 }
 
+/// Lets go of nothing in silence: what is held is held until the operator has answered.
+/// @param mistaken  its script failed, or lines that nobody saw failing
+base::Diagnostics leave(exec::Application& application, const Companions& companions,
+                        const platform::StopSignal& stop, exec::RunEnd end, bool mistaken) {
+  const auto how = mistaken ? exec::Leave::kAfterMistake : exec::Leave::kInOrder;
+  base::Diagnostics problems = application.run_before_stop(end, &stop, how);
+  const std::unique_ptr<script::Browser>& browser = companions.browser;
+  std::function<bool(base::Duration)> converse;
+  if (browser && !browser->at_end()) {
+    converse = [&](base::Duration limit) {
+      const base::Time until = base::later(application.now(), limit);
+      while (true) {
+        const exec::RunEnd said = browser->run(application, until - application.now(), &stop);
+        const bool quits =
+            said == exec::RunEnd::kStopRequested && !stop.received() && !browser->at_end();
+        // Lines of a pipe were written before anybody was asked: their `quit` is no answer.
+        if (!quits || browser->at_terminal()) return quits;
+      }
+    };
+  }
+  const base::Diagnostics let_go = application.hold_until_told(&stop, converse);
+  for (const base::Diagnostic& one : let_go.all()) problems.add(one);
+  return problems;
+}
+
+/// What a run has beside its deployment.
+struct Aboard {
+  const RunArguments& arguments;
+  const Companions& companions;
+  NetworkOnDemand& network;
+  base::Diagnostics& mistakes;  ///< of scripts
+  Console& console;
+};
+
+/// Stops everything, says how it went and writes what is written at the end.
+/// @param left  what went wrong on the way to the stop
+int conclude(exec::Application& application, const deploy::Document& document, const Aboard& aboard,
+             const base::Diagnostics& left, report::RunFacts& facts) {
+  const auto& [arguments, companions, network, mistakes, console] = aboard;
+  console.show(mistakes);
+  tell_casualties(application, console);
+  base::Diagnostics ended = application.stop();
+  deploy::save_properties(document, application.blueprint(), ended);
+  console.show(ended);
+  tell_statistics(application, arguments.statistics, console);
+  tell_lost_lines(console);
+  int code = exit_code(facts.end, application);
+  if (companions.browser && companions.browser->mistakes() > 0) code = kFailed;
+  if (!mistakes.ok() || !left.ok() || !ended.ok() || !passed_guard(arguments, console))
+    code = kFailed;
+  if (!complete(companions.timeline.get(), console)) code = kFailed;
+  if (!arguments.write_times.empty() &&
+      !write_times_file(arguments.write_times, application, console)) {
+    code = kFailed;
+  }
+  facts.exit_code = code;
+  facts.lines_lost = platform::lost_lines();
+  if (!arguments.output_folder.empty() &&
+      !write_run_summary(arguments.output_folder, facts, application, console)) {
+    code = kFailed;
+  }
+  return code;
+}
+
+/// From the start of a deployment that passed its check to the end of its run.
+int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
+  const auto& [arguments, companions, network, mistakes, console] = aboard;
+  // In simulated time nothing moves while somebody is waited for.
+  std::optional<platform::Printer> printer;
+  if (!arguments.simulated) printer.emplace();
+  tell_grants(deployment.document, console);
+  report::RunFacts facts = facts_of(arguments);
+  if (!arguments.simulated) console.set_begin(facts.begin);
+  const platform::StopSignal stop;
+  exec::Application application(
+      std::move(deployment.blueprint),
+      options_of(deployment, arguments, companions, network, console, facts));
+  const Burial burial(application, console);
+  const bool urges = !arguments.simulated && arguments.realtime != exec::RealtimeMode::kOff;
+  {
+    // What peers ask for may be an E-stop.
+    std::optional<platform::Promptness> of_its_threads;
+    if (urges) of_its_threads.emplace();
+    if (!network.open(deployment.document, arguments, application)) return kFailed;
+  }
+  if (const int failed = start(application, arguments, deployment.diagnostics, console);
+      failed != kDone) {
+    network.leave();
+    if (application.hangs()) leave_now(failed, printer);
+    return failed;
+  }
+  std::optional<platform::StopPriority> stop_priority;
+  std::optional<platform::Promptness> promptness;  // for what is typed
+  if (urges) {
+    promptness.emplace();
+    const base::Duration duration = arguments.duration.value_or(kUntilStopped);
+    stop_priority.emplace(stop, base::later(platform::monotonic_now(), duration));
+  }
+  let_run(application, companions, arguments, stop, mistakes, facts);
+  const bool mistaken =
+      !mistakes.ok() || (companions.browser && companions.browser->mistakes() > 0);
+  const base::Diagnostics left = leave(application, companions, stop, facts.end, mistaken);
+  console.show(left);
+  network.leave();
+  const int code = conclude(application, deployment.document, aboard, left, facts);
+  if (application.hangs()) leave_now(code, printer);
+  return code;
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments, Console& console) {
@@ -223,50 +332,15 @@ int run(const RunArguments& arguments, Console& console) {
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
 
-  if (!make_output_folder(arguments.output_folder, console)) return kFailed;
+  if (!can_write_at_the_end(arguments, console)) return kFailed;
+  platform::FolderLock lock;
+  if (!make_output_folder(arguments.output_folder, lock, console)) return kFailed;
 
   base::Diagnostics mistakes;
   const Companions companions = load_companions(arguments, mistakes);
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
-
-  report::RunFacts facts = facts_of(arguments);
-  if (!arguments.simulated) console.set_begin(facts.begin);
-  const platform::StopSignal stop;
-  exec::Application application(
-      std::move(deployment.blueprint),
-      options_of(deployment, arguments, companions, network, console, facts));
-  if (!network.open(deployment.document, arguments, application)) return kFailed;
-  if (const int failed = start(application, arguments, console); failed != kDone) {
-    network.leave();
-    if (application.hangs()) platform::exit_now(failed);
-    return failed;
-  }
-  let_run(application, companions, arguments, stop, mistakes, facts);
-  console.show(application.run_before_stop(facts.end, &stop));
-  network.leave();
-  console.show(mistakes);
-  tell_casualties(application, console);
-  base::Diagnostics ended = application.stop();
-  deploy::save_properties(deployment.document, application.blueprint(), ended);
-  console.show(ended);
-  tell_statistics(application, arguments.statistics, console);
-  int code = exit_code(facts.end, application);
-  if (companions.browser && companions.browser->mistakes() > 0) code = kFailed;
-  if (!mistakes.ok() || !ended.ok() || !passed_guard(arguments, console)) code = kFailed;
-  if (!complete(companions.timeline.get(), console)) code = kFailed;
-  if (!arguments.write_times.empty() &&
-      !write_times_file(arguments.write_times, application, console)) {
-    code = kFailed;
-  }
-  facts.exit_code = code;
-  if (!arguments.output_folder.empty() &&
-      !write_run_summary(arguments.output_folder, facts, application, console)) {
-    code = kFailed;
-  }
-  // A thread that hangs still uses everything: leave without taking it down.
-  if (application.hangs()) platform::exit_now(code);
-  return code;
+  return run_checked(deployment, {arguments, companions, network, mistakes, console});
 }
 
 }  // namespace armature::cli

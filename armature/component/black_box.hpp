@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/base/fixed_text.hpp"
 #include "armature/base/time.hpp"
+#include "armature/component/outcome.hpp"
 #include "armature/rt/try_lock.hpp"
 #include "armature/types/type.hpp"
 
@@ -42,7 +42,7 @@ class BlackBox {
     base::Time time{};
     const Component* component = nullptr;
     std::string_view item;  ///< lives as long as the component
-    base::FixedText<95> text;
+    Reason text;
   };
   /// Where the value of a port, or the count of an event, lies in a picture.
   struct Channel {

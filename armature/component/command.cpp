@@ -82,13 +82,14 @@ void CommandBase::mark_twin(CommandBase& twin) const {
 
 Outcome CommandBase::admit(CommandTicket* ticket) {
   const bool running = owner().state() == State::kRunning;
-  if (running && !active()) {
+  if ((running || about().any_state) && !active()) {
     note(owner(), Noted::kBegun, name(), {});
     phase_ = Phase::kBeginning;
     return accepted();
   }
-  const Outcome refusal =
-      refused(running ? "the command before is still under way" : "the component is not running");
+  Reason why(active() ? "the command before is still under way" : "the component is not running");
+  if (!active() && !owner().reason().empty()) why.append(": ").append(owner().reason());
+  const Outcome refusal = refused(why);
   note(owner(), Noted::kRefused, name(), refusal.reason());
   if (ticket != nullptr) ticket->end(CommandStage::kRefused, refusal.reason());
   return refusal;

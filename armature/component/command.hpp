@@ -193,7 +193,7 @@ template <typename... Args>
 class Command final : public CommandBase {
  public:
   /// `Function` is `Outcome f(Args...)`: accepts, or refuses with a reason and changes nothing.
-  /// Options: done_when<&X::f>, cancelled_by<&X::f>, by_operator, args(names...).
+  /// Options: done_when<&X::f>, cancelled_by<&X::f>, by_operator, in_any_state, args(names...).
   template <auto Function, typename... Options>
   Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
           Options... options) noexcept

@@ -51,6 +51,8 @@ Component::Component(std::string name)
 
 Component::~Component() = default;
 
+void Component::on_check(Check&) const {}
+
 Outcome Component::wrong_state(std::string_view transition) const {
   Reason why("cannot ");
   why.append(transition).append(" while ").append(name_of(state()));
@@ -208,8 +210,19 @@ void Component::contain(ExecutionContext& where) noexcept {
     throw;
   } catch (const std::exception& known) {
     fault_from(where, Reason("exception: ").append(known.what()));
+    log_rest_of(known.what());
   } catch (...) {
     fault_from(where, "exception of an unknown type");
+  }
+}
+
+/// What of an exception is longer than a reason.
+void Component::log_rest_of(std::string_view text) {
+  constexpr std::size_t kEach = rt::LogRecord::kTextRoom;
+  constexpr std::string_view kBegin = "exception: ";
+  const std::size_t told = Reason(kBegin).append(text).view().size() - kBegin.size();
+  for (text.remove_prefix(told); !text.empty(); text.remove_prefix(std::min(kEach, text.size()))) {
+    log_error("the exception goes on: {}", text.substr(0, kEach));
   }
 }
 
@@ -341,7 +354,7 @@ void Component::log(rt::LogLevel level, const char* format, const LogArguments& 
   record.time = time();
   record.component = rest_->name;
   record.format = format;
-  record.arguments = arguments;
+  record.take(arguments);
   const ExecutionContext* const here = context_of_this_thread();
   rt::LogQueue* const queue = here != nullptr ? here->log : context_->log;
   if (queue != nullptr) queue->push(record);

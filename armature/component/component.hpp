@@ -16,6 +16,7 @@
 #include "armature/component/entrance.hpp"
 #include "armature/component/internal/side_by_side.hpp"
 #include "armature/component/outcome.hpp"
+#include "armature/component/pace.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/rt/statistics.hpp"
 #include "armature/rt/ticks.hpp"
@@ -32,6 +33,9 @@ class EventBase;
 class EventHandlerBase;
 class StateMachine;
 class Observer;
+class Check;
+class Checked;
+class Holding;
 
 /// Where a component is in its life (component-model: life cycle). Ordered so that everything from
 /// kStopped on serves operations.
@@ -64,6 +68,8 @@ struct Interface {
   std::vector<EventHandlerBase*> handlers;
   std::vector<StateMachine*> machines;
   std::vector<Observer*> observers;
+  std::vector<const Checked*> checked;
+  std::vector<Holding*> holdings;
 };
 
 /// The base of every component. Its interface consists of members (Property, InputPort, OutputPort,
@@ -87,6 +93,9 @@ class Component {
   State state() const { return state_.load(std::memory_order_acquire); }
   /// Serves operations: configured and without an exception.
   bool ready() const { return state() >= State::kStopped; }
+  /// From its configuration to its clean-up, also behind an exception.
+  /// @thread its own, or any while it does not run
+  bool is_configured() const { return rest_->configured; }
   /// Why the component is in its state after a refusal, an error or a fault; empty if all is well.
   /// @thread its own, or any while it does not run
   std::string_view reason() const { return rest_->reason.view(); }
@@ -139,6 +148,24 @@ class Component {
   /// @rt nonblocking, no allocation, O(inputs)
   /// @thread its own
   base::Time next_expiry() const;
+
+  /// The period with which it is run, as the plan knows it, from before it is configured on; 0 if
+  /// the plan knows none, or two that differ (see `pace`).
+  /// @rt nonblocking
+  base::Duration period() const {
+    return rest_->pace.known() ? rest_->pace.period : base::Duration::zero();
+  }
+  const Pace& pace() const { return rest_->pace; }
+  /// Told by the plan.
+  /// @thread configuration only
+  void set_pace(const Pace& pace) {
+    if (rest_->pace != pace) rest_->pace = pace;
+  }
+
+  /// Looks at what the deployment makes of it: properties have their values, nothing is configured.
+  /// Overridden by what has more to check than its declaration says; changes nothing.
+  /// @thread configuration only
+  virtual void on_check(Check& check) const;
 
   const Interface& interface() const { return rest_->interface; }
   /// The declaration lists, for the members that enter themselves.
@@ -273,6 +300,7 @@ class Component {
   static void charge(ExecutionContext& where, Component* ran) noexcept;
   /// Faults because of the exception that is being handled.
   void contain(ExecutionContext& where) noexcept;
+  void log_rest_of(std::string_view text);
   void refuse_depth(ExecutionContext& where) noexcept;
   void enter_fault(std::string_view reason);
   void fault_from(const ExecutionContext& where, std::string_view reason);
@@ -294,6 +322,7 @@ class Component {
     std::string name;
     bool configured = false;
     base::Time ages_hold_until{};  ///< no input needs a look at its age before
+    Pace pace;
     Interface interface;
     std::vector<Step*> steps_before;
     std::vector<Step*> steps_after;

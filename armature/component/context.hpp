@@ -56,6 +56,7 @@ struct ExecutionContext {
   std::string name;
   std::atomic<base::Time> cycle_time{base::Time{}};  ///< read from the clock once in each cycle
   std::uint64_t cycle = 0;                           ///< counts the cycles
+  base::Duration period{};                           ///< of its cycles; 0: it is triggered
   std::atomic<const Entrance*> innermost{nullptr};   ///< through which the present code was entered
   std::unique_ptr<HookEntrance[]> hooks;             ///< those that are entered, and room for more
   HookEntrance* next_hook = nullptr;

@@ -39,6 +39,11 @@ class EventListener {
   ~EventListener() = default;
 };
 
+/// Option of an event: it is raised when there is a reason, not in each cycle of its component, so
+/// who handles it is not run with that component's period.
+struct Occasional {};
+inline constexpr Occasional occasional{};
+
 /// Something that happens to a component and that others may react to.
 class EventBase {
  public:
@@ -51,6 +56,7 @@ class EventBase {
   const Signature& signature() const { return signature_; }
   Component& owner() const { return owner_; }
   std::uint64_t raised() const { return raised_; }
+  bool is_occasional() const { return occasional_; }
   const std::vector<EventHandlerBase*>& subscribers() const { return subscribers_; }
 
   /// Subscribes `handler`, which has the same signature, for the threads that both components are
@@ -91,10 +97,13 @@ class EventBase {
 
   void mark_twin(EventBase& twin) const { twin.signature_ = signature_; }
 
+  void mark_occasional() { occasional_ = true; }
+
   std::uint64_t raised_ = 0;
   std::vector<EventHandlerBase*> subscribers_;
 
  private:
+  bool occasional_ = false;
   Component& owner_;
   std::string_view name_;
   std::string_view doc_;
@@ -171,6 +180,11 @@ class Event final : public EventBase {
   /// @param names  of the arguments, with units: `"position [rad]"`
   Event(Component* owner, std::string_view name, std::string_view doc,
         std::initializer_list<std::string_view> names = {}) noexcept;
+  Event(Component* owner, std::string_view name, std::string_view doc, Occasional,
+        std::initializer_list<std::string_view> names = {}) noexcept
+      : Event(owner, name, doc, names) {
+    mark_occasional();
+  }
   ~Event() override;
 
   /// Tells all subscribers: those in this thread run now, the others are queued.

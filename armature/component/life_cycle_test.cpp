@@ -266,7 +266,7 @@ TEST_F(LifeCycle, StoppingByADeclaredReactionTellsTheApplicationWhy) {
 
 TEST_F(LifeCycle, TooLongAReasonIsCutNotLost) {
   component_.refusals["configure"] = std::string(1000, 'x');
-  EXPECT_EQ(component_.configure().reason(), std::string(255, 'x'));
+  EXPECT_EQ(component_.configure().reason(), std::string(511, 'x'));
 }
 
 TEST(LifeCycleNames, AreThoseOfTheDocumentation) {
@@ -346,6 +346,24 @@ TEST_F(Containment, TheLogNamesTheComponentAndTheReason) {
   EXPECT_EQ(record->component.view(), "probe");
   EXPECT_EQ(record->message(), "fault: exception: card 3 is gone");
   EXPECT_EQ(log.pop(), nullptr);
+}
+
+TEST_F(Containment, TheLogHasAllOfAnExceptionThatIsLongerThanAReason) {
+  rt::LogQueue log(8);
+  thread_.context.log = &log;
+  bring_to(State::kRunning);
+  std::string what;
+  for (int i = 0; i < 400; ++i) what += std::to_string(i) + " ";
+  component_.actions["update"] = [&] { throw std::runtime_error(what); };
+  component_.update();
+  std::string told;
+  while (const rt::LogRecord* record = log.pop()) {
+    const std::string line = record->message();
+    for (const char* begin : {"fault: exception: ", "the exception goes on: "}) {
+      if (line.starts_with(begin)) told += line.substr(std::string(begin).size());
+    }
+  }
+  EXPECT_EQ(told, what);
 }
 
 TEST_F(Containment, AComponentThatThrowsWhileADeclaredReactionStopsItKeepsTheException) {

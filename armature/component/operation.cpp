@@ -33,6 +33,7 @@ void OperationBase::mark_twin(OperationBase& twin) const {
   twin.about_->signature = about_->signature;
   twin.about_->own_thread = true;
   twin.about_->by_operator = about_->by_operator;
+  twin.about_->any_state = about_->any_state;
   twin.about_->elsewhere = true;
 }
 
@@ -51,6 +52,8 @@ OperationBase::OperationBase(Component& owner, std::unique_ptr<About> about) noe
 }
 
 OperationBase::~OperationBase() = default;
+
+bool OperationBase::serves_unready() const { return about_->any_state && owner_.is_configured(); }
 
 void OperationBase::apply(const ArgumentNames& given) noexcept {
   std::vector<Signature::Argument>& arguments = about_->signature.arguments;

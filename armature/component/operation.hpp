@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
+#include "armature/component/by_operator.hpp"
 #include "armature/component/call.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/requirement.hpp"
@@ -27,10 +28,11 @@ namespace armature::component {
 struct InOwnThread {};
 inline constexpr InOwnThread in_own_thread{};
 
-/// Option of an operation or command: an act of the operator. Scripts may call it only if the
-/// deployment grants it.
-struct ByOperator {};
-inline constexpr ByOperator by_operator{};
+/// Option of an operation: it is served as long as its component is configured, also behind a
+/// fault. For what makes safe: brakes, switches off. A command is served before the configuration,
+/// too, and ends before it returns where its component does not run.
+struct InAnyState {};
+inline constexpr InAnyState in_any_state{};
 
 /// Option of an operation or command: names of the arguments, `args("position [rad]", "time [s]")`.
 struct ArgumentNames {
@@ -82,12 +84,16 @@ class OperationBase {
     bool own_thread;
     bool by_operator = false;
     bool elsewhere = false;
+    bool any_state = false;
   };
 
   OperationBase(Component& owner, std::unique_ptr<About> about) noexcept;
   About& about() const { return *about_; }
   void apply(InOwnThread) noexcept { about_->own_thread = true; }
   void apply(ByOperator) noexcept { about_->by_operator = true; }
+  void apply(InAnyState) noexcept { about_->any_state = true; }
+  /// Whether it is served now although its component is not ready.
+  bool serves_unready() const;
   void apply(const ArgumentNames& given) noexcept;
   /// What its twin has of this one besides name and arguments.
   void mark_twin(OperationBase& twin) const;
@@ -110,7 +116,7 @@ class OperationCaller;
 template <typename R, typename... Args>
 class Operation<R(Args...)> final : public OperationBase {
  public:
-  /// Options: in_own_thread, by_operator, args(names...).
+  /// Options: in_own_thread, by_operator, in_any_state, args(names...).
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
             Options... options) noexcept
@@ -165,7 +171,7 @@ class Operation<R(Args...)> final : public OperationBase {
   template <typename Code>
   CallResult<R> execute_with(ExecutionContext& where, Code&& code) noexcept {
     Component& component = owner();
-    if (!component.ready()) return {CallStatus::kNotReady};
+    if (!component.ready() && !serves_unready()) return {CallStatus::kNotReady};
     CallResult<R> result{CallStatus::kFailed};
     component.enter_hook(where, [&] {
       if constexpr (std::is_void_v<R>) {

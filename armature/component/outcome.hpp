@@ -8,7 +8,7 @@
 namespace armature::component {
 
 /// A reason that people read; held in place, so that real-time code can give one.
-using Reason = base::FixedText<255>;
+using Reason = base::FixedText<511>;
 
 /// The answer of a hook or a command: accepted, or refused with a reason.
 class [[nodiscard]] Outcome {

@@ -37,6 +37,11 @@ PropertyBase::PropertyBase(Component& owner, std::string_view name, std::string_
   owner.declare().properties.push_back(this);
 }
 
+std::string PropertyFollower::objection_to(const PropertyBase& /*property*/,
+                                           const types::Value& /*value*/) const {
+  return {};
+}
+
 PropertyBase::~PropertyBase() = default;
 
 std::string PropertyBase::check(const types::Value& value) const {
@@ -71,6 +76,8 @@ std::string PropertyBase::objection(const types::Value& value) const {
     std::string objection = follower->objection();
     const bool changes = value.text() != types::to_text(about_->type, data());
     if (!objection.empty() && changes) return "cannot change: " + objection;
+    objection = follower->objection_to(*this, value);
+    if (!objection.empty()) return "cannot be " + value.text() + ": " + objection;
   }
   return {};
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
+#include "armature/component/by_operator.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/types/type.hpp"
@@ -34,6 +35,8 @@ namespace internal {
 class PropertyTap;
 }  // namespace internal
 
+class PropertyBase;
+
 /// Something whose form follows from a property: ports whose number is the property's value.
 class PropertyFollower {
  public:
@@ -41,6 +44,8 @@ class PropertyFollower {
   virtual void follow() = 0;
   /// Why the property cannot change now, empty if it can.
   virtual std::string objection() const = 0;
+  /// Why the property cannot have this value, empty if it can.
+  virtual std::string objection_to(const PropertyBase& property, const types::Value& value) const;
 
  protected:
   ~PropertyFollower() = default;
@@ -62,6 +67,7 @@ class PropertyBase {
   bool persistent() const { return about_->persistent; }
   bool changeable() const { return about_->changeable; }
   bool is_mandatory() const { return about_->mandatory; }
+  bool is_by_operator() const { return about_->by_operator; }
   bool was_set() const { return about_->set; }
   const std::optional<Range>& limits() const { return about_->limits; }
 
@@ -97,6 +103,7 @@ class PropertyBase {
   void apply(Range limits) noexcept { about_->limits = limits; }
   void apply(ChangeableWhileRunning) noexcept { about_->changeable = true; }
   void apply(Mandatory) noexcept;
+  void apply(ByOperator) noexcept { about_->by_operator = true; }
   void tell_followers();
 
  private:
@@ -112,6 +119,7 @@ class PropertyBase {
     bool persistent;
     bool changeable = false;
     bool mandatory = false;
+    bool by_operator = false;
     bool set = false;
     std::optional<Range> limits{};
     std::vector<PropertyFollower*> followers{};

@@ -207,5 +207,25 @@ TEST_F(PortArrays, ANegativeNumberIsNone) {
   EXPECT_EQ(mux_.positions.size(), 0u);
 }
 
+/// As a controller judges its gains.
+class NoEvenRetries final : public PropertyFollower {
+ public:
+  void follow() override {}
+  std::string objection() const override { return {}; }
+  std::string objection_to(const PropertyBase& property, const Value& value) const override {
+    const int wanted = *static_cast<const std::uint8_t*>(value.data());
+    return wanted % 2 == 0 ? std::string(property.name()) + " is even" : "";
+  }
+};
+
+TEST_F(Properties, CannotHaveAValueThatAFollowerObjectsTo) {
+  NoEvenRetries follower;
+  controller_.retries.add_follower(follower);
+  EXPECT_EQ(controller_.retries.set(Value::of<std::uint8_t>(4)).error(),
+            "property 'retries' of 'joint1.pid' cannot be 4: retries is even");
+  EXPECT_EQ(controller_.retries.get(), 3);
+  EXPECT_TRUE(controller_.retries.set(Value::of<std::uint8_t>(5)));
+}
+
 }  // namespace
 }  // namespace armature::component

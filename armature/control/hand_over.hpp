@@ -19,12 +19,16 @@ namespace armature::control {
 /// they move, what a controller does about that is no noise, and the first signal counts alone:
 /// `learning` is 0.
 ///
+/// Likewise `present` may be the noise of a single output: where there is a mean of those before
+/// it, what it is apart from that dies away by x = `learning`.
+///
 /// Afterwards, and before anything was taken over, the output is the signal, to the bit.
 class HandOver {
  public:
   struct State {
     std::vector<double> present;  ///< not a number: this signal is not taken over
-    std::vector<double> offsets;  ///< present - mean
+    std::vector<double> offsets;  ///< present, or the mean of those before it, - mean
+    std::vector<double> noise;    ///< of the present one
     double learning = 0.0;
     base::Time begun{};
     int samples = 0;  ///< in the mean
@@ -37,9 +41,11 @@ class HandOver {
 
   /// The next output is `present`.
   /// @param learning  0 to 1
+  /// @param lately    the mean of the outputs up to the present one; empty: that one itself
   /// @return false, and nothing is taken over, if these are not as many as the signals
   /// @rt nonblocking, no allocation, O(signals)
-  bool begin(std::span<const double> present, double learning = 0.0);
+  bool begin(std::span<const double> present, double learning = 0.0,
+             std::span<const double> lately = {});
   bool begin(double present) { return begin(std::span(&present, 1)); }
 
   /// Nothing is taken over any more.

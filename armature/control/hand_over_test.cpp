@@ -64,6 +64,18 @@ TEST(HandOver, WhereItLearnsNoiseOfTheFirstSignalDiesAwayAtOnce) {
   EXPECT_NEAR(learnt[1], 1.0 + left * 3.0, 1.0 / 25);
 }
 
+TEST(HandOver, NoiseOfThePresentOutputDiesAwayFirst) {
+  HandOver over(2);
+  ASSERT_TRUE(over.begin(Pair{5.0, 1.0}, 0.05, Pair{3.0, 1.0}));
+  EXPECT_EQ(step(over, {0.0, 0.0}, 0ms), (Pair{5.0, 1.0})) << "no step";
+  const Pair soon = step(over, {0.0, 0.0}, 25ms);
+  EXPECT_GT(soon[0], 3.0);
+  EXPECT_LT(soon[0], 4.2);
+  const Pair then = step(over, {0.0, 0.0}, 50ms);
+  EXPECT_NEAR(then[0], 3.0 * then[1], 1e-12) << "as one that began with the mean";
+  EXPECT_FALSE(over.begin(Pair{5.0, 1.0}, 0.05, std::vector<double>{3.0}));
+}
+
 TEST(HandOver, SignalsThatChangeMeanwhileCount) {
   HandOver over(2);
   ASSERT_TRUE(over.begin(Pair{4.0, -4.0}));

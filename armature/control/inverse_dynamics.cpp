@@ -108,4 +108,6 @@ const std::vector<std::string>& InverseDynamics::joint_names() const {
   return solver_->chain.joints;
 }
 
+const std::vector<JointLimits>& InverseDynamics::limits() const { return solver_->chain.limits; }
+
 }  // namespace armature::control

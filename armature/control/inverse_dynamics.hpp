@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
+#include "armature/control/joint_limits.hpp"
 
 namespace armature::control {
 
@@ -59,6 +60,8 @@ class InverseDynamics {
 
   std::size_t joints() const;
   const std::vector<std::string>& joint_names() const;  ///< from the base on
+  /// What the description allows each joint.
+  const std::vector<JointLimits>& limits() const;
 
  private:
   struct Solver;

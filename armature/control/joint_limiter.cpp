@@ -51,14 +51,14 @@ JointLimiter::JointLimiter(const Config& config)
       period_s_(base::to_seconds(config.period)),
       velocity_step_(config.max_acceleration * period_s_) {}
 
-bool JointLimiter::arm(const Measured& measured) {
-  if (!finite(measured)) return false;
+bool JointLimiter::arm(const Measured& measured, double effort) {
+  if (!finite(measured) || !std::isfinite(effort)) return false;
   armed_ = true;
   rate_limited_ = config_.arming_time > base::Duration{};
   armed_for_ = {};
   position_ = last_command_ = measured.position;
   velocity_ = 0.0;
-  effort_ = 0.0;
+  effort_ = std::clamp(effort, -config_.max_effort, config_.max_effort);
   return true;
 }
 

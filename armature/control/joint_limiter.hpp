@@ -25,6 +25,20 @@ class LimitedEffort {
   double value_ = 0.0;
 };
 
+/// What has to be shown to whoever switches a motor on or opens a brake: that the joint's limiter
+/// is armed. Nothing else makes one that is valid, so energy gets into a joint by arming only.
+class DrivePermit {
+ public:
+  constexpr DrivePermit() = default;
+  constexpr explicit operator bool() const { return armed_; }
+
+ private:
+  friend class JointLimiter;
+  constexpr explicit DrivePermit(bool armed) : armed_(armed) {}
+
+  bool armed_ = false;
+};
+
 /// The last step before the hardware of one joint. A component uses the function of its kind of
 /// command, once a period.
 ///
@@ -97,13 +111,20 @@ class JointLimiter {
 
   /// From now on commands are passed. The reference begins at rest where the joint is, the effort
   /// at 0, so that arming moves nothing, also outside the position limits.
-  /// @return false, and it stays disarmed, if `measured` is not finite
+  /// @param effort  that holds the joint: what grows begins there
+  /// @return false, and it stays disarmed, if an argument is not finite
   /// @rt nonblocking, no allocation
-  bool arm(const Measured& measured);
+  bool arm(const Measured& measured, double effort = 0.0);
+
+  /// The effort may grow as fast as it likes from now on: it is what holds the joint.
+  /// @rt nonblocking, no allocation
+  void end_rate_limit() { rate_limited_ = false; }
 
   /// @rt nonblocking, no allocation
   void disarm() { armed_ = false; }
   bool armed() const { return armed_; }
+  /// Valid while it is armed.
+  DrivePermit permit() const { return DrivePermit(armed_); }
 
   /// Limits a position reference by what was sent before: to judge it by the measured position
   /// would make it follow a joint that is pushed. What is not finite brakes to rest with

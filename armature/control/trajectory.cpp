@@ -8,6 +8,14 @@
 #include "armature/control/internal/mistakes.hpp"
 
 namespace armature::control {
+namespace {
+
+/// Of the shortest time: who says it with a few digits means it.
+constexpr double kAsFast = 1.0 - 1e-6;
+/// So often along a motion its other limits are looked at.
+constexpr int kLooks = 64;
+
+}  // namespace
 
 std::string_view to_text(Refusal refusal) {
   switch (refusal) {
@@ -21,6 +29,8 @@ std::string_view to_text(Refusal refusal) {
       return "a target is outside the limits of its axis";
     case Refusal::kNegativeTime:
       return "the time is negative";
+    case Refusal::kTooFast:
+      return "the motion is faster than the limits allow";
     case Refusal::kTooLong:
       return "the motion would take more than 1e9 s";
     case Refusal::kUnderWay:
@@ -55,6 +65,9 @@ base::Result<Trajectory> Trajectory::make(const Config& config) {
 Trajectory::Trajectory(const Config& config)
     : axes_(config.axes),
       motions_(axes_.size()),
+      next_(axes_.size()),
+      next_positions_(axes_.size()),
+      next_velocities_(axes_.size()),
       positions_(axes_.size()),
       velocities_(axes_.size()),
       accelerations_(axes_.size()) {}
@@ -66,23 +79,49 @@ Trajectory::Answer Trajectory::hold(std::span<const double> positions) {
   return {};
 }
 
-Trajectory::Answer Trajectory::move_to(std::span<const double> positions, double time_s) {
+Trajectory::Answer Trajectory::move_to(std::span<const double> positions, double time_s,
+                                       MotionLimit* limit) {
   if (const Answer answer = check_target(positions); !answer.accepted()) return answer;
   if (!std::isfinite(time_s)) return {Refusal::kNotFinite};
   if (time_s < 0.0) return {Refusal::kNegativeTime};
   if (!position_known_) return {Refusal::kNoPosition};
   if (under_way()) return {Refusal::kUnderWay};
-  double slowest_s = time_s;
+  double shortest = 0.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    slowest_s = std::max(slowest_s, shortest_s(i, positions[i] - positions_[i]));
+    shortest = std::max(shortest, shortest_s(i, positions[i] - positions_[i]));
   }
-  if (slowest_s > kLongest_s) return {Refusal::kTooLong};
+  if (limit != nullptr && shortest > 0.0) {
+    shape(positions, shortest);
+    shortest *= std::max(1.0, most_used(*limit, shortest));
+  }
+  if (time_s > 0.0 && time_s < kAsFast * shortest) return {Refusal::kTooFast, kNoAxis, shortest};
+  const double duration_s = std::max(time_s, shortest);
+  if (!(duration_s <= kLongest_s)) return {Refusal::kTooLong};
+  shape(positions, duration_s);
+  std::swap(motions_, next_);
+  begin(duration_s);
+  return {};
+}
+
+/// Lets `next_` begin where the axes rest.
+void Trajectory::shape(std::span<const double> positions, double duration_s) {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double share = ramp_share(i, positions[i] - positions_[i]);
-    motions_[i] = Trapezoid::rest_to_rest(positions_[i], positions[i], slowest_s, share);
+    next_[i] = Trapezoid::rest_to_rest(positions_[i], positions[i], duration_s, share);
   }
-  begin(slowest_s);
-  return {};
+}
+
+double Trajectory::most_used(MotionLimit& limit, double duration_s) {
+  double most = 0.0;
+  for (int k = 1; k < kLooks; ++k) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const MotionSample there = next_[i].at(duration_s * k / kLooks);
+      next_positions_[i] = there.position;
+      next_velocities_[i] = there.velocity;
+    }
+    most = std::max(most, limit.used(next_positions_, next_velocities_));
+  }
+  return most;
 }
 
 void Trajectory::stop() {

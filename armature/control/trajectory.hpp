@@ -21,6 +21,7 @@ enum class Refusal {
   kNotFinite,      ///< a position, velocity or time is not a finite number
   kOutsideLimits,  ///< a target is outside the position limits of its axis
   kNegativeTime,
+  kTooFast,     ///< the limits allow it in a longer time only, which the answer has
   kTooLong,     ///< it would take more than `Trajectory::kLongest_s`
   kUnderWay,    ///< a motion or a stop is not over yet
   kNoPosition,  ///< where the axes are was never said: hold() comes first
@@ -30,9 +31,21 @@ enum class Refusal {
 /// @rt nonblocking, no allocation
 std::string_view to_text(Refusal refusal);
 
+/// What limits a motion besides the limits of each axis, such as the speed of a robot's tip. It
+/// grows with the velocities as they do: at half the velocities half of it is used.
+class MotionLimit {
+ public:
+  /// @return the share that is used of what is allowed, above 1 if it is too fast
+  /// @rt nonblocking, no allocation
+  virtual double used(std::span<const double> positions, std::span<const double> velocities) = 0;
+
+ protected:
+  ~MotionLimit() = default;
+};
+
 /// Moves several axes from rest to rest with trapezoidal velocities. All start and end together:
 /// each axis takes its shortest motion, and all are scaled in time to the slowest (paper 2, section
-/// 4.1, nAxesGenerator), or to a longer time that was asked for. What is refused changes nothing.
+/// 4.1, nAxesGenerator), or to the longer time that was asked for. What is refused changes nothing.
 /// One thread uses it.
 class Trajectory {
  public:
@@ -53,6 +66,7 @@ class Trajectory {
   struct [[nodiscard]] Answer {
     Refusal refusal = Refusal::kNone;
     std::size_t axis = kNoAxis;  ///< the first one it is about, if it is about one
+    double shortest_s = 0.0;     ///< of kTooFast: the time that the limits allow
 
     bool accepted() const { return refusal == Refusal::kNone; }
   };
@@ -68,10 +82,11 @@ class Trajectory {
 
   /// Begins a motion from where the axes rest.
   /// @param positions  the target, one per axis
-  /// @param time_s     what the motion takes if that is longer than the shortest time; >= 0
+  /// @param time_s     what the motion takes; 0: the shortest time that the limits allow
+  /// @param limit      looked at along the motion, or nullptr
   /// @return any refusal of the enumeration
   /// @rt nonblocking, no allocation, O(axes)
-  Answer move_to(std::span<const double> positions, double time_s);
+  Answer move_to(std::span<const double> positions, double time_s, MotionLimit* limit = nullptr);
 
   /// Brakes all axes evenly from where the motion is now, to hold where they come to rest. They end
   /// together, with the slowest; none leaves its limits or passes its target. Nothing happens at
@@ -116,11 +131,16 @@ class Trajectory {
   double shortest_brake_s(std::size_t axis, double velocity) const;
   double brake_s(std::size_t axis, double velocity, double room, double together_s) const;
   double room_to_limit(std::size_t axis, double position, double velocity) const;
+  void shape(std::span<const double> positions, double duration_s);
+  double most_used(MotionLimit& limit, double duration_s);
   void begin(double duration_s);
   void sample_all();
 
   std::vector<Axis> axes_;
   std::vector<Trapezoid> motions_;
+  std::vector<Trapezoid> next_;  ///< of a motion that may be refused
+  std::vector<double> next_positions_;
+  std::vector<double> next_velocities_;
   base::Duration elapsed_{};
   double duration_s_ = 0.0;
   bool position_known_ = false;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,12 +57,50 @@ TEST(Trajectory, TakesTheShortestTimeOfItsSlowestAxis) {
   EXPECT_THAT(trajectory.accelerations(), ElementsAre(0.0, 0.0));
 }
 
+TEST(Trajectory, RefusesALessTimeThanTheLimitsAllowAndSaysWhichTheyDo) {
+  Trajectory trajectory = make_two();
+  const auto answer = trajectory.move_to(std::array{1.0, 1.0}, 2.4);
+  EXPECT_EQ(answer.refusal, Refusal::kTooFast);
+  EXPECT_DOUBLE_EQ(answer.shortest_s, 2.5);
+  EXPECT_FALSE(trajectory.under_way());
+  EXPECT_THAT(trajectory.positions(), ElementsAre(0.0, 0.0));
+  EXPECT_TRUE(trajectory.move_to(std::array{1.0, 1.0}, answer.shortest_s).accepted());
+}
+
+/// Allows 0.25 of the faster velocity.
+class Slow final : public MotionLimit {
+ public:
+  double used(std::span<const double> positions, std::span<const double> velocities) override {
+    looks += positions.size() == velocities.size() ? 1 : 0;
+    return std::max(std::abs(velocities[0]), std::abs(velocities[1])) / 0.25;
+  }
+  int looks = 0;
+};
+
+TEST(Trajectory, AnotherLimitCountsAlongTheWholeMotion) {
+  Trajectory trajectory = make_two();
+  Slow slow;
+  const auto answer = trajectory.move_to(std::array{1.0, 1.0}, 3.0, &slow);
+  EXPECT_EQ(answer.refusal, Refusal::kTooFast);
+  EXPECT_NEAR(answer.shortest_s, 6.0, 1e-9) << "0.6 rad/s of the fast one in 2.5 s";
+  EXPECT_GT(slow.looks, 10);
+  EXPECT_TRUE(trajectory.move_to(std::array{1.0, 1.0}, 0.0, &slow).accepted());
+  EXPECT_NEAR(trajectory.duration_s(), 6.0, 1e-9);
+}
+
+TEST(Trajectory, ALimitThatAllowsMoreChangesNothing) {
+  Trajectory trajectory = make_two();
+  Slow slow;
+  EXPECT_TRUE(trajectory.move_to(std::array{0.1, 0.1}, 10.0, &slow).accepted());
+  EXPECT_DOUBLE_EQ(trajectory.duration_s(), 10.0);
+}
+
 TEST(Trajectory, TakesTheTimeThatWasAskedForIfThatIsLonger) {
   Trajectory trajectory = make_two();
   ASSERT_TRUE(trajectory.move_to(std::array{1.0, 1.0}, 10.0).accepted());
   EXPECT_EQ(trajectory.duration_s(), 10.0);
   finish(trajectory);
-  ASSERT_TRUE(trajectory.move_to(std::array{0.0, 0.0}, 1.0).accepted());
+  ASSERT_TRUE(trajectory.move_to(std::array{0.0, 0.0}, 0.0).accepted());
   EXPECT_DOUBLE_EQ(trajectory.duration_s(), 2.5);
 }
 

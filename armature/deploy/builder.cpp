@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/event.hpp"
 #include "armature/component/operation.hpp"
 #include "armature/component/property.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
+#include "armature/deploy/internal/once_per_place.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/property_value.hpp"
 #include "armature/platform/file.hpp"
@@ -20,6 +22,16 @@ namespace armature::deploy {
 namespace {
 
 using internal::in_quotes;
+
+using ComponentsByName = std::unordered_map<std::string_view, const component::Component*>;
+
+ComponentsByName by_name(const exec::Blueprint& blueprint) {
+  ComponentsByName made;
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    made.emplace(entry.component->name(), entry.component.get());
+  }
+  return made;
+}
 
 /// Two components that save to one file would overwrite each other's values.
 void check_saved_files(const Document& document, base::Diagnostics& diagnostics) {
@@ -106,26 +118,26 @@ void add_inlets(const Document& document, const BuildOptions& options, exec::Blu
 /// What may be named, and how that reads in "'A' has no command 'b' without arguments".
 struct Choice {
   bool (*fits)(const component::OperationBase&);
+  bool properties;  ///< those that are acts of the operator fit, too
   const char* kind;
   const char* more;
 };
 
 constexpr Choice kCanBeGranted = {
-    [](const component::OperationBase& operation) { return operation.is_by_operator(); },
+    [](const component::OperationBase& operation) { return operation.is_by_operator(); }, true,
     "act of the operator", "that could be granted"};
 constexpr Choice kCanComeLast = {[](const component::OperationBase& operation) {
                                    return operation.is_command() &&
                                           operation.signature().arguments.empty();
                                  },
-                                 "command", "without arguments"};
+                                 false, "command", "without arguments"};
 
 /// Whether they are there would else be found out when they are used.
 void check_operations(const std::vector<OperationOf>& wanted, const exec::Blueprint& blueprint,
                       const Choice& choice, base::Diagnostics& diagnostics) {
-  std::unordered_map<std::string_view, const component::Component*> made;
+  const ComponentsByName made = by_name(blueprint);
   std::vector<std::string> names;
   for (const exec::ComponentEntry& entry : blueprint.components) {
-    made.emplace(entry.component->name(), entry.component.get());
     names.push_back(entry.component->name());
   }
   for (const OperationOf& one : wanted) {
@@ -140,11 +152,61 @@ void check_operations(const std::vector<OperationOf>& wanted, const exec::Bluepr
     for (const component::OperationBase* operation : found->second->interface().operations) {
       if (choice.fits(*operation)) fitting.emplace_back(operation->name());
     }
+    for (const component::PropertyBase* property : found->second->interface().properties) {
+      if (choice.properties && property->is_by_operator()) fitting.emplace_back(property->name());
+    }
     if (std::find(fitting.begin(), fitting.end(), one.operation) != fitting.end()) continue;
     diagnostics.error(one.where,
                       in_quotes(one.component) + " has no " + choice.kind + " " +
                           in_quotes(one.operation) + " " + choice.more,
                       base::suggestion(one.operation, fitting));
+  }
+}
+
+template <typename List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto* one : list) names.emplace_back(one->name());
+  return names;
+}
+
+/// The names of what a component has of the kind that is exported.
+std::vector<std::string> exportable(const component::Interface& interface, ExportKind kind) {
+  switch (kind) {
+    case ExportKind::kOperation:
+      return names_of(interface.operations);
+    case ExportKind::kEvent:
+      return names_of(interface.events);
+    case ExportKind::kProperty:
+      return names_of(interface.properties);
+    case ExportKind::kPort:
+      break;
+  }
+  std::vector<std::string> ports = names_of(interface.outputs);
+  for (std::string& input : names_of(interface.inputs)) ports.push_back(std::move(input));
+  return ports;
+}
+
+/// What a composite exports is there, used or not. A mistake of a composite is told once.
+void check_exports(const Document& document, const exec::Blueprint& blueprint,
+                   base::Diagnostics& diagnostics) {
+  if (document.composites.empty()) return;
+  const ComponentsByName made = by_name(blueprint);
+  internal::OncePerPlace reports(diagnostics);
+  for (const Composite& composite : document.composites) {
+    base::Diagnostics found;
+    for (const Export& one : composite.exports) {
+      const auto part = made.find(one.component);
+      if (part == made.end()) continue;  // it is missing, which was reported
+      const std::vector<std::string> names = exportable(part->second->interface(), one.kind);
+      if (std::find(names.begin(), names.end(), one.member) != names.end()) continue;
+      found.error(one.where,
+                  "composite " + in_quotes(composite.model) + " exports " + in_quotes(one.name) +
+                      ", but " + in_quotes(one.component) + " has no " +
+                      std::string(to_text(one.kind)) + " " + in_quotes(one.member),
+                  base::suggestion(one.member, names));
+    }
+    reports.add(found);
   }
 }
 
@@ -185,6 +247,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   add_inlets(document, options, blueprint, diagnostics);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
+  check_exports(document, blueprint, diagnostics);
   check_operations(document.script_grants, blueprint, kCanBeGranted, diagnostics);
   check_operations(document.remote_grants, blueprint, kCanBeGranted, diagnostics);
   check_operations(document.before_stop, blueprint, kCanComeLast, diagnostics);
@@ -199,6 +262,7 @@ exec::ApplicationOptions application_options(const Document& document) {
   if (box.history) options.black_box.history = *box.history;
   if (!box.kept) options.black_box.history = base::Duration::zero();
   if (box.memory_kb) options.black_box.memory = static_cast<std::size_t>(*box.memory_kb) * 1000;
+  if (document.hold_at_stop) options.hold_at_stop = *document.hold_at_stop;
   for (const OperationOf& grant : document.script_grants) {
     options.grants.push_back({exec::Caller::kScript, grant.component, grant.operation});
   }
@@ -213,10 +277,7 @@ exec::ApplicationOptions application_options(const Document& document) {
 
 void save_properties(const Document& document, const exec::Blueprint& blueprint,
                      base::Diagnostics& diagnostics) {
-  std::unordered_map<std::string_view, const component::Component*> made;
-  for (const exec::ComponentEntry& entry : blueprint.components) {
-    made.emplace(entry.component->name(), entry.component.get());
-  }
+  const ComponentsByName made = by_name(blueprint);
   for (const Component& component : document.components) {
     const auto found = made.find(component.name);
     const bool saves = component.autosave && !component.property_files.empty();

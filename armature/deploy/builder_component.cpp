@@ -11,6 +11,7 @@
 #include "armature/component/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/model_mistakes.hpp"
+#include "armature/deploy/internal/overrides.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/property_value.hpp"
 #include "armature/platform/file.hpp"
@@ -101,6 +102,21 @@ bool shapes_ports(const component::PropertyBase& property) {
 void count_as_given(component::PropertyBase& property) {
   const types::Value present(property.type(), property.data());
   if (property.check(present).empty()) static_cast<void>(property.set(present));
+}
+
+/// What only the operator can know is said for one run; a file says it for ever. Its default, which
+/// says nothing, may stand in a file.
+bool may_be_given(const component::PropertyBase& property, const Value& written,
+                  base::Diagnostics& diagnostics) {
+  if (!property.is_by_operator() || written.where.file == kCommandLineName) return true;
+  const types::Value nothing(property.type(), property.data());
+  if (written.text == nothing.text()) return true;
+  const std::string item = property.owner().name() + "." + std::string(property.name());
+  diagnostics.error(
+      written.where,
+      in_quotes(item) + " is the operator's word, which counts once: no file gives it",
+      "say it for this run, --set " + item + "=" + written.text);
+  return false;
 }
 
 /// A requirement may name its peer as the component knows it; the runtime knows full names only.
@@ -276,7 +292,8 @@ bool ComponentBuilder::apply(const Component& written, const std::vector<Propert
                          base::suggestion(given.name, names));
       continue;
     }
-    const bool reported = given.value.kind == Value::Kind::kNone;
+    const bool reported = given.value.kind == Value::Kind::kNone ||
+                          !may_be_given(*property, given.value, diagnostics_);
     if (!reported && set_property(*property, given.value, diagnostics_)) continue;
     count_as_given(*property);
     ports_known &= !shapes_ports(*property);

@@ -85,7 +85,7 @@ TEST(Builder, WhatAnActivityDoesNotSayHasTheDefaultOfTheRuntime) {
   const Deployment deployment = deploy(R"(
 components:
   A: {model: Source, activity: {periodic: 5 ms}}
-  B: {model: Source, activity: {triggered: true, priority: 10, scheduler: other}}
+  B: {model: Source, activity: {triggered: true, scheduler: other}}
   C: {model: Source}
 )");
   ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();

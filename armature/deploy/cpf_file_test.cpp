@@ -77,7 +77,7 @@ TEST(PropertyFile, StructsAreMaps) {
       "<struct name=\"f\" type=\"/geometry_msgs/Pose\"/>");
   EXPECT_EQ(to_text(properties.at(0).value), "{x: 0.5}");
   EXPECT_EQ(properties.at(0).description, "pose");
-  EXPECT_EQ(to_text(properties.at(1).value), "!/geometry_msgs/Pose {}");
+  EXPECT_EQ(to_text(properties.at(1).value), "!orocos:/geometry_msgs/Pose {}");
 }
 
 TEST(PropertyFile, IsWrittenAsOrocosReadsIt) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/deploy/deployment.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -39,6 +43,40 @@ void warn_of_idle_components(const Deployment& deployment, base::Diagnostics& di
   }
 }
 
+/// Each has its stack and its place in the system's queues. Hundreds are seldom meant; thousands
+/// that are busy leave a machine to nobody, not even to whoever wants to stop them.
+void check_threads(const Deployment& deployment, base::Diagnostics& diagnostics) {
+  constexpr std::size_t kUsual = 64;
+  const auto& threads = deployment.plan.threads;
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(
+      threads, [](const exec::ThreadPlan& thread) { return !thread.members.empty(); }));
+  const std::optional<int>& declared = deployment.document.most_threads;
+  const std::size_t most = declared ? static_cast<std::size_t>(*declared) : kUsual;
+  if (count <= most) return;
+  diagnostics.error({deployment.document.file, 0, 0},
+                    "the application has " + std::to_string(count) + " threads, expected at most " +
+                        std::to_string(most),
+                    "let components be triggered by others instead of having an activity of their "
+                    "own, or say threads: " +
+                        std::to_string(count));
+}
+
+/// Who stands beside a real robot knows when it may move; a script does not.
+void refuse_grants_on_hardware(Deployment& deployment) {
+  const Document& document = deployment.document;
+  if (document.script_grants.empty() || document.grants_on_hardware) return;
+  for (const exec::HardwarePlan& hardware : deployment.plan.hardware) {
+    const OperationOf& grant = document.script_grants.front();
+    deployment.diagnostics.error(
+        grant.where,
+        "scripts are granted '" + grant.component + "." + grant.operation + "', but '" +
+            hardware.component->name() + "' drives a real robot by " + hardware.bus,
+        "take it back in the file of this robot, grants: {script: []}, or say that it is meant, "
+        "grants: {on_hardware: true}");
+    return;
+  }
+}
+
 /// Goes on from the document as far as it could be read, so that all mistakes are found in one run.
 void complete(Deployment& deployment, const DeploymentOptions& options) {
   base::Diagnostics& diagnostics = deployment.diagnostics;
@@ -58,8 +96,10 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
     diagnostics.error({document.file, 0, 0}, "the file has no components");
   }
   const ExecutionTimes times = read_times(options.times_file, diagnostics);
+  refuse_grants_on_hardware(deployment);
   if (!diagnostics.ok()) return;
   warn_of_idle_components(deployment, diagnostics);
+  check_threads(deployment, diagnostics);
   deployment.schedule =
       check_schedule(deployment.blueprint, deployment.plan, times, cpus_of(options), diagnostics);
 }

@@ -107,5 +107,25 @@ connections: [S.Out -> A.In]
                                    "example activity: {periodic: 10 ms})\n"));
 }
 
+base::Diagnostics with_threads(const std::string& how_many, const std::string& head) {
+  DeploymentOptions options;
+  options.models = test::add_models;
+  return parse_deployment(head + "components:\n  \"S{1.." + how_many +
+                              "}\": {model: Source, activity: {periodic: 7 ms}}\n",
+                          "robot.yaml", options)
+      .diagnostics;
+}
+
+TEST(LoadDeployment, MoreThanSixtyFourThreadsAreRefusedUnlessItSaysHowMany) {
+  EXPECT_TRUE(with_threads("64", "").ok());
+  EXPECT_THAT(with_threads("65", "").to_text(),
+              ::testing::HasSubstr("robot.yaml: error: the application has 65 threads, expected at "
+                                   "most 64"));
+  EXPECT_TRUE(with_threads("65", "threads: 65\n").ok());
+  EXPECT_THAT(with_threads("101", "threads: 100\n").to_text(),
+              ::testing::HasSubstr("101 threads, expected at most 100"));
+  EXPECT_FALSE(with_threads("2", "threads: 0\n").ok());
+}
+
 }  // namespace
 }  // namespace armature::deploy

@@ -174,6 +174,9 @@ struct Network {
   Reference key;
   Reference authority;
   std::vector<Connection> inputs;  ///< that others may write, from `kNetworkName`
+  std::optional<int> memory_kb;    ///< that others may make the process keep
+  /// Permissions of the socket files, such as 0660; empty: the owner's alone.
+  std::optional<unsigned> socket_mode;
 };
 
 /// The component that writes what others send.
@@ -214,10 +217,14 @@ struct Document {
   /// Acts of the operator that scripts, or other processes, may do in the operator's stead.
   std::vector<OperationOf> script_grants;
   std::vector<OperationOf> remote_grants;
+  bool grants_on_hardware = false;       ///< what scripts are granted counts for real robots, too
   std::vector<OperationOf> before_stop;  ///< commands that are done before an orderly stop
+  std::optional<base::Duration> hold_at_stop;
   std::vector<Mode> modes;
   Reference mode;  ///< in which it starts; empty: the first
   BlackBox black_box;
+  /// So many threads it may have, where it says so.
+  std::optional<int> most_threads;
   Network network;
   Value recorder;  ///< kNone if the document has none
 };

@@ -34,10 +34,26 @@ void read_overrun(const Value& value, const ValueReader& reader, Activity& activ
   fields.refuse_others();
 }
 
-/// The kind of activity that the keys name; at most one of them may.
 /// Stands for a period that could not be read, which was reported, so that the rest is checked.
 constexpr base::Duration kUnreadPeriod = std::chrono::seconds(1);
+/// No thread keeps a shorter one: waking up alone costs some microseconds.
+constexpr base::Duration kShortestPeriod = std::chrono::microseconds(10);
 
+void read_period(const Value& value, const ValueReader& reader, Activity& activity) {
+  activity.period = kUnreadPeriod;
+  const std::optional<base::Duration> period = reader.duration(value, "periodic");
+  if (!period) return;
+  if (*period < kShortestPeriod) {
+    reader.error(value.where,
+                 "periodic must be at least " + to_text(kShortestPeriod) + ", found " +
+                     in_quotes(value.text),
+                 "no thread keeps a shorter period");
+    return;
+  }
+  activity.period = *period;
+}
+
+/// The kind of activity that the keys name; at most one of them may.
 void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Activity& activity) {
   const Value* periodic = fields.take("periodic");
   const Value* triggered = fields.take("triggered");
@@ -49,8 +65,7 @@ void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Ac
   }
   if (periodic != nullptr) {
     activity.kind = ActivityKind::kPeriodic;
-    activity.period = kUnreadPeriod;
-    assign(reader.duration(*periodic, "periodic"), activity.period);
+    read_period(*periodic, reader, activity);
   }
   const auto choose = [&](const Value* flag, ActivityKind kind) {
     if (flag == nullptr) return;
@@ -95,17 +110,55 @@ void check_activity(const Value& value, const ValueReader& reader, const Activit
   }
 }
 
+/// A priority counts in real time only. One of before gives way to a scheduler that has none.
+void check_priority(const Value& value, const ValueReader& reader, Activity& activity) {
+  const bool has_none =
+      activity.scheduler == Scheduler::kOther || activity.scheduler == Scheduler::kDeadline;
+  if (!has_none || activity.priority == 0) return;
+  if (const Property* priority = find(value.entries, "priority")) {
+    reader.error(
+        priority->where,
+        "priority has no effect with the scheduler " + std::string(to_text(*activity.scheduler)),
+        "remove one of the two; a priority goes with scheduler: realtime");
+  }
+  activity.priority = 0;
+}
+
+void read_cpus(const Value& value, const ValueReader& reader, Activity& activity) {
+  activity.cpus.clear();
+  const std::vector<const Value*> cpus = items_of(&value);
+  if (cpus.empty()) {
+    reader.error(value.where, "cpus is an empty list, so no CPU could run it",
+                 "name a CPU, or leave out cpus for any");
+  }
+  for (const Value* cpu : cpus) {
+    if (const auto number = reader.whole_number(*cpu, "cpus", 0, kHighestCpu)) {
+      activity.cpus.push_back(*number);
+    }
+  }
+  std::sort(activity.cpus.begin(), activity.cpus.end());
+  const auto end = std::unique(activity.cpus.begin(), activity.cpus.end());
+  activity.cpus.erase(end, activity.cpus.end());
+}
+
 void read_peer(const Value& value, const ValueReader& reader, std::vector<Peer>& peers) {
   if (value.kind != Value::Kind::kMap) {
     if (auto name = reader.dotted_name(value, "peer")) peers.push_back({*name, *name, value.where});
     return;
   }
   for (const Property& entry : value.entries) {
-    const auto component = reader.dotted_name(entry.value, "peer");
+    const Value& component = entry.value;
     if (!is_dotted_name(entry.name)) {
       reader.error(entry.where, "peer " + in_quotes(entry.name) + " is not a name");
-    } else if (component) {
-      peers.push_back({entry.name, *component, entry.value.where});
+    } else if (component.kind == Value::Kind::kText && is_dotted_name(component.text)) {
+      peers.push_back({entry.name, component.text, component.where});
+    } else {
+      const bool text = component.kind == Value::Kind::kText;
+      reader.error(component.where,
+                   "peer " + in_quotes(entry.name) + " must be the name of a component, found " +
+                       (text ? in_quotes(component.text) : std::string(name_of(component.kind))),
+                   "peers are a list of components, peers: [" + entry.name +
+                       "]; a map gives them other names");
     }
   }
 }
@@ -180,7 +233,7 @@ void read_flags(Fields& fields, const ValueReader& reader, Component& component)
 
 void check_component(const Value& body, const ValueReader& reader, const Component& component) {
   const Property* model = find(body.entries, "model");
-  const bool reported = model != nullptr && model->value.literal;  // a parameter without value
+  const bool reported = model != nullptr && model->value.kind == Value::Kind::kNone;
   if (component.model.empty() && !reported) {
     reader.error(component.where, "it has no model", "write model: and a component model's name");
   }
@@ -227,17 +280,7 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
                                         {"other", Scheduler::kOther}};
     activity.scheduler = reader.choice(*scheduler, "scheduler", choices);
   }
-  if (const Value* cpus = fields.take("cpus")) {
-    activity.cpus.clear();
-    for (const Value* cpu : items_of(cpus)) {
-      if (const auto number = reader.whole_number(*cpu, "cpus", 0, kHighestCpu)) {
-        activity.cpus.push_back(*number);
-      }
-    }
-    std::sort(activity.cpus.begin(), activity.cpus.end());
-    const auto end = std::unique(activity.cpus.begin(), activity.cpus.end());
-    activity.cpus.erase(end, activity.cpus.end());
-  }
+  if (const Value* cpus = fields.take("cpus")) read_cpus(*cpus, reader, activity);
   if (const Value* overrun = fields.take("overrun")) read_overrun(*overrun, reader, activity);
   if (const Value* thread = fields.take("thread")) {
     assign(reader.name(*thread, "thread"), activity.thread);
@@ -247,6 +290,7 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
   }
   fields.refuse_others();
   check_activity(value, reader, activity);
+  check_priority(value, reader, activity);
 }
 
 Component read_component(const std::string& name, const base::Location& where, const Value& body,

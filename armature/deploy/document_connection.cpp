@@ -212,6 +212,10 @@ std::optional<std::variant<Connection, NamedConnection>> read_connection(
   const Value* to = fields.take("to");
   const ConnectionPolicy policy = read_policy(fields, reader);
   fields.refuse_others();
+  if ((ports != nullptr || name != nullptr) && (from != nullptr || to != nullptr)) {
+    reader.error(map.where, "it has both ends, from and to, and a name with ports",
+                 "write from and to, or name and ports");
+  }
   if (ports != nullptr) {
     std::optional<NamedConnection> named = read_named(name, *ports, map, reader);
     if (named) named->policy = policy;

@@ -105,11 +105,15 @@ std::optional<base::Duration> ValueReader::duration(const Value& value,
     return std::nullopt;
   };
   const base::Result<base::Quantity> quantity = base::parse_quantity(*found);
-  if (!quantity.ok() || quantity.value().unit.empty())
-    return refuse("must be a time with its unit");
+  if (!quantity) {
+    error(value.where, std::string(what) + ": " + quantity.error(), "for example 10 ms");
+    return std::nullopt;
+  }
+  if (quantity.value().unit.empty()) return refuse("must be a duration with its unit");
   const base::Result<double> seconds =
       base::convert(quantity.value().value, quantity.value().unit, "s");
-  if (!seconds.ok()) return refuse("must be a time");
+  if (!seconds.ok()) return refuse("must be a duration");
+  if (seconds.value() <= 0.0) return refuse("must be a duration above 0");
   const bool possible = seconds.value() >= 1e-9 && seconds.value() <= kLongestSeconds;
   if (!possible) return refuse("must be from 1 ns to 1000000 s");
   return base::from_seconds(seconds.value());
@@ -127,7 +131,8 @@ void ValueReader::refuse_choice(const Value& value, std::string_view what, const
         near.empty() ? "" : "did you mean '" + near + "'?");
 }
 
-Fields::Fields(const Value& value, const ValueReader& reader) : value_(value), reader_(reader) {
+Fields::Fields(const Value& value, const ValueReader& reader, Empty empty)
+    : value_(value), reader_(reader), empty_(empty) {
   const bool possible = value.kind == Value::Kind::kMap || value.kind == Value::Kind::kNone;
   if (possible) return;
   reader.error(value.where, "expected a map of keys, found " + std::string(name_of(value.kind)));
@@ -142,9 +147,15 @@ const Value* Fields::take(std::string_view key) {
 
 void Fields::refuse_others() const {
   for (const Property& entry : value_.entries) {
-    if (std::find(known_.begin(), known_.end(), entry.name) != known_.end()) continue;
-    reader_.error(entry.where, "unknown key " + in_quotes(entry.name),
-                  base::suggestion(entry.name, known_));
+    const bool known = std::find(known_.begin(), known_.end(), entry.name) != known_.end();
+    const bool unset = entry.value.kind == Value::Kind::kNone && !entry.value.literal;
+    if (!known) {
+      reader_.error(entry.where, "unknown key " + in_quotes(entry.name),
+                    base::suggestion(entry.name, known_));
+    } else if (unset && empty_ == Empty::kRefused) {
+      reader_.error(entry.where, in_quotes(entry.name) + " has no value",
+                    "give it one, or remove the key");
+    }
   }
 }
 

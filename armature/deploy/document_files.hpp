@@ -19,9 +19,12 @@ using FileReader = std::function<base::Result<std::string>(const std::string& pa
 /// Beyond these a document is refused, so that a small file cannot fill the memory.
 struct Limits {
   std::size_t file_bytes = 16u << 20;
-  std::size_t nodes = 1'000'000;            ///< texts, lists and maps in one file
-  std::size_t expanded_nodes = 20'000'000;  ///< after ranges, parameters and composites
-  int depth = 64;                           ///< of lists and maps inside each other
+  std::size_t nodes = 500'000;             ///< texts, lists and maps in one file
+  std::size_t expanded_nodes = 5'000'000;  ///< after ranges, parameters and composites
+  /// Components, composites and connections after ranges and composites; counted before they are
+  /// made.
+  std::size_t expanded_entries = 200'000;
+  int depth = 64;  ///< of lists and maps inside each other
   int includes = 1000;
 };
 
@@ -33,8 +36,9 @@ struct LoadOptions {
   Limits limits;
 };
 
-/// Reads a deployment and all it includes: OROCOS XML if the name ends in `.xml`, else YAML. Adds
-/// every mistake to `diagnostics`; with errors among them the document has what could be read.
+/// Reads a deployment and all it includes: OROCOS XML if the name ends in `.xml` or `.cpf`, else
+/// YAML. Adds every mistake to `diagnostics`; with errors among them the document has what could be
+/// read.
 Document load_document(const std::string& path, const LoadOptions& options,
                        base::Diagnostics& diagnostics);
 

@@ -20,9 +20,14 @@ std::string path_from(const Document& document, std::string_view path) {
 namespace internal {
 namespace {
 
-constexpr std::array<std::string_view, 12> kHeadKeys = {
-    "application", "on_fault", "black_box", "libraries", "scripts", "grants",
-    "modes",       "mode",     "recorder",  "composed",  "network", "before_stop"};
+constexpr std::array<std::string_view, 14> kHeadKeys = {
+    "application", "on_fault", "black_box", "libraries", "scripts",     "grants",       "modes",
+    "mode",        "recorder", "composed",  "network",   "before_stop", "hold_at_stop", "threads"};
+
+/// The system itself has an end.
+constexpr int kMostThreads = 10'000;
+
+constexpr const char* kGiveOne = "give it one, or remove the key";
 
 std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
   Script script{{}, {}, value.where};
@@ -66,6 +71,11 @@ void read_grants(const Value& value, const ValueReader& reader, Document& docume
   Fields fields(value, reader);
   document.script_grants = read_operations(fields.take("script"), "grant", reader);
   document.remote_grants = read_operations(fields.take("remote"), "grant", reader);
+  if (const Value* confirmed = fields.take("on_hardware")) {
+    const Choices<bool> choices = {{"true", true}, {"false", false}};
+    assign(reader.choice(*confirmed, "on_hardware of grants", choices),
+           document.grants_on_hardware);
+  }
   fields.refuse_others();
 }
 
@@ -158,15 +168,19 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
        {"before_stop", Value::Kind::kList},
        {"composed", Value::Kind::kMap}}};
   const ValueReader reader("document", diagnostics);
-  Fields fields(tree, reader);
+  Fields fields(tree, reader, Empty::kAllowed);
   std::vector<std::string> known;
   const auto take = [&](const char* key) {
     known.emplace_back(key);
     return fields.take(key);
   };
+  for (const char* key : {"include", "libraries", "scripts"}) take(key);
   for (const char* key :
-       {"application", "on_fault", "black_box", "include", "libraries", "scripts", "mode"}) {
+       {"application", "on_fault", "black_box", "mode", "hold_at_stop", "threads"}) {
     take(key);
+    const Property* const entry = find(tree.entries, key);
+    const bool empty = entry != nullptr && entry->value.kind == Value::Kind::kNone;
+    if (empty) reader.error(entry->where, in_quotes(key) + " has no value", kGiveOne);
   }
   for (const auto& [key, kind] : kKinds) require_kind(take(key), kind, key, reader);
   require_kind(take("recorder"), Value::Kind::kMap, "recorder", reader);
@@ -192,7 +206,7 @@ std::vector<Export> read_exports(const Value& value, const ValueReader& reader) 
        {"events", ExportKind::kEvent},
        {"properties", ExportKind::kProperty}}};
   std::vector<Export> exports;
-  Fields fields(value, reader);
+  Fields fields(value, reader, Empty::kAllowed);
   for (const auto& [key, kind] : kKinds) {
     const Value* names = fields.take(key);
     if (names == nullptr || !require_kind(names, Value::Kind::kMap, key, reader)) continue;
@@ -214,7 +228,7 @@ std::vector<Export> read_exports(const Value& value, const ValueReader& reader) 
 
 void read_head(const Value& head, Document& document, base::Diagnostics& diagnostics) {
   const ValueReader reader("document", diagnostics);
-  Fields fields(head, reader);
+  Fields fields(head, reader, Empty::kAllowed);
   if (const Value* name = fields.take("application")) {
     assign(reader.text(*name, "application"), document.application);
   }
@@ -227,6 +241,9 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
   if (const Value* box = fields.take("black_box")) {
     document.black_box = read_black_box(*box, reader);
   }
+  if (const Value* threads = fields.take("threads")) {
+    document.most_threads = reader.whole_number(*threads, "threads", 1, kMostThreads);
+  }
   for (const Value* library : items_of(fields.take("libraries"))) {
     if (auto name = reader.text(*library, "library")) {
       document.libraries.push_back({std::move(*name), library->where});
@@ -237,6 +254,9 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
   }
   if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
   document.before_stop = read_operations(fields.take("before_stop"), "before_stop", reader);
+  if (const Value* hold = fields.take("hold_at_stop")) {
+    document.hold_at_stop = reader.duration(*hold, "hold_at_stop");
+  }
   if (const Value* network = fields.take("network")) {
     document.network = read_network(*network, reader);
   }

@@ -84,6 +84,42 @@ TEST(Include, HereIsTheFolderOfTheFileInWhichItStands) {
   EXPECT_EQ(value(1, 1), "robots");
 }
 
+Loaded with_included_grants(const std::string& own) {
+  return load_files("real.yaml",
+                    {{"real.yaml", "include: simulated.yaml\n" + own},
+                     {"simulated.yaml", "grants: {script: [A.arm], remote: [A.arm, A.move]}\n"}});
+}
+
+TEST(Include, OfGrantsTheLastWordCounts) {
+  const Loaded loaded = with_included_grants("grants: {script: [B.arm]}\n");
+  EXPECT_EQ(loaded.messages(), "");
+  ASSERT_EQ(loaded.document.script_grants.size(), 1U);
+  EXPECT_EQ(loaded.document.script_grants[0].component, "B");
+  EXPECT_EQ(loaded.document.remote_grants.size(), 2U) << "of which nothing was said";
+}
+
+TEST(Include, AnEmptyListTakesBackWhatWasGranted) {
+  const Loaded scripts = with_included_grants("grants: {script: []}\n");
+  EXPECT_EQ(scripts.messages(), "");
+  EXPECT_TRUE(scripts.document.script_grants.empty());
+  EXPECT_EQ(scripts.document.remote_grants.size(), 2U);
+  EXPECT_TRUE(with_included_grants("grants: {remote: []}\n").document.remote_grants.empty());
+}
+
+TEST(Include, AnEmptyMapTakesBackAllThatWasGranted) {
+  const Loaded loaded = with_included_grants("grants: {}\n");
+  EXPECT_EQ(loaded.messages(), "");
+  EXPECT_TRUE(loaded.document.script_grants.empty());
+  EXPECT_TRUE(loaded.document.remote_grants.empty());
+}
+
+TEST(Include, TwoIncludedFilesDoNotContradictEachOtherInGrants) {
+  const Loaded loaded = load_files("a.yaml", {{"a.yaml", "include: [b.yaml, c.yaml]\n"},
+                                              {"b.yaml", "grants: {script: [A.arm]}\n"},
+                                              {"c.yaml", "grants: {script: [A.move]}\n"}});
+  EXPECT_NE(loaded.messages().find("'script' is given twice"), std::string::npos);
+}
+
 TEST(Include, HereCannotBeDeclared) {
   const Loaded loaded = load_files("a.yaml", {{"a.yaml", "parameters: {here: x}\n"}});
   EXPECT_NE(loaded.messages().find("parameter 'here' is always the file's folder"),

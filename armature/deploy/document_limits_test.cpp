@@ -80,6 +80,59 @@ TEST(Limits, CompositesInCompositesAreRefused) {
   EXPECT_NE(found.find("expand to more values than possible"), std::string::npos) << found;
 }
 
+TEST(Limits, ComponentsOfCompositesAreCountedBeforeTheyAreMade) {
+  std::string text = "components: {\"a{1..10}\": {model: C9}}\ncomposites:\n  C0: {}\n";
+  for (int i = 1; i <= 9; ++i) {
+    const std::string before = "{model: C" + std::to_string(i - 1) + "}";
+    text += "  C" + std::to_string(i) + ": {components: {\"p{1..10}\": " + before + "}}\n";
+  }
+  base::Diagnostics diagnostics;
+  const Document document = parse_document(text, "a.yaml", {}, diagnostics);
+  EXPECT_EQ(diagnostics.to_text(),
+            "a.yaml:4:21: error: with 'p{1..10}' there are more than 200000 components and "
+            "connections (composites inside each other multiply: check their ranges)\n");
+  EXPECT_TRUE(document.components.empty()) << "nothing is built of it";
+  EXPECT_TRUE(document.composites.empty());
+}
+
+TEST(Limits, ConnectionsOfCompositesAreCountedToo) {
+  Limits limits;
+  limits.expanded_entries = 100;
+  EXPECT_EQ(messages("components: {A: {model: M}}\n"
+                     "connections: [\"A.Out{1..60} -> A.In{i}\", \"A.Out{1..60} -> A.On{i}\"]\n",
+                     limits),
+            "a.yaml:2:42: error: with this connection there are more than 100 components and "
+            "connections (composites inside each other multiply: check their ranges)\n");
+}
+
+TEST(Limits, NamesThatAreRepeatedWithoutEndAreToldAHundredTimes) {
+  const std::string one = "<simple name=\"x\" type=\"long\"><value>1</value></simple>\n";
+  base::Diagnostics diagnostics;
+  parse_cpf("<properties>" + repeated(one, 20'000) + "</properties>", "a.cpf", diagnostics);
+  EXPECT_EQ(diagnostics.error_count(), 19'999u);
+  EXPECT_EQ(diagnostics.all().size(), base::Diagnostics::kMostOfAKind);
+  EXPECT_LT(diagnostics.to_text().size(), 10'000u);
+}
+
+TEST(Limits, ComponentsThatAreRepeatedWithoutEndAreToldAHundredTimes) {
+  base::Diagnostics diagnostics;
+  const Document document = parse_document(
+      "<properties>" + repeated("<struct name=\"x\" type=\"M\"/>\n", 20'000) + "</properties>",
+      "a.xml", {}, diagnostics);
+  EXPECT_EQ(diagnostics.error_count(), 19'999u);
+  EXPECT_EQ(diagnostics.all().size(), base::Diagnostics::kMostOfAKind);
+  EXPECT_EQ(document.components.size(), 1u);
+}
+
+TEST(Limits, ComponentsOfOneXmlFileAreCounted) {
+  Limits limits;
+  limits.expanded_entries = 2;
+  EXPECT_EQ(messages("<properties><struct name=\"a\" type=\"M\"/><struct name=\"b\" type=\"M\"/>\n"
+                     "<struct name=\"c\" type=\"M\"/><struct name=\"d\" type=\"M\"/></properties>",
+                     limits, "a.xml"),
+            "a.xml:2:1: error: the file has more than 2 components\n");
+}
+
 TEST(Limits, DepthOfYamlIsLimited) {
   EXPECT_EQ(messages("a: " + repeated("[", 70) + repeated("]", 70), {}),
             "a.yaml:1:67: error: lists and maps are nested more than 64 deep\n");
@@ -114,7 +167,7 @@ TEST(Limits, NumberOfXmlElementsIsLimited) {
 
 TEST(Limits, EntityBombIsRefused) {
   EXPECT_EQ(messages("<!DOCTYPE properties [<!ENTITY a \"xxxxxxxxxx\"><!ENTITY b \"&a;&a;\">]>\n"
-                     "<properties armature:application=\"&b;\"/>\n",
+                     "<properties armature:application=\"a&b;\"/>\n",
                      {}, "a.xml"),
             "a.xml:1:11: error: declarations in the document type are not read (write only "
             "<!DOCTYPE properties SYSTEM \"cpf.dtd\">)\n");

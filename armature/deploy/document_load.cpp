@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "armature/deploy/document_files.hpp"
@@ -47,16 +48,36 @@ class Sources {
   }
 
  private:
+  static bool is_orocos(const std::string& path) {
+    const std::filesystem::path extension = std::filesystem::path(path).extension();
+    return extension == ".xml" || extension == ".cpf";
+  }
+
   base::Result<std::string> read(const std::string& path) const {
     if (options_.read) return options_.read(path);
     return platform::read_file(path, options_.limits.file_bytes);
   }
 
   std::vector<Property> parse_file(std::string_view text, const std::string& path) {
-    const bool xml = std::filesystem::path(path).extension() == ".xml";
-    Value tree = xml ? internal::parse_xml(text, path, options_.limits, diagnostics_)
-                     : internal::parse_yaml(text, path, options_.limits, diagnostics_);
+    Value tree = is_orocos(path) ? internal::parse_xml(text, path, options_.limits, diagnostics_)
+                                 : internal::parse_yaml(text, path, options_.limits, diagnostics_);
     return internal::sections_of(std::move(tree), diagnostics_);
+  }
+
+  /// Relative to the file that includes it. From an OROCOS file also, if there is none, relative to
+  /// the working directory, as OROCOS does it.
+  std::string path_of(const std::string& included, const std::string& includer) const {
+    const std::filesystem::path folder = std::filesystem::path(includer).parent_path();
+    std::string path = (folder / included).lexically_normal().string();
+    if (!is_orocos(includer) || is_there(path)) return path;
+    std::string here = std::filesystem::path(included).lexically_normal().string();
+    return is_there(here) ? here : path;
+  }
+
+  bool is_there(const std::string& path) const {
+    if (options_.read) return options_.read(path).ok();
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
   }
 
   void add_included(const Value& name, const std::string& includer, Value& all) {
@@ -64,8 +85,7 @@ class Sources {
       diagnostics_.error(name.where, "include takes the path of a file or a list of them");
       return;
     }
-    const std::filesystem::path folder = std::filesystem::path(includer).parent_path();
-    const std::string path = (folder / name.text).lexically_normal().string();
+    const std::string path = path_of(name.text, includer);
     if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
       diagnostics_.error(name.where, internal::path_in_quotes(path) + " includes itself");
       return;
@@ -89,6 +109,8 @@ class Sources {
       for (Property& one : section.value.entries) {
         replace(before->value.entries, std::move(one), own);
       }
+    } else if (section.name == "grants") {
+      merge_grants(before->value, std::move(section), own);
     } else if (section.name == "composites") {
       for (Property& one : section.value.entries) {
         replace(before->value.entries, std::move(one), false);
@@ -102,6 +124,12 @@ class Sources {
     } else {
       replace(all.entries, std::move(section), own);
     }
+  }
+
+  /// The last word counts; an empty map takes back all that was granted before.
+  void merge_grants(Value& before, Property section, bool own) {
+    if (own && section.value.entries.empty()) before.entries.clear();
+    for (Property& one : section.value.entries) replace(before.entries, std::move(one), own);
   }
 
   void replace(std::vector<Property>& entries, Property by, bool allowed) {

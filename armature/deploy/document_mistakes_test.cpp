@@ -35,7 +35,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.yaml:2:13: error: this is not YAML: end of map flow not found (inside [ ] "
                 "and { }, put text that contains braces in quotes)\n"},
         Mistake{"open_list", "libraries: [a, b\n",
-                "robot.yaml:2:1: error: this is not YAML: end of sequence flow not found\n"},
+                "robot.yaml:1:12: error: this is not YAML: the [ that opens here is not closed "
+                "(what follows was read up to robot.yaml:2:1)\n"},
+        Mistake{"open_quote", "libraries: [a, \"b]\n",
+                "robot.yaml:1:16: error: this is not YAML: the \" that opens here is not closed "
+                "(what follows was read up to robot.yaml:2:1)\n"},
+        Mistake{"wrong_bracket", "a: [1, {b: 2]\n",
+                "robot.yaml:1:8: error: this is not YAML: the { that opens here is not closed "
+                "(what follows was read up to robot.yaml:1:13)\n"},
+        Mistake{"apostrophe_is_no_quote", "application: it's\nlibraries: [a\n",
+                "robot.yaml:2:12: error: this is not YAML: the [ that opens here is not closed "
+                "(what follows was read up to robot.yaml:3:1)\n"},
         Mistake{"key_twice", "components:\n  A: {model: M}\n  A: {model: N}\n",
                 "robot.yaml:3:3: error: 'A' is given twice (first at robot.yaml:2:3)\n"},
         Mistake{"unknown_anchor", "libraries: *all\n",
@@ -145,19 +155,23 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"triggered_false", "components: {A: {model: M, activity: {triggered: false}}}\n",
                 "robot.yaml:1:50: error: component 'A': triggered can only be true\n"},
         Mistake{"period_without_unit", "components: {A: {model: M, activity: {periodic: 10}}}\n",
-                "robot.yaml:1:49: error: component 'A': periodic must be a time with its unit, "
+                "robot.yaml:1:49: error: component 'A': periodic must be a duration with its unit, "
                 "found '10' (for example 10 ms)\n"},
         Mistake{"period_of_another_kind",
                 "components: {A: {model: M, activity: {periodic: 10 mm}}}\n",
-                "robot.yaml:1:49: error: component 'A': periodic must be a time, found '10 mm' "
+                "robot.yaml:1:49: error: component 'A': periodic must be a duration, found '10 mm' "
                 "(for example 10 ms)\n"},
         Mistake{"period_of_zero", "components: {A: {model: M, activity: {periodic: 0 ms}}}\n",
-                "robot.yaml:1:49: error: component 'A': periodic must be from 1 ns to 1000000 s, "
+                "robot.yaml:1:49: error: component 'A': periodic must be a duration above 0, "
                 "found '0 ms' (for example 10 ms)\n"},
+        Mistake{"period_that_no_thread_keeps",
+                "components: {A: {model: M, activity: {periodic: 9 us}}}\n",
+                "robot.yaml:1:49: error: component 'A': periodic must be at least 10 us, found "
+                "'9 us' (no thread keeps a shorter period)\n"},
         Mistake{"period_that_is_no_number",
                 "components: {A: {model: M, activity: {periodic: nan s}}}\n",
-                "robot.yaml:1:49: error: component 'A': periodic must be a time with its unit, "
-                "found 'nan s' (for example 10 ms)\n"},
+                "robot.yaml:1:49: error: component 'A': periodic: expected a finite number, such "
+                "as '0.5' or '10 ms', found 'nan s' (for example 10 ms)\n"},
         Mistake{"priority",
                 "components: {A: {model: M, activity: {triggered: true, priority: 100}}}\n",
                 "robot.yaml:1:66: error: component 'A': priority must be a whole number from 1 to "
@@ -224,9 +238,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "connections: [{from: A.Out, to: B.In, policy: {fifo: 1, overflow: drop}}]\n",
                 "robot.yaml:1:67: error: connection: overflow must be drop_newest or drop_oldest, "
                 "found 'drop'\n"},
-        Mistake{"age_without_unit", "connections: [{from: A.Out, to: B.In, max_age: 30}]\n",
-                "robot.yaml:1:48: error: connection: max_age must be a time with its unit, found "
-                "'30' (for example 10 ms)\n"},
+        Mistake{
+            "age_without_unit", "connections: [{from: A.Out, to: B.In, max_age: 30}]\n",
+            "robot.yaml:1:48: error: connection: max_age must be a duration with its unit, found "
+            "'30' (for example 10 ms)\n"},
         Mistake{"reaction", "connections: [{from: A.Out, to: B.In, max_age: 1 s, on_old: halt}]\n",
                 "robot.yaml:1:61: error: connection: on_old must be hold, zero, stop or fault, "
                 "found 'halt'\n"},

@@ -2,6 +2,10 @@
 // The section `network`.
 #include "armature/deploy/internal/document_network.hpp"
 
+#include <charconv>
+#include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "armature/deploy/internal/document_reader.hpp"
@@ -33,6 +37,20 @@ void read_tls(const Value& value, const ValueReader& reader, Network& network) {
   fields.refuse_others();
 }
 
+/// `0660`, as chmod has it.
+std::optional<unsigned> read_mode(const Value& value, const ValueReader& reader) {
+  const auto text = reader.text(value, "socket_mode");
+  if (!text) return std::nullopt;
+  constexpr unsigned kMost = 0777;
+  unsigned mode = 0;
+  const char* const end = text->data() + text->size();
+  const auto [last, problem] = std::from_chars(text->data(), end, mode, 8);
+  if (problem == std::errc{} && last == end && mode <= kMost && text->size() >= 3) return mode;
+  reader.error(value.where, "socket_mode is '" + *text + "'",
+               "it must be the permissions of a file as chmod has them, such as 0600 or 0660");
+  return std::nullopt;
+}
+
 }  // namespace
 
 Network read_network(const Value& value, const ValueReader& reader) {
@@ -50,6 +68,14 @@ Network read_network(const Value& value, const ValueReader& reader) {
   }
   read_path(fields.take("policy"), "policy", reader, network.policy);
   if (const Value* tls = fields.take("tls")) read_tls(*tls, reader, network);
+  if (const Value* memory = fields.take("memory_kB")) {
+    constexpr int kLeast = 1000;
+    constexpr int kMost = 2'000'000;
+    network.memory_kb = reader.whole_number(*memory, "memory_kB of network", kLeast, kMost);
+  }
+  if (const Value* mode = fields.take("socket_mode")) {
+    network.socket_mode = read_mode(*mode, reader);
+  }
   fields.refuse_others();
   return network;
 }

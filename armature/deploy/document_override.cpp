@@ -13,7 +13,7 @@ namespace armature::deploy {
 namespace internal {
 namespace {
 
-const base::Location kCommandLine{"<command line>", 0, 0};
+const base::Location kCommandLine{std::string(kCommandLineName), 0, 0};
 
 /// The component whose name is the longest beginning of `path`, and the rest after its dot.
 struct Target {

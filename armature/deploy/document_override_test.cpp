@@ -130,19 +130,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Joint3.x=1",
                 "<command line>: error: there is no component 'Joint3' to set "
                 "'Joint3.x' (did you mean 'Joint1'?)\n"},
-        Mistake{"Joint1.x=[1",
-                "<command line>: error: this is not YAML: end of sequence flow not "
-                "found\n"},
+        Mistake{"Joint1.x=[1", "<command line>: error: this is not YAML: the [ is not closed\n"},
         Mistake{"Joint1.a b=1",
                 "<command line>: error: component 'Joint1': property 'a b' is not "
                 "a name\n"},
-        Mistake{"Joint1.activity.periodic=5",
-                "<command line>: error: component 'Joint1': periodic must be a time with its unit, "
-                "found '5' (for example 10 ms)\n"},
+        Mistake{
+            "Joint1.activity.periodic=5",
+            "<command line>: error: component 'Joint1': periodic must be a duration with its unit, "
+            "found '5' (for example 10 ms)\n"},
         Mistake{"Joint1.activity.prio=5",
                 "<command line>: error: component 'Joint1': unknown key 'prio'\n"},
         Mistake{"joints=0",
-                "robot.yaml:3:3: error: 'Joint{1..0}': the range is empty, its last "
+                "<command line>: error: 'Joint{1..0}': the range is empty, its last "
                 "number is below its first\n"}));
 
 }  // namespace

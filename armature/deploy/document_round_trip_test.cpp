@@ -15,12 +15,13 @@ constexpr const char* kEverything = R"(
 application: everything
 on_fault: stop_all
 black_box: {history: 5 s, memory_kB: 200}
+threads: 100
 libraries: [robot, ./local.so]
 parameters: {joints: 2, gains: [1.0, 2]}
 components:
   S:
     model: Sampler
-    activity: {periodic: 10 ms, priority: 80, scheduler: deadline, cpus: [1, 40], budget: 200 us,
+    activity: {periodic: 10 ms, scheduler: deadline, cpus: [1, 40], budget: 200 us,
                overrun: {fault: 3}, thread: fast}
     autosave: true
     property_file: [a.cpf, {file: b.cpf, complete: true}]
@@ -32,9 +33,9 @@ components:
     properties: {Name: "j{i}", Gains: "${gains}", m: !literal "{i} ${x} {1..2}", t: !short 3,
                  s: {x: "a\tb\n", y: [], z: "<&>"}, e: "", n: "null", d: 10.0, q: 5 deg,
                  list: [[1, 2], {a: -1}], texts: [a, "b c"], kinds: [!char 1, 2, b],
-                 chars: !strings [!char 1, 2], f: !KDL.Frame {x: .5}}
+                 chars: !strings [!char 1, 2], f: !orocos:KDL.Frame {x: .5}}
   R: {model: Motor, remote: tcp://robot/Motor}
-  C: {model: Card, activity: {triggered: true, scheduler: other, priority: 3}, autostart: false}
+  C: {model: Card, activity: {triggered: true, scheduler: realtime, priority: 3}, autostart: false}
   left: {model: Chassis, properties: {size: 3}}
 composites:
   Chassis:
@@ -57,7 +58,7 @@ connections:
 scripts: [a.lua, {file: b.lua, component: S}]
 grants: {script: [S.arm, left.d.go], remote: [S.arm]}
 before_stop: [S.rest, left.d.go]
-network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, tls: {certificate: c.pem, key: k.pem, authority: a.pem},
+network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, memory_kB: 32000, socket_mode: "0660", tls: {certificate: c.pem, key: k.pem, authority: a.pem},
   inputs: [S.b, {to: left.d.c, max_age: 100 ms, on_old: zero}]}
 modes: {one: ["J{1..2}", left], two: [C, J1]}
 mode: two

@@ -33,6 +33,21 @@ std::string hexadecimal(unsigned char byte) {
   return text.data();
 }
 
+/// False and an error where git left both sides of a conflict.
+bool check_conflicts(std::string_view text, const std::string& file,
+                     base::Diagnostics& diagnostics) {
+  for (const std::string_view mark : {"<<<<<<< ", ">>>>>>> "}) {
+    for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + 1)) {
+      if (at > 0 && text[at - 1] != '\n') continue;
+      diagnostics.error(LineIndex(text, file).at(at),
+                        "git left a conflict here, from <<<<<<< to >>>>>>>",
+                        "keep one of its two sides and remove the marks");
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 LineIndex::LineIndex(std::string_view text, std::string file)
@@ -86,7 +101,7 @@ bool check_source_text(std::string_view text, const std::string& file, std::size
     }
     at += length;
   }
-  return true;
+  return check_conflicts(text, file, diagnostics);
 }
 
 }  // namespace armature::deploy::internal

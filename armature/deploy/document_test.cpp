@@ -116,7 +116,7 @@ TEST(Document, DurationsMayHaveAnyUnitOfTime) {
   };
   EXPECT_EQ(period("0.5 s"), milliseconds(500));
   EXPECT_EQ(period("250us"), microseconds(250));
-  EXPECT_EQ(period("100 ns"), base::Duration(100));
+  EXPECT_EQ(period("10500 ns"), base::Duration(10'500));
   EXPECT_EQ(period("0.1 ms"), microseconds(100));
 }
 
@@ -230,6 +230,13 @@ TEST(Document, ScriptsMayBeGrantedActsOfTheOperator) {
   EXPECT_EQ(loaded.document.script_grants[0].component, "Arming");
   EXPECT_EQ(loaded.document.script_grants[0].operation, "arm");
   EXPECT_EQ(loaded.document.script_grants[1].component, "left.Arming");
+}
+
+TEST(Document, GrantsOnHardwareAreSaidAsSuch) {
+  const Loaded loaded = load_yaml("grants: {script: [Arming.arm], on_hardware: true}\n");
+  EXPECT_EQ(loaded.messages(), "");
+  EXPECT_TRUE(loaded.document.grants_on_hardware);
+  EXPECT_FALSE(load_yaml("grants: {script: [Arming.arm]}\n").document.grants_on_hardware);
 }
 
 TEST(Document, RecorderIsKeptAsItIsWritten) {

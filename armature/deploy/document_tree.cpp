@@ -204,6 +204,7 @@ Value grants_tree(const Document& document) {
   Value map = make_map();
   add_items(map, "script", converted(document.script_grants, operation_tree));
   add_items(map, "remote", converted(document.remote_grants, operation_tree));
+  if (document.grants_on_hardware) add(map, "on_hardware", "true");
   return map;
 }
 
@@ -260,6 +261,15 @@ Value to_tree(const Connection& connection) {
   return whole;
 }
 
+/// `0660`.
+static std::string octal(unsigned mode) {
+  std::string digits{"0000"};
+  for (auto at = digits.rbegin(); mode != 0 && at != digits.rend(); ++at, mode /= 8) {
+    *at = static_cast<char>('0' + mode % 8);
+  }
+  return digits;
+}
+
 static Value network_tree(const Network& network) {
   Value map = make_map();
   add_items(map, "listen", converted(network.listen, reference_tree));
@@ -281,6 +291,8 @@ static Value network_tree(const Network& network) {
   add_path(tls, "key", network.key);
   add_path(tls, "authority", network.authority);
   if (!tls.entries.empty()) add(map, "tls", std::move(tls));
+  if (network.memory_kb) add(map, "memory_kB", std::to_string(*network.memory_kb));
+  if (network.socket_mode) add(map, "socket_mode", octal(*network.socket_mode));
   return map;
 }
 
@@ -291,6 +303,7 @@ Value to_tree(const Document& document) {
     add(tree, "on_fault", to_text(document.on_fault));
   }
   if (!document.black_box.usual()) add(tree, "black_box", black_box_tree(document.black_box));
+  if (document.most_threads) add(tree, "threads", std::to_string(*document.most_threads));
   add_items(tree, "libraries", converted(document.libraries, reference_tree));
   if (!document.parameters.empty()) add(tree, "parameters", map_of(document.parameters));
   add_section(tree, "components", document.components, component_tree);
@@ -304,6 +317,7 @@ Value to_tree(const Document& document) {
     add(tree, "grants", std::move(grants));
   }
   add_items(tree, "before_stop", converted(document.before_stop, operation_tree));
+  if (document.hold_at_stop) add(tree, "hold_at_stop", to_text(*document.hold_at_stop));
   if (Value network = network_tree(document.network); !network.entries.empty()) {
     add(tree, "network", std::move(network));
   }

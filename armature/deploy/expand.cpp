@@ -2,6 +2,7 @@
 #include "armature/deploy/internal/expand.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "armature/base/near_name.hpp"
@@ -141,6 +142,21 @@ bool Expander::spend(std::size_t nodes, const base::Location& where,
   return false;
 }
 
+bool Expander::spend_entries(std::size_t count, const std::string& what,
+                             const base::Location& where, base::Diagnostics& diagnostics) {
+  if (exhausted_) return false;
+  if (count <= most_entries_ - entries_) {
+    entries_ += count;
+    return true;
+  }
+  exhausted_ = true;
+  diagnostics.error(where,
+                    "with " + what + " there are more than " + std::to_string(most_entries_) +
+                        " components and connections",
+                    "composites inside each other multiply: check their ranges");
+  return false;
+}
+
 std::string Expander::replace_parameters(std::string_view text, const Scope& scope,
                                          const base::Location& where,
                                          base::Diagnostics& diagnostics) {
@@ -169,6 +185,16 @@ std::string Expander::replace_parameters(std::string_view text, const Scope& sco
   }
   result += text.substr(copied);
   return result;
+}
+
+base::Location Expander::origin_of(std::string_view text, const Scope& scope,
+                                   const base::Location& where) {
+  for (auto use = next_use(text, 0); use; use = next_use(text, use->end)) {
+    if (const Property* parameter = find(scope.parameters, use->name)) {
+      return parameter->value.where;
+    }
+  }
+  return where;
 }
 
 std::string Expander::expand_text(const Value& text, const Scope& scope,
@@ -202,8 +228,21 @@ Value Expander::expand_whole_text(const Value& value, const Scope& scope,
   }
   Value copy = value;
   copy.text = expand_text(value, scope, diagnostics);
+  const bool same_file = parameter != nullptr && parameter->value.where.file == value.where.file;
+  if (same_file) copy.where = parameter->value.where;  // what is wrong with it is wrong there
   normalise_type(copy);
   return copy;
+}
+
+/// Keys with ranges or parameters may turn out to be the same.
+void Expander::refuse_twins(const Value& map, base::Diagnostics& diagnostics) {
+  std::unordered_map<std::string_view, const base::Location*> first;
+  for (const Property& entry : map.entries) {
+    const auto [earlier, is_new] = first.emplace(entry.name, &entry.where);
+    if (is_new) continue;
+    diagnostics.error(entry.where, in_quotes(entry.name) + " is given twice",
+                      "first at " + place_text(*earlier->second));
+  }
 }
 
 void Expander::expand_item(const Value& item, const Scope& scope, Value& list,
@@ -267,6 +306,10 @@ Value Expander::expand(const Value& value, const Scope& scope, base::Diagnostics
   copy.where = value.where;
   for (const Value& item : value.items) expand_item(item, scope, copy, diagnostics);
   for (const Property& entry : value.entries) expand_entry(entry, scope, copy, diagnostics);
+  const bool named_anew =
+      std::any_of(value.entries.begin(), value.entries.end(),
+                  [](const Property& entry) { return entry.name.find('{') != std::string::npos; });
+  if (named_anew) refuse_twins(copy, diagnostics);
   normalise_type(copy);
   return copy;
 }

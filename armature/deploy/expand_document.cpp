@@ -12,11 +12,13 @@
 #include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/exec/modes.hpp"
 
 namespace armature::deploy::internal {
 namespace {
 
 constexpr const char* kOverride = "override";
+constexpr const char* kModesName = exec::kModesName;
 
 bool is_override(const Value& body) {
   const Property* mark = find(body.entries, kOverride);
@@ -82,6 +84,7 @@ class DocumentBuilder {
     if (const Value* composites = section(tree_, "composites")) check_composites(*composites);
     read_head(expander_.expand(head_of(tree_), level.scope, diagnostics_), document_, diagnostics_);
     add_level(level);
+    if (expander_.exhausted()) return nothing_of(std::move(document_));
     resolve_names(document_, scopes_, names_, diagnostics_);
     check_connections(document_, diagnostics_);
     rebase_paths(document_);
@@ -102,6 +105,16 @@ class DocumentBuilder {
     return entry == nullptr ? nullptr : &entry->value;
   }
 
+  /// Of a document that is too large nothing more is looked at.
+  static Document nothing_of(Document document) {
+    document.components.clear();
+    document.connections.clear();
+    document.named_connections.clear();
+    document.composites.clear();
+    document.modes.clear();
+    return document;
+  }
+
   static std::vector<std::string> names_of(const std::vector<Property>& properties) {
     std::vector<std::string> names;
     for (const Property& property : properties) names.push_back(property.name);
@@ -111,7 +124,7 @@ class DocumentBuilder {
   void check_composites(const Value& composites) {
     for (const Property& composite : composites.entries) {
       const ValueReader reader("composite '" + composite.name + "'", diagnostics_);
-      Fields fields(composite.value, reader);
+      Fields fields(composite.value, reader, Empty::kAllowed);
       for (const char* key : {"parameters", "components", "exports"}) {
         require_kind(fields.take(key), Value::Kind::kMap, key, reader);
       }
@@ -146,10 +159,15 @@ class DocumentBuilder {
     std::optional<RangeInText> range;
     if (!entry.value.literal) {
       name = expander_.replace_parameters(name, level.scope, entry.where, found);
-      if (found.ok()) range = find_range(name, entry.where, found);
+      const base::Location where = Expander::origin_of(entry.name, level.scope, entry.where);
+      if (found.ok()) range = find_range(name, where, found);
+    }
+    if (found.ok() && !overrides) {
+      const int count = range ? range->range.last - range->range.first + 1 : 1;
+      expander_.spend_entries(static_cast<std::size_t>(count), in_quotes(name), entry.where, found);
     }
     reports_.add(found);
-    if (!found.ok()) return;
+    if (!found.ok() || expander_.exhausted()) return;
     if (!range) {
       add_instance(name, entry, level, level.scope, overrides);
       return;
@@ -178,6 +196,10 @@ class DocumentBuilder {
     } else if (!is_dotted_name(name)) {
       found.error(entry.where, "component " + in_quotes(name) + ": this is not a name",
                   "a name has letters, digits, '_' and '-' and begins with a letter");
+    } else if (full == kModesName) {
+      found.error(entry.where,
+                  "the name " + in_quotes(full) + " is that of the component that switches modes",
+                  "give the component another name");
     } else if (!names_.add(full, level.instance, entry.where)) {
       found.error(entry.where, "component " + in_quotes(full) + " is given twice",
                   "first at " + place_text(names_.place_of(full)) +
@@ -313,6 +335,11 @@ class DocumentBuilder {
     }
     std::optional<Repetition> repetition;
     if (connection && found.ok()) repetition = find_repetition(*connection, ranges, found);
+    if (repetition) {
+      const int count = repetition->range.last - repetition->range.first + 1;
+      expander_.spend_entries(static_cast<std::size_t>(count), "this connection", written.where,
+                              found);
+    }
     reports_.add(found);
     if (!repetition) return;
     const Value pattern = without_range(*connection);

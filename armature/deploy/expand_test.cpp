@@ -139,8 +139,8 @@ TEST(Range, RepeatsPortsOfANamedConnection) {
 
 TEST(Range, MistakeInARepeatedEntryIsReportedOnce) {
   EXPECT_EQ(load_yaml("components:\n  J{1..100}: {model: M, actvity: x}\n").messages(),
-            "robot.yaml:2:25: error: component 'J1': unknown key 'actvity' (did you mean "
-            "'activity'?)\n");
+            "robot.yaml:2:25: error: component 'J1': unknown key 'actvity', likewise 99 others, "
+            "'J2' to 'J100' (did you mean 'activity'?)\n");
 }
 
 TEST(Range, MistakeOfOneRepetitionIsReported) {

@@ -17,10 +17,11 @@ namespace {
 
 using types::Kind;
 
-/// Any 64-bit integer, signed or not.
+/// Any 64-bit integer, signed or not, or one that is larger.
 struct Whole {
   bool negative = false;
   std::uint64_t magnitude = 0;
+  bool too_large = false;
 };
 
 template <typename Number, typename... Base>
@@ -68,8 +69,11 @@ std::optional<Whole> parse_plain_whole(std::string_view text) {
   const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
   if (hexadecimal) digits.remove_prefix(2);
   const auto magnitude = parse_all<std::uint64_t>(digits, hexadecimal ? 16 : 10);
-  if (!magnitude) return std::nullopt;
-  return Whole{negative, *magnitude};
+  if (magnitude) return Whole{negative, *magnitude};
+  const std::string_view all = hexadecimal ? "0123456789abcdefABCDEF" : "0123456789";
+  if (digits.empty() || digits.find_first_not_of(all) != std::string_view::npos)
+    return std::nullopt;
+  return Whole{negative, 0, true};
 }
 
 base::Result<Whole> parse_whole(std::string_view text, std::string_view unit) {
@@ -92,10 +96,10 @@ std::string store_whole(std::string_view text, std::string_view unit, void* at) 
   const base::Result<Whole> parsed = parse_whole(text, unit);
   if (!parsed) return parsed.error();
   using Limits = std::numeric_limits<Integer>;
-  const auto [negative, magnitude] = parsed.value();
+  const auto [negative, magnitude, too_large] = parsed.value();
   const auto highest = static_cast<std::uint64_t>(Limits::max());
   const std::uint64_t lowest = Limits::is_signed ? highest + 1 : 0;
-  if (magnitude > (negative ? lowest : highest)) {
+  if (too_large || magnitude > (negative ? lowest : highest)) {
     return in_quotes(text) + " is outside " + std::to_string(Limits::min()) + " .. " +
            std::to_string(Limits::max());
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,28 @@ std::optional<bool> parse_bool(std::string text) {
   if (std::find(kTrue.begin(), kTrue.end(), text) != kTrue.end()) return true;
   if (std::find(kFalse.begin(), kFalse.end(), text) != kFalse.end()) return false;
   return std::nullopt;
+}
+
+/// Elements of a list: its items, or the entries of an OROCOS bag that numbers them, as `Element0`,
+/// `Element1` after a `Size`. Nothing if it is neither.
+std::optional<std::vector<const Value*>> elements_of(const Value& written) {
+  std::vector<const Value*> elements;
+  for (const Value& item : written.items) elements.push_back(&item);
+  if (written.kind == Value::Kind::kList) return elements;
+  std::string_view prefix;
+  std::size_t number = 0;
+  for (const Property& entry : written.entries) {
+    const std::string_view name = entry.name;
+    if (name == "Size") continue;
+    if (elements.empty()) {
+      prefix = name.substr(0, name.find_last_not_of("0123456789") + 1);
+      number = name.substr(prefix.size()) == "1" ? 1 : 0;
+    }
+    if (name != std::string(prefix) + std::to_string(number)) return std::nullopt;
+    elements.push_back(&entry.value);
+    ++number;
+  }
+  return elements.empty() ? std::nullopt : std::optional(elements);
 }
 
 /// Puts what was written into the memory of a value.
@@ -85,11 +108,12 @@ class Filler {
   }
 
   bool fill_list(const Value& written, const Type& type, std::string_view unit, void* at) {
-    if (written.kind != Value::Kind::kList) {
+    const auto elements = elements_of(written);
+    if (!elements) {
       return fail(written.where, "expected a list of " + type.element->name + ", found " +
                                      std::string(internal::name_of(written.kind)));
     }
-    const std::size_t count = written.items.size();
+    const std::size_t count = elements->size();
     if (type.kind == Kind::kArray && count != type.count) {
       return fail(written.where, "expected " + std::to_string(type.count) + " elements, found " +
                                      std::to_string(count));
@@ -99,7 +123,7 @@ class Filler {
     bool good = true;
     for (std::size_t i = 0; i < count; ++i) {
       const Inside inside(*this, "[" + std::to_string(i) + "]");
-      good &= fill(written.items[i], *type.element, unit, at_offset(first, i * type.element->size));
+      good &= fill(*(*elements)[i], *type.element, unit, at_offset(first, i * type.element->size));
     }
     return good;
   }

@@ -182,7 +182,8 @@ TEST(ExecutionTimes, MistakesInTheFileHaveTheirPlaces) {
               diagnostics);
   const std::string text = diagnostics.to_text();
   EXPECT_THAT(text, HasSubstr("t.yaml:2:3: error: execution time of 'A': it has no 'p999'"));
-  EXPECT_THAT(text, HasSubstr("t.yaml:3:13: error: execution time of 'B': p999 must be a time"));
+  EXPECT_THAT(text,
+              HasSubstr("t.yaml:3:13: error: execution time of 'B': p999 must be a duration"));
   EXPECT_THAT(text, HasSubstr("t.yaml:4:6: error"));
   EXPECT_THAT(text, HasSubstr("t.yaml:5:1: error: execution times: unknown key 'thread' "
                               "(did you mean 'threads'?)"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <unordered_map>
 #include <utility>
 
 #include "armature/base/near_name.hpp"
@@ -24,6 +25,7 @@ class ComponentReader {
 
   Value read() {
     add_entry(body_, "model", element_.type, element_.where);
+    refuse_twins();
     for (const XmlElement& child : element_.children) read_child(child);
     add_flags();
     if (!files_.items.empty()) add_entry(body_, "property_file", std::move(files_));
@@ -32,7 +34,22 @@ class ComponentReader {
   }
 
  private:
+  /// Of what a component has once, OROCOS takes the first and leaves out the others silently.
+  void refuse_twins() {
+    std::unordered_map<std::string_view, const base::Location*> first;
+    for (const XmlElement& child : element_.children) {
+      const auto once = {"Activity", "Peers",     "Ports",   "Properties",
+                         "AutoConf", "AutoStart", "AutoSave"};
+      if (std::find(once.begin(), once.end(), child.name) == once.end()) continue;
+      const auto [earlier, is_new] = first.emplace(child.name, &child.where);
+      if (is_new) continue;
+      error(child.where, in_quotes(child.name) + " is given twice",
+            "first at " + place_text(*earlier->second));
+    }
+  }
+
   void read_child(const XmlElement& child) {
+    if (is_script(child)) return refuse_script(child);
     if (child.is_simple()) return read_simple(child);
     if (child.name == "Activity") {
       add_entry(body_, "activity", activity(child));
@@ -51,7 +68,8 @@ class ComponentReader {
 
   void read_simple(const XmlElement& child) {
     const std::string& name = child.name;
-    if (name == "PropertyFile" || name == "UpdateProperties" || name == "LoadProperties") {
+    if (name == "PropertyFile" || name == "PropFile" || name == "UpdateProperties" ||
+        name == "LoadProperties") {
       read_property_file(child);
     } else if (name == "AutoConf") {
       autoconf_ = &child;
@@ -59,7 +77,7 @@ class ComponentReader {
       autostart_ = &child;
     } else if (name == "AutoSave") {
       add_entry(body_, "autosave", value_of(child, diagnostics_));
-    } else if (name == "Service") {
+    } else if (name == "Service" || name == "Plugin" || name == "Provides") {
       warn(child, "service " + in_quotes(child.text) + " is left out: there are no services");
     } else if (name == "Server" || name == "UseNamingService") {
       warn(child, name + " is left out: there is no CORBA");
@@ -70,13 +88,22 @@ class ComponentReader {
     }
   }
 
+  static bool is_script(const XmlElement& child) {
+    return child.name == "RunScript" || child.name == "ProgramScript" ||
+           child.name == "StateMachineScript";
+  }
+
+  /// One script, or a struct of several. To leave one out could leave out what watches over a
+  /// robot.
+  void refuse_script(const XmlElement& child) {
+    for (const XmlElement& each : child.children) refuse_script(each);
+    if (!child.is_simple()) return;
+    error(child.where, "OROCOS script " + in_quotes(child.text) + " cannot be run",
+          "remove it here; what it does is written in Lua and started by armature run --script");
+  }
+
   void refuse(const XmlElement& child) {
-    const bool script = child.name == "RunScript" || child.name == "ProgramScript" ||
-                        child.name == "StateMachineScript";
-    if (script) {
-      error(child.where, "OROCOS script " + in_quotes(child.text) + " cannot be run",
-            "write it in Lua and name it under scripts:");
-    } else if (child.name == "AutoConnect") {
+    if (child.name == "AutoConnect") {
       error(child.where, "AutoConnect is not possible", "list the ports under Ports");
     } else {
       error(
@@ -100,7 +127,8 @@ class ComponentReader {
     files_.kind = Value::Kind::kList;
     Value file = make_map(child.where);
     add_entry(file, "file", child.text, child.where);
-    if (child.name == "PropertyFile") add_entry(file, "complete", "true", child.where);
+    const bool complete = child.name == "PropertyFile" || child.name == "PropFile";
+    if (complete) add_entry(file, "complete", "true", child.where);
     if (child.name == "LoadProperties") {
       diagnostics_.note(child.where, "component " + in_quotes(element_.name) +
                                          ": LoadProperties is read as UpdateProperties: no "
@@ -170,13 +198,30 @@ class ComponentReader {
       }
     }
     add_extras(element, map, limits_, diagnostics_);
+    if (!sequential) settle_priority(element, map);
     return map;
+  }
+
+  /// As OROCOS does it on Linux: real time has a priority of at least 1, other threads have none.
+  void settle_priority(const XmlElement& element, Value& map) {
+    const Property* const scheduler = find(map.entries, "scheduler");
+    const Property* const priority = find(map.entries, "priority");
+    if (scheduler == nullptr) return;
+    const bool zero = child_of(element, "Priority") != nullptr && priority == nullptr;
+    if (scheduler->value.text == "realtime" && zero) {
+      warn(element, "Priority 0 of ORO_SCHED_RT is read as Priority 1");
+      add_entry(map, "priority", "1", element.where);
+    } else if (scheduler->value.text == "other" && priority != nullptr) {
+      warn(element, "Priority " + priority->value.text +
+                        " is left out: threads of ORO_SCHED_OTHER have none");
+      std::erase_if(map.entries, [](const Property& one) { return one.name == "priority"; });
+    }
   }
 
   void refuse_activity(const XmlElement& element) {
     error(element.where, "unknown activity " + in_quotes(element.type),
           base::suggestion(element.type, {"PeriodicActivity", "NonPeriodicActivity",
-                                          "SequentialActivity", "Activity"}));
+                                          "SequentialActivity", "SlaveActivity", "Activity"}));
   }
 
   void read_setting(const XmlElement& setting, Value& map) {
@@ -186,7 +231,7 @@ class ComponentReader {
     } else if (setting.name == "Scheduler") {
       read_scheduler(setting, map);
     } else if (setting.name == "CpuAffinity") {
-      add_entry(map, "cpus", cpus(setting));
+      if (Value list = cpus(setting); !list.items.empty()) add_entry(map, "cpus", std::move(list));
     } else {
       error(setting.where, "unknown setting " + in_quotes(setting.name) + " of an activity",
             base::suggestion(setting.name, {"Period", "Priority", "Scheduler", "CpuAffinity"}));

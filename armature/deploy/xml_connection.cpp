@@ -116,13 +116,15 @@ class ConnectionReader {
     std::string type = "0";
     std::string size;
     for (const XmlElement& field : element.children) {
+      if (field.name == "type") type = value_of(field, diagnostics_).text;
+    }
+    for (const XmlElement& field : element.children) {
+      if (field.name == "type") continue;
       const std::string text = value_of(field, diagnostics_).text;
-      if (field.name == "type") {
-        type = text;
-      } else if (field.name == "size") {
+      if (field.name == "size") {
         size = text;
       } else {
-        check_unused(element, field, text);
+        check_unused(element, field, text, type);
       }
     }
     add_fifo(element, type, size, map);
@@ -150,11 +152,15 @@ class ConnectionReader {
     add_entry(map, "policy", std::move(fifo));
   }
 
-  void check_unused(const XmlElement& policy, const XmlElement& field, const std::string& text) {
+  void check_unused(const XmlElement& policy, const XmlElement& field, const std::string& text,
+                    const std::string& type) {
     const std::string owner = "connection " + in_quotes(policy.name) + ": ";
     if (field.name == "transport" && text != "0") {
       diagnostics_.error(field.where, owner + "transport " + text + " is not possible",
                          "connections inside the process have transport 0");
+    } else if (field.name == "buffer_policy" && text != "0" && text != "1" &&
+               (type == "0" || type == "DATA")) {
+      diagnostics_.note(field.where, owner + "buffer_policy is left out: there is no buffer");
     } else if (field.name == "buffer_policy" && text != "0" && text != "1") {
       diagnostics_.error(field.where, owner + "buffer_policy " + text + " is not possible",
                          "each connection has its own buffer: 1");

@@ -42,9 +42,9 @@ class DocumentReader {
   DocumentReader(const Limits& limits, base::Diagnostics& diagnostics)
       : limits_(limits), diagnostics_(diagnostics) {}
 
-  Value read(const XmlElement& root) {
+  Value read(XmlElement root) {
     tree_ = make_map(root.where);
-    for (const XmlElement& child : root.children) read_child(child);
+    for (XmlElement& child : root.children) read_child(child);
     if (!libraries_.items.empty()) add_entry(tree_, "libraries", std::move(libraries_));
     if (!includes_.items.empty()) add_entry(tree_, "include", std::move(includes_));
     add_components(root.where);
@@ -56,7 +56,7 @@ class DocumentReader {
   }
 
  private:
-  void read_child(const XmlElement& child) {
+  void read_child(XmlElement& child) {
     if (child.is_simple()) {
       read_simple(child);
     } else if (child.type == "ConnPolicy") {
@@ -76,16 +76,18 @@ class DocumentReader {
       includes_.kind = Value::Kind::kList;
       includes_.items.push_back(make_text(child.text, child.where));
     } else if (child.name == "Path") {
-      diagnostics_.warning(child.where, "Path " + in_quotes(child.text) +
-                                            " is left out: libraries are found by name or by a "
-                                            "path of their own");
+      // Without it another library of the same name would be found.
+      diagnostics_.error(child.where,
+                         "Path " + in_quotes(child.text) + ": a file names no folders to look into",
+                         "remove it, and say armature run -L " + in_quotes(child.text) +
+                             ", or import the libraries by their own paths");
     } else {
       diagnostics_.error(child.where, "unknown simple " + in_quotes(child.name),
                          base::suggestion(child.name, {"Import", "Include"}));
     }
   }
 
-  void read_component(const XmlElement& child) {
+  void read_component(XmlElement& child) {
     const auto same = indices_.find(child.name);
     const bool change = child.type == "PropertyBag" || child.type.empty();
     if (change && same != indices_.end()) return merge(components_[same->second], child);
@@ -94,12 +96,30 @@ class DocumentReader {
                          "component " + in_quotes(child.name) + ": type must be a component model",
                          "type PropertyBag only changes a component that is listed before");
     }
+    const bool override = std::any_of(child.extras.begin(), child.extras.end(),
+                                      [](const auto& extra) { return extra.first == "override"; });
+    if (same != indices_.end() && !override) {
+      diagnostics_.error(child.where, "component " + in_quotes(child.name) + " is given twice",
+                         "first at " + place_text(components_[same->second].where) +
+                             "; type PropertyBag changes a component that is listed before");
+      return;
+    }
+    if (components_.size() >= limits_.expanded_entries) {
+      if (!too_many_) {
+        diagnostics_.error(
+            child.where,
+            "the file has more than " + std::to_string(limits_.expanded_entries) + " components");
+      }
+      too_many_ = true;
+      return;
+    }
     indices_.emplace(child.name, components_.size());
-    components_.push_back(child);
+    components_.push_back(std::move(child));
   }
 
   void add_components(const base::Location& where) {
     if (components_.empty()) return;
+    seat_slaves(components_, diagnostics_);
     Value map = make_map(where);
     for (const XmlElement& component : components_) {
       Value body = component_of(component, ports_, limits_, diagnostics_);
@@ -110,10 +130,13 @@ class DocumentReader {
 
   /// What OROCOS has no word for, as attributes of the root.
   void read_extras(const XmlElement& root) {
-    constexpr std::array<std::string_view, 12> kKnown = {
-        "application", "on_fault",    "black_box", "parameters", "composed", "scripts",
-        "grants",      "before_stop", "network",   "modes",      "mode",     "recorder"};
-    XmlElement known = root;
+    constexpr std::array<std::string_view, 14> kKnown = {
+        "application", "on_fault", "black_box",   "parameters",   "composed",
+        "scripts",     "grants",   "before_stop", "hold_at_stop", "network",
+        "modes",       "mode",     "recorder",    "threads"};
+    XmlElement known;
+    known.where = root.where;
+    known.extras = root.extras;
     std::erase_if(known.extras, [&](const auto& extra) {
       const bool good = std::find(kKnown.begin(), kKnown.end(), extra.first) != kKnown.end();
       if (!good) {
@@ -131,6 +154,7 @@ class DocumentReader {
   Value libraries_;
   Value includes_;
   std::vector<XmlElement> components_;
+  bool too_many_ = false;
   std::unordered_map<std::string, std::size_t> indices_;
   std::vector<const XmlElement*> policies_;
   std::vector<XmlPort> ports_;
@@ -140,8 +164,8 @@ class DocumentReader {
 
 Value parse_xml(std::string_view text, const std::string& file, const Limits& limits,
                 base::Diagnostics& diagnostics) {
-  const std::optional<XmlElement> root = parse_orocos_xml(text, file, limits, diagnostics);
-  return root ? DocumentReader(limits, diagnostics).read(*root) : Value{};
+  std::optional<XmlElement> root = parse_orocos_xml(text, file, limits, diagnostics);
+  return root ? DocumentReader(limits, diagnostics).read(std::move(*root)) : Value{};
 }
 
 }  // namespace armature::deploy::internal

@@ -247,16 +247,17 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"simple", "<simple name=\"Imports\" type=\"string\"><value>x</value></simple>",
                 "robot.xml:2:1: error: unknown simple 'Imports' (did you mean 'Import'?)\n"},
         Mistake{"path", "<simple name=\"Path\" type=\"string\"><value>/lib</value></simple>",
-                "robot.xml:2:1: warning: Path '/lib' is left out: libraries are found by name or "
-                "by a path of their own\n"},
+                "robot.xml:2:1: error: Path '/lib': a file names no folders to look into (remove "
+                "it, and say armature run -L '/lib', or import the libraries by their own "
+                "paths)\n"},
         Mistake{"nameless", "<struct type=\"M\"/>",
                 "robot.xml:2:1: error: a component's struct needs a name (add name=\"...\")\n"},
         Mistake{"no_model", "<struct name=\"A\" type=\"PropertyBag\"/>",
                 "robot.xml:2:1: error: component 'A': type must be a component model (type "
                 "PropertyBag only changes a component that is listed before)\n"},
         Mistake{"twice", "<struct name=\"A\" type=\"M\"/>\n<struct name=\"A\" type=\"N\"/>",
-                "robot.xml:3:1: error: component 'A' is given twice (first at robot.xml:2:1; to "
-                "change that one write override: true)\n"}),
+                "robot.xml:3:1: error: component 'A' is given twice (first at robot.xml:2:1; type "
+                "PropertyBag changes a component that is listed before)\n"}),
     name_of);
 
 #define COMPONENT(content) "<struct name=\"A\" type=\"M\">\n" content "</struct>"
@@ -283,8 +284,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.xml:3:1: warning: component 'A': service 'marshalling' is left out: there "
                 "are no services\n"},
         Mistake{"script", COMPONENT(SIMPLE("RunScript", "string", "a.ops")),
-                "robot.xml:3:1: error: component 'A': OROCOS script 'a.ops' cannot be run (write "
-                "it in Lua and name it under scripts:)\n"},
+                "robot.xml:3:1: error: component 'A': OROCOS script 'a.ops' cannot be run "
+                "(remove it here; what it does is written in Lua and started by armature run "
+                "--script)\n"},
         Mistake{"autoconnect", COMPONENT(SIMPLE("AutoConnect", "boolean", "1")),
                 "robot.xml:3:1: error: component 'A': AutoConnect is not possible (list the ports "
                 "under Ports)\n"},
@@ -298,7 +300,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.xml:3:1: error: component 'A': a PeriodicActivity needs its Period\n"},
         Mistake{"period_of_zero",
                 COMPONENT(STRUCT("Activity", "PeriodicActivity", SIMPLE("Period", "double", "0"))),
-                "robot.xml:4:1: error: component 'A': periodic must be from 1 ns to 1000000 s, "
+                "robot.xml:4:1: error: component 'A': periodic must be a duration above 0, "
                 "found '0.0 s' (for example 10 ms)\n"},
         Mistake{"scheduler",
                 COMPONENT(STRUCT("Activity", "Activity", SIMPLE("Scheduler", "string", "RT"))),
@@ -350,8 +352,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.xml:3:1: note: connection 'c': lock_policy is left out: it has no effect "
                 "here\n"},
         Mistake{"buffer", POLICY("", SIMPLE("buffer_policy", "long", "4")),
-                "robot.xml:3:1: error: connection 'c': buffer_policy 4 is not possible (each "
-                "connection has its own buffer: 1)\n"},
+                "robot.xml:3:1: note: connection 'c': buffer_policy is left out: there is no "
+                "buffer\n"},
         Mistake{"field", POLICY("", SIMPLE("sise", "long", "4")),
                 "robot.xml:3:1: error: connection 'c': unknown field 'sise' (did you mean "
                 "'size'?)\n"},

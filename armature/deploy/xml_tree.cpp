@@ -181,6 +181,12 @@ std::optional<XmlElement> parse_orocos_xml(std::string_view text, const std::str
                                            const Limits& limits, base::Diagnostics& diagnostics) {
   if (!check_source_text(text, file, limits.file_bytes, diagnostics)) return std::nullopt;
   LineIndex lines(text, file);
+  const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
+  if (first != text.npos && text[first] != '<') {
+    diagnostics.error(lines.at(first), "this is not XML: an OROCOS file begins with <",
+                      "a deployment in YAML is called .yaml");
+    return std::nullopt;
+  }
   if (!check_character_references(text, lines, diagnostics)) return std::nullopt;
   XmlReader reader(std::move(lines), limits, diagnostics);
   pugi::xml_document document;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/internal/xml_tree.hpp"
@@ -63,6 +64,31 @@ bool is_list(const XmlElement& element) {
   return element.kind == XmlElement::Kind::kSequence || is_list_type(element.type);
 }
 
+/// True if each entry has a name of its own. OROCOS allows several of one name, and none.
+bool has_own_names(const XmlElement& bag) {
+  std::unordered_set<std::string_view> names;
+  return std::all_of(bag.children.begin(), bag.children.end(), [&](const XmlElement& child) {
+    return !child.name.empty() && names.insert(child.name).second;
+  });
+}
+
+/// A bag whose entries cannot be told apart by name, as a list.
+Value values_of(const XmlElement& bag, base::Diagnostics& diagnostics) {
+  Value list = make_list(bag.where);
+  bool alike = true;
+  for (const XmlElement& child : bag.children) {
+    alike &= child.name == bag.children.front().name;
+    list.items.push_back(value_of(child, diagnostics));
+  }
+  if (!alike) {
+    diagnostics.warning(bag.where, "struct " + in_quotes(bag.name) +
+                                       " has entries of the same name or without one: it is read "
+                                       "as the list of their values, names are left out");
+  }
+  normalise_type(list);
+  return list;
+}
+
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -96,10 +122,11 @@ std::string escaped(std::string_view text) {
 Value value_of(const XmlElement& element, base::Diagnostics& diagnostics) {
   if (element.is_simple()) return simple_value(element, diagnostics);
   if (is_list(element)) return list_value(element, diagnostics);
-  Value map = make_map(element.where);
-  map.entries = properties_of(element, diagnostics);
   const bool plain =
       element.type.empty() || element.type == "PropertyBag" || element.type == "type_less";
+  if (plain && !has_own_names(element)) return values_of(element, diagnostics);
+  Value map = make_map(element.where);
+  map.entries = properties_of(element, diagnostics);
   if (plain) return map;
   map.type = element.type;
   if (!is_struct_type(element.type)) {

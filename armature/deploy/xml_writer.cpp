@@ -85,7 +85,7 @@ class DeployerWriter {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
     for (const char* key :
          {"application", "on_fault", "black_box", "parameters", "composed", "scripts", "grants",
-          "before_stop", "network", "modes", "mode", "recorder"}) {
+          "before_stop", "hold_at_stop", "network", "modes", "mode", "recorder", "threads"}) {
       extend(attributes, tree_, key);
     }
     return attributes;
@@ -218,7 +218,11 @@ class DeployerWriter {
   }
 
   void write_thread(const Activity& activity, bool mask) {
-    writer_.simple({{"name", "Priority"}, {"type", "short"}}, std::to_string(activity.priority));
+    // In real time OROCOS reads 0 as 1; what check refuses is not made possible by writing it.
+    const bool missing = activity.scheduler == Scheduler::kRealtime && activity.priority == 0;
+    if (!missing) {
+      writer_.simple({{"name", "Priority"}, {"type", "short"}}, std::to_string(activity.priority));
+    }
     if (activity.scheduler) {
       const bool other = *activity.scheduler == Scheduler::kOther;
       writer_.simple({{"name", "Scheduler"}, {"type", "string"}},

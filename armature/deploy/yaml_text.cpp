@@ -68,11 +68,15 @@ std::string scalar_text(std::string_view text) {
   return quoted + "\"";
 }
 
-std::string tag_of(const Value& value) { return value.type.empty() ? "" : "!" + value.type + " "; }
+std::string tag_of(const Value& value) {
+  if (value.type.empty()) return {};
+  const bool of_struct = value.kind == Value::Kind::kMap;
+  return "!" + (of_struct ? std::string(kStructTag) : "") + value.type;
+}
 
 /// Appends YAML on one line; gives up once it is longer than `limit`.
 bool append_flow(const Value& value, std::size_t limit, std::string& line) {
-  line += tag_of(value);
+  if (!value.type.empty()) line += tag_of(value) + " ";
   switch (value.kind) {
     case Value::Kind::kNone:
       line += "~";
@@ -120,7 +124,7 @@ void append_after(const std::string& beginning, const Value& value, int indent, 
       return;
     }
   }
-  text += beginning + (value.type.empty() ? "" : " !" + value.type) + "\n";
+  text += beginning + (value.type.empty() ? "" : " " + tag_of(value)) + "\n";
   append_block(value, indent + kIndentation, std::max(levels - 1, 0), text);
 }
 

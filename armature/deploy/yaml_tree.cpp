@@ -2,6 +2,7 @@
 #include "armature/deploy/internal/yaml_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <optional>
 #include <sstream>
@@ -19,14 +20,25 @@
 #include "armature/deploy/internal/source_text.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/internal/xml_types.hpp"
+#include "armature/deploy/internal/yaml_syntax.hpp"
 
 namespace armature::deploy::internal {
 namespace {
 
 bool may_have_type(Value::Kind kind, std::string_view type) {
-  if (kind == Value::Kind::kText) return is_simple_type(type);
-  if (kind == Value::Kind::kList) return is_list_type(type);
-  return is_struct_type(type);
+  return kind == Value::Kind::kText   ? is_simple_type(type)
+         : kind == Value::Kind::kList ? is_list_type(type)
+                                      : false;
+}
+
+/// The tags that YAML itself defines for texts, lists and maps.
+bool is_standard_tag(std::string_view tag) {
+  constexpr std::string_view kStandard = "tag:yaml.org,2002:";
+  if (tag.empty() || tag == "?" || tag == "!") return true;
+  if (!tag.starts_with(kStandard)) return false;
+  constexpr std::array<std::string_view, 7> kKnown = {"str",  "int", "float", "bool",
+                                                      "null", "map", "seq"};
+  return std::find(kKnown.begin(), kKnown.end(), tag.substr(kStandard.size())) != kKnown.end();
 }
 
 /// Ends the parse from inside yaml-cpp once the reason has been reported.
@@ -121,16 +133,20 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   void apply_tag(const std::string& tag, Value& value) {
-    constexpr std::string_view kStandard = "tag:yaml.org,2002:";
-    if (tag.empty() || tag == "?" || tag == "!" || tag.rfind(kStandard, 0) == 0) return;
+    if (is_standard_tag(tag)) return;
     const std::string name = tag.substr(tag[0] == '!' ? 1 : 0);
+    const bool is_map = value.kind == Value::Kind::kMap;
+    const bool of_struct = is_map && name.starts_with(kStructTag);
     if (name == "literal") {
       value.literal = true;
     } else if (may_have_type(value.kind, name)) {
       value.type = name;
+    } else if (of_struct && is_struct_type(name.substr(kStructTag.size()))) {
+      value.type = name.substr(kStructTag.size());
     } else {
-      diagnostics_.error(value.where, "unknown tag '" + tag + "'",
-                         "known: !literal and the types of OROCOS property files");
+      const std::string known = "known: !literal and the types of OROCOS property files";
+      diagnostics_.error(value.where, "unknown tag " + in_quotes(tag),
+                         is_map ? known + ", !orocos:TYPE for a struct" : known);
     }
   }
 
@@ -229,21 +245,40 @@ class TreeBuilder final : public YAML::EventHandler {
   Value root_;
 };
 
-/// What a user most likely did where yaml-cpp found a syntax error.
-std::string hint_for(std::string_view line) {
-  const std::string_view indentation = line.substr(0, line.find_first_not_of(" \t"));
-  if (indentation.find('\t') != std::string_view::npos) return "indent with spaces, not with tabs";
-  const auto has = [&](std::string_view part) { return line.find(part) != std::string_view::npos; };
-  if (has("{i") || has("..") || has("${")) {
-    return "inside [ ] and { }, put text that contains braces in quotes";
+/// Says what is no YAML: a bracket or quote that was opened and not closed, or what yaml-cpp says.
+void report_syntax(const YAML::Exception& error, std::string_view text, const std::string& file,
+                   const std::optional<base::Location>& fixed, base::Diagnostics& diagnostics) {
+  const base::Location found = {file, std::max(0, error.mark.line) + 1,
+                                std::max(0, error.mark.column) + 1};
+  const LineIndex lines(text, file);
+  const std::string not_yaml = "this is not YAML: ";
+  if (const std::optional<Unclosed> open = find_unclosed(text)) {
+    const std::string the = not_yaml + "the " + open->what;
+    if (fixed) return diagnostics.error(*fixed, the + " is not closed");
+    const base::Location where = lines.at(open->at);
+    if (std::pair(where.line, where.column) <= std::pair(found.line, found.column)) {
+      return diagnostics.error(where, the + " that opens here is not closed",
+                               "what follows was read up to " + place_text(found));
+    }
   }
-  return {};
+  diagnostics.error(fixed.value_or(found), not_yaml + error.msg,
+                    hint_for_line(line_of(text, found.line)));
+}
+
+bool is_xml(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return trimmed(text).starts_with('<') && !trimmed(text).starts_with("<<");
 }
 
 Value parse(std::string_view text, const std::string& file,
             const std::optional<base::Location>& fixed, const Limits& limits,
             base::Diagnostics& diagnostics) {
   if (!check_source_text(text, file, limits.file_bytes, diagnostics)) return {};
+  if (!fixed && is_xml(text)) {
+    diagnostics.error({file, 1, 1}, "this is XML, but the name of the file is one of YAML",
+                      "OROCOS files are called .xml or .cpf");
+    return {};
+  }
   TreeBuilder builder(file, fixed, limits, diagnostics);
   try {
     std::istringstream stream{std::string(text)};
@@ -253,10 +288,7 @@ Value parse(std::string_view text, const std::string& file,
     return builder.take_root();
   } catch (const Abandoned&) {
   } catch (const YAML::Exception& error) {
-    const int line = std::max(0, error.mark.line) + 1;
-    const int column = std::max(0, error.mark.column) + 1;
-    diagnostics.error(fixed.value_or(base::Location{file, line, column}),
-                      "this is not YAML: " + error.msg, hint_for(line_of(text, line)));
+    report_syntax(error, text, file, fixed, diagnostics);
   } catch (const std::exception& error) {
     diagnostics.error(fixed.value_or(base::Location{file, 0, 0}),
                       std::string("this is not YAML: ") + error.what());

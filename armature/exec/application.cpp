@@ -79,6 +79,7 @@ base::Diagnostics Application::start() {
   base::Diagnostics diagnostics = check();
   if (!diagnostics.ok()) return diagnostics;
   incidents_ = std::make_unique<internal::Incidents>();
+  leaving_ = false;
   apply_declared_reactions();
   make_engines();
   set_up_modes();
@@ -94,6 +95,7 @@ base::Diagnostics Application::start() {
 
 base::Diagnostics Application::stop() {
   base::Diagnostics diagnostics;
+  take_leave();
   if (std::exchange(running_, false)) take_down(diagnostics);
   return diagnostics;
 }
@@ -159,6 +161,7 @@ RunEnd Application::run_threads_until(base::Time end, const std::function<bool()
     if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
     const base::Time at = now();
     say(black_boxes_.write_if_due(*incidents_, at));
+    finish_ways_to_stop();
     logs_.tell_losses_now_and_then(at);
     if (options_.attend) options_.attend();
     if (condition && condition()) return RunEnd::kConditionMet;
@@ -182,6 +185,7 @@ RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& 
       if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
     }
     say(black_boxes_.write_if_due(*incidents_, simulated_now_));
+    finish_ways_to_stop();
     logs_.tell_losses_now_and_then(simulated_now_);
     if (options_.attend) options_.attend();
     if (condition && condition()) return RunEnd::kConditionMet;
@@ -190,11 +194,30 @@ RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& 
   }
 }
 
-std::optional<RunEnd> Application::end_by_fault() const {
-  if (options_.on_fault != OnFault::kStop) return std::nullopt;
+std::optional<RunEnd> Application::end_by_fault() {
+  take_leave();
+  if (died_) return RunEnd::kFaulted;
+  if (options_.on_fault != OnFault::kStop || leaving_) return std::nullopt;
   if (faults() > 0) return RunEnd::kFaulted;
   if (reactions() > 0) return RunEnd::kStoppedByReaction;
   return std::nullopt;
+}
+
+void Application::mourn(const void* workplace, std::string reason) {
+  dead_workplace_ = workplace;
+  death_ = std::move(reason);
+  mourns_.store(true, std::memory_order_release);
+}
+
+/// The dead thread stands still, so that its components are everybody's.
+void Application::take_leave() {
+  if (!mourns_.exchange(false, std::memory_order_acquire)) return;
+  died_ = hangs_ = true;
+  for (const auto& engine : engines_) {
+    if (&engine->context() != dead_workplace_) continue;
+    give_up_thread(engine->context());
+    engine->fault_members(death_);
+  }
 }
 
 base::Time Application::now() const {

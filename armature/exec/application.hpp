@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -61,7 +62,8 @@ enum class Caller : std::uint8_t {
   kRemote,  ///< another process
 };
 
-/// An act of the operator (`component::by_operator`) that a caller may do in the operator's stead.
+/// An act of the operator (`component::by_operator`) that a caller may do in the operator's stead:
+/// an operation to call, or a property to set.
 struct Grant {
   Caller caller;
   std::string component;
@@ -80,6 +82,7 @@ struct ApplicationOptions {
   OnFault on_fault = OnFault::kContinue;
   std::vector<Grant> grants;
   std::vector<CommandName> before_stop;                        ///< for `run_before_stop`
+  base::Duration hold_at_stop = std::chrono::minutes(1);       ///< while the operator is asked
   base::Duration before_stop_limit = std::chrono::minutes(1);  ///< for each of them
   base::Duration hook_limit = std::chrono::seconds(10);        ///< a hook that takes longer hangs
   base::Duration stop_limit = std::chrono::seconds(1);         ///< the same while stopping
@@ -96,6 +99,18 @@ struct ApplicationOptions {
   /// Called by the controlling thread while it lets the application run, which it may use: in
   /// simulated time whenever all that is due at an instant is done, else every millisecond.
   std::function<void()> attend;
+};
+
+/// What the application does before it stops.
+enum class Leave : std::uint8_t {
+  kInOrder,       ///< the commands of `before_stop`
+  kAfterMistake,  ///< nothing begins: who commanded it does not know what it does
+};
+
+/// What a component keeps from moving by itself, as it says (component/holding.hpp).
+struct Held {
+  std::string component;
+  std::string what;
 };
 
 /// Why a run ended.
@@ -150,14 +165,33 @@ class Application final {
   RunEnd run_until(base::Time end, const std::function<bool()>& condition,
                    const platform::StopSignal* stop = nullptr);
 
-  /// Lets it run on for the commands of `before_stop`, as the operator's and one after the other.
-  /// Not after a fault or a reaction: then it stops as it is. A second signal ends the process.
+  /// Cancels what is under way, so that it comes to rest, and lets it run on for the commands of
+  /// `before_stop`, as the operator's and one after the other: not after a fault or a reaction, nor
+  /// those of a component that holds nothing. Another signal cuts it short.
   /// @param end  how the run has ended
-  /// @return warnings: which was refused or failed and why, or did not end in time
-  base::Diagnostics run_before_stop(RunEnd end, const platform::StopSignal* stop = nullptr);
+  /// @return errors: which was refused or failed and why, or did not end in time
+  base::Diagnostics run_before_stop(RunEnd end, const platform::StopSignal* stop = nullptr,
+                                    Leave leave = Leave::kInOrder);
+
+  /// Lets it run on as long as anything is held that would fall if it stopped: asks the operator,
+  /// and waits until nothing is held any more, another signal comes or `hold_at_stop` is over.
+  /// @param converse  takes the operator's answers for so long at most, and returns whether he said
+  ///                  that it may stop; without it only time passes
+  /// @return errors: what is let go of without an answer
+  base::Diagnostics hold_until_told(const platform::StopSignal* stop = nullptr,
+                                    const std::function<bool(base::Duration)>& converse = nullptr);
+
+  /// What would move by itself if the application stopped now.
+  std::vector<Held> held();
 
   /// Stops in reverse order of start and cleans up; the diagnostics name hooks that hang.
   base::Diagnostics stop();
+
+  /// A thread of the process has died, and stands still. What it ran is out of service, and the run
+  /// ends as after a fault, whatever `on_fault` says. This application cannot be started again.
+  /// @param workplace  the ExecutionContext of the thread's components; nullptr: it runs none
+  /// @thread any, once
+  void mourn(const void* workplace, std::string reason);
 
   bool running() const { return running_; }
   /// A hook did not return: the process should end by platform::exit_now. This application cannot
@@ -178,7 +212,13 @@ class Application final {
 
   // --- while it runs: each is executed by the component's own thread -----------------------------
   component::Outcome start_component(std::string_view name);
+  /// One that holds something first does its commands of `before_stop`, and stops when they are
+  /// done; refused if it holds something still, and for who keeps another holding something.
   component::Outcome stop_component(std::string_view name);
+  /// Whether it does the commands of `before_stop` now, since `stop_component` asked for that.
+  bool is_on_way_to_stop(std::string_view name) const;
+  /// Cancels them: it goes on running, and what moves comes to rest.
+  void cancel_way_to_stop(std::string_view name);
   component::Outcome recover_component(std::string_view name);
   component::Outcome reset_component(std::string_view name);
   /// To kPreOperational: the next start configures it anew. Refused unless it is stopped.
@@ -186,7 +226,7 @@ class Application final {
   /// Goes over to another mode between two cycles, see exec/modes.hpp; refused, all is as it was.
   component::Outcome switch_mode(std::string_view name);
   base::Result<void> set_property(std::string_view component, std::string_view property,
-                                  const types::Value& value);
+                                  const types::Value& value, Caller caller = Caller::kOperator);
   /// The current value of a property or port; of an input, what its component has taken of it.
   base::Result<types::Value> value_of(std::string_view component, std::string_view item);
   base::Result<std::optional<types::Value>> call(std::string_view component,
@@ -224,7 +264,16 @@ class Application final {
   void apply_declared_reactions();
 
   // application_before_stop.cpp
+  bool cancel_all(const platform::StopSignal* stop);
   std::string run_last(const CommandName& name, const platform::StopSignal* stop);
+  bool holds_nothing(std::string_view component);
+  std::string held_by(component::Component& component);
+  std::vector<const component::Component*> run_for_events_of(
+      const component::Component& keeper) const;
+  std::optional<Held> held_by_help_of(const component::Component& component);
+  void say_held(const std::vector<Held>& held);
+  component::Outcome begin_way_to_stop(component::Component& component);
+  void finish_ways_to_stop();
   bool in_good_order() const { return running_ && faults() == 0 && reactions() == 0; }
 
   // application_modes.cpp
@@ -272,14 +321,17 @@ class Application final {
   base::Result<component::OperationBase*> operation_for(std::string_view component,
                                                         std::string_view operation,
                                                         Caller caller) const;
-  bool granted(const component::OperationBase& operation, Caller caller) const;
+  /// An error that says why not if `caller` may not do this act of the operator.
+  base::Result<void> granted(const component::Component& component, std::string_view act,
+                             Caller caller) const;
   internal::ToolTicket& claim_ticket(component::CommandBase& command);
   std::string unknown_component(std::string_view name) const;
   base::Result<types::Value> value_of(component::Component& component, const types::Type& type,
                                       std::function<const void*()> data);
   component::Outcome change(std::string_view name,
                             std::function<component::Outcome(component::Component&)> transition);
-  std::optional<RunEnd> end_by_fault() const;
+  std::optional<RunEnd> end_by_fault();
+  void take_leave();
   void say(const std::string& text);
   const ComponentEntry& entry_of(const component::Component& component) const {
     return blueprint_.components[index_of_.at(component.name())];
@@ -305,7 +357,18 @@ class Application final {
   std::unordered_set<const void*> stuck_;  ///< components and contexts in which something hangs
   /// Of commands that tools began.
   std::vector<std::unique_ptr<internal::ToolTicket, component::SharedRecord::LetGo>> tickets_;
+  /// A component that stops when its command is done.
+  struct WayToStop {
+    CommandName command;
+    component::CommandHandle handle;
+  };
+  std::vector<WayToStop> ways_to_stop_;
   base::Time simulated_now_{};
+  bool leaving_ = false;  ///< it runs on for what is to be done before the stop, also after a fault
+  std::atomic<bool> mourns_{false};  ///< of whom and why:
+  const void* dead_workplace_ = nullptr;
+  std::string death_;
+  bool died_ = false;
   bool running_ = false;
   bool hangs_ = false;
 };

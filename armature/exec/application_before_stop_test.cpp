@@ -14,6 +14,64 @@ namespace {
 using ::testing::HasSubstr;
 using types::Value;
 
+/// Says in each cycle that it is time.
+class Clock : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void on_update() override { tick_.raise(); }
+
+  component::Event<> tick_{this, "Tick", ""};
+};
+
+/// Says so to others.
+class Relay : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void on_tick() { beat_.raise(); }
+
+  component::EventHandler<> tick_{this, "Tick", component::serve<&Relay::on_tick>, ""};
+  component::Event<> beat_{this, "Beat", ""};
+};
+
+/// Lies in nobody's hand but the motor's.
+class Load : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Reason held() {
+    return held_() && !word_.said() ? component::Reason("a load; say `put_down`, or hold it")
+                                    : component::Reason();
+  }
+  component::Outcome put_down() {
+    if (stuck_) return component::refused("it is stuck");
+    putting_down_ = 5;
+    return component::accepted();
+  }
+  void on_update() override {
+    if (putting_down_ > 0 && --putting_down_ == 0) held_.assign(false);
+  }
+  bool lies() { return !held_(); }
+
+  component::Property<bool> held_{this, "held", true, "", "", component::changeable_while_running};
+  component::Property<bool> stuck_{this, "stuck", false,
+                                   "",   "",      component::changeable_while_running};
+  component::OperatorsWord word_{this, "in_my_hands", "the operator holds the load"};
+  component::Command<> put_down_{this, "put_down", component::serve<&Load::put_down>, "",
+                                 component::done_when<&Load::lies>};
+  void count() { ++beats_; }
+
+  component::EventHandler<> beat_{this, "Beat", component::serve<&Load::count>, "",
+                                  component::optional};
+  component::Holding holding_{this, component::serve<&Load::held>, beat_};
+  int beats_ = 0;
+  int putting_down_ = 0;
+};
+
 /// Goes home one step in each cycle, unless something holds it.
 class Arm : public component::Component {
  public:
@@ -85,6 +143,17 @@ TEST_P(BeforeStop, WhatIsUnderWayIsCancelledFirst) {
   EXPECT_EQ(before.value().stage(), component::CommandStage::kCancelled);
 }
 
+TEST_P(BeforeStop, NothingBeginsAfterAMistakeButWhatIsUnderWayIsCancelled) {
+  set("Left", "holds", Value::of(true));
+  const auto before = application_->begin("Left", "home", {});
+  ASSERT_TRUE(before) << before.error();
+  EXPECT_EQ(application_->run_before_stop(RunEnd::kStopRequested, nullptr, Leave::kAfterMistake)
+                .to_text(),
+            "");
+  EXPECT_EQ(before.value().stage(), component::CommandStage::kCancelled);
+  EXPECT_EQ(steps_gone("Right"), 0);
+}
+
 TEST_P(BeforeStop, NothingIsDoneAfterAFault) {
   EXPECT_EQ(finish(RunEnd::kFaulted), "");
   EXPECT_EQ(finish(RunEnd::kStoppedByReaction), "");
@@ -107,6 +176,146 @@ TEST_P(BeforeStop, WhatDoesNotEndInTimeIsToldAndGivenUp) {
   set("Left", "holds", Value::of(true));
   EXPECT_THAT(finish(), HasSubstr("'Left.home' did not end within 1 s"));
   EXPECT_EQ(steps_gone("Right"), 5);
+}
+
+/// What holds a load lets go of it in no silence.
+class Holding : public ::testing::TestWithParam<bool> {
+ protected:
+  void start(bool goes_first, OnFault on_fault = OnFault::kContinue) {
+    Blueprint blueprint;
+    blueprint.add<Load>("Load", Activity::periodic(1ms));
+    blueprint.add<Arm>("Arm", Activity::periodic(1ms));
+    blueprint.add<Clock>("Clock", Activity::periodic(1ms));
+    blueprint.add<Relay>("Relay");
+    blueprint.components[0].peers = {{"Relay", {}}};
+    blueprint.components[3].peers = {{"Clock", {}}};
+    ApplicationOptions options = patient(GetParam());
+    if (goes_first) options.before_stop = {{"Load", "put_down"}};
+    options.before_stop_limit = 1s;
+    options.hold_at_stop = 300ms;
+    options.on_fault = on_fault;
+    options.log = [this](const rt::LogRecord& record) { log_ += record.message() + "\n"; };
+    application_.emplace(std::move(blueprint), std::move(options));
+    ASSERT_EQ(application_->start().to_text(), "");
+  }
+  void set(const char* property, bool value) {
+    const auto done = application_->set_property("Load", property, Value::of(value));
+    EXPECT_TRUE(done) << done.error();
+  }
+  component::State state() { return application_->find("Load")->state(); }
+
+  std::string log_;
+  std::optional<Application> application_;
+};
+INSTANTIATE_TEST_SUITE_P(InBothKindsOfTime, Holding, ::testing::Bool(),
+                         [](const auto& test) { return test.param ? "Simulated" : "Real"; });
+
+TEST_P(Holding, WhatIsHeldIsHeldUntilTheTimeIsOverAndThatIsAnErrorThatNamesIt) {
+  start(false);
+  EXPECT_EQ(application_->run_before_stop(RunEnd::kTimeUp).to_text(), "");
+  const base::Time begin = application_->now();
+  EXPECT_THAT(application_->hold_until_told().to_text(),
+              HasSubstr("error: 'Load' lets go, since nobody answered: it held a load; say "
+                        "`put_down`, or hold it"));
+  EXPECT_GE(application_->now() - begin, 300ms);
+  EXPECT_EQ(state(), component::State::kRunning) << "it is stopped by whoever asked";
+  EXPECT_THAT(log_, HasSubstr("before the stop, 'Load' holds a load; say `put_down`, or hold it"));
+}
+
+TEST_P(Holding, WhatIsDeclaredIsDoneFirstAndNobodyIsAsked) {
+  start(true);
+  EXPECT_EQ(application_->run_before_stop(RunEnd::kTimeUp).to_text(), "");
+  EXPECT_TRUE(application_->held().empty());
+  EXPECT_EQ(application_->hold_until_told().to_text(), "");
+  EXPECT_EQ(log_, "");
+}
+
+TEST_P(Holding, WhatHoldsNothingDoesNothingBeforeTheStop) {
+  start(true);
+  set("held", false);
+  set("stuck", true);
+  EXPECT_EQ(application_->run_before_stop(RunEnd::kTimeUp).to_text(), "");
+}
+
+TEST_P(Holding, ItEndsWithTheOperatorsWord) {
+  start(false);
+  const base::Time begin = application_->now();
+  int asked = 0;
+  const auto converse = [&](base::Duration limit) {
+    EXPECT_EQ(limit, 300ms);
+    ++asked;
+    set("in_my_hands", true);
+    return false;
+  };
+  EXPECT_EQ(application_->hold_until_told(nullptr, converse).to_text(), "");
+  EXPECT_EQ(asked, 1);
+  EXPECT_LT(application_->now() - begin, 300ms);
+}
+
+TEST_P(Holding, WhoHasItLetGoIsToldWhatItHeld) {
+  start(false);
+  const auto quits = [](base::Duration) { return true; };
+  EXPECT_THAT(application_->hold_until_told(nullptr, quits).to_text(),
+              HasSubstr("error: 'Load' lets go, since it was told to: it held a load"));
+  set("in_my_hands", true);
+  EXPECT_EQ(application_->hold_until_told(nullptr, quits).to_text(), "");
+}
+
+TEST_P(Holding, AlsoAfterAFaultOfAnotherThatEndsTheRun) {
+  start(true, OnFault::kStop);
+  ASSERT_TRUE(application_->run_in_thread_of(
+      *application_->find("Arm"), [this] { application_->find("Arm")->fault("broken"); }));
+  ASSERT_EQ(application_->run_for(10ms), RunEnd::kFaulted);
+  EXPECT_EQ(application_->run_before_stop(RunEnd::kFaulted).to_text(), "");
+  const base::Time begin = application_->now();
+  EXPECT_FALSE(application_->hold_until_told().ok());
+  EXPECT_GE(application_->now() - begin, 300ms);
+}
+
+TEST_P(Holding, AComponentThatIsToStopDoesWhatIsDeclaredFirst) {
+  start(true);
+  ASSERT_TRUE(application_->stop_component("Load"));
+  EXPECT_EQ(state(), component::State::kRunning);
+  application_->run_until(application_->now() + 10s,
+                          [this] { return state() == component::State::kStopped; });
+  EXPECT_EQ(state(), component::State::kStopped);
+  EXPECT_THAT(log_, HasSubstr("'Load' stops when 'Load.put_down' is done"));
+}
+
+TEST_P(Holding, AComponentThatHoldsSomethingIsNotStoppedWithoutAWord) {
+  start(false);
+  const auto refused = application_->stop_component("Load");
+  EXPECT_FALSE(refused);
+  EXPECT_EQ(refused.reason(),
+            "'Load' was not stopped, since it holds a load; say `put_down`, or hold it");
+  set("in_my_hands", true);
+  EXPECT_TRUE(application_->stop_component("Load"));
+  EXPECT_EQ(state(), component::State::kStopped);
+}
+
+TEST_P(Holding, WhoKeepsItHoldingIsNotStoppedEither) {
+  start(false);
+  for (const char* name : {"Relay", "Clock"}) {
+    const auto refused = application_->stop_component(name);
+    EXPECT_FALSE(refused);
+    EXPECT_EQ(refused.reason(), "'" + std::string(name) +
+                                    "' was not stopped, since 'Load' needs it: that holds a load; "
+                                    "say `put_down`, or hold it; or stop 'Load' first");
+    EXPECT_EQ(application_->find(name)->state(), component::State::kRunning);
+  }
+  EXPECT_TRUE(application_->stop_component("Arm")) << "nobody needs it";
+  set("held", false);
+  EXPECT_TRUE(application_->stop_component("Clock"));
+}
+
+TEST_P(Holding, AComponentWhoseWayIsRefusedIsNotStopped) {
+  start(true);
+  set("stuck", true);
+  const auto refused = application_->stop_component("Load");
+  EXPECT_FALSE(refused);
+  EXPECT_THAT(std::string(refused.reason()),
+              HasSubstr("('Load.put_down' was refused: it is stuck)"));
+  EXPECT_EQ(state(), component::State::kRunning);
 }
 
 }  // namespace

@@ -52,6 +52,14 @@ class Axis : public component::Component {
                                         component::in_own_thread,
                                         component::by_operator};
 
+  component::OperatorsWord at_home_{this, "at_home", "the operator has put it at home"};
+  component::Command<> release_{this, "release", component::serve<&Axis::begin_release>,
+                                "lets it be pushed", component::in_any_state};
+
+  component::Outcome begin_release() {
+    release_.complete();
+    return component::accepted();
+  }
   component::Outcome begin_arm() {
     arm_.complete();
     return component::accepted();
@@ -153,6 +161,28 @@ TEST_P(Commands, AScriptMayDoWhatTheDeploymentGrants) {
   start({{Caller::kScript, "Axis", "arm"}});
   EXPECT_TRUE(application().begin("Axis", "arm", {}, Caller::kScript));
   EXPECT_FALSE(application().call("Axis", "where", {}, Caller::kScript));
+}
+
+TEST_P(Commands, AScriptSaysNoWordOfTheOperatorUnlessItIsGranted) {
+  EXPECT_EQ(
+      application().set_property("Axis", "at_home", Value::of(true), Caller::kScript).error(),
+      "'Axis.at_home' is an act of the operator: a script may do it only where the deployment "
+      "says so (grants: {script: [Axis.at_home]})");
+  EXPECT_FALSE(application().set_property("Axis", "at_home", Value::of(true), Caller::kRemote));
+  EXPECT_TRUE(application().set_property("Axis", "at_home", Value::of(true)));
+  start({{Caller::kScript, "Axis", "at_home"}});
+  EXPECT_TRUE(application().set_property("Axis", "at_home", Value::of(true), Caller::kScript));
+}
+
+TEST_P(Commands, WhatIsServedInAnyStateIsServedWhileItsComponentDoesNotRun) {
+  ASSERT_TRUE(application().stop_component("Axis"));
+  EXPECT_EQ(application().begin("Axis", "move", {Value::of(1.0)}).error(),
+            "the component is not running");
+  const auto released = application().begin("Axis", "release", {});
+  ASSERT_TRUE(released) << released.error();
+  EXPECT_EQ(released.value().stage(), CommandStage::kDone);
+  ASSERT_TRUE(application().clean_up_component("Axis"));
+  EXPECT_TRUE(application().begin("Axis", "release", {}));
 }
 
 TEST(SimulatedTime, StopsAtTheInstantAtWhichTheConditionBecameTrue) {

@@ -70,8 +70,13 @@ bool Application::run_in_thread_of(Component& component, std::function<void()> w
   const auto as_its_own = [&component, &context, work = std::move(work)] {
     component.run(context, work);
   };
-  if (context.live) return Task::run_in(context, as_its_own, options_.hook_limit);
   if (is_stuck(component)) return false;
+  if (context.live) {
+    // It may die of this work.
+    return Task::run_in(context, as_its_own, options_.hook_limit, [this, &context] {
+      return mourns_.load(std::memory_order_acquire) && dead_workplace_ == &context;
+    });
+  }
   context.cycle_time = now();
   as_its_own();
   return true;
@@ -100,6 +105,13 @@ Outcome Application::start_component(std::string_view name) {
 }
 
 Outcome Application::stop_component(std::string_view name) {
+  Component* const holder = find(name);
+  if (holder != nullptr && !holds_nothing(name)) return begin_way_to_stop(*holder);
+  if (const auto kept = holder != nullptr ? held_by_help_of(*holder) : std::nullopt) {
+    return component::refused(quoted(name) + " was not stopped, since " + quoted(kept->component) +
+                              " needs it: that holds " + kept->what + "; or stop " +
+                              quoted(kept->component) + " first");
+  }
   return change(name, [](Component& component) {
     component.stop();
     return component::accepted();
@@ -125,13 +137,16 @@ Outcome Application::clean_up_component(std::string_view name) {
 }
 
 base::Result<void> Application::set_property(std::string_view name, std::string_view property_name,
-                                             const types::Value& value) {
+                                             const types::Value& value, Caller caller) {
   Component* const component = find(name);
   if (component == nullptr) return base::Error{unknown_component(name)};
   const auto& properties = component->interface().properties;
   component::PropertyBase* const property = find_in(properties, property_name);
   if (property == nullptr) {
     return base::Error{no_such("property", property_name, *component, names_of(properties))};
+  }
+  if (property->is_by_operator()) {
+    if (const auto may = granted(*component, property_name, caller); !may) return may;
   }
   const auto result = std::make_shared<base::Result<void>>();
   if (!run_in_thread_of(*component,
@@ -170,13 +185,19 @@ base::Result<types::Value> Application::value_of(Component& component, const typ
   return *value;
 }
 
-bool Application::granted(const component::OperationBase& operation, Caller caller) const {
-  if (caller == Caller::kOperator || !operation.is_by_operator()) return true;
+base::Result<void> Application::granted(const Component& component, std::string_view act,
+                                        Caller caller) const {
+  if (caller == Caller::kOperator) return {};
   const auto grants_it = [&](const Grant& grant) {
-    return grant.caller == caller && grant.component == operation.owner().name() &&
-           grant.operation == operation.name();
+    return grant.caller == caller && grant.component == component.name() && grant.operation == act;
   };
-  return std::any_of(options_.grants.begin(), options_.grants.end(), grants_it);
+  if (std::any_of(options_.grants.begin(), options_.grants.end(), grants_it)) return {};
+  const std::string whole = component.name() + "." + std::string(act);
+  const bool script = caller == Caller::kScript;
+  return base::Error{quoted(whole) +
+                     " is an act of the operator: " + (script ? "a script" : "another process") +
+                     " may do it only where the deployment says so (grants: {" +
+                     (script ? "script" : "remote") + ": [" + whole + "]})"};
 }
 
 base::Result<component::OperationBase*> Application::operation_for(std::string_view name,
@@ -189,13 +210,10 @@ base::Result<component::OperationBase*> Application::operation_for(std::string_v
   if (operation == nullptr) {
     return base::Error{no_such("operation", operation_name, *component, names_of(operations))};
   }
-  if (!granted(*operation, caller)) {
-    const std::string whole = component->name() + "." + std::string(operation_name);
-    const bool script = caller == Caller::kScript;
-    return base::Error{quoted(whole) +
-                       " is an act of the operator: " + (script ? "a script" : "another process") +
-                       " may do it only where the deployment says so (grants: {" +
-                       (script ? "script" : "remote") + ": [" + whole + "]})"};
+  if (operation->is_by_operator()) {
+    if (const auto may = granted(*component, operation_name, caller); !may) {
+      return base::Error{may.error()};
+    }
   }
   return operation;
 }

@@ -8,7 +8,9 @@
 #include "armature/component/observer.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
+#include "armature/exec/internal/start_gate.hpp"
 #include "armature/exec/internal/wiring.hpp"
+#include "armature/platform/stop_priority.hpp"
 
 namespace armature::exec {
 namespace {
@@ -143,6 +145,7 @@ void Application::report_hang(const Component& component, const char* hook, base
 }
 
 void Application::take_down(base::Diagnostics& diagnostics) {
+  ways_to_stop_.clear();
   stop_running(diagnostics);
   end_threads(diagnostics);
   deliver_leftovers(diagnostics);
@@ -186,6 +189,10 @@ void Application::stop_group(const std::vector<Component*>& group, base::Diagnos
     const std::vector<Component*> rest(report.open.begin() + 1, report.open.end());
     if (!rest.empty()) stop_group(rest, diagnostics);
     return;
+  }
+  // However many others are busy, it gets there soon.
+  if (gate_ != nullptr && options_.realtime != RealtimeMode::kOff) {
+    platform::make_prompt(gate_->thread_of(&context));
   }
   // If the thread is known to hang, nobody waits; its components stop when it goes on.
   const base::Duration limit =
@@ -248,7 +255,7 @@ void Application::list_casualties() {
   casualties_.clear();
   for (const ComponentEntry& entry : blueprint_.components) {
     const Component& component = *entry.component;
-    if (is_stuck(component)) {
+    if (is_stuck(component) && component.reason().empty()) {
       casualties_.push_back({component.name(), component.state(), "its thread hangs"});
     } else if (!component.reason().empty()) {
       casualties_.push_back({component.name(), component.state(), std::string(component.reason())});

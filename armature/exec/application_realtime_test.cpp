@@ -225,7 +225,7 @@ TEST(Realtime, MemoryThatWasTakenBeforeIsThereWithoutAPageFault) {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   rlimit tight = before;
-  tight.rlim_cur = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + 220 * 1024;
+  tight.rlim_cur = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + 400 * 1024;
   ::setrlimit(RLIMIT_AS, &tight);
   const std::string text = application.start().to_text();
   ::setrlimit(RLIMIT_AS, &before);

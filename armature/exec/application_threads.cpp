@@ -10,6 +10,7 @@
 #include "armature/exec/internal/age_watch.hpp"
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/internal/start_gate.hpp"
+#include "armature/platform/death_watch.hpp"
 #include "armature/platform/memory.hpp"
 
 namespace armature::exec {
@@ -117,7 +118,9 @@ void Application::start_worker(Index thread) {
   Engine* const engine = engines_[thread].get();
   const platform::ThreadRequest request = request_for(plan, options_.realtime);
   workers_.push_back({engine, std::make_unique<platform::Thread>(request, [gate = gate_, engine] {
-                        if (gate->wait()) engine->serve();
+                        if (gate->wait(&engine->context(), platform::thread_number())) {
+                          engine->serve();
+                        }
                       })});
   verdict_.lines.push_back(line_of(request, workers_.back().thread->grant()));
 }

@@ -221,7 +221,42 @@ TEST(BlackBoxOfAnApplication, OfManyFaultsAFewAreWritten) {
     ASSERT_TRUE(application.start_component("Probe"));
   }
   EXPECT_THAT(kept.reports, SizeIs(4));
-  EXPECT_THAT(kept.lines, Contains("report 4; it is the last of this run"));
+  EXPECT_THAT(kept.lines, Contains("report 4; from now on only faults of another kind are kept"));
+}
+
+TEST(BlackBoxOfAnApplication, AFaultOfAnotherKindIsWrittenHoweverManyThereWereBefore) {
+  Kept kept;
+  Blueprint blueprint;
+  blueprint.add<Probe>("Probe", Activity::periodic(10ms));
+  Application application(std::move(blueprint), kept.options(true));
+  ASSERT_TRUE(application.start().ok());
+  component::Component& probe = *application.find("Probe");
+  const auto fault = [&](const std::string& why) {
+    ASSERT_TRUE(application.run_in_thread_of(probe, [&] { probe.fault(why); }));
+    application.run_for(500ms);
+    ASSERT_TRUE(application.reset_component("Probe"));
+    ASSERT_TRUE(application.start_component("Probe"));
+  };
+  for (int i = 0; i < 10; ++i) fault("puck " + std::to_string(i) + " is silent");
+  EXPECT_THAT(kept.reports, SizeIs(4));
+  for (int i = 0; i < 3; ++i) fault("E-stop");
+  ASSERT_THAT(kept.reports, SizeIs(5));
+  EXPECT_EQ(kept.reports.back().reason, "E-stop");
+}
+
+TEST(BlackBoxOfAnApplication, WhatTheOperatorStopsIsNoFault) {
+  Kept kept;
+  Application application(chain(0), kept.options(true));
+  ASSERT_TRUE(application.start().ok());
+  for (int i = 0; i < 5; ++i) {
+    application.run_for(100ms);
+    component::Component& middle = *application.find("Double");
+    ASSERT_TRUE(application.run_in_thread_of(middle, [&] { middle.stop_because("a reaction"); }));
+    application.run_for(500ms);
+    for (const char* name : {"Double", "Sink"}) ASSERT_TRUE(application.start_component(name));
+  }
+  EXPECT_GT(application.reactions(), 0u);
+  EXPECT_THAT(kept.reports, IsEmpty());
 }
 
 TEST(BlackBoxOfAnApplication, AWriterThatThrowsIsToldAndNothingElseHappens) {

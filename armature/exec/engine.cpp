@@ -68,6 +68,7 @@ Engine::Engine(std::string name, Activity activity, std::vector<Component*> memb
       updating_(std::move(updating)),
       schedule_(activity_.period, activity_.overrun == Overrun::kCatchUp) {
   context_.log = &log_;
+  if (periodic()) context_.period = activity_.period;
   for (Component* member : members_) {
     member->assign_context(context_);
     if (member->has_aging_inputs()) aging_.push_back(member);

@@ -80,7 +80,8 @@ class Modes final : public component::Component {
       this, "switch", component::serve<&Modes::begin_switch>,
       "goes over to another mode between two cycles; refused or failed, everything is as it was",
       component::args("mode")};
-  component::Event<ModeName> switched_{this, "Switched", "another mode runs", {"mode"}};
+  component::Event<ModeName> switched_{
+      this, "Switched", "another mode runs", component::occasional, {"mode"}};
 
   std::vector<Mode> modes_;
   std::vector<component::Component*> started_;  ///< in this switch

@@ -47,6 +47,10 @@ Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   internal::plan_members(blueprint, plan, diagnostics);
   internal::plan_triggers(blueprint, plan, diagnostics);
   internal::check_priorities(blueprint, plan, diagnostics);
+  internal::plan_periods(blueprint, plan);
+  // With mistakes in names or wiring, components would see what nobody meant.
+  const bool as_meant = diagnostics.ok() && blueprint.absent.empty();
+  if (as_meant) internal::check_components(blueprint, plan, diagnostics);
   return plan;
 }
 

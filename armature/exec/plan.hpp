@@ -66,8 +66,14 @@ struct ModePlan {
   std::vector<Index> members;  ///< that not all modes have, in the order of start
 };
 
-/// Everything that starting an application needs to know; made by `make_plan`, without effect on
-/// the components.
+/// A component that drives what is not simulated.
+struct HardwarePlan {
+  const component::Component* component;
+  std::string bus;
+};
+
+/// Everything that starting an application needs to know; made by `make_plan`, which changes
+/// nothing of the components but the period that they know.
 struct Plan {
   std::vector<ConnectionPlan> connections;
   std::vector<SubscriptionPlan> subscriptions;  ///< in the order of notification
@@ -79,6 +85,7 @@ struct Plan {
   std::vector<ModePlan> modes;
   std::size_t initial_mode = 0;
   std::vector<ModeSet> modes_of;  ///< for each component: all bits unless modes name it
+  std::vector<HardwarePlan> hardware;
   std::vector<component::InputPortBase*> in_turns;  ///< whose writers take turns
 
   std::size_t service_thread() const { return threads.size() - 1; }
@@ -89,7 +96,9 @@ struct Plan {
 };
 
 /// Resolves every name, checks everything that can be known before start, assigns threads and
-/// orders. Finds all mistakes in one run; the plan is to be used only if there is no error.
+/// orders, and tells the components their periods. Finds all mistakes in one run, but has
+/// components check themselves only if there is none; the plan is to be used only if there is no
+/// error.
 Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics);
 
 /// For people: each thread with its components in order of execution, and how they are reached.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/task.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "armature/platform/clock.hpp"
@@ -20,11 +22,14 @@ void Task::post(component::ExecutionContext& context, std::function<void()> work
 }
 
 bool Task::run_in(component::ExecutionContext& context, std::function<void()> work,
-                  base::Duration limit) {
+                  base::Duration limit, const std::function<bool()>& in_vain) {
+  constexpr base::Duration kGlance = std::chrono::milliseconds(20);
   const std::shared_ptr<Task> task = send(context, std::move(work));
   const base::Time deadline = base::later(platform::monotonic_now(), limit);
   while (!task->done_.load(std::memory_order_acquire)) {
-    if (!task->finished_.wait_until(deadline)) break;
+    const base::Time now = platform::monotonic_now();
+    if (now >= deadline || (in_vain && in_vain())) break;
+    task->finished_.wait_until(in_vain ? std::min(deadline, base::later(now, kGlance)) : deadline);
   }
   return task->done_.load(std::memory_order_acquire);
 }

@@ -19,9 +19,10 @@ class Task final : public rt::Message {
   /// Hands `work` to the thread of `context`.
   static void post(component::ExecutionContext& context, std::function<void()> work);
 
-  /// The same, and waits until it is done, at most `limit`; false if it was not done by then.
+  /// The same, and waits until it is done, at most `limit`, or until that is `in_vain`; false if it
+  /// was not done by then.
   static bool run_in(component::ExecutionContext& context, std::function<void()> work,
-                     base::Duration limit);
+                     base::Duration limit, const std::function<bool()>& in_vain = {});
 
  private:
   explicit Task(std::function<void()> work) : rt::Message(&Task::deliver), work_(std::move(work)) {}

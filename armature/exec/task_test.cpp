@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/exec/engine.hpp"
+#include "armature/platform/clock.hpp"
 
 namespace armature::exec {
 namespace {
@@ -60,6 +61,16 @@ TEST(Task, ThatIsNotDoneInTimeIsDoneLaterAndThenGone) {
   engine.step({});
   EXPECT_EQ(*owned, 1);
   EXPECT_EQ(owned.use_count(), 1) << "nothing is left of it";
+}
+
+TEST(Task, IsNotWaitedForOnceThatIsInVain) {
+  Engine engine("engine", Activity::triggered(), {}, {});
+  const base::Time begin = platform::monotonic_now();
+  int asked = 0;
+  EXPECT_FALSE(Task::run_in(
+      engine.context(), [] {}, 60s, [&] { return ++asked == 3; }));
+  EXPECT_LT(platform::monotonic_now(), begin + 30s);
+  engine.step({});
 }
 
 TEST(Task, IsDoneEvenIfItArrivedAfterTheThreadHadEnded) {

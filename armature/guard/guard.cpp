@@ -13,8 +13,8 @@
 
 #include "armature/guard/internal/places.hpp"
 #include "armature/guard/internal/report.hpp"
-#include "armature/guard/internal/symbols.hpp"
 #include "armature/guard/internal/watch.hpp"
+#include "armature/platform/symbols.hpp"
 #include "armature/rt/loaded_guard.hpp"
 
 namespace armature::guard {
@@ -44,7 +44,7 @@ void print_unprinted() {
   const OwnBusiness quiet;
   const int error = errno;
   news.store(false, std::memory_order_relaxed);
-  Symbols symbols;
+  platform::Symbols symbols;
   for (Place& place : places.all()) {
     if (place.printed || !place.complete.load(std::memory_order_acquire)) continue;
     place.printed = true;
@@ -83,7 +83,7 @@ class LoadedGuard final : public rt::Guard {
   std::uint64_t violations() const override { return places.violations(); }
   std::string report() const override {
     const OwnBusiness quiet;
-    Symbols symbols;
+    platform::Symbols symbols;
     std::string text;
     for (const Place& place : places.all()) {
       if (place.complete.load(std::memory_order_acquire)) text += describe(place, symbols);

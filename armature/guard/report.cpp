@@ -12,7 +12,8 @@ std::string counted(std::uint64_t count, const char* what) {
 
 std::string call_text(const Sighting& sighting) {
   const std::string detail(sighting.detail.view());
-  if (sighting.call == std::string_view("throw")) return "threw " + demangled(detail.c_str());
+  if (sighting.call == std::string_view("throw"))
+    return "threw " + platform::demangled(detail.c_str());
   return std::string("called ") + sighting.call + "(" + detail + ")";
 }
 
@@ -23,14 +24,14 @@ bool ends_stack(const std::string& function) {
 
 }  // namespace
 
-std::string describe(const Place& place, Symbols& symbols) {
+std::string describe(const Place& place, platform::Symbols& symbols) {
   const Sighting& first = place.first;
   const std::string who =
       first.component.empty() ? "no component, but the runtime," : quoted(first.component);
   std::string text = who + " in thread " + quoted(first.thread) + " " + call_text(first) + ", " +
                      counted(place.count.load(std::memory_order_relaxed), "time") + "\n";
   for (std::size_t i = 0; i < first.frame_count; ++i) {
-    const Symbols::Function function = symbols.at(first.frames[i]);
+    const platform::Symbols::Function function = symbols.at(first.frames[i]);
     text += "    " + (function.name.empty() ? std::string("?") : function.name) + "  [" +
             function.place + "]\n";
     if (ends_stack(function.name)) break;

@@ -14,6 +14,7 @@
 #include "armature/library/model/model.hpp"
 #include "armature/library/pid/pid.hpp"
 #include "armature/library/reference/reference.hpp"
+#include "armature/library/robot_model/robot_model.hpp"
 #include "armature/library/sampler/sampler.hpp"
 #include "armature/library/sensor_mux/sensor_mux.hpp"
 
@@ -34,6 +35,7 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<ControllerGravityPD>("ControllerGravityPD",
                                     "compensation of gravity, and N PD controllers");
   registry.add<Model>("Model", "inverse dynamics, from the robot's description");
+  registry.add<RobotModel>("Robot", "what a robot weighs and its drives give, for the check");
   registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
   registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest");

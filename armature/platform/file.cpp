@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -51,6 +53,18 @@ base::Result<void> write_in_place(const std::string& path, std::string_view cont
   return {};
 }
 
+const char* kind_of(mode_t mode) {
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+base::Error no_file(const std::string& path, mode_t mode) {
+  if (S_ISDIR(mode)) return failure("cannot read", path, EISDIR);
+  return base::Error{"cannot read '" + path + "': it is " + kind_of(mode) +
+                     ", and a file is expected"};
+}
+
 std::string without_links(const std::string& path) {
   const std::unique_ptr<char, decltype(&std::free)> target(::realpath(path.c_str(), nullptr),
                                                            &std::free);
@@ -59,13 +73,20 @@ std::string without_links(const std::string& path) {
 
 }  // namespace
 
+base::Result<void> expect_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return failure("cannot read", path, errno);
+  if (!S_ISREG(status.st_mode)) return no_file(path, status.st_mode);
+  return {};
+}
+
 base::Result<std::string> read_file(const std::string& path, std::size_t limit_bytes) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Opening a pipe would wait for whoever writes it.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (file.get() < 0) return failure("cannot read", path, errno);
   struct stat status {};
-  if (::fstat(file.get(), &status) == 0 && S_ISDIR(status.st_mode)) {
-    return failure("cannot read", path, EISDIR);
-  }
+  if (::fstat(file.get(), &status) != 0) return failure("cannot read", path, errno);
+  if (!S_ISREG(status.st_mode)) return no_file(path, status.st_mode);
   std::string content;
   char block[16384];
   while (true) {
@@ -79,6 +100,67 @@ base::Result<std::string> read_file(const std::string& path, std::size_t limit_b
                          std::to_string(limit_bytes) + " bytes"};
     }
   }
+}
+
+bool is_same_file(const std::string& one, const std::string& other) {
+  struct stat first {};
+  struct stat second {};
+  return ::stat(one.c_str(), &first) == 0 && ::stat(other.c_str(), &second) == 0 &&
+         first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+FolderLock::FolderLock(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)) {}
+
+FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(path_, other.path_);
+  return *this;
+}
+
+/// Who comes next makes the file anew, or finds that the one it has opened is no more.
+FolderLock::~FolderLock() {
+  if (fd_ < 0) return;
+  ::unlink(path_.c_str());
+  ::close(fd_);
+}
+
+base::Result<FolderLock> FolderLock::take(const std::string& folder) {
+  const std::string path = folder + "/.armature.lock";
+  while (true) {
+    Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, kNewFile));
+    if (file.get() < 0) return failure("cannot lock", path, errno);
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK) return failure("cannot lock", path, errno);
+      char pid[32] = "";
+      const ssize_t size = ::read(file.get(), pid, sizeof pid - 1);
+      return base::Error{"the folder '" + folder + "' is used by another run, process " +
+                         (size > 0 ? std::string(pid) : std::string("unknown"))};
+    }
+    struct stat mine {};
+    struct stat present {};
+    const bool there = ::fstat(file.get(), &mine) == 0 && ::stat(path.c_str(), &present) == 0;
+    if (!there || mine.st_ino != present.st_ino) continue;  // It went with the run before.
+    const std::string pid = std::to_string(::getpid());
+    if (::ftruncate(file.get(), 0) != 0 || !write_all(file.get(), pid)) {
+      return failure("cannot lock", path, errno);
+    }
+    return FolderLock(file.release(), path);
+  }
+}
+
+base::Result<void> expect_writable(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  struct stat present {};
+  if (::stat(path.c_str(), &present) == 0) {
+    if (S_ISDIR(present.st_mode)) return failure("cannot write", path, EISDIR);
+    if (::access(path.c_str(), W_OK) != 0) return failure("cannot write", path, errno);
+  } else if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    return failure("cannot write", path, errno);
+  }
+  return {};
 }
 
 base::Result<void> write_file(const std::string& path, std::string_view content) {

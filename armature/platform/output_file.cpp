@@ -6,6 +6,8 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace armature::platform {
@@ -22,17 +24,24 @@ base::Error cannot_write(const std::string& path, int error) {
 OutputFile::OutputFile(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
-    : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, kClosed)) {}
+    : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, kClosed)), size_(other.size_) {}
 
 OutputFile::~OutputFile() {
   if (fd_ != kClosed) ::close(fd_);
 }
 
 base::Result<OutputFile> OutputFile::create(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY | O_CLOEXEC,
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_NOCTTY | O_CLOEXEC,
                         S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
   if (fd < 0) return cannot_write(path, errno);
-  return OutputFile(path, fd);
+  OutputFile file(path, fd);
+  struct stat status {};
+  if (::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) return file;
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    return base::Error{"cannot write '" + path + "': another process writes it"};
+  }
+  if (::ftruncate(fd, 0) != 0) return cannot_write(path, errno);
+  return file;
 }
 
 base::Result<void> OutputFile::write(std::string_view content) {
@@ -40,9 +49,16 @@ base::Result<void> OutputFile::write(std::string_view content) {
     const ssize_t written = ::write(fd_, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return cannot_write(path_, errno);
+    size_ += static_cast<std::uint64_t>(written);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
   return {};
+}
+
+void OutputFile::truncate(std::uint64_t size) {
+  if (size >= size_ || ::ftruncate(fd_, static_cast<off_t>(size)) != 0) return;
+  ::lseek(fd_, static_cast<off_t>(size), SEEK_SET);
+  size_ = size;
 }
 
 base::Result<void> OutputFile::close() {

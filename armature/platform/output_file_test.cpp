@@ -59,5 +59,26 @@ TEST(OutputFile, RefusesToWriteOnceItIsClosed) {
   EXPECT_THAT(file.value().write("more").error(), HasSubstr("Bad file descriptor"));
 }
 
+TEST(OutputFile, OfAnotherWriterIsLeftAlone) {
+  const std::string path = testing::TempDir() + "/output_file_of_two";
+  auto first = OutputFile::create(path);
+  ASSERT_TRUE(first.value().write("first"));
+  EXPECT_EQ(OutputFile::create(path).error(),
+            "cannot write '" + path + "': another process writes it");
+  EXPECT_EQ(read_file(path).value(), "first");
+  ASSERT_TRUE(first.value().close());
+  EXPECT_TRUE(OutputFile::create(path));
+}
+
+TEST(OutputFile, TakesBackItsEnd) {
+  const std::string path = testing::TempDir() + "/output_file_end";
+  auto file = OutputFile::create(path);
+  ASSERT_TRUE(file.value().write("whole part"));
+  EXPECT_EQ(file.value().size(), 10u);
+  file.value().truncate(5);
+  ASSERT_TRUE(file.value().write("!"));
+  EXPECT_EQ(read_file(path).value(), "whole!");
+}
+
 }  // namespace
 }  // namespace armature::platform

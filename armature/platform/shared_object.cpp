@@ -3,9 +3,15 @@
 
 #include <dlfcn.h>
 
+#include "armature/platform/file.hpp"
+
 namespace armature::platform {
 
 base::Result<SharedObject> SharedObject::load(const std::string& path) {
+  if (path.find('/') != std::string::npos) {
+    // To open a pipe would wait for whoever writes it.
+    if (auto file = expect_file(path); !file) return base::Error{file.error()};
+  }
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (handle != nullptr) return SharedObject(handle);
   const char* reason = dlerror();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <iterator>
 
 #include <poll.h>
 #include <signal.h>
@@ -15,13 +16,20 @@
 namespace armature::platform {
 namespace {
 
-std::atomic<int> signals_received{0};
-int wake_descriptor = -1;
-struct sigaction previous_interrupt;
-struct sigaction previous_terminate;
+/// Asks for a stop: Ctrl-C, `kill`, a terminal that has gone.
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-void on_signal(int) {
-  if (signals_received.fetch_add(1) > 0) _exit(130);
+std::atomic<bool> signal_received{false};
+std::atomic<int> insistent_signals{0};
+std::atomic<bool> hung_up{false};
+std::atomic<int> wake_descriptor{-1};
+struct sigaction previous[std::size(kSignals)];
+
+/// A terminal that goes away says so twice, by its shell and by itself: that is no second wish.
+void on_signal(int signal) {
+  if (signal == SIGHUP && hung_up.exchange(true)) return;
+  if (signal != SIGHUP && insistent_signals.fetch_add(1) > 0) _exit(130);
+  signal_received = true;
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = ::write(wake_descriptor, &one, sizeof one);
 }
@@ -29,23 +37,38 @@ void on_signal(int) {
 }  // namespace
 
 StopSignal::StopSignal() {
-  signals_received = 0;
+  signal_received = hung_up = false;
+  insistent_signals = 0;
   wake_descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &previous_interrupt);
-  sigaction(SIGTERM, &action, &previous_terminate);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    sigaction(kSignals[i], &action, &previous[i]);
+    const bool by_nohup = kSignals[i] == SIGHUP && previous[i].sa_handler == SIG_IGN;
+    if (by_nohup) sigaction(SIGHUP, &previous[i], nullptr);
+  }
 }
 
 StopSignal::~StopSignal() {
-  sigaction(SIGINT, &previous_interrupt, nullptr);
-  sigaction(SIGTERM, &previous_terminate, nullptr);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    sigaction(kSignals[i], &previous[i], nullptr);
+  }
   ::close(wake_descriptor);
   wake_descriptor = -1;
 }
 
-bool StopSignal::received() const { return signals_received > 0; }
+int StopSignal::descriptor() const { return wake_descriptor; }
+
+bool StopSignal::received() const { return signal_received; }
+
+void StopSignal::hear_next() const {
+  signal_received = false;
+  hung_up = true;  // what follows is an operator's answer; a terminal that goes away gives none
+  insistent_signals = 0;
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t read = ::read(wake_descriptor, &count, sizeof count);
+}
 
 bool StopSignal::wait_until(base::Time deadline) const {
   while (!received()) {

@@ -24,7 +24,7 @@ TEST(StopSignal, WaitsUntilTheDeadlineIfNothingComes) {
 }
 
 TEST(StopSignal, TheFirstSignalSetsTheFlagAndEndsTheWait) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const StopSignal stop;
     EXPECT_FALSE(stop.received());
     std::raise(signal);
@@ -48,6 +48,36 @@ TEST(StopSignalDeathTest, TheSecondSignalEndsTheProcess) {
         std::raise(SIGINT);
       },
       ::testing::ExitedWithCode(130), "");
+}
+
+TEST(StopSignal, ATerminalThatGoesAwayAsksTwiceAndIsNoSecondSignal) {
+  const StopSignal stop;
+  std::raise(SIGHUP);
+  std::raise(SIGHUP);
+  EXPECT_TRUE(stop.received());
+  stop.hear_next();
+  std::raise(SIGHUP);
+  EXPECT_FALSE(stop.received());
+  std::raise(SIGTERM);
+  EXPECT_TRUE(stop.received());
+}
+
+TEST(StopSignal, ATerminalThatGoesAwayIsNoAnswerToWhatIsAskedAtTheStop) {
+  const StopSignal stop;
+  std::raise(SIGTERM);
+  stop.hear_next();
+  std::raise(SIGHUP);
+  EXPECT_FALSE(stop.received());
+  std::raise(SIGINT);
+  EXPECT_TRUE(stop.received());
+}
+
+TEST(StopSignal, ATerminalThatGoesAwayIsIgnoredIfItWasBefore) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  const StopSignal stop;
+  std::raise(SIGHUP);
+  EXPECT_FALSE(stop.received());
+  std::signal(SIGHUP, before);
 }
 
 volatile std::sig_atomic_t handled_by_the_program = 0;

@@ -2,8 +2,10 @@
 #include "armature/platform/stream_socket.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <optional>
 #include <system_error>
 
@@ -13,7 +15,9 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <pwd.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -26,7 +30,7 @@ namespace {
 
 using internal::Descriptor;
 
-base::Error failed(const std::string& what, const std::string& problem, int error) {
+base::Error unable(const std::string& what, const std::string& problem, int error) {
   return base::Error{"'" + what + "': " + problem + ": " + std::generic_category().message(error)};
 }
 
@@ -104,6 +108,17 @@ int port_of(int socket) {
                    : static_cast<const sockaddr_in*>(raw)->sin_port);
 }
 
+/// Within the machine the system may choose, for who connects to a port where nobody listens, that
+/// very port: then it is connected to itself, and whoever is to listen there finds the port taken.
+bool is_connected_to_itself(int socket) {
+  SocketAddress own;
+  SocketAddress other;
+  own.size = other.size = sizeof own.storage;
+  return ::getsockname(socket, own.raw(), &own.size) == 0 && own.storage.ss_family != AF_UNIX &&
+         ::getpeername(socket, other.raw(), &other.size) == 0 && own.size == other.size &&
+         std::memcmp(&own.storage, &other.storage, own.size) == 0;
+}
+
 constexpr int kMostThatWait = 64;
 
 }  // namespace
@@ -115,10 +130,10 @@ base::Result<std::unique_ptr<StreamSocket>> StreamSocket::connect_tcp(const std:
   const std::string text = text_of(*address);
   Descriptor socket(
       ::socket(address->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (socket.get() < 0) return failed(text, "no socket", errno);
+  if (socket.get() < 0) return unable(text, "no socket", errno);
   tune(socket.get(), *address);
   if (::connect(socket.get(), address->raw(), address->size) != 0 && errno != EINPROGRESS) {
-    return failed(text, "cannot be connected to", errno);
+    return unable(text, "cannot be connected to", errno);
   }
   return std::unique_ptr<StreamSocket>(new StreamSocket(socket.release(), text, false));
 }
@@ -127,10 +142,10 @@ base::Result<std::unique_ptr<StreamSocket>> StreamSocket::connect_file(const std
   const auto address = internal::address_of(path);
   if (!address) return internal::no_address(path);
   Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (socket.get() < 0) return failed(path, "no socket", errno);
+  if (socket.get() < 0) return unable(path, "no socket", errno);
   const auto* const raw = reinterpret_cast<const sockaddr*>(&*address);
   if (::connect(socket.get(), raw, sizeof *address) != 0) {
-    return failed(path, "nobody serves there", errno);
+    return unable(path, "nobody serves there", errno);
   }
   return std::unique_ptr<StreamSocket>(new StreamSocket(socket.release(), path, false));
 }
@@ -144,6 +159,7 @@ StreamStatus StreamSocket::finish_connect() {
   int error = 0;
   socklen_t size = sizeof error;
   if (::getsockopt(socket_, SOL_SOCKET, SO_ERROR, &error, &size) != 0) error = errno;
+  if (error == 0 && is_connected_to_itself(socket_)) error = ECONNREFUSED;
   error_ = error;
   if (error != 0) return StreamStatus::kGone;
   begin_to_flow();
@@ -220,6 +236,25 @@ std::string StreamSocket::problem() const {
   return error == 0 ? "the other side has ended it" : std::generic_category().message(error);
 }
 
+std::string StreamSocket::peer_account() const {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  sockaddr_storage own{};
+  socklen_t own_size = sizeof own;
+  if (::getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &own_size) != 0 ||
+      own.ss_family != AF_UNIX ||
+      ::getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) {
+    return {};
+  }
+  passwd account{};
+  passwd* found = nullptr;
+  std::array<char, 4096> texts{};
+  if (::getpwuid_r(peer.uid, &account, texts.data(), texts.size(), &found) == 0 && found) {
+    return account.pw_name;
+  }
+  return std::to_string(peer.uid);
+}
+
 base::Result<std::unique_ptr<StreamListener>> StreamListener::listen_tcp(const std::string& host,
                                                                          std::uint16_t port) {
   const auto address = numeric_address(host, port);
@@ -227,25 +262,33 @@ base::Result<std::unique_ptr<StreamListener>> StreamListener::listen_tcp(const s
   const std::string text = text_of(*address);
   Descriptor socket(
       ::socket(address->storage.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (socket.get() < 0) return failed(text, "no socket", errno);
+  if (socket.get() < 0) return unable(text, "no socket", errno);
   set_option(socket.get(), SOL_SOCKET, SO_REUSEADDR);
   if (::bind(socket.get(), address->raw(), address->size) != 0) {
-    return failed(text, "cannot be listened at", errno);
+    return unable(text, "cannot be listened at", errno);
   }
-  if (::listen(socket.get(), kMostThatWait) != 0) return failed(text, "cannot serve", errno);
+  if (::listen(socket.get(), kMostThatWait) != 0) return unable(text, "cannot serve", errno);
   const auto got = static_cast<std::uint16_t>(port_of(socket.get()));
   return std::unique_ptr<StreamListener>(new StreamListener(socket.release(), {}, got));
 }
 
-base::Result<std::unique_ptr<StreamListener>> StreamListener::listen_file(const std::string& path) {
+base::Result<std::unique_ptr<StreamListener>> StreamListener::listen_file(const std::string& path,
+                                                                          unsigned mode) {
   if (auto room = internal::make_room(path, SOCK_STREAM); !room) return base::Error{room.error()};
   const auto address = internal::address_of(path);
   Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const auto* const raw = reinterpret_cast<const sockaddr*>(&*address);
+  // Nobody else gets in before it has its permissions.
+  ::fchmod(socket.get(), S_IRUSR | S_IWUSR);
   if (::bind(socket.get(), raw, sizeof *address) != 0) {
-    return failed(path, "cannot be made", errno);
+    return unable(path, "cannot be made", errno);
   }
-  if (::listen(socket.get(), kMostThatWait) != 0) return failed(path, "cannot serve", errno);
+  if (::chmod(path.c_str(), static_cast<mode_t>(mode)) != 0) {
+    const int error = errno;
+    ::unlink(path.c_str());
+    return unable(path, "cannot get its permissions", error);
+  }
+  if (::listen(socket.get(), kMostThatWait) != 0) return unable(path, "cannot serve", errno);
   return std::unique_ptr<StreamListener>(new StreamListener(socket.release(), path, 0));
 }
 

@@ -51,6 +51,11 @@ class StreamSocket {
   const std::string& other_end() const { return other_end_; }
   /// Why it is gone.
   std::string problem() const;
+  /// True if it is gone because the other side sends no more; it may still receive.
+  bool ended_in_order() const { return error_ == 0; }
+  /// The account of the process at the other end of a socket file: its name, or its number if it
+  /// has none; empty for TCP. The kernel vouches for it.
+  std::string peer_account() const;
 
  private:
   friend class StreamListener;
@@ -76,7 +81,9 @@ class StreamListener {
   static base::Result<std::unique_ptr<StreamListener>> listen_tcp(const std::string& host,
                                                                   std::uint16_t port);
   /// Makes the socket file, in place of one that a process left which is no more.
-  static base::Result<std::unique_ptr<StreamListener>> listen_file(const std::string& path);
+  /// @param mode  its permissions: who may write may connect
+  static base::Result<std::unique_ptr<StreamListener>> listen_file(const std::string& path,
+                                                                   unsigned mode = 0600);
   StreamListener(const StreamListener&) = delete;
   StreamListener& operator=(const StreamListener&) = delete;
   /// Removes the socket file.

@@ -58,5 +58,23 @@ TEST_F(Streams, MayBeFoundGoneByWhoSendsAndWhoReceivesAtTheSameTime) {
   receiver.join();
 }
 
+// The system tries one port after the other for who connects: among so many attempts there is one
+// from the port that is asked for.
+TEST(StreamSocketOfTcp, IsNeverConnectedToItself) {
+  constexpr int kAttempts = 15'000;
+  // Who connects gets an even one as long as there are any.
+  const auto port =
+      static_cast<std::uint16_t>(StreamListener::listen_tcp("127.0.0.1", 0).value()->port() & ~1);
+  int connected = 0;
+  for (int i = 0; i < kAttempts; ++i) {
+    const auto socket = StreamSocket::connect_tcp("127.0.0.1", port);
+    if (!socket) continue;
+    StreamStatus status = StreamStatus::kLater;
+    while (status == StreamStatus::kLater) status = socket.value()->finish_connect();
+    if (status == StreamStatus::kDone) ++connected;
+  }
+  EXPECT_EQ(connected, 0);
+}
+
 }  // namespace
 }  // namespace armature::platform

@@ -55,6 +55,8 @@ InterruptSignal::InterruptSignal() {
   action.sa_handler = SIG_IGN;
   sigaction(SIGTSTP, &action, &previous_suspend);
   sigaction(SIGHUP, &action, &previous_hang_up);
+  // Whoever is asked to stop by it is so still.
+  if (previous_hang_up.sa_handler != SIG_DFL) sigaction(SIGHUP, &previous_hang_up, nullptr);
 }
 
 InterruptSignal::~InterruptSignal() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <condition_variable>
+#include <csignal>
 #include <cstdint>
 #include <ctime>
 #include <mutex>
@@ -16,6 +17,8 @@
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#include "armature/platform/death_watch.hpp"
 
 namespace armature::platform {
 namespace {
@@ -118,6 +121,14 @@ void prefault_rest_of_stack() {
   if (left > 2 * kHeadroom) prefault_stack(left - kHeadroom);
 }
 
+/// Those that ask for a stop are for the thread that stops, whoever of the others is not busy.
+void leave_stop_signals_to_others() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
 }  // namespace
 
 bool run_when_idle() {
@@ -150,6 +161,8 @@ struct Thread::State {
   }
 
   void run() {
+    const CrashStack crash_stack;
+    leave_stop_signals_to_others();
     pthread_setname_np(pthread_self(), request.name.substr(0, 15).c_str());
     // The kernel may otherwise delay every wake-up by 50 us to save power; 1 ns is its least.
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -180,7 +193,8 @@ Thread::Thread(const ThreadRequest& request, std::function<void()> body)
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   constexpr std::size_t kLeastStack = 64 * 1024;
-  pthread_attr_setstacksize(&attributes, std::max(request.stack_bytes, kLeastStack));
+  pthread_attr_setstacksize(&attributes,
+                            std::max(request.stack_bytes, kLeastStack) + sizeof(CrashStack));
   const int error = pthread_create(&state_->handle, &attributes, State::enter, argument.get());
   pthread_attr_destroy(&attributes);
   if (error != 0) {

@@ -199,11 +199,15 @@ base::Result<void> CsvWriter::close() {
   return file_closed;
 }
 
-/// After a failure the file may end amid a row, so nothing more is written.
+/// After a failure nothing more is written: the file ends with its last whole row.
 base::Result<void> CsvWriter::write_text() {
+  const std::uint64_t before = file_.size();
   auto written = file_.write(text_);
   if (!written) {
     failure_ = base::Error{written.error()};
+    const std::string_view there(text_.data(), static_cast<std::size_t>(file_.size() - before));
+    const std::size_t end = there.rfind('\n');
+    file_.truncate(before + (end == std::string_view::npos ? 0 : end + 1));
     return written;
   }
   text_.clear();

@@ -157,9 +157,18 @@ base::Result<void> McapWriter::write(const Sample& sample) {
   const auto value = channels_.decode(sample);
   if (!value) return base::Error{value.error()};
   append_message(sample, *value.value());
-  if (chunk_.records.size() >= options_.chunk_size) return write_chunk();
+  if (chunk_.records.size() >= most_of_chunk()) return write_chunk();
   ++unsaved_;
   return {};
+}
+
+/// The first ones are small: where a disk becomes full, or a process ends, at most a fifth of what
+/// came before is lost.
+std::size_t McapWriter::most_of_chunk() const {
+  constexpr std::uint64_t kFirst = 4096;
+  constexpr std::uint64_t kPart = 4;
+  return static_cast<std::size_t>(
+      std::min<std::uint64_t>(options_.chunk_size, std::max(kFirst, size_ / kPart)));
 }
 
 void McapWriter::append_message(const Sample& sample, const types::Value& value) {
@@ -297,11 +306,12 @@ base::Result<void> McapWriter::close() {
   return file_closed;
 }
 
-/// After a failure the file may end amid a record, so nothing more is written.
+/// After a failure nothing more is written: the file ends with its last whole record.
 base::Result<void> McapWriter::emit(const std::string& bytes) {
   auto written = file_.write(bytes);
   if (!written) {
     failure_ = base::Error{written.error()};
+    file_.truncate(size_);
     return written;
   }
   size_ += bytes.size();

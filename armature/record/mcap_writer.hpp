@@ -67,6 +67,7 @@ class McapWriter final : public Writer {
 
   base::Result<void> begin();
   std::uint16_t schema_id(const types::Type& type);
+  std::size_t most_of_chunk() const;
   void append_message(const Sample& sample, const types::Value& value);
   base::Result<void> write_chunk();
   std::string chunk_record() const;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <tuple>
 #include <utility>
 
+#include "armature/platform/clock.hpp"
 #include "armature/remote/value_codec.hpp"
 
 namespace armature::remote {
@@ -19,22 +21,23 @@ constexpr double kLeastProgress = 0.01;
 ExportedComponent::ExportedComponent(const InterfaceNumbers& numbers,
                                      component::Component& component,
                                      exec::Application& application, ControlQueue& queue,
-                                     WriteInput write)
+                                     WriteInput write, Tell tell)
     : Service(numbers.interface()),
       numbers_(numbers),
       component_(component),
       application_(application),
       queue_(queue),
-      write_(std::move(write)) {
+      write_(std::move(write)),
+      tell_(std::move(tell)) {
   const RunInThread run = [&application](component::Component& owner, std::function<void()> work) {
     return application.run_in_thread_of(owner, std::move(work));
   };
   const component::Interface& interface = component.interface();
-  for (const Member& member : numbers.members()) {
-    if (member.kind == Member::Kind::kEvent) {
+  for (const NumberedMember& member : numbers.members()) {
+    if (member.kind == NumberedMember::Kind::kEvent) {
       events_.emplace_back(
           new Event{member.number, member.index, EventFeed(*interface.events[member.index], run)});
-    } else if (member.kind == Member::Kind::kOutput) {
+    } else if (member.kind == NumberedMember::Kind::kOutput) {
       outputs_.emplace_back(
           new Output{member.number, member.index, PortFeed(*interface.outputs[member.index], run)});
     }
@@ -45,11 +48,14 @@ ExportedComponent::~ExportedComponent() = default;
 
 // --- what peers ask for, as it arrives -----------------------------------------------------------
 
-std::vector<const types::Type*> ExportedComponent::parameters_of(const Member& member) const {
+std::vector<const types::Type*> ExportedComponent::parameters_of(
+    const NumberedMember& member) const {
   std::vector<const types::Type*> types;
   const component::Interface& interface = component_.interface();
-  if (member.kind == Member::Kind::kInput) types.push_back(&interface.inputs[member.index]->type());
-  if (member.kind == Member::Kind::kOperation || member.kind == Member::Kind::kCommand) {
+  if (member.kind == NumberedMember::Kind::kInput)
+    types.push_back(&interface.inputs[member.index]->type());
+  if (member.kind == NumberedMember::Kind::kOperation ||
+      member.kind == NumberedMember::Kind::kCommand) {
     for (const auto& argument : interface.operations[member.index]->signature().arguments) {
       types.push_back(argument.type);
     }
@@ -59,23 +65,32 @@ std::vector<const types::Type*> ExportedComponent::parameters_of(const Member& m
 
 ride::Executed ExportedComponent::execute(ride::Number number, ride::Decoder& parameters,
                                           ride::Reply& reply) {
-  const Member* const member = numbers_.find(number);
-  const bool is_event = member != nullptr && (member->kind == Member::Kind::kEvent ||
-                                              member->kind == Member::Kind::kOutput ||
-                                              member->kind == Member::Kind::kProgress);
+  const NumberedMember* const member = numbers_.find(number);
+  const bool is_event = member != nullptr && (member->kind == NumberedMember::Kind::kEvent ||
+                                              member->kind == NumberedMember::Kind::kOutput ||
+                                              member->kind == NumberedMember::Kind::kProgress);
   if (member == nullptr || is_event) return ride::Executed::kNoSuchOperation;
-  const auto request = std::make_shared<Request>(Request{*member, {}, {}});
+  const auto request = std::make_shared<Request>(Request{*member, {}, {}, reply.origin()});
   for (const types::Type* const type : parameters_of(*member)) {
     types::Value value(*type);
     Incoming place{type, value.data()};
-    if (!parameters.take(place)) return ride::Executed::kMalformed;
+    if (!parameters.take(place)) {
+      throw ride::Malformed("parameter " + std::to_string(request->arguments.size() + 1) +
+                            " is no " + type->name);
+    }
     request->arguments.push_back(std::move(value));
   }
   if (!parameters.ended()) return ride::Executed::kMalformed;
   if (!queue_.has_room()) return ride::Executed::kBusy;
   request->reply = reply.keep();
   // If it was closed meanwhile, the reply that is let go of is the answer.
-  static_cast<void>(queue_.post([this, request] { perform(*request); }));
+  static_cast<void>(queue_.post([this, request] {
+    try {
+      perform(*request);
+    } catch (const std::bad_alloc&) {
+      request->reply.fail("there is no memory for it");
+    }
+  }));
   return ride::Executed::kDone;
 }
 
@@ -83,15 +98,15 @@ ride::Executed ExportedComponent::execute(ride::Number number, ride::Decoder& pa
 
 void ExportedComponent::perform(Request& request) {
   switch (request.member.kind) {
-    case Member::Kind::kOperation:
+    case NumberedMember::Kind::kOperation:
       return call(request);
-    case Member::Kind::kCommand:
+    case NumberedMember::Kind::kCommand:
       return begin(request);
-    case Member::Kind::kInput:
+    case NumberedMember::Kind::kInput:
       return write(request);
-    case Member::Kind::kCancel:
+    case NumberedMember::Kind::kCancel:
       for (UnderWay& command : under_way_) {
-        if (command.index == request.member.index) command.handle.cancel();
+        if (command.index == request.member.index) command.command.handle().cancel();
       }
       return request.reply.done();
     default:
@@ -111,10 +126,15 @@ void ExportedComponent::call(Request& request) {
 
 void ExportedComponent::begin(Request& request) {
   const auto& operation = *component_.interface().operations[request.member.index];
+  if (request.origin.lost()) {
+    return fail(request.reply, operation.name(), "who asked for it has gone");
+  }
   auto begun = application_.begin(component_.name(), operation.name(), std::move(request.arguments),
                                   exec::Caller::kRemote);
   if (!begun) return fail(request.reply, operation.name(), begun.error());
-  under_way_.push_back({request.member.index, std::move(begun).value(), std::move(request.reply)});
+  under_way_.push_back({request.member.index,
+                        {std::move(begun).value(), std::move(request.origin)},
+                        std::move(request.reply)});
 }
 
 void ExportedComponent::write(Request& request) {
@@ -194,27 +214,33 @@ void ExportedComponent::open_and_close_feeds() {
 }
 
 void ExportedComponent::follow_commands() {
+  const base::Time now = platform::monotonic_now();
+  for (UnderWay& one : under_way_) {
+    const auto& operation = *component_.interface().operations[one.index];
+    one.command.cancel_if_lost(component_.name() + "." + std::string(operation.name()), now, tell_);
+  }
   std::erase_if(under_way_, [this](UnderWay& command) { return follow(command); });
 }
 
 /// @return true if it has ended
 bool ExportedComponent::follow(UnderWay& command) {
-  if (!command.handle.ended()) {
-    const double progress = command.handle.progress();
+  const component::CommandHandle& handle = command.command.handle();
+  if (!handle.ended()) {
+    const double progress = handle.progress();
     if (std::abs(progress - command.told) >= kLeastProgress) {
       command.told = progress;
-      publish(numbers_.number(Member::Kind::kProgress, command.index),
+      publish(numbers_.number(NumberedMember::Kind::kProgress, command.index),
               ride::Fields(std::tuple(progress)), {});
     }
     return false;
   }
-  const component::CommandStage stage = command.handle.stage();
+  const component::CommandStage stage = handle.stage();
   if (stage == component::CommandStage::kDone) {
     command.reply.done();
     return true;
   }
   std::string problem(component::name_of(stage));
-  if (!command.handle.reason().empty()) problem += ": " + std::string(command.handle.reason());
+  if (!handle.reason().empty()) problem += ": " + std::string(handle.reason());
   fail(command.reply, component_.interface().operations[command.index]->name(), problem);
   return true;
 }

@@ -11,6 +11,7 @@
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/feed.hpp"
 #include "armature/remote/interface_numbers.hpp"
+#include "armature/remote/internal/peer_command.hpp"
 #include "armature/ride/service.hpp"
 #include "armature/types/type.hpp"
 
@@ -24,14 +25,17 @@ using WriteInput =
 /// controlling thread in their order; real-time threads are asked as every tool asks them.
 class ExportedComponent final : public ride::Service {
  public:
+  using Tell = internal::PeerCommand::Tell;
+
   /// @param numbers  of the component's model; all outlive this
   ExportedComponent(const InterfaceNumbers& numbers, component::Component& component,
-                    exec::Application& application, ControlQueue& queue, WriteInput write);
+                    exec::Application& application, ControlQueue& queue, WriteInput write,
+                    Tell tell = {});
   ~ExportedComponent() override;
 
   component::Component& component() const { return component_; }
 
-  /// Sends what came since: events, samples, how commands fare.
+  /// Sends what came since: events, samples, how commands fare; cancels those whose peers are gone.
   /// @return what was dropped on the way, since the last call
   /// @thread the controlling one, while the application runs
   std::uint64_t serve();
@@ -39,20 +43,21 @@ class ExportedComponent final : public ride::Service {
  private:
   /// What a peer asked for.
   struct Request {
-    Member member;
+    NumberedMember member;
     std::vector<types::Value> arguments;
     ride::PendingReply reply;
+    ride::Origin origin;
   };
   struct UnderWay {
     std::size_t index;
-    component::CommandHandle handle;
+    internal::PeerCommand command;
     ride::PendingReply reply;
     double told = -1.0;  ///< progress
   };
 
   ride::Executed execute(ride::Number number, ride::Decoder& parameters,
                          ride::Reply& reply) override;
-  std::vector<const types::Type*> parameters_of(const Member& member) const;
+  std::vector<const types::Type*> parameters_of(const NumberedMember& member) const;
   void perform(Request& request);
   void call(Request& request);
   void begin(Request& request);
@@ -69,6 +74,7 @@ class ExportedComponent final : public ride::Service {
   exec::Application& application_;
   ControlQueue& queue_;
   WriteInput write_;
+  const Tell tell_;
   std::vector<UnderWay> under_way_;
   std::uint64_t changes_seen_ = 0;
   bool any_open_ = false;  ///< of the feeds

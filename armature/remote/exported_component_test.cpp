@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a peer gets that is no application of ours.
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -83,7 +84,7 @@ TEST_F(RemotePeer, WithoutAPolicyNothingButLookingIsAllowed) {
             ride::Code::kNotAllowed);
   std::atomic<int> samples{0};
   const ride::Subscription subscription =
-      peer->link.subscribe(numbers.number(Member::Kind::kOutput, 0), [&](ride::Decoder&) {
+      peer->link.subscribe(numbers.number(NumberedMember::Kind::kOutput, 0), [&](ride::Decoder&) {
         ++samples;
         return true;
       });
@@ -103,13 +104,59 @@ TEST_F(RemotePeer, WhatFailsThereIsToldHere) {
             ride::Code::kNoSuchOperation);
 }
 
+/// Who moves something is there to stop it, or it stops.
+TEST_F(RemotePeer, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOther) {
+  start(server());
+  Peer watcher(robot->address(), numbers.interface());
+  ASSERT_TRUE(watcher.link.peer().wait_until_connected(10s));
+  const auto travels = [&] {
+    auto& moving = robot->find<Axis>("Axis");
+    const auto& operations = moving.interface().operations;
+    const auto travel = std::ranges::find_if(
+        operations, [](const component::OperationBase* one) { return one->name() == "travel"; });
+    bool active = false;
+    EXPECT_TRUE(robot->application->run_in_thread_of(
+        moving, [&] { active = static_cast<const component::CommandBase*>(*travel)->active(); }));
+    return active;
+  };
+  const std::tuple endless{2.5};
+  for (const bool with_answer : {true, false}) {
+    const ride::Number travel = ride::number_of("void travel(double)");
+    if (with_answer) {
+      peer->link.ask(travel, ride::Fields(endless), [](auto, auto, auto) {});
+    } else {
+      EXPECT_TRUE(serve_until({robot.get()}, [&] {  // the component is looked up first
+        return peer->link.send(travel, {}, ride::Fields(endless)) == ride::Sent::kYes;
+      }));
+    }
+    EXPECT_TRUE(serve_until({robot.get()}, travels));
+    EXPECT_EQ(watcher.ask(*robot, ride::number_of("int armed()"), ride::Fields(nothing)),
+              ride::Code::kNone);
+    {
+      Peer another(robot->address(), numbers.interface());
+      EXPECT_TRUE(another.link.peer().wait_until_connected(10s));
+    }
+    for (int i = 0; i < 100; ++i) robot->serve();
+    EXPECT_TRUE(travels());
+    robot->log.clear();
+    peer.reset();
+    EXPECT_TRUE(serve_until({robot.get()}, [&] { return !travels(); }));
+    EXPECT_TRUE(serve_until({robot.get()},
+                            [&] { return robot->log.find("is cancelled") != std::string::npos; }));
+    EXPECT_THAT(robot->log, HasSubstr("'Axis.travel' is cancelled: the connection to local, who "
+                                      "began it, is lost"));
+    peer = std::make_unique<Peer>(robot->address(), numbers.interface());
+    ASSERT_TRUE(peer->link.peer().wait_until_connected(10s));
+  }
+}
+
 /// Each gap in what a port wrote can be seen from the sequence.
 TEST_F(RemotePeer, SamplesComeInTheirOrderWithTheirNumber) {
   start(server());
   std::mutex mutex;
   std::vector<std::pair<std::uint64_t, double>> samples;
-  const ride::Subscription subscription =
-      peer->link.subscribe(numbers.number(Member::Kind::kOutput, 0), [&](ride::Decoder& members) {
+  const ride::Subscription subscription = peer->link.subscribe(
+      numbers.number(NumberedMember::Kind::kOutput, 0), [&](ride::Decoder& members) {
         std::uint64_t sequence = 0;
         std::int64_t time = 0;
         double value = 0.0;

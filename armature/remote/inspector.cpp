@@ -9,6 +9,7 @@
 
 #include "armature/base/unit.hpp"
 #include "armature/component/author.hpp"
+#include "armature/platform/clock.hpp"
 #include "armature/remote/inspection.hpp"
 #include "armature/remote/internal/begun_commands.hpp"
 #include "armature/remote/items.hpp"
@@ -51,8 +52,21 @@ std::string in_unit_of(const component::PropertyBase& property, const std::strin
 
 class Inspector::Service final : public InspectorService {
  public:
-  Service(exec::Application& application, ControlQueue& queue)
-      : application_(application), queue_(queue) {}
+  Service(exec::Application& application, ControlQueue& queue, Tell tell)
+      : application_(application), queue_(queue), tell_(std::move(tell)) {}
+
+  /// What goes on for a peer ends with its connection: commands, and the way of a component to its
+  /// stop, on which an arm may move.
+  void cancel_lost() {
+    const base::Time now = platform::monotonic_now();
+    commands_.cancel_lost(now, tell_);
+    std::erase_if(stops_, [&](PeerStop& stop) {
+      if (!application_.is_on_way_to_stop(stop.component)) return true;
+      if (!stop.line.lost(now)) return false;
+      application_.cancel_way_to_stop(stop.component);
+      return true;
+    });
+  }
 
   void application(ReplyOf<ApplicationStatus> reply) override {
     in_control(reply, [this] { return status_of(application_); });
@@ -108,8 +122,8 @@ class Inspector::Service final : public InspectorService {
   void begin(const std::string& component, const std::string& command,
              const std::vector<std::string>& arguments, ReplyOf<CommandStatus> reply) override {
     reply.demand(component, Access::kCommand);
-    in_control(reply, [this, component, command, arguments] {
-      return begin(component, command, arguments);
+    in_control(reply, [this, component, command, arguments, origin = reply.origin()] {
+      return begin(component, command, arguments, origin);
     });
   }
 
@@ -122,7 +136,7 @@ class Inspector::Service final : public InspectorService {
     reply.demand(component_of(handle), Access::kCommand);
     in_control(reply, [this, handle] {
       internal::BegunCommand& command = begun(handle);
-      command.state.cancel();
+      command.state.handle().cancel();
       return status_of_command(command);
     });
   }
@@ -131,15 +145,24 @@ class Inspector::Service final : public InspectorService {
               ReplyOf<ComponentStatus> reply) override {
     reply.demand(component, Access::kConfigure);
     const Transition transition = transition_named(change);
-    in_control(reply, [this, component, transition] {
+    in_control(reply, [this, component, transition, origin = reply.origin()] {
       Component& found = find(component);
+      const bool was_on_way = application_.is_on_way_to_stop(component);
       const component::Outcome outcome = (application_.*transition)(component);
       if (!outcome) throw Failure(with_name(component, std::string(outcome.reason())));
+      if (!was_on_way && application_.is_on_way_to_stop(component)) {
+        stops_.push_back({component, ride::Lifeline(origin)});
+      }
       return status_of(application_, found);
     });
   }
 
  private:
+  /// A component that does something before the stop that a peer asked for.
+  struct PeerStop {
+    std::string component;
+    ride::Lifeline line;
+  };
   using Transition = component::Outcome (exec::Application::*)(std::string_view);
 
   /// Has the controlling thread do `work` and answer with what it returns.
@@ -217,8 +240,8 @@ class Inspector::Service final : public InspectorService {
     }
     const types::Value wanted =
         remote::value_of(member.type(), in_unit_of(*member.property, value, name), name);
-    const auto set =
-        application_.set_property(member.component->name(), member.property->name(), wanted);
+    const auto set = application_.set_property(member.component->name(), member.property->name(),
+                                               wanted, exec::Caller::kRemote);
     if (!set) throw Failure(set.error());
     return values_of(application_, {text}).front();
   }
@@ -251,8 +274,9 @@ class Inspector::Service final : public InspectorService {
   }
 
   CommandStatus begin(const std::string& component, const std::string& command,
-                      const std::vector<std::string>& arguments) {
+                      const std::vector<std::string>& arguments, const ride::Origin& origin) {
     const std::string name = component + "." + command;
+    if (origin.lost()) throw Failure(name + ": who asked for it has gone");
     std::vector<types::Value> values = arguments_of(component, command, arguments);
     if (!commands_.make_room()) {
       throw Failure(name + ": " + std::to_string(kMostCommands) +
@@ -260,7 +284,8 @@ class Inspector::Service final : public InspectorService {
     }
     auto begun = application_.begin(component, command, std::move(values), exec::Caller::kRemote);
     if (!begun) throw Failure(with_name(name, begun.error()));
-    const std::int32_t handle = commands_.add(component, command, std::move(begun).value());
+    const std::int32_t handle =
+        commands_.add(component, command, {std::move(begun).value(), origin});
     return status_of_command(*commands_.find(handle));
   }
 
@@ -281,7 +306,7 @@ class Inspector::Service final : public InspectorService {
   }
 
   static CommandStatus status_of_command(const internal::BegunCommand& command) {
-    const component::CommandHandle& state = command.state;
+    const component::CommandHandle& state = command.state.handle();
     const bool failed = state.ended() && state.stage() != component::CommandStage::kDone;
     CommandStatus status;
     status.handle = command.handle;
@@ -295,15 +320,19 @@ class Inspector::Service final : public InspectorService {
 
   exec::Application& application_;
   ControlQueue& queue_;
+  const Tell tell_;
   std::atomic<std::size_t> waiting_{0};
   internal::BegunCommands commands_{kMostCommands};
+  std::vector<PeerStop> stops_;
 };
 
-Inspector::Inspector(exec::Application& application, ControlQueue& queue)
-    : service_(std::make_unique<Service>(application, queue)) {}
+Inspector::Inspector(exec::Application& application, ControlQueue& queue, Tell tell)
+    : service_(std::make_unique<Service>(application, queue, std::move(tell))) {}
 
 Inspector::~Inspector() = default;
 
 ride::Service& Inspector::service() { return *service_; }
+
+void Inspector::serve() { service_->cancel_lost(); }
 
 }  // namespace armature::remote

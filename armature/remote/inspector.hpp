@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "armature/exec/application.hpp"
 #include "armature/remote/control_queue.hpp"
@@ -28,15 +30,22 @@ class Inspector {
   /// Commands that it remembers; of those that have ended the oldest is forgotten.
   static constexpr std::size_t kMostCommands = 256;
 
+  /// Is told what the operator should know.
+  using Tell = std::function<void(const std::string&)>;
+
   /// @param queue  run by the controlling thread; to be closed before the inspector goes
   /// @param application  outlives the inspector
-  Inspector(exec::Application& application, ControlQueue& queue);
+  Inspector(exec::Application& application, ControlQueue& queue, Tell tell = {});
   Inspector(const Inspector&) = delete;
   Inspector& operator=(const Inspector&) = delete;
   ~Inspector();
 
   /// For ride::Node::add; to be removed before the inspector goes.
   ride::Service& service();
+
+  /// Cancels commands whose peers are gone: to be called often.
+  /// @thread the controlling one
+  void serve();
 
  private:
   class Service;

@@ -17,7 +17,7 @@ constexpr ride::CallOptions kPatient{.deadline = 20s, .priority = {}};
 class InspectorTest : public ::testing::Test {
  protected:
   explicit InspectorTest(TestRobot::Allows allows = {}) : robot_(std::move(allows)) {
-    tool_.emplace(client_.connect(robot_.address()), Inspector::kName);
+    tool_.emplace(client_->connect(robot_.address()), Inspector::kName);
     EXPECT_TRUE(tool_->peer().wait_until_connected(20s).ok());
   }
 
@@ -34,7 +34,7 @@ class InspectorTest : public ::testing::Test {
   }
 
   TestRobot robot_;
-  ride::Node client_;
+  std::optional<ride::Node> client_{std::in_place};
   std::optional<InspectorPlaceholder> tool_;
 };
 
@@ -199,6 +199,54 @@ TEST_F(InspectorTest, CancelsACommand) {
   EXPECT_TRUE(ask(&InspectorPlaceholder::cancel, motion.handle).ok());
   robot_.pass(10ms);
   EXPECT_EQ(ask(&InspectorPlaceholder::follow, motion.handle).value().stage, "cancelled");
+}
+
+TEST_F(InspectorTest, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOther) {
+  const auto motion = ask(&InspectorPlaceholder::begin, std::string("Axis"), std::string("moveTo"),
+                          std::vector<std::string>{"1000"})
+                          .value();
+  ride::Node other;
+  InspectorPlaceholder watcher(other.connect(robot_.address()), Inspector::kName);
+  const auto follow = [&] {
+    return robot_.serve([&] { return watcher.follow(motion.handle, kPatient); }).value();
+  };
+  EXPECT_TRUE(watcher.peer().wait_until_connected(20s).ok());
+  {
+    ride::Node third;
+    EXPECT_TRUE(third.connect(robot_.address()).wait_until_connected(20s).ok());
+  }
+  robot_.inspector().serve();
+  robot_.pass(100ms);
+  EXPECT_EQ(follow().stage, "under way");
+  tool_.reset();
+  client_.reset();
+  for (int i = 0; i < 20'000 && follow().stage == "under way"; ++i) {
+    robot_.inspector().serve();
+    robot_.pass(10ms);
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_EQ(follow().stage, "cancelled");
+  EXPECT_THAT(robot_.told(), HasSubstr("'Axis.moveTo' is cancelled: the connection to local, who "
+                                       "began it, is lost"));
+}
+
+TEST_F(InspectorTest, SoIsTheWayToAStopThatItAskedFor) {
+  ask(&InspectorPlaceholder::write, std::string("Axis.Loaded"), std::string("true")).value();
+  const auto asked =
+      ask(&InspectorPlaceholder::change, std::string("Axis"), std::string("stop")).value();
+  EXPECT_EQ(asked.state, "Running") << "it goes where it may stop first";
+  robot_.inspector().serve();
+  robot_.pass(100ms);
+  EXPECT_TRUE(robot_.application().is_on_way_to_stop("Axis"));
+  tool_.reset();
+  client_.reset();
+  for (int i = 0; i < 20'000 && robot_.application().is_on_way_to_stop("Axis"); ++i) {
+    robot_.inspector().serve();
+    robot_.pass(10ms);
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_FALSE(robot_.application().is_on_way_to_stop("Axis"));
+  EXPECT_EQ(robot_.application().find("Axis")->state(), component::State::kRunning);
 }
 
 TEST_F(InspectorTest, ForgetsTheOldestCommandThatHasEnded) {

@@ -41,50 +41,51 @@ InterfaceNumbers::InterfaceNumbers(std::string model, const component::Interface
     const std::string whole = (result == nullptr ? "void" : canonical(*result)) + " " + name + "(" +
                               types_of(operation.signature()) + ")";
     if (!operation.is_command()) {
-      add(whole, Member::Kind::kOperation, i, Access::kCommand);
+      add(whole, NumberedMember::Kind::kOperation, i, Access::kCommand);
       continue;
     }
-    add(whole, Member::Kind::kCommand, i, Access::kCommand);
-    add("void cancel_" + name + "()", Member::Kind::kCancel, i, Access::kCommand);
-    add("event " + name + "_progress{double}", Member::Kind::kProgress, i, Access::kRead);
+    add(whole, NumberedMember::Kind::kCommand, i, Access::kCommand);
+    add("void cancel_" + name + "()", NumberedMember::Kind::kCancel, i, Access::kCommand);
+    add("event " + name + "_progress{double}", NumberedMember::Kind::kProgress, i, Access::kRead);
   }
   for (std::size_t i = 0; i < interface.events.size(); ++i) {
     const component::EventBase& event = *interface.events[i];
     if (!can_travel(event.signature())) continue;
     add("event " + std::string(event.name()) + "{" + types_of(event.signature()) + "}",
-        Member::Kind::kEvent, i, Access::kRead);
+        NumberedMember::Kind::kEvent, i, Access::kRead);
   }
   for (std::size_t i = 0; i < interface.outputs.size(); ++i) {
     const component::OutputPortBase& port = *interface.outputs[i];
     if (!remote::can_travel(port.type())) continue;
     add("event " + port.name() + "{unsigned long,long," + canonical(port.type()) + "}",
-        Member::Kind::kOutput, i, Access::kRead);
+        NumberedMember::Kind::kOutput, i, Access::kRead);
   }
   for (std::size_t i = 0; i < interface.inputs.size(); ++i) {
     const component::InputPortBase& port = *interface.inputs[i];
     if (!remote::can_travel(port.type())) continue;
-    add("void " + port.name() + "(" + canonical(port.type()) + ")", Member::Kind::kInput, i,
+    add("void " + port.name() + "(" + canonical(port.type()) + ")", NumberedMember::Kind::kInput, i,
         Access::kCommand);
   }
   for (std::size_t i = 0; i < texts_.size(); ++i) declarations_[i].canonical = texts_[i];
   interface_ = {model_, declarations_};
 }
 
-void InterfaceNumbers::add(std::string canonical, Member::Kind kind, std::size_t index,
+void InterfaceNumbers::add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
                            ride::Access access) {
   members_.push_back({ride::number_of(canonical), kind, index});
   texts_.push_back(std::move(canonical));
   declarations_.push_back({{}, access});
 }
 
-const Member* InterfaceNumbers::find(ride::Number number) const {
-  const auto found = std::ranges::find(members_, number, &Member::number);
+const NumberedMember* InterfaceNumbers::find(ride::Number number) const {
+  const auto found = std::ranges::find(members_, number, &NumberedMember::number);
   return found == members_.end() ? nullptr : &*found;
 }
 
-ride::Number InterfaceNumbers::number(Member::Kind kind, std::size_t index) const {
-  const auto found = std::ranges::find_if(
-      members_, [&](const Member& member) { return member.kind == kind && member.index == index; });
+ride::Number InterfaceNumbers::number(NumberedMember::Kind kind, std::size_t index) const {
+  const auto found = std::ranges::find_if(members_, [&](const NumberedMember& member) {
+    return member.kind == kind && member.index == index;
+  });
   return found == members_.end() ? 0 : found->number;
 }
 

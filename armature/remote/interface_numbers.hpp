@@ -11,7 +11,7 @@
 namespace armature::remote {
 
 /// What a number on the wire stands for.
-struct Member {
+struct NumberedMember {
   enum class Kind : std::uint8_t {
     kOperation,
     kCommand,   ///< begins it; the answer to a request comes when it has ended
@@ -37,19 +37,20 @@ class InterfaceNumbers {
 
   /// Lives as long as this.
   const ride::Interface& interface() const { return interface_; }
-  const std::vector<Member>& members() const { return members_; }
+  const std::vector<NumberedMember>& members() const { return members_; }
   /// nullptr: nothing has that number
-  const Member* find(ride::Number number) const;
+  const NumberedMember* find(ride::Number number) const;
   /// The number of what is there.
-  ride::Number number(Member::Kind kind, std::size_t index) const;
+  ride::Number number(NumberedMember::Kind kind, std::size_t index) const;
 
  private:
-  void add(std::string canonical, Member::Kind kind, std::size_t index, ride::Access access);
+  void add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
+           ride::Access access);
 
   std::string model_;
   std::vector<std::string> texts_;
   std::vector<ride::Declaration> declarations_;
-  std::vector<Member> members_;
+  std::vector<NumberedMember> members_;
   ride::Interface interface_;
 };
 

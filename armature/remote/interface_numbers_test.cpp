@@ -47,9 +47,9 @@ TEST(InterfaceNumbers, AreThoseOfTheCanonicalDeclarations) {
                   "event moveTo_progress{double}", "int probe(float)", "event Reached{int,bool}",
                   "event Position{unsigned long,long,double}", "void Wish(Array<double>)"));
   EXPECT_EQ(numbers.interface().name, "Generator");
-  EXPECT_EQ(numbers.number(Member::Kind::kCommand, 0), 0xd53a44a9u);  // docs/ride.md
+  EXPECT_EQ(numbers.number(NumberedMember::Kind::kCommand, 0), 0xd53a44a9u);  // docs/ride.md
   ASSERT_NE(numbers.find(0xd53a44a9u), nullptr);
-  EXPECT_EQ(numbers.find(0xd53a44a9u)->kind, Member::Kind::kCommand);
+  EXPECT_EQ(numbers.find(0xd53a44a9u)->kind, NumberedMember::Kind::kCommand);
   EXPECT_EQ(numbers.find(1u), nullptr);
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/remote/network.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
+#include "armature/base/near_name.hpp"
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
 #include "armature/remote/inlets.hpp"
@@ -14,6 +16,13 @@
 
 namespace armature::remote {
 namespace {
+
+base::Result<void> check_transport(const ride::Address& address) {
+  const std::vector<std::string> known{"tcp", "unix", "tls"};
+  if (std::ranges::find(known, address.scheme) != known.end()) return {};
+  return base::Error{"'" + address.text() + "' has the unknown transport '" + address.scheme +
+                     "' (" + base::suggestion(address.scheme, known) + ")"};
+}
 
 /// Of `tcp://host:port/Name`.
 struct RemoteAddress {
@@ -31,8 +40,10 @@ base::Result<RemoteAddress> parse_remote(const std::string& text) {
                        "as tcp://127.0.0.1:4242/Generator"};
   }
   RemoteAddress remote{text.substr(0, slash), text.substr(slash + 1)};
-  if (const auto address = ride::Address::parse(remote.peer); !address) {
-    return base::Error{address.error()};
+  const auto address = ride::Address::parse(remote.peer);
+  if (!address) return base::Error{address.error()};
+  if (const auto known = check_transport(address.value()); !known) {
+    return base::Error{known.error()};
   }
   return remote;
 }
@@ -68,7 +79,14 @@ class RideNetwork final : public Network {
     set_policy(document, options, diagnostics);
     for (const deploy::Reference& each : document.network.listen) {
       const auto address = ride::Address::parse(each.name);
-      if (!address) diagnostics.error(each.where, address.error());
+      if (!address) {
+        diagnostics.error(each.where, address.error());
+      } else if (const auto known = check_transport(address.value()); !known) {
+        diagnostics.error(each.where, known.error());
+      } else if (address.value().scheme == "tls" && document.network.certificate.name.empty()) {
+        diagnostics.error(each.where, "'" + each.name + "' needs certificates",
+                          "network has to have tls: {certificate: ..., key: ..., authority: ...}");
+      }
     }
   }
 
@@ -78,6 +96,10 @@ class RideNetwork final : public Network {
     ride::NodeOptions options;
     if (!document.application.empty()) options.name = document.application;
     options.log = [this](const rt::LogRecord& record) { note(record); };
+    options.socket_mode = document.network.socket_mode.value_or(options.socket_mode);
+    if (const auto memory = document.network.memory_kb) {
+      options.limits.memory_bytes = static_cast<std::size_t>(*memory) * 1000;
+    }
     base::Diagnostics found;
     set_transports(document, options, found);
     set_policy(document, options, found);
@@ -102,6 +124,7 @@ class RideNetwork final : public Network {
 
   void serve() override {
     queue_.run();
+    if (inspector_ != nullptr) inspector_->serve();
     for (const Hosted& hosted : hosted_) {
       const std::uint64_t dropped = hosted.service->serve();
       if (dropped == 0) continue;
@@ -126,7 +149,8 @@ class RideNetwork final : public Network {
   };
 
   void host(exec::Application& application, base::Diagnostics& diagnostics) {
-    inspector_ = std::make_unique<Inspector>(application, queue_);
+    const auto tell = [this](const std::string& text) { say(text); };
+    inspector_ = std::make_unique<Inspector>(application, queue_, tell);
     if (const auto added = node().add(Inspector::kName, inspector_->service()); !added) {
       diagnostics.error({}, added.error());
     }
@@ -136,7 +160,8 @@ class RideNetwork final : public Network {
           *numbers, *entry.component, application, queue_,
           [this, &application](component::InputPortBase& input, const types::Value& value) {
             return write_input(application, input, value);
-          });
+          },
+          tell);
       if (const auto added = node().add(entry.component->name(), *service); !added) {
         diagnostics.error(entry.where, added.error());
         continue;
@@ -199,14 +224,25 @@ class RideNetwork final : public Network {
   }
 
   void say(const std::string& component, std::uint64_t dropped) {
+    rt::LogRecord record = warning();
+    record.format = "{} events and samples of '{}' came faster than they could be sent";
+    record.take({dropped, std::string_view(component)});
+    note(record);
+  }
+
+  void say(const std::string& text) {
+    rt::LogRecord record = warning();
+    record.format = "{}";
+    record.take({std::string_view(text)});
+    note(record);
+  }
+
+  rt::LogRecord warning() const {
     rt::LogRecord record;
     record.level = rt::LogLevel::kWarning;
     record.component = "network";
     record.time = application_->now();
-    record.format = "{} events and samples of '{}' came faster than they could be sent";
-    record.arguments[0] = dropped;
-    record.arguments[1] = std::string_view(component);
-    note(record);
+    return record;
   }
 
   /// @thread any

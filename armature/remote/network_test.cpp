@@ -45,5 +45,20 @@ components: {Axis: {model: Axis, activity: {periodic: 2 ms}}}
   EXPECT_TRUE(wrong.network_->addresses().empty());
 }
 
+TEST(RemoteDeployment, UnknownTransportsAreToldWithTheKnownOnes) {
+  const Process wrong(R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243"]}
+components:
+  Axis: {model: Axis, activity: {periodic: 2 ms}}
+  A: {model: Axis, remote: "https://127.0.0.1:443/Axis"}
+)");
+  base::Diagnostics diagnostics = wrong.deployment.diagnostics;
+  wrong.network_->check(wrong.deployment.document, diagnostics);
+  const std::string text = diagnostics.to_text();
+  EXPECT_THAT(text, HasSubstr("'http://127.0.0.1:80' has the unknown transport 'http' (known: "));
+  EXPECT_THAT(text, HasSubstr("tcp, unix, tls"));
+  EXPECT_THAT(text, HasSubstr("unknown transport 'https'"));
+  EXPECT_THAT(text, HasSubstr("'tls://127.0.0.1:4243' needs certificates"));
+}
+
 }  // namespace
 }  // namespace armature::remote

@@ -56,23 +56,23 @@ Placeholder::~Placeholder() { let_go(); }
 
 void Placeholder::make_twins() {
   const component::Interface& original = prototype_->interface();
-  for (const Member& member : numbers_.members()) {
+  for (const NumberedMember& member : numbers_.members()) {
     switch (member.kind) {
-      case Member::Kind::kOutput:
+      case NumberedMember::Kind::kOutput:
         outputs_.push_back({original.outputs[member.index]->twin(*this), member.index});
         break;
-      case Member::Kind::kInput:
+      case NumberedMember::Kind::kInput:
         inputs_.push_back({original.inputs[member.index]->twin(*this), member.index});
         break;
-      case Member::Kind::kEvent:
+      case NumberedMember::Kind::kEvent:
         events_.push_back({original.events[member.index]->twin(*this), member.index});
         break;
-      case Member::Kind::kOperation:
-      case Member::Kind::kCommand:
+      case NumberedMember::Kind::kOperation:
+      case NumberedMember::Kind::kCommand:
         operations_.push_back({original.operations[member.index]->twin(*this), member.index});
         break;
-      case Member::Kind::kCancel:
-      case Member::Kind::kProgress:
+      case NumberedMember::Kind::kCancel:
+      case NumberedMember::Kind::kProgress:
         break;
     }
   }
@@ -98,22 +98,22 @@ component::Outcome Placeholder::on_start() {
 void Placeholder::subscribe() {
   for (const Output& output : outputs_) {
     const bool used = !output.port->readers().empty() || output.port->is_tapped();
-    if (used) listen(Member::Kind::kOutput, output.index, Arrival::Kind::kSample);
+    if (used) listen(NumberedMember::Kind::kOutput, output.index, Arrival::Kind::kSample);
   }
   for (const Event& event : events_) {
     if (event.twin->subscribers().empty()) continue;
-    listen(Member::Kind::kEvent, event.index, Arrival::Kind::kEvent);
+    listen(NumberedMember::Kind::kEvent, event.index, Arrival::Kind::kEvent);
   }
   for (const Operation& operation : operations_) {
     if (!operation.twin->is_command()) continue;
-    listen(Member::Kind::kProgress, operation.index, Arrival::Kind::kProgress);
+    listen(NumberedMember::Kind::kProgress, operation.index, Arrival::Kind::kProgress);
   }
   subscriptions_.push_back(where_().on_change([mailbox = mailbox_](const ride::PeerChange& change) {
     mailbox->put({.kind = Arrival::Kind::kConnection, .text = change.text});
   }));
 }
 
-void Placeholder::listen(Member::Kind kind, std::size_t index, Arrival::Kind arrives_as) {
+void Placeholder::listen(NumberedMember::Kind kind, std::size_t index, Arrival::Kind arrives_as) {
   subscriptions_.push_back(link_->subscribe(
       numbers_.number(kind, index), [this, kind, index, arrives_as](ride::Decoder& members) {
         Arrival arrival{.kind = arrives_as, .index = index};
@@ -123,7 +123,7 @@ void Placeholder::listen(Member::Kind kind, std::size_t index, Arrival::Kind arr
       }));
 }
 
-bool Placeholder::take(Member::Kind kind, std::size_t index, ride::Decoder& members,
+bool Placeholder::take(NumberedMember::Kind kind, std::size_t index, ride::Decoder& members,
                        Arrival& arrival) const {
   const auto take_value = [&](const types::Type& type) {
     types::Value value(type);
@@ -134,9 +134,9 @@ bool Placeholder::take(Member::Kind kind, std::size_t index, ride::Decoder& memb
   };
   const component::Interface& original = prototype_->interface();
   bool good = true;
-  if (kind == Member::Kind::kProgress) {
+  if (kind == NumberedMember::Kind::kProgress) {
     good = members.take(arrival.progress);
-  } else if (kind == Member::Kind::kOutput) {
+  } else if (kind == NumberedMember::Kind::kOutput) {
     std::int64_t time = 0;  // of a clock that is not this machine's
     good = members.take(arrival.sequence) && members.take(time) &&
            take_value(original.outputs[index]->type());
@@ -270,8 +270,9 @@ void Placeholder::pass_on(component::InputPortBase& input, const void* value) {
   const std::size_t index =
       std::ranges::find(inputs_, &input, [](const Input& each) { return each.port.get(); })->index;
   const std::tuple members{Outgoing{&input.type(), value}};
-  const bool sent = link_ != nullptr && link_->send(numbers_.number(Member::Kind::kInput, index),
-                                                    {}, ride::Fields(members)) == ride::Sent::kYes;
+  const bool sent =
+      link_ != nullptr && link_->send(numbers_.number(NumberedMember::Kind::kInput, index), {},
+                                      ride::Fields(members)) == ride::Sent::kYes;
   if (!sent) count(unsent);
 }
 
@@ -290,7 +291,7 @@ component::CallStatus Placeholder::call(component::OperationBase& operation,
   std::string problem;
   const ride::CallOptions options{base::from_seconds(answer_limit.get()), {}};
   const ride::Code code =
-      link_->call(numbers_.number(Member::Kind::kOperation, operation_of(operation).index),
+      link_->call(numbers_.number(NumberedMember::Kind::kOperation, operation_of(operation).index),
                   operation.name(), options, ride::Fields(members),
                   result == nullptr ? ride::Place() : ride::Place(place), problem);
   if (code != ride::Code::kNone) log_warning("{}", problem);
@@ -301,12 +302,14 @@ component::Outcome Placeholder::begin(component::CommandBase& command,
                                       const void* const* arguments) {
   const rt::PermitScope permit;
   if (link_ == nullptr || !connected.get()) {
-    return component::refused("the component lives in another process, which is not there");
+    return component::refused("'" + remote_name_ + "' lives at " + address.get() +
+                              ", in another process, which is not there");
   }
   Operation& operation = operation_of(command);
   const std::uint64_t run = ++operation.run;
   const std::tuple members{OutgoingArguments{&command.signature(), arguments}};
-  link_->ask(numbers_.number(Member::Kind::kCommand, operation.index), ride::Fields(members),
+  link_->ask(numbers_.number(NumberedMember::Kind::kCommand, operation.index),
+             ride::Fields(members),
              [mailbox = mailbox_, index = operation.index, run](ride::Code code,
                                                                 std::string_view text, auto) {
                Arrival arrival{.kind = Arrival::Kind::kEnded, .index = index};
@@ -324,7 +327,7 @@ void Placeholder::cancel(component::CommandBase& command) {
   ++operation.run;
   if (link_ == nullptr) return;
   const std::tuple<> nothing;
-  const auto sent = link_->send(numbers_.number(Member::Kind::kCancel, operation.index), {},
+  const auto sent = link_->send(numbers_.number(NumberedMember::Kind::kCancel, operation.index), {},
                                 ride::Fields(nothing));
   if (sent != ride::Sent::kYes) count(unsent);
 }

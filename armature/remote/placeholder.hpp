@@ -107,8 +107,9 @@ class Placeholder final : public component::StandIn {
 
   void make_twins();
   void subscribe();
-  void listen(Member::Kind kind, std::size_t index, Arrival::Kind arrival);
-  bool take(Member::Kind kind, std::size_t index, ride::Decoder& members, Arrival& arrival) const;
+  void listen(NumberedMember::Kind kind, std::size_t index, Arrival::Kind arrival);
+  bool take(NumberedMember::Kind kind, std::size_t index, ride::Decoder& members,
+            Arrival& arrival) const;
   void let_go();
   void look_at_arrivals();
   void handle(Arrival& arrival);

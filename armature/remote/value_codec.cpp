@@ -58,6 +58,7 @@ bool decode_text(ride::Decoder& from, const Type& type, void* to) {
   std::string_view text;
   if (!from.take(text)) return false;
   if (type.kind == Kind::kFixedText && text.size() > type.count) return false;
+  from.hold(text.size());
   type.set_text(to, text);
   return true;
 }
@@ -74,6 +75,7 @@ bool decode_vector(ride::Decoder& from, const Type& type, void* to) {
   std::uint32_t count = 0;
   if (!from.take(count)) return false;
   if (count > from.remaining() / std::max<std::size_t>(least_size(*type.element), 1)) return false;
+  from.hold(count * type.element->size);
   type.vector_resize(to, count);
   return decode_elements(from, *type.element, type.vector_data(to), count);
 }

@@ -5,12 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include "armature/report/internal/json.hpp"
 
 namespace armature::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPointsOfACurve = 8000;
 constexpr std::size_t kPointsOfAllCurves = 250'000;
@@ -33,6 +31,7 @@ Json figures_of(const Joint& joint) {
           {"final_error_rad", figures.last},
           {"final_error_counts", in_counts(figures.last)},
           {"at_rest_error_rad", or_null(joint.at_rest)},
+          {"moved_arming_rad", or_null(joint.moved_arming)},
           {"at_rest_error_counts", in_counts(joint.at_rest)},
           {"moved_in_last_10_s_rad", or_null(joint.moved_lately)},
           {"rad_per_count", or_null(joint.rad_per_count)},

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include "armature/report/internal/json.hpp"
 
 namespace armature::report {
 namespace {
-
-using Json = nlohmann::json;
 
 std::string text_in(const Json& entry, const char* key) {
   const auto found = entry.find(key);

@@ -3,17 +3,14 @@
 
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "armature/base/seconds.hpp"
 #include "armature/component/property.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
+#include "armature/report/internal/json.hpp"
 
 namespace armature::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string_view name_of(exec::RunEnd end) {
   switch (end) {
@@ -136,7 +133,8 @@ base::Result<void> write_run_summary(const std::string& folder, const RunFacts& 
                      {"counters", counters_of(application)},
                      {"verdict", verdict_of(application)},
                      {"complaints", complaints_of(facts)},
-                     {"complaints_left_out", facts.complaints_left_out}};
+                     {"complaints_left_out", facts.complaints_left_out},
+                     {"lines_lost", facts.lines_lost}};
   const std::string path = folder + '/' + kSummaryFile;
   return platform::write_file(path,
                               summary.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ struct RunFacts {
   int exit_code = 0;
   std::vector<rt::LogRecord> complaints;  ///< warnings and errors that it logged
   std::size_t complaints_left_out = 0;
-  base::Time begin{};  ///< of the times of `complaints`
+  std::uint64_t lines_lost = 0;  ///< of its output
+  base::Time begin{};            ///< of the times of `complaints`
 };
 
 /// Writes `run.json` into `folder`: how an application that has stopped fared, for the report and

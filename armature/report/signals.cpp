@@ -13,8 +13,6 @@
 namespace armature::report {
 namespace {
 
-using Json = nlohmann::json;
-
 /// Takes one channel's samples apart.
 class Unpacking {
  public:
@@ -22,7 +20,7 @@ class Unpacking {
       : channel_(channel), signals_(signals) {}
 
   void add(const record::RecordedSample& sample) {
-    const Json value = Json::parse(sample.json, nullptr, false);
+    const nlohmann::json value = nlohmann::json::parse(sample.json, nullptr, false);
     if (!value.is_object()) return;
     time_s_ = static_cast<double>(sample.time.time_since_epoch().count()) * 1e-9;
     const bool plain = value.size() == 1 && value.contains("value");
@@ -30,7 +28,7 @@ class Unpacking {
   }
 
  private:
-  void add(const Json& value, const std::string& name) {
+  void add(const nlohmann::json& value, const std::string& name) {
     if (value.is_string()) {
       signals_.texts[name] = value.get<std::string>();
     } else if (value.is_array()) {
@@ -46,7 +44,7 @@ class Unpacking {
     }
   }
 
-  static double number(const Json& value) {
+  static double number(const nlohmann::json& value) {
     if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
     return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   }

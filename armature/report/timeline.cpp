@@ -5,12 +5,10 @@
 #include <map>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include "armature/report/internal/json.hpp"
 
 namespace armature::report {
 namespace {
-
-using Json = nlohmann::json;
 
 struct Event {
   std::string name;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586476925286766559;
 constexpr double kSettling_s = 2.0;  ///< after a motion a joint should be where it was sent
 constexpr double kLately_s = 10.0;
+constexpr double kArming_s = 2.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 bool ends_in(const std::string& text, const std::string& ending) {
@@ -201,6 +202,21 @@ void look_at_rest(Joint& joint, const Window& window) {
   }
 }
 
+/// Measured positions of the time before the joints were armed.
+void look_at_arming(Joint& joint, const Signal* armed, const Window& window) {
+  if (armed == nullptr) return;
+  const double begin_s = window.begin_s - kArming_s;
+  const double end_s = window.begin_s == -kNever ? kNever : window.begin_s;
+  double lowest = kNever, highest = -kNever;
+  for (std::size_t i = 0; i < joint.time_s.size(); ++i) {
+    const bool counts = joint.time_s[i] >= begin_s && joint.time_s[i] <= end_s;
+    if (!counts || !std::isfinite(joint.measured[i])) continue;
+    lowest = std::min(lowest, joint.measured[i]);
+    highest = std::max(highest, joint.measured[i]);
+  }
+  if (lowest <= highest) joint.moved_arming = highest - lowest;
+}
+
 void look_at_the_end(Joint& joint, const Window& window) {
   std::vector<double> times, positions;
   for (std::size_t i = 0; i < joint.time_s.size(); ++i) {
@@ -245,6 +261,7 @@ std::vector<Joint> joints_of(const Signals& signals) {
   for (Joint& joint : joints) {
     joint.rad_per_count = rad_per_count(signals, joint.name);
     measure(joint, window);
+    look_at_arming(joint, armed_signal(signals, joint.name), window);
     look_at_rest(joint, window);
     look_at_the_end(joint, window);
   }

@@ -31,6 +31,9 @@ struct Joint {
   /// How far it was at most from where it was ten seconds before the end of that time [rad]; none:
   /// the time is shorter.
   std::optional<double> moved_lately;
+  /// How far it moved in the two seconds before all joints were armed, in which they are held and
+  /// let go, or in all of the time if they never were [rad]; none: the recording does not say when.
+  std::optional<double> moved_arming;
   /// The largest |error| from two seconds after the reference stopped until it moved again [rad];
   /// none: it never rested so long.
   std::optional<double> at_rest;

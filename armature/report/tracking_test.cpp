@@ -144,6 +144,22 @@ TEST(Joints, FiguresAreThoseOfTheTimeInWhichAllAreArmed) {
   EXPECT_NEAR(joints[0].measured_since_s, 0.2, 1e-9);
 }
 
+TEST(Joints, WhatMovedWhileTheyWereBeingArmedIsSaid) {
+  Signals signals;
+  signals.all.push_back(signal("PID1.Ref", constant(500, 1.0)));
+  std::vector<double> measured = constant(500, 1.0);
+  measured[0] = 7.0;                                         // long before
+  std::fill(measured.begin() + 280, measured.end(), 0.993);  // the brake opened
+  std::fill(measured.begin() + 400, measured.end(), 0.5);    // a motion
+  signals.all.push_back(signal("PID1.Sen", measured));
+  EXPECT_FALSE(joints_of(signals)[0].moved_arming) << "nobody says when it was armed";
+  signals.all.push_back({"Joint1.Armed", "", "", {0.0, 3.0}, {0.0, 1.0}});
+  ASSERT_TRUE(joints_of(signals)[0].moved_arming);
+  EXPECT_NEAR(*joints_of(signals)[0].moved_arming, 0.007, 1e-12);
+  signals.all.back() = {"Joint1.Armed", "", "", {0.0, 3.0}, {0.0, 0.0}};
+  EXPECT_NEAR(joints_of(signals)[0].moved_arming.value_or(0.0), 6.5, 1e-12) << "never armed";
+}
+
 TEST(Joints, ALostSampleIsCountedAndTakesItsTime) {
   Signals signals;
   signals.all.push_back(signal("PID1.Ref", constant(50, 0.1)));

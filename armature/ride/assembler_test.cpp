@@ -2,6 +2,7 @@
 #include "armature/ride/internal/assembler.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -9,12 +10,17 @@
 #include <gtest/gtest.h>
 
 #include "armature/ride/internal/test_bytes.hpp"
+#include "armature/ride/memory_share.hpp"
 
 namespace armature::ride::internal {
 namespace {
 
 class AssemblerTest : public testing::Test {
  protected:
+  AssemblerTest() : assembler_(16) {}
+  AssemblerTest(std::size_t most, MemoryShare* share, BodyGate* gate)
+      : assembler_(most, share, gate) {}
+
   void receive(std::span<const std::byte> bytes) {
     const auto room = assembler_.room();
     ASSERT_LE(bytes.size(), room.size());
@@ -32,6 +38,8 @@ class AssemblerTest : public testing::Test {
         return "nothing";
       case Found::kTooLarge:
         return "too large:" + hex(message.body);
+      case Found::kNoMemory:
+        return "no memory:" + hex(message.body);
       case Found::kBadMagic:
         return "bad magic";
       case Found::kBadLength:
@@ -42,7 +50,7 @@ class AssemblerTest : public testing::Test {
     return "?";
   }
 
-  Assembler assembler_{16};
+  Assembler assembler_;
 };
 
 TEST_F(AssemblerTest, FindsEachMessageOfWhatWasReceived) {
@@ -151,6 +159,59 @@ TEST(LargestMessage, AlwaysHasRoom) {
     ASSERT_EQ(assembler.next(found), Found::kMessage);
     EXPECT_EQ(found.body.size(), Header::kMostBody);
   }
+}
+
+/// Admits what begins with "aa".
+class Gate final : public BodyGate {
+ public:
+  bool admits(const Message& first) override {
+    ++asked;
+    return hex(first.body).starts_with("aa");
+  }
+  int asked = 0;
+};
+
+/// What an assembler borrows: there before it and after it.
+struct Bounded {
+  Bounded() { EXPECT_TRUE(share_.open(false)); }
+
+  Gate gate_;
+  std::shared_ptr<MemoryBound> all_ = std::make_shared<MemoryBound>(400'000, 0);
+  MemoryShare share_{all_, 0};
+};
+
+class AssemblerWithGate : protected Bounded, public AssemblerTest {
+ protected:
+  AssemblerWithGate() : AssemblerTest(1 << 20, &share_, &gate_) {}
+};
+
+TEST_F(AssemblerWithGate, ABodyThatIsNotAdmittedIsDroppedToItsEndAndNothingElse) {
+  receive("52494445 00000000 0180 1200 03000000 bbcc");
+  EXPECT_EQ(next(), "nothing");
+  receive("52494445 00000000 0180 1200 04000000 aabb");
+  receive("52494445 00000000 0180 1200 03000000 ddee 52494445 00000000 0100 1100 03000000 ff");
+  EXPECT_EQ(next(), "nothing");
+  EXPECT_EQ(gate_.asked, 2) << "for each body once";
+  receive("52494445 00000000 0100 1100 04000000 cc");
+  EXPECT_EQ(next(), "1/4:aabbcc");
+  receive("52494445 00000000 0100 1100 03000000 bb");
+  EXPECT_EQ(next(), "1/3:bb") << "a message of one piece needs no memory of others";
+  EXPECT_FALSE(assembler_.incomplete());
+}
+
+TEST_F(AssemblerWithGate, ABodyThatThereIsNoMemoryForSaysHowItBegan) {
+  Body part;
+  part.extend(16'000);
+  std::ranges::fill(std::span(part.data(), part.size()), std::byte{0xaa});
+  constexpr int kLast = 30;
+  for (int i = 0; i <= kLast; ++i) {
+    Body bytes;
+    append_message(bytes, {}, Type::kRequest, 3, part.bytes());
+    bytes.data()[9] = i == kLast ? std::byte{0} : std::byte{0x80};
+    receive(bytes.bytes());
+    EXPECT_EQ(next(), i == kLast ? "no memory:aaaaaaaaaaaaaaaa" : "nothing");
+  }
+  EXPECT_LE(all_->used(), 400'000u);
 }
 
 }  // namespace

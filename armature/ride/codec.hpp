@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "armature/ride/body.hpp"
+#include "armature/ride/memory_share.hpp"
 #include "armature/ride/utf8.hpp"
 
 namespace armature::ride {
@@ -131,8 +132,9 @@ class Encoder {
 /// @thread one at a time
 class Decoder {
  public:
-  explicit Decoder(std::span<const std::byte> body)
-      : start_(body.data()), size_(body.size()), at_(0) {}
+  /// @param holding  counts what Strings and Arrays take; none: without bound
+  explicit Decoder(std::span<const std::byte> body, Holding* holding = nullptr)
+      : start_(body.data()), size_(body.size()), at_(0), holding_(holding) {}
 
   template <Scalar T>
   bool take(T& value) {
@@ -148,17 +150,13 @@ class Decoder {
   }
   /// A String where it lies in the body, as long as that is there.
   bool take(std::string_view& text) {
-    std::uint32_t size = 0;
-    if (!take_count(size)) return false;
-    const std::string_view found(reinterpret_cast<const char*>(start_ + at_), size);
-    if (!is_utf8(found)) return fail();
-    at_ += size;
-    text = found;
-    return true;
+    lends_ = true;
+    return find(text);
   }
   bool take(std::string& text) {
     std::string_view found;
-    if (!take(found)) return false;
+    if (!find(found)) return false;
+    hold(found.size());
     text.assign(found);
     return true;
   }
@@ -168,6 +166,7 @@ class Decoder {
     if (!take_count(count)) return false;
     if constexpr (internal::Bulk<T>) {
       if (count > remaining() / sizeof(T)) return fail();
+      hold(count * sizeof(T));
       elements.resize(count);
       return take_elements(elements.data(), count);
     } else {
@@ -188,8 +187,28 @@ class Decoder {
   requires std::is_class_v<S>
   bool take(S& structure) { return decode(*this, structure) || fail(); }
 
+  /// Counts what a value takes beyond its body, before it is made.
+  /// @throws std::bad_alloc  its sender may not take so much
+  void hold(std::size_t bytes) {
+    if (holding_ != nullptr) holding_->take(bytes);
+  }
+
   /// True if nothing failed and no byte is left over.
   bool ended() const { return at_ == size_; }
+  /// For generated code: false if a parameter that was taken is outside its range; then no more is
+  /// taken, and `problem` says so. Defined in armature/ride/range.hpp, like the next.
+  template <typename T, typename Low, typename High>
+  bool expect_within(const char* parameter, const T& value, Low low, High high);
+  /// The same of a member.
+  /// @param structure  a described struct (ARMATURE_STRUCT) that has it
+  template <typename T, typename Low, typename High, typename S>
+  bool within(const T& member, Low low, High high, const S& structure);
+  /// `parameter speed is 2, expected 0 to 1`, or `member Pose.x is ...`; empty if all that was
+  /// taken is within its range.
+  const std::string& problem() const { return problem_; }
+
+  /// Whether a value lies in the body, which has to stay there for it.
+  bool lends() const { return lends_; }
   /// Bytes that are left; 0 after a failure.
   std::size_t remaining() const { return at_ == kFailed ? 0 : size_ - at_; }
 
@@ -199,6 +218,16 @@ class Decoder {
   bool fail() {
     at_ = kFailed;
     return false;
+  }
+
+  bool find(std::string_view& text) {
+    std::uint32_t size = 0;
+    if (!take_count(size)) return false;
+    const std::string_view found(reinterpret_cast<const char*>(start_ + at_), size);
+    if (!is_utf8(found)) return fail();
+    at_ += size;
+    text = found;
+    return true;
   }
 
   /// Where the next `size` bytes lie; no place if they are not there.
@@ -240,7 +269,11 @@ class Decoder {
   bool take_one_by_one(std::vector<T>& elements, std::uint32_t count) {
     elements.resize(std::min<std::size_t>(elements.size(), count));
     for (std::size_t i = 0; i < count; ++i) {
-      if (i == elements.size()) elements.emplace_back();
+      if (i == elements.size()) {
+        // When it grows, the elements are there twice.
+        if (i == elements.capacity()) hold(2 * std::max<std::size_t>(i, 1) * sizeof(T));
+        elements.emplace_back();
+      }
       if (!take(elements[i])) return false;
     }
     return true;
@@ -249,6 +282,9 @@ class Decoder {
   const std::byte* start_;
   std::size_t size_;
   std::size_t at_;
+  Holding* holding_;
+  bool lends_ = false;
+  std::string problem_;
 };
 
 /// Values whose C++ form is known where a message is built or taken apart, and only there.

@@ -70,6 +70,23 @@ TEST_F(PendingTest, WhoHasSentASingleSmallOneComesBeforeThoseWhoHaveSentMuch) {
   EXPECT_THAT(pop_all(), ElementsAre(31, 11, 21, 22));
 }
 
+TEST_F(PendingTest, WhoHasSentSomethingLargeHasNoTurnUntilItIsReleased) {
+  Body large;
+  large.extend(1 << 20);
+  push(a_, 0, 11);
+  pending_.push(a_, Message{.header = {.identifier = 12}, .body = large.bytes(), .whole = &large});
+  pending_.hold_large();
+  push(b_, 0, 21);
+  EXPECT_THAT(pop_all(), ElementsAre(21));
+  Body another;
+  another.extend(1 << 20);
+  pending_.push(c_,
+                Message{.header = {.identifier = 31}, .body = another.bytes(), .whole = &another});
+  EXPECT_TRUE(pending_.empty()) << "and nothing large that comes meanwhile";
+  pending_.release_large();
+  EXPECT_THAT(pop_all(), ElementsAre(11, 31, 12));
+}
+
 TEST_F(PendingTest, UrgentFloodsLetEveryoneHaveATurn) {
   constexpr std::size_t kFloods = 16;
   constexpr std::uint32_t kEach = 1000;

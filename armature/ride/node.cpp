@@ -12,6 +12,7 @@ std::string who(const AccessQuestion& question) {
     const bool here = question.transport == "unix" || question.transport == "tcp";
     return here ? "local" : "nobody@" + std::string(question.transport);
   }
+  if (question.transport == "unix") return "local:" + std::string(question.identity);
   return std::string(question.identity) + "@" + std::string(question.transport);
 }
 

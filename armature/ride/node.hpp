@@ -29,6 +29,10 @@ struct Limits {
   /// Accepted ones, a tenth of them at once. Others wait with the operating system.
   std::uint32_t connections_per_second = 500;
   std::size_t body_bytes = 16 * 1024 * 1024;  ///< of one message, all its parts together
+  /// That all peers together may make the node keep: bodies, values, what is not taken, events,
+  /// subscriptions. 256 KiB of it are each connection's own; of the others it gets so much that as
+  /// many again find some left. Beyond, requests are refused: BUSY; events are dropped.
+  std::size_t memory_bytes = 64 * 1000 * 1000;
   /// Of one connection. Beyond, it is not read until the second is over; nothing is lost.
   std::uint64_t messages_per_second = 20'000'000;
   base::Duration time_to_complete = std::chrono::seconds(5);  ///< a message that has begun
@@ -61,7 +65,8 @@ struct AccessQuestion {
 };
 
 /// Who asks, as policies and logs say it: `operator@tls` for an identity and the transport that has
-/// proven it, `local` for a process of this machine, which proves nothing.
+/// proven it, `local:pilot` for a process of this machine whose account the kernel vouches for,
+/// `local` for one that proves nothing.
 std::string who(const AccessQuestion& question);
 
 struct NodeOptions {
@@ -71,8 +76,11 @@ struct NodeOptions {
   /// Every refusal, loss and failure; called by the I/O thread or the one that found it. A kind of
   /// message is told at most ten times a second; the rest is counted. It must not call ride back.
   std::function<void(const rt::LogRecord&)> log;
-  /// Who may do what; without, everyone may do everything.
+  /// Who may do what; without, everyone may do everything. Called by the I/O thread and those that
+  /// wait for an answer, one at a time for each connection.
   std::function<bool(const AccessQuestion&)> allows;
+  /// Permissions of the socket files that it listens at: who may write may connect.
+  unsigned socket_mode = 0600;
   /// Beside TCP and Unix-domain sockets.
   std::vector<std::shared_ptr<Transport>> transports;
 };
@@ -86,6 +94,7 @@ struct NodeStatistics {
   std::uint64_t commands_failed = 0;
   std::uint64_t events_dropped = 0;  ///< oldest of a subscription whose queue was full
   std::uint64_t throttled = 0;       ///< times that a connection was too fast
+  std::uint64_t memory_bytes = 0;    ///< of Limits::memory_bytes, in use now
 };
 
 namespace internal {

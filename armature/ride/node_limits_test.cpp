@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include "armature/ride/internal/node_rig.hpp"
 
@@ -178,6 +179,45 @@ TEST_F(NodeTest, WhoDoesNotTakeItsAnswersIsNotReadUntilItDoes) {
     ASSERT_EQ(raw.receive_reply<std::string>(i).value_or("").size(), 10'000u) << i;
   }
   sending.join();
+}
+
+TEST_F(NodeTest, WhoSendsNoMoreGetsTheAnswersThatItIsOwed) {
+  auto raw = client();
+  raw.send({}, Type::kRequest, 1, kLater, 1u);
+  raw.send({}, Type::kRequest, 1, kEcho, 2u, "soon");
+  ::shutdown(raw.handle(), SHUT_WR);
+  EXPECT_EQ(raw.receive_reply<std::string>(2), "soon");
+  ASSERT_EQ(camera_.kept.size(), 1u);
+  camera_.kept[0].put(std::int32_t{5});
+  EXPECT_EQ(raw.receive_reply<std::int32_t>(1), 5);
+  EXPECT_FALSE(raw.receive().has_value()) << "and is disconnected once it is owed nothing";
+}
+
+TEST_F(NodeTest, WhoHasLeftMakesRoomForOthers) {
+  options_.limits.connections = 1;
+  auto first = client();
+  first.send({}, Type::kRequest, 1, kLater, 1u);
+  first.send({}, Type::kControl, 0, Control{Code::kPing, 0, 0, 0, ""});
+  EXPECT_EQ(first.receive_control().code, Code::kPong);
+  ::shutdown(first.handle(), SHUT_WR);
+  for (bool served = false; !served;) {
+    auto second = client();
+    second.send({}, Type::kControl, 0, Control{Code::kPing, 0, 0, 0, ""});
+    served = second.receive_control().code == Code::kPong;
+  }
+  camera_.kept.clear();
+}
+
+TEST_F(NodeTest, HelloHasNameAndVersion) {
+  options_.name = "head";
+  auto raw = client();
+  raw.send({}, Type::kControl, 0, Control{Code::kHello, 0, 0, 0, "tester 1"});
+  EXPECT_THAT(raw.receive_control().text, testing::MatchesRegex("head armature/[0-9.]+"));
+}
+
+TEST_F(NodeTest, ListeningWithoutAPolicyIsWarnedOf) {
+  serve();
+  EXPECT_THAT(log(), Contains(HasSubstr("everyone on this machine may do everything")));
 }
 
 TEST_F(NodeTest, WhenTooManyAnswersAreOwedItIsBusy) {

@@ -76,7 +76,7 @@ class PlaceholderTest : public testing::TestWithParam<const char*> {
  protected:
   PlaceholderTest() {
     serve();
-    EXPECT_TRUE(peer().wait_until_connected(20s).ok());
+    connected(client_);
   }
 
   void serve() {
@@ -93,6 +93,11 @@ class PlaceholderTest : public testing::TestWithParam<const char*> {
     address_ = got.value().text();
   }
   Peer& peer() { return client_.connect(address_); }
+  Peer& connected(Node& client) {
+    Peer& peer = client.connect(address_);
+    EXPECT_TRUE(peer.wait_until_connected(20s).ok());
+    return peer;
+  }
 
   std::string address_;
   NodeOptions server_options_;
@@ -120,6 +125,21 @@ TEST_P(PlaceholderTest, ALargeBodyGoesBothWays) {
   const auto answer = camera.echo(large, kPatient);
   ASSERT_TRUE(answer.ok()) << answer.error();
   EXPECT_TRUE(answer.value() == large);
+}
+
+TEST_P(PlaceholderTest, TheLargestBodyThereMayBeGoesBothWaysAndLeavesNothing) {
+  constexpr std::size_t kOperationAndCallAndSize = 12;
+  VisionPlaceholder camera(peer(), "camera");
+  const std::string largest(Limits().body_bytes - kOperationAndCallAndSize, 'x');
+  for (int i = 0; i < 3; ++i) {
+    const auto answer = camera.echo(largest, kPatient);
+    ASSERT_TRUE(answer.ok()) << answer.error();
+    ASSERT_TRUE(answer.value() == largest);
+  }
+  const auto end = std::chrono::steady_clock::now() + 20s;
+  const auto used = [&] { return server_->statistics().memory_bytes; };
+  while (used() > (1 << 20) && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_LE(used(), 1 << 20);
 }
 
 TEST_P(PlaceholderTest, ABodyAboveTheLimitIsTooLarge) {
@@ -227,7 +247,10 @@ TEST_P(PlaceholderTest, ManyThreadsCallAtTheSameTime) {
 }
 
 TEST_P(PlaceholderTest, SixteenSubscribersOfAProcessAreOneOnTheWire) {
-  VisionPlaceholder camera(peer(), "camera");
+  NodeOptions silent = quick();
+  silent.reconnection.silence = 0s;  // An answer to PING would be a message, too.
+  Node client(silent);
+  VisionPlaceholder camera(connected(client), "camera");
   Collected<ObjectPosition> seen;
   std::vector<Subscription> subscriptions;
   for (int i = 0; i < 16; ++i) {
@@ -235,11 +258,11 @@ TEST_P(PlaceholderTest, SixteenSubscribersOfAProcessAreOneOnTheWire) {
         camera.on_ObjectPosition([&](const ObjectPosition& position) { seen.add(position); }));
   }
   ASSERT_TRUE(camera.setThreshold(1, 2, 3, kPatient).ok()) << "they are there before this answer";
-  const auto before = client_.statistics().messages;
+  const auto before = client.statistics().messages;
   camera_.raise({3, 4});
   const auto all = seen.wait_for(16);
   EXPECT_EQ(all.back(), (ObjectPosition{3, 4}));
-  EXPECT_EQ(client_.statistics().messages - before, 1u);
+  EXPECT_EQ(client.statistics().messages - before, 1u);
 }
 
 TEST_P(PlaceholderTest, AfterItsSubscriptionHasEndedAHandlerIsNotCalled) {
@@ -273,6 +296,25 @@ TEST_P(PlaceholderTest, AHandlerMayEndItsOwnSubscriptionAndCallTheComponent) {
   camera_.raise({2, 2});
   ASSERT_TRUE(camera.setThreshold(1, 2, 3, kPatient).ok());
   EXPECT_EQ(sums.size(), 1u);
+}
+
+TEST_P(PlaceholderTest, WhatArrivesWhileAHandlerCallsDoesNotChangeItsEvent) {
+  VisionPlaceholder camera(peer(), "camera");
+  Collected<ObjectPosition> first;
+  Collected<ObjectPosition> second;
+  const auto calling = camera.on_ObjectPosition([&](const ObjectPosition& position) {
+    if (position.x == 1) {
+      camera_.raise({2, 2});
+      EXPECT_EQ(camera.setThreshold(1, 2, 3, kPatient).value(), 6);
+    }
+    first.add(position);
+  });
+  const auto other =
+      camera.on_ObjectPosition([&](const ObjectPosition& position) { second.add(position); });
+  ASSERT_TRUE(camera.setThreshold(1, 2, 3, kPatient).ok());
+  camera_.raise({1, 1});
+  EXPECT_THAT(second.wait_for(2), ElementsAre(ObjectPosition{1, 1}, ObjectPosition{2, 2}));
+  EXPECT_THAT(first.wait_for(2), ElementsAre(ObjectPosition{1, 1}, ObjectPosition{2, 2}));
 }
 
 TEST_P(PlaceholderTest, EventsArriveWhileRequestsAreAnswered) {

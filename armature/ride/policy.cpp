@@ -47,12 +47,9 @@ std::vector<Word> parts_of(const Word& list) {
 }
 
 std::string quoted(std::string_view text) {
-  // What is shown on a terminal is not to command it, nor to fill it.
+  // What is shown on a terminal is not to fill it; Diagnostics see to it that nothing commands it.
   constexpr std::size_t kMostShown = 60;
-  std::string shown(text.substr(0, kMostShown));
-  std::ranges::replace_if(
-      shown, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return "'" + shown + (text.size() > kMostShown ? "...'" : "'");
+  return "'" + std::string(text.substr(0, kMostShown)) + (text.size() > kMostShown ? "...'" : "'");
 }
 
 std::optional<Access> access_of(std::string_view name) {
@@ -104,7 +101,9 @@ class Line {
 
   void take_who(const Word& word, PolicyRule& rule) {
     rule.who = word.text;
+    constexpr std::string_view kAccount = "local:";
     if (word.text == "*" || word.text == "local") return;
+    if (word.text.starts_with(kAccount) && word.text.size() > kAccount.size()) return;
     const std::size_t at = word.text.rfind('@');
     const bool whole = at != std::string_view::npos && at != 0 && at + 1 != word.text.size();
     if (whole && word.text.substr(at + 1) == "tls") return;
@@ -116,7 +115,8 @@ class Line {
     } else if (at == std::string_view::npos) {
       hint = "did you mean '" + std::string(word.text) + "@tls'?";
     }
-    wrong(word, "expected NAME@tls, *@tls, local or *, found " + quoted(word.text), hint);
+    wrong(word, "expected NAME@tls, *@tls, local:USER, local or *, found " + quoted(word.text),
+          hint);
   }
 
   void take_access(const Word& word, PolicyRule& rule) {
@@ -159,6 +159,7 @@ class Line {
 
 bool speaks_of(std::string_view rule, std::string_view who) {
   if (rule == "*" || rule == who) return true;
+  if (rule == "local" || rule == "local:*") return who.starts_with("local:");
   if (!rule.starts_with("*@")) return false;
   return who.size() > rule.size() - 1 && who.ends_with(rule.substr(1));
 }

@@ -2,12 +2,15 @@
 #include "armature/ride/policy.hpp"
 
 #include <condition_variable>
+#include <filesystem>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pwd.h>
 #include <unistd.h>
 
 #include "armature/ride/internal/test_vision.hpp"
@@ -61,6 +64,23 @@ TEST(Policy, LocalIsWhoProvesNothingOnThisMachine) {
   EXPECT_FALSE(policy.allows(by_tls("local", Access::kRead, "Vision")));
 }
 
+TEST(Policy, AnAccountIsWhoTheKernelVouchesFor) {
+  const auto from = [](std::string_view transport, std::string_view identity) {
+    return AccessQuestion{transport, identity, "Vision", Access::kCommand};
+  };
+  const Policy one = policy_of("allow local:pilot command *");
+  EXPECT_TRUE(one.allows(from("unix", "pilot")));
+  EXPECT_FALSE(one.allows(from("unix", "guest")));
+  EXPECT_FALSE(one.allows(from("tcp", ""))) << "it proves nothing";
+  EXPECT_FALSE(one.allows(from("tls", "pilot")));
+  const Policy all = policy_of("allow local:* command *");
+  EXPECT_TRUE(all.allows(from("unix", "guest")));
+  EXPECT_FALSE(all.allows(from("tcp", "")));
+  const Policy anyone = policy_of("allow local command *");
+  EXPECT_TRUE(anyone.allows(from("unix", "guest")));
+  EXPECT_TRUE(anyone.allows(from("tcp", "")));
+}
+
 TEST(Policy, AStarIsEveryoneOfATransportOrEveryone) {
   const Policy of_tls = policy_of("allow *@tls read *");
   EXPECT_TRUE(of_tls.allows(by_tls("anna", Access::kRead, "Vision")));
@@ -82,43 +102,44 @@ TEST(Policy, AnyRuleThatAllowsItIsEnoughInWhateverOrder) {
 }
 
 TEST(Policy, TellsAllMistakesInOneRunWithTheirPlaces) {
-  EXPECT_EQ(mistakes_of("alow local read *\n"
-                        "deny local read *\n"
-                        "allow opertor read *\n"
-                        "allow anna@tsl read *\n"
-                        "allow loca read *\n"
-                        "  allow local red,comand Vision\n"
-                        "allow local read Vision, Arm\n"
-                        "allow local read\n"
-                        "allow\n"
-                        "allow local read,read Vision,*\n"),
-            "policy.txt:1:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'alow' "
-            "(did you mean 'allow'?)\n"
-            "policy.txt:2:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'deny' "
-            "(leave it out: what no rule allows is not allowed)\n"
-            "policy.txt:3:7: error: expected NAME@tls, *@tls, local or *, found 'opertor' "
-            "(did you mean 'opertor@tls'?)\n"
-            "policy.txt:4:7: error: expected NAME@tls, *@tls, local or *, found 'anna@tsl' "
-            "(did you mean 'anna@tls'?)\n"
-            "policy.txt:5:7: error: expected NAME@tls, *@tls, local or *, found 'loca' "
-            "(did you mean 'local'?)\n"
-            "policy.txt:6:15: error: expected read, command or configure, found 'red' "
-            "(did you mean 'read'?)\n"
-            "policy.txt:6:19: error: expected read, command or configure, found 'comand' "
-            "(did you mean 'command'?)\n"
-            "policy.txt:7:25: error: expected a component's name at the comma "
-            "(write Vision,Arm or *)\n"
-            "policy.txt:7:26: error: expected the end of the rule, found 'Arm' "
-            "(a list is written with commas and no space: Vision,Arm)\n"
-            "policy.txt:8:17: error: the rule does not say the components that it is about "
-            "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
-            "Vision)\n"
-            "policy.txt:9:6: error: the rule does not say who it is for "
-            "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
-            "Vision)\n"
-            "policy.txt:10:18: error: 'read' is there twice (once is enough)\n"
-            "policy.txt:10:23: error: expected names or *, found both in 'Vision,*' "
-            "(* alone is all components)\n");
+  EXPECT_EQ(
+      mistakes_of("alow local read *\n"
+                  "deny local read *\n"
+                  "allow opertor read *\n"
+                  "allow anna@tsl read *\n"
+                  "allow loca read *\n"
+                  "  allow local red,comand Vision\n"
+                  "allow local read Vision, Arm\n"
+                  "allow local read\n"
+                  "allow\n"
+                  "allow local read,read Vision,*\n"),
+      "policy.txt:1:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'alow' "
+      "(did you mean 'allow'?)\n"
+      "policy.txt:2:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'deny' "
+      "(leave it out: what no rule allows is not allowed)\n"
+      "policy.txt:3:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'opertor' "
+      "(did you mean 'opertor@tls'?)\n"
+      "policy.txt:4:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'anna@tsl' "
+      "(did you mean 'anna@tls'?)\n"
+      "policy.txt:5:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'loca' "
+      "(did you mean 'local'?)\n"
+      "policy.txt:6:15: error: expected read, command or configure, found 'red' "
+      "(did you mean 'read'?)\n"
+      "policy.txt:6:19: error: expected read, command or configure, found 'comand' "
+      "(did you mean 'command'?)\n"
+      "policy.txt:7:25: error: expected a component's name at the comma "
+      "(write Vision,Arm or *)\n"
+      "policy.txt:7:26: error: expected the end of the rule, found 'Arm' "
+      "(a list is written with commas and no space: Vision,Arm)\n"
+      "policy.txt:8:17: error: the rule does not say the components that it is about "
+      "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
+      "Vision)\n"
+      "policy.txt:9:6: error: the rule does not say who it is for "
+      "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
+      "Vision)\n"
+      "policy.txt:10:18: error: 'read' is there twice (once is enough)\n"
+      "policy.txt:10:23: error: expected names or *, found both in 'Vision,*' "
+      "(* alone is all components)\n");
 }
 
 TEST(Policy, WithOneMistakeNothingIsAllowed) {
@@ -126,7 +147,7 @@ TEST(Policy, WithOneMistakeNothingIsAllowed) {
 }
 
 TEST(Policy, WhatIsFoundInAFileCommandsNoTerminal) {
-  EXPECT_THAT(mistakes_of("\x1b[2J local read *"), HasSubstr("found '?[2J'"));
+  EXPECT_THAT(mistakes_of("\x1b[2J local read *"), HasSubstr("found '\\x1b[2J'"));
 }
 
 TEST(Policy, AFileThatIsNotThereIsAMistake) {
@@ -174,9 +195,7 @@ TEST(PolicyOfANode, ACommandThatIsNotAllowedIsRefusedLoggedAndNotExecuted) {
   Node server(options);
   ASSERT_TRUE(server.add("Vision", vision).ok());
   ASSERT_TRUE(server.add("Other", other).ok());
-  const std::string file =
-      "unix:" + testing::TempDir() + "ride_policy_" + std::to_string(::getpid());
-  ASSERT_TRUE(server.listen(file).ok());
+  const std::string file = server.listen("tcp://127.0.0.1:0").value().text();
   Node client;
   VisionPlaceholder at_vision(client.connect(file), "Vision");
   VisionPlaceholder at_other(client.connect(file), "Other");
@@ -201,6 +220,37 @@ TEST(PolicyOfANode, ACommandThatIsNotAllowedIsRefusedLoggedAndNotExecuted) {
         << line << "\n"
         << log;
   }
+}
+
+TEST(PolicyOfANode, KnowsTheAccountAtASocketFileWhichIsItsOwnersAlone) {
+  std::mutex mutex;
+  std::set<std::string> askers;
+  NodeOptions options;
+  options.allows = [&](const AccessQuestion& question) {
+    const std::lock_guard lock(mutex);
+    askers.insert(who(question));
+    return true;
+  };
+  Watched vision;
+  const std::string file = testing::TempDir() + "ride_account_" + std::to_string(::getpid());
+  const auto mode_with = [&](unsigned mode) {
+    options.socket_mode = mode;
+    Node server(options);
+    EXPECT_TRUE(server.add("Vision", vision).ok());
+    EXPECT_TRUE(server.listen("unix:" + file).ok());
+    Node client;
+    VisionPlaceholder at_vision(client.connect("unix:" + file), "Vision");
+    const CallOptions patient{.deadline = 20s, .priority = {}};
+    EXPECT_EQ(at_vision.echo("hello", patient).value(), "hello");
+    const auto permissions = std::filesystem::status(file).permissions();
+    server.remove(vision);
+    return static_cast<unsigned>(permissions);
+  };
+  EXPECT_EQ(mode_with(NodeOptions().socket_mode), 0600u);
+  EXPECT_EQ(mode_with(0660), 0660u);
+  const passwd* const account = ::getpwuid(::geteuid());
+  const std::string name = account != nullptr ? account->pw_name : std::to_string(::geteuid());
+  EXPECT_THAT(askers, testing::ElementsAre("local:" + name));
 }
 
 TEST(PolicyOfANode, WhereOtherMachinesReachItANodeNeedsOne) {

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "armature/ride/codec.hpp"
+#include "armature/types/type.hpp"
 
 namespace armature::ride {
 
@@ -21,7 +24,48 @@ namespace internal {
 template <typename T>
 using Bound = std::conditional_t<std::is_same_v<T, char>, signed char, T>;
 
+/// What a range is of: a number, or the elements of an array.
+template <typename T>
+struct ElementOf {
+  using Type = T;
+};
+template <typename T>
+struct ElementOf<std::vector<T>> {
+  using Type = T;
+};
+template <typename T, std::size_t N>
+struct ElementOf<std::array<T, N>> {
+  using Type = T;
+};
+
+/// As short as it can be said.
+template <Scalar T>
+std::string digits_of(T value) {
+  char digits[32];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), Bound<T>(value)).ptr;
+  return {digits, end};
+}
+
+template <Scalar T>
+std::string range_of(T low, T high) {
+  return digits_of(low) + " to " + digits_of(high);
+}
+
+/// `Pose.x`
+inline std::string name_of_member(const types::Type& type, const void* structure,
+                                  const void* member) {
+  const auto offset =
+      static_cast<const std::byte*>(member) - static_cast<const std::byte*>(structure);
+  const auto field =
+      std::ranges::find(type.fields, static_cast<std::size_t>(offset), &types::Field::offset);
+  return type.name + "." + std::string(field == type.fields.end() ? "?" : field->name);
+}
+
 }  // namespace internal
+
+/// Of a value with a range, or of the elements of an array.
+template <typename T>
+using BoundOf = internal::Bound<typename internal::ElementOf<T>::Type>;
 
 /// True if `value` is not below `low` and not above `high`; NaN never is.
 /// @rt nonblocking, no allocation
@@ -53,17 +97,36 @@ bool all_in_range(const Structs& structs) {
                      [](const auto& each) { return in_range(each); });
 }
 
-/// What to tell of a parameter that is not `within` its range: `parameter a is 300, expected 0 to
-/// 255`.
+/// What to tell of a value that is not `within` its range: ` is 300, expected 0 to 255`.
+template <typename T>
+std::string outside(const T& value, std::string_view range) {
+  std::string text = " has an element outside its range";
+  if constexpr (Scalar<T>) text = " is " + internal::digits_of(value);
+  return text + ", expected " + std::string(range);
+}
+/// The same of a parameter: `parameter a is 300, expected 0 to 255`.
 template <typename T>
 std::string outside(std::string_view parameter, const T& value, std::string_view range) {
-  std::string text = "parameter " + std::string(parameter);
-  if constexpr (std::is_arithmetic_v<T>) {
-    text += " is " + std::to_string(value);
-  } else {
-    text += " has an element outside its range";
-  }
-  return text + ", expected " + std::string(range);
+  return "parameter " + std::string(parameter) + outside(value, range);
+}
+
+template <typename T, typename Low, typename High>
+bool Decoder::expect_within(const char* parameter, const T& value, Low low, High high) {
+  const auto least = static_cast<BoundOf<T>>(low);
+  const auto most = static_cast<BoundOf<T>>(high);
+  if (ride::within(value, least, most)) return true;
+  problem_ = outside(parameter, value, internal::range_of(least, most));
+  return fail();
+}
+
+template <typename T, typename Low, typename High, typename S>
+bool Decoder::within(const T& member, Low low, High high, const S& structure) {
+  const auto least = static_cast<BoundOf<T>>(low);
+  const auto most = static_cast<BoundOf<T>>(high);
+  if (ride::within(member, least, most)) return true;
+  problem_ = "member " + internal::name_of_member(types::type_of<S>(), &structure, &member) +
+             outside(member, internal::range_of(least, most));
+  return fail();
 }
 
 }  // namespace armature::ride

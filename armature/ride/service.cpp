@@ -9,7 +9,8 @@
 namespace armature::ride {
 
 PendingReply::PendingReply(PendingReply&& other) noexcept
-    : link_(std::exchange(other.link_, nullptr)),
+    : holding_(std::move(other.holding_)),
+      link_(std::exchange(other.link_, nullptr)),
       connection_(other.connection_),
       call_(other.call_),
       priority_(other.priority_),
@@ -18,6 +19,7 @@ PendingReply::PendingReply(PendingReply&& other) noexcept
 
 PendingReply& PendingReply::operator=(PendingReply&& other) noexcept {
   PendingReply taken(std::move(other));
+  std::swap(holding_, taken.holding_);
   std::swap(link_, taken.link_);
   std::swap(connection_, taken.connection_);
   std::swap(call_, taken.call_);
@@ -35,7 +37,7 @@ void PendingReply::answer(const Fields& result) {
     link_->send(priority_, Type::kReply, internal::Recipient(call_), {}, result,
                 internal::Link::Flush::kNow);
   }
-  link_->kept_replies.fetch_sub(1, std::memory_order_relaxed);
+  link_->reply_was_given();
   link_ = nullptr;
 }
 
@@ -45,18 +47,22 @@ void PendingReply::fail(std::string_view text) {
     link_->send_control(call_, {Code::kFailed, static_cast<std::uint32_t>(Type::kRequest),
                                 component_, operation_, text});
   }
-  link_->kept_replies.fetch_sub(1, std::memory_order_relaxed);
+  link_->reply_was_given();
   link_ = nullptr;
 }
 
+/// The answer may be as large as the request, and so may the values: of the three the request goes
+/// before the answer comes, so that the largest there may be has room.
 void Reply::answer(const Fields& result) {
   if (std::exchange(settled_, true) || link_ == nullptr) return;
+  if (parameters_ != nullptr && !parameters_->lends()) link_->waiting.let_go_of_popped();
   link_->send(priority_, Type::kReply, internal::Recipient(call_), {}, result,
               internal::Link::Flush::kNow);
 }
 
 PendingReply Reply::keep() {
   PendingReply kept;
+  if (holding_ != nullptr) kept.holding_ = std::move(*holding_);
   if (std::exchange(settled_, true) || link_ == nullptr) return kept;
   kept.link_ = link_->shared_from_this();
   kept.connection_ = link_->connection_number();

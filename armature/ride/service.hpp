@@ -11,6 +11,7 @@
 
 #include "armature/ride/codec.hpp"
 #include "armature/ride/interface.hpp"
+#include "armature/ride/origin.hpp"
 #include "armature/ride/wire.hpp"
 
 namespace armature::ride {
@@ -34,10 +35,19 @@ class NotAllowed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Thrown where a parameter is none of the operation's, or out of its range: the answer is
+/// MALFORMED, with this text, which names it.
+class Malformed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Who has sent the message that is executed.
 class Sender {
  public:
   virtual ~Sender() = default;
+  /// By which connection.
+  virtual Origin origin() const { return {}; }
   virtual bool allows(std::string_view component, Access access) const = 0;
   /// Why not: `operator@tls may not command 'Vision'`.
   virtual std::string refusal(std::string_view component, Access access) const = 0;
@@ -73,6 +83,7 @@ class PendingReply {
   static constexpr std::tuple<> kNothing{};
   void answer(const Fields& result);
 
+  Holding holding_;  ///< what the parameters take, as long as the answer is owed
   std::shared_ptr<internal::Link> link_;
   std::uint32_t connection_ = 0;  ///< which of the link's: the call is none of a later one
   std::uint32_t call_ = 0;
@@ -87,18 +98,23 @@ class Reply {
  public:
   /// @param call, operation, component  of the request; `link` is none for a command
   /// @param sender  none: one that may do everything
+  /// @param holding  of its parameters; none: they are not counted
+  /// @param parameters  none: what they were taken from stays until the operation returns
   Reply(internal::Link* link, std::uint32_t call, Priority priority, Number operation,
-        std::uint32_t component, const Sender* sender = nullptr)
+        std::uint32_t component, const Sender* sender = nullptr, Holding* holding = nullptr,
+        const Decoder* parameters = nullptr)
       : link_(link),
         call_(call),
         priority_(priority),
         operation_(operation),
         component_(component),
-        sender_(sender) {}
+        sender_(sender),
+        holding_(holding),
+        parameters_(parameters) {}
   Reply(const Reply&) = delete;
   Reply& operator=(const Reply&) = delete;
 
-  /// Answers at once.
+  /// Answers at once. No parameter is taken after that.
   template <typename T>
   void put(const T& result) {
     answer(Fields(std::tie(result)));
@@ -119,6 +135,8 @@ class Reply {
   void demand(std::string_view component, Access access) const {
     if (!allows(component, access)) throw NotAllowed(sender_->refusal(component, access));
   }
+  /// By which connection it came.
+  Origin origin() const { return sender_ == nullptr ? Origin() : sender_->origin(); }
 
  private:
   void answer(const Fields& result);
@@ -129,6 +147,8 @@ class Reply {
   Number operation_;
   std::uint32_t component_;
   const Sender* sender_;
+  Holding* holding_;
+  const Decoder* parameters_;
   bool settled_ = false;
 };
 
@@ -160,6 +180,7 @@ class ReplyOf {
     return reply_.allows(component, access);
   }
   void demand(std::string_view component, Access access) const { reply_.demand(component, access); }
+  Origin origin() const { return reply_.origin(); }
 
  private:
   Reply& reply_;

@@ -19,7 +19,8 @@ Progress progress_of(StreamStatus status, Progress later) {
 
 class SocketConnection final : public Connection {
  public:
-  explicit SocketConnection(std::unique_ptr<StreamSocket> socket) : socket_(std::move(socket)) {}
+  explicit SocketConnection(std::unique_ptr<StreamSocket> socket, std::string identity = {})
+      : socket_(std::move(socket)), identity_(std::move(identity)) {}
 
   int handle() const override { return socket_->handle(); }
   Progress establish() override {
@@ -38,10 +39,13 @@ class SocketConnection final : public Connection {
   }
   void shut_down() override { socket_->shut_down(); }
   std::string other_end() const override { return socket_->other_end(); }
+  std::string identity() const override { return identity_; }
   std::string problem() const override { return socket_->problem(); }
+  bool may_still_receive() const override { return socket_->ended_in_order(); }
 
  private:
   std::unique_ptr<StreamSocket> socket_;
+  const std::string identity_;
 };
 
 class SocketListener final : public Listener {
@@ -53,7 +57,8 @@ class SocketListener final : public Listener {
   std::unique_ptr<Connection> accept() override {
     auto socket = listener_->accept();
     if (!socket) return nullptr;
-    return std::make_unique<SocketConnection>(std::move(socket));
+    std::string identity = socket->peer_account();
+    return std::make_unique<SocketConnection>(std::move(socket), std::move(identity));
   }
   const Address& address() const override { return address_; }
 
@@ -97,19 +102,25 @@ class TcpTransport final : public Transport {
 
 class UnixTransport final : public Transport {
  public:
+  explicit UnixTransport(unsigned mode) : mode_(mode) {}
   std::string scheme() const override { return "unix"; }
   bool safe(const Address&) const override { return true; }
   base::Result<std::unique_ptr<Listener>> listen(const Address& address) override {
-    return wrap(StreamListener::listen_file(address.host), address);
+    return wrap(StreamListener::listen_file(address.host, mode_), address);
   }
   base::Result<std::unique_ptr<Connection>> connect(const Address& address) override {
     return wrap(StreamSocket::connect_file(address.host));
   }
+
+ private:
+  const unsigned mode_;
 };
 
 }  // namespace
 
 std::unique_ptr<Transport> make_tcp_transport() { return std::make_unique<TcpTransport>(); }
-std::unique_ptr<Transport> make_unix_transport() { return std::make_unique<UnixTransport>(); }
+std::unique_ptr<Transport> make_unix_transport(unsigned mode) {
+  return std::make_unique<UnixTransport>(mode);
+}
 
 }  // namespace armature::ride

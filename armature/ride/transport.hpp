@@ -55,6 +55,8 @@ class Connection {
   virtual std::string identity() const { return {}; }
   /// Why it is gone.
   virtual std::string problem() const = 0;
+  /// True if it is gone because the other side sends no more, and may still receive.
+  virtual bool may_still_receive() const { return false; }
 };
 
 /// Where others connect to.
@@ -87,7 +89,9 @@ class Transport {
 
 /// Over TCP, without delay of small messages; only loopback addresses are safe.
 std::unique_ptr<Transport> make_tcp_transport();
-/// Over a socket file of this machine.
-std::unique_ptr<Transport> make_unix_transport();
+/// Over a socket file of this machine. The kernel says whose process connects: its identity is the
+/// name of its account.
+/// @param mode  of the socket file: who may write to it may connect
+std::unique_ptr<Transport> make_unix_transport(unsigned mode = 0600);
 
 }  // namespace armature::ride

@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(
                                   [] {
                                     return Address{"tcp", "127.0.0.1", 0};
                                   }},
-                    TransportCase{"unix", make_unix_transport,
+                    TransportCase{"unix", [] { return make_unix_transport(); },
                                   [] {
                                     return Address{"unix", socket_file("conformance"), 0};
                                   }}),

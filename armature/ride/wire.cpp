@@ -120,10 +120,18 @@ void finish_message(Body& to, std::size_t start, Priority priority, Type type,
                  {priority.level, type, false, static_cast<std::uint16_t>(size), identifier});
     return;
   }
-  Body whole;
-  whole.append(to.bytes().subspan(start + Header::kSize));
-  to.truncate(start);
-  append_message(to, priority, type, identifier, whole.bytes());
+  const std::size_t body = size - Header::kSize;
+  const std::size_t parts = (body + Header::kMostBody - 1) / Header::kMostBody;
+  to.extend((parts - 1) * Header::kSize);
+  // From the last to the first, which stays where it is: so none is written over.
+  for (std::size_t i = parts; i-- != 0;) {
+    const std::size_t begin = i * Header::kMostBody;
+    const std::size_t length = std::min(body - begin, Header::kMostBody);
+    std::byte* const at = to.data() + start + i * Header::kMostLength;
+    std::memmove(at + Header::kSize, to.data() + start + Header::kSize + begin, length);
+    write_header(at, {priority.level, type, i + 1 != parts,
+                      static_cast<std::uint16_t>(Header::kSize + length), identifier});
+  }
 }
 
 }  // namespace armature::ride

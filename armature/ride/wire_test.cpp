@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/ride/wire.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,22 @@ TEST(LargeMessage, GoesOnInTheNextOfTheSameTypeAndIdentifier) {
   EXPECT_EQ(read_header(at + 2 * 65535), (Header{5, Type::kReply, false, 17, 77}));
   EXPECT_EQ(at[65535 + 16], static_cast<std::byte>(Header::kMostBody % 251));
   EXPECT_EQ(wire.bytes().back(), static_cast<std::byte>(2 * Header::kMostBody % 251));
+}
+
+TEST(LargeMessage, IsTheSameWhereverItsBodyLay) {
+  for (const std::size_t size : {Header::kMostBody + 1, 2 * Header::kMostBody,
+                                 2 * Header::kMostBody + 1, 40 * Header::kMostBody - 1}) {
+    Body body;
+    body.extend(size);
+    for (std::size_t i = 0; i < size; ++i) body.data()[i] = static_cast<std::byte>(i * i % 251);
+    Body appended;
+    append_message(appended, {7}, Type::kRequest, 3, body.bytes());
+    Body finished;
+    finished.extend(Header::kSize);
+    finished.append(body.bytes());
+    finish_message(finished, 0, {7}, Type::kRequest, 3);
+    EXPECT_TRUE(std::ranges::equal(finished.bytes(), appended.bytes())) << size;
+  }
 }
 
 TEST(LargeMessage, ThatJustFitsIsOne) {

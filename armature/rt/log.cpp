@@ -1,64 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/rt/log.hpp"
 
-#include <charconv>
+#include <algorithm>
 
 namespace armature::rt {
-namespace {
 
-template <typename Number>
-std::string number_text(Number value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
+LogArgument LogArgument::without_text() const {
+  LogArgument bare = *this;
+  bare.text_ = {};
+  return bare;
 }
 
-}  // namespace
-
-std::string_view name_of(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return "debug";
-    case LogLevel::kInfo:
-      return "info";
-    case LogLevel::kWarning:
-      return "warning";
-    case LogLevel::kError:
-      return "error";
-  }
-  return "error";
-}
-
-std::string LogArgument::to_text() const {
-  switch (kind_) {
-    case Kind::kNone:
-      return {};
-    case Kind::kSigned:
-      return number_text(signed_);
-    case Kind::kUnsigned:
-      return number_text(unsigned_);
-    case Kind::kDouble:
-      return number_text(double_);
-    case Kind::kBool:
-      return unsigned_ != 0 ? "true" : "false";
-    case Kind::kText:
-      return std::string(text_.view());
-  }
-  return {};
-}
-
-std::string LogRecord::message() const {
-  std::string text;
-  std::size_t next = 0;
-  for (const char* at = format; *at != '\0'; ++at) {
-    if (at[0] == '{' && at[1] == '}' && next < arguments.size()) {
-      text += arguments[next++].to_text();
-      ++at;
-    } else {
-      text += *at;
+void LogRecord::take(std::span<const LogArgument> arguments) {
+  constexpr std::string_view kCut = "...";
+  texts_.clear();
+  arguments_.fill({});
+  for (std::size_t i = 0; i < kArguments; ++i) {
+    if (i < arguments.size()) {
+      arguments_[i] = arguments[i].without_text();
+      const std::string_view text = arguments[i].text();
+      // Each that follows can say at least that it is cut.
+      const auto others = arguments.subspan(i + 1);
+      const auto texts = std::ranges::count_if(others, &LogArgument::is_text);
+      const std::size_t of_others = static_cast<std::size_t>(texts) * kCut.size();
+      const std::size_t room = kTextRoom - of_others - texts_.view().size();
+      if (text.size() <= room) {
+        texts_.append(text);
+      } else {
+        texts_.append(text.substr(0, room - kCut.size())).append(kCut);
+      }
     }
+    text_ends_[i] = static_cast<std::uint16_t>(texts_.view().size());
   }
-  return text;
 }
 
 }  // namespace armature::rt

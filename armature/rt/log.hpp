@@ -4,7 +4,10 @@
 #include <array>
 #include <atomic>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,7 +21,7 @@ enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 std::string_view name_of(LogLevel level);
 
-/// One argument of a log line, kept as it is: it becomes text where somebody may wait.
+/// One argument of a log line: a number, or a text that lives until a LogRecord has taken it.
 class LogArgument {
  public:
   enum class Kind { kNone, kSigned, kUnsigned, kDouble, kBool, kText };
@@ -33,7 +36,12 @@ class LogArgument {
   LogArgument(std::string_view value) : kind_(Kind::kText), text_(value) {}  // NOLINT
   LogArgument(const char* value) : LogArgument(std::string_view(value)) {}   // NOLINT
 
-  std::string to_text() const;
+  std::string_view text() const { return text_; }
+  /// What it is without its text.
+  LogArgument without_text() const;
+  /// @param text  of a text, which is kept elsewhere
+  std::string to_text(std::string_view text) const;
+  bool is_text() const { return kind_ == Kind::kText; }
 
  private:
   Kind kind_ = Kind::kNone;
@@ -42,18 +50,39 @@ class LogArgument {
     std::uint64_t unsigned_;
     double double_;
   };
-  base::FixedText<95> text_;
+  std::string_view text_;
 };
 
-/// A log line before it is text: `format` is a string literal with `{}` for each argument.
+/// A log line before it is text: `format` is a string literal with `{}` for each of at most four
+/// arguments, whose texts it keeps. Together they have kTextRoom bytes, more than any reason of a
+/// component; of what is longer the end is left out, which `...` says.
 struct LogRecord {
+  static constexpr std::size_t kArguments = 4;
+  static constexpr std::size_t kTextRoom = 640;
+
+  LogRecord() = default;
+  LogRecord(LogLevel its_level, base::Time its_time, std::string_view its_component,
+            const char* its_format, std::span<const LogArgument> arguments = {})
+      : level(its_level), time(its_time), component(its_component), format(its_format) {
+    take(arguments);
+  }
+
+  /// @rt nonblocking, no allocation
+  void take(std::span<const LogArgument> arguments);
+  void take(std::initializer_list<LogArgument> arguments) {
+    take(std::span(arguments.begin(), arguments.size()));
+  }
+  std::string message() const;
+
   LogLevel level = LogLevel::kInfo;
   base::Time time;
   base::FixedText<47> component;
   const char* format = "";
-  std::array<LogArgument, 4> arguments;
 
-  std::string message() const;
+ private:
+  std::array<LogArgument, kArguments> arguments_;
+  std::array<std::uint16_t, kArguments> text_ends_{};  ///< in `texts_`
+  base::FixedText<kTextRoom> texts_;
 };
 
 /// The log lines of one real-time thread on their way to whoever prints them.

@@ -15,7 +15,7 @@ LogRecord record_of(const char* format, const LogArgument& first = {},
                     const LogArgument& fourth = {}) {
   LogRecord record;
   record.format = format;
-  record.arguments = {first, second, third, fourth};
+  record.take({first, second, third, fourth});
   return record;
 }
 
@@ -49,9 +49,29 @@ TEST(LogRecord, KeepsItsOwnCopyOfText) {
   EXPECT_EQ(record.message(), "before");
 }
 
-TEST(LogRecord, CutsTextThatIsTooLong) {
-  EXPECT_EQ(record_of("{}", std::string_view(std::string(200, 'x'))).message(),
-            std::string(95, 'x'));
+TEST(LogRecord, SaysOfEachTextThatItIsCut) {
+  const std::string text(LogRecord::kTextRoom, 'a');
+  LogRecord record;
+  record.format = "{}|{}|{}|{}";
+  record.take({std::string_view(text), "first of others", "b", "last of others"});
+  const std::string message = record.message();
+  EXPECT_TRUE(message.ends_with("a...|...|b|la...")) << message.substr(600);
+  EXPECT_LE(message.size(), LogRecord::kTextRoom + 3);
+}
+
+TEST(LogRecord, KeepsTextsAsLongAsAnyReason) {
+  const std::string first(511, 'x');
+  const std::string second(100, 'y');
+  EXPECT_EQ(record_of("{}: {}", std::string_view(second), std::string_view(first)).message(),
+            second + ": " + first);
+}
+
+TEST(LogRecord, SaysWhereItLeavesOutTheEndOfATextThatIsLongerStill) {
+  const std::string text(1000, 'x');
+  EXPECT_EQ(record_of("{}", std::string_view(text)).message(),
+            std::string(LogRecord::kTextRoom - 3, 'x') + "...");
+  EXPECT_EQ(record_of("{}{} {}", std::string_view(text), std::string_view(text), 7).message(),
+            std::string(LogRecord::kTextRoom - 6, 'x') + "...... 7");
 }
 
 TEST(LogLevel, HasAName) {

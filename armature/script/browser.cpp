@@ -19,6 +19,8 @@ class StandardBrowser final : public Browser {
     return browser.end();
   }
   void beside(const std::function<void()>& write) override { console_.beside(write); }
+  bool at_terminal() const override { return console_.surface().live(); }
+  bool at_end() const override { return console_.at_end(); }
   std::size_t mistakes() const override { return mistakes_; }
 
  private:

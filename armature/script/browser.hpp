@@ -30,6 +30,11 @@ class Browser {
   /// What others write to the terminal, whole lines, goes above the line that is being typed.
   virtual void beside(const std::function<void()>& write) = 0;
 
+  /// Whoever types sees what is said.
+  virtual bool at_terminal() const = 0;
+  /// The input was at its end: nobody will say anything any more.
+  virtual bool at_end() const = 0;
+
   /// Lines that were mistakes, if no terminal was there to see that.
   virtual std::size_t mistakes() const = 0;
 };

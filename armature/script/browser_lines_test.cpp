@@ -128,9 +128,19 @@ TEST(BrowserLines, OfAStatementThatIsNotWholeAskForMore) {
 TEST(BrowserLines, ShortenLongLists) {
   Desk desk;
   desk.type("x = {}\nfor i = 1, 1000 do x[i] = i / 2 end\nSettings.Offsets = x");
-  EXPECT_EQ(desk.type("Settings.Offsets"),
-            "[0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, ... 1000 elements] rad");
-  EXPECT_THAT(desk.type("x"), HasSubstr("10.0, ... 1000 elements]"));
+  EXPECT_THAT(desk.type("Settings.Offsets"), HasSubstr(" 49.5, 50, ... 1000 elements] rad"));
+  EXPECT_THAT(desk.type("x"), HasSubstr("50.0, ... 1000 elements]"));
+  EXPECT_THAT(desk.type("ls Settings"), HasSubstr("[0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, ... 1000"));
+}
+
+TEST(BrowserLines, ShowAllElementsOfAValueThatWasAskedFor) {
+  Desk desk;
+  const std::string all = "[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14] rad";
+  EXPECT_EQ(desk.type("Settings.Offsets = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}"),
+            "Settings.Offsets = " + all);
+  EXPECT_EQ(desk.type("Settings.Offsets"), all);
+  EXPECT_EQ(desk.type("print(Settings.Offsets)"),
+            "[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0]");
 }
 
 TEST(BrowserLines, LetSimulatedTimePassOnlyAsTold) {

@@ -168,7 +168,8 @@ TEST(RemoteBrowser, WhatTheRobotSaysMovesNoCursor) {
 TEST(RemoteBrowser, QuitLeavesAndTheApplicationGoesOn) {
   Away away;
   away.type("Axis:moveTo(1000)");
-  EXPECT_EQ(away.type("quit"), "Axis.moveTo: still under way");
+  EXPECT_EQ(away.type("quit"),
+            "Axis.moveTo: cancelled, since it ends with the connection of who began it");
   EXPECT_TRUE(away.browser->has_ended());
   EXPECT_TRUE(away.bench.application().running());
 }

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -209,6 +211,10 @@ Plant& Plant::operator=(Plant&&) noexcept = default;
 Plant::~Plant() = default;
 
 base::Result<Plant> Plant::load(const std::string& file, const Options& options) {
+  std::error_code problem;  // A pipe would be waited for.
+  if (std::filesystem::exists(file, problem) && !std::filesystem::is_regular_file(file, problem)) {
+    return base::Error{file + ": is no file, expected a URDF file"};
+  }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -261,6 +267,12 @@ std::optional<std::size_t> Plant::find(std::string_view name) const {
 
 double Plant::position(std::size_t joint) const {
   return impl_->data->qpos[impl_->coordinate(joint)];
+}
+
+std::optional<std::pair<double, double>> Plant::stops(std::size_t joint) const {
+  const mjModel& model = *impl_->model;
+  if (model.jnt_limited[joint] == 0) return std::nullopt;
+  return std::pair{model.jnt_range[2 * joint], model.jnt_range[2 * joint + 1]};
 }
 
 double Plant::velocity(std::size_t joint) const { return impl_->data->qvel[impl_->dof(joint)]; }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/base/result.hpp"
@@ -60,6 +61,9 @@ class Plant {
   std::size_t joints() const;
   std::string_view name(std::size_t joint) const;
   std::optional<std::size_t> find(std::string_view name) const;
+
+  /// Its stops, lower and upper; none of a joint that turns on and on.
+  std::optional<std::pair<double, double>> stops(std::size_t joint) const;
 
   double position(std::size_t joint) const;
   double velocity(std::size_t joint) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "benchmarks/control_cycle/cycle.hpp"
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,6 +22,8 @@ namespace armature::benchmarks {
 namespace {
 
 using component::Component;
+
+constexpr double kUnwatched = 1e3;
 
 template <typename T>
 void set(Component& component, std::string_view name, const T& value) {
@@ -57,6 +60,10 @@ void add_joint(exec::Blueprint& blueprint, const std::string& number, double gea
   set(joint, "MaxVoltage", limits.max_effort);
   set(joint, "Period", base::to_seconds(period));
   set(joint, "ArmingTime", base::to_seconds(limits.arming_time));
+  // They are sent to their place by a step, and nothing is watched in the loop beside them.
+  set(joint, "HoldingMotion", kUnwatched);
+  set(joint, "HoldingVelocity", kUnwatched);
+  set(joint, "HoldingAlternation", 1.0);
 }
 
 void add_pid(exec::Blueprint& blueprint, const std::string& number) {
@@ -151,13 +158,23 @@ Pacer& add_pacer(exec::Blueprint& blueprint, int joints) {
   return pacer;
 }
 
-void arm(exec::Application& application) {
+void arm(exec::Application& application, const std::function<void()>& cycle) {
   auto arming = application.begin("Arming", "arm", {});
   if (!arming) throw std::runtime_error(arming.error());
-  application.run_until(base::later(application.now(), std::chrono::seconds(10)),
-                        [&] { return arming.value().ended(); });
-  if (arming.value().stage() == component::CommandStage::kDone) return;
-  throw std::runtime_error("not armed: " + std::string(arming.value().reason()));
+  const base::Time latest = base::later(application.now(), std::chrono::seconds(10));
+  const auto run_until = [&](const std::function<bool()>& done) {
+    while (!done() && application.now() < latest) {
+      if (cycle) cycle();
+      application.run_for(std::chrono::milliseconds(1));
+    }
+  };
+  run_until([&] { return arming.value().ended(); });
+  if (arming.value().stage() != component::CommandStage::kDone) {
+    throw std::runtime_error("not armed: " + std::string(arming.value().reason()));
+  }
+  const auto& card = static_cast<const Card&>(*application.find("Card1"));
+  run_until([&] { return card.driven() > 0; });
+  if (card.driven() == 0) throw std::runtime_error("armed, but sent nowhere");
 }
 
 }  // namespace armature::benchmarks

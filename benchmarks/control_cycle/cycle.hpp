@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "armature/exec/application.hpp"
 #include "armature/exec/blueprint.hpp"
@@ -30,7 +31,9 @@ exec::Blueprint make_cycle(int joints, const CycleThreads& threads);
 /// Adds what runs the cycle again and again.
 Pacer& add_pacer(exec::Blueprint& blueprint, int joints);
 
-/// Lets the joints move from now on; the sampler runs, or has run. Throws if that does not succeed.
-void arm(exec::Application& application);
+/// Arms the joints, and waits until they stand and are driven to their place. Throws if that does
+/// not succeed.
+/// @param cycle  runs a cycle, where the sampler has no period
+void arm(exec::Application& application, const std::function<void()>& cycle = {});
 
 }  // namespace armature::benchmarks

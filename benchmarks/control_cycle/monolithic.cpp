@@ -44,7 +44,6 @@ void MonolithicController::control() {
   for (std::size_t i = 0; i < pids_.size(); ++i) {
     Pid& pid = pids_[i];
     const double error = reference_[i] - sensor_[i];
-    if (cycles_ == 0) pid.last_error = pid.error_before_last = error;
     const double control = pid.control + pid.kp * (error - pid.last_error) + pid.ki * error +
                            pid.kd * (error - 2.0 * pid.last_error + pid.error_before_last);
     pid.control = std::clamp(control, pid.u_min, pid.u_max);

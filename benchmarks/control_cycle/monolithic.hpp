@@ -24,7 +24,8 @@ std::vector<std::unique_ptr<HardwareCard>> make_simulated_cards(int count);
 const SimulatedMotor& motor_of(const HardwareCard& card);
 
 /// The same cycle as `make_cycle`, as a hand-written controller: all joints are sampled, then the
-/// control signals are computed, then all joints are actuated, each behind its limiter.
+/// control signals are computed, then all joints are actuated, each behind its limiter. It begins
+/// with the step of the reference: until then the joints were held at 0, so past errors are 0.
 class MonolithicController {
  public:
   explicit MonolithicController(int joints);

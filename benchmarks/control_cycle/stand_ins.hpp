@@ -19,7 +19,7 @@ class Card final : public library::JointHardware {
  public:
   using JointHardware::JointHardware;
   const SimulatedMotor& motor() const { return motor_; }
-  /// Cycles since it was switched on.
+  /// Cycles since it was driven first.
   std::int64_t driven() const { return driven_; }
 
  private:
@@ -30,7 +30,7 @@ class Card final : public library::JointHardware {
   }
   bool actuator_set(control::LimitedEffort effort) override {
     motor_.drive(effort);
-    ++driven_;
+    if (driven_ > 0 || effort != 0.0) ++driven_;
     return true;
   }
   bool actuator_on() override {
@@ -45,8 +45,9 @@ class Card final : public library::JointHardware {
   std::int64_t driven_ = 0;
 };
 
-/// Says where the joints are to be, [q, qd, qdd] of all: where they are until they are armed, then
-/// at one place. In the stead of a generator and of what is between it and the controller.
+/// Says where the joints are to be, [q, qd, qdd] of all: where they are until they are armed and
+/// stand, then at one place. In the stead of a generator and of what is between it and the
+/// controller.
 class Reference final : public component::Component {
  public:
   using Component::Component;
@@ -69,6 +70,7 @@ class Reference final : public component::Component {
     write();
   }
   void settle() { desired_positions_ = measured_positions_; }
+  /// Once: what it desires then rests, too.
   void begin() {
     for (std::size_t i = 0; i < joints(); ++i) {
       desired_positions_[i] = reference_of(static_cast<int>(i));
@@ -96,8 +98,8 @@ class Reference final : public component::Component {
                                            component::size_of(joints_, 3)};
   component::EventHandler<> settle_{this, "Settle", component::serve<&Reference::settle>,
                                     "desired := measured", component::leads_to_nothing()};
-  component::EventHandler<> arm_{this, "Arm", component::serve<&Reference::begin>,
-                                 "desired := the place to go to"};
+  component::EventHandler<> rest_{this, "Rest", component::serve<&Reference::begin>,
+                                  "desired := the place to go to"};
 
   Vector measured_positions_;
   Vector desired_positions_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hardware of a joint: what you write for your own robot. Here a motor is simulated in place of
-// the calls to a real drive.
-#include <algorithm>
+// The hardware of a joint: what you write for your own robot. Here a motor, its brake and the
+// weight of what hangs on it are simulated in place of the calls to a real drive.
 #include <cmath>
 
 #include "armature/component/registry.hpp"
 #include "armature/library/base/joint_hardware.hpp"
+#include "armature/library/base/sampling_period.hpp"
 
 namespace servo {
 
@@ -20,11 +20,11 @@ class Servo final : public armature::library::JointHardware {
 
  private:
   bool actuator_on() override {
-    on_ = true;
+    switch_to(true);
     return true;  // false if the drive does not answer
   }
   bool actuator_off() override {
-    on_ = false;
+    switch_to(false);
     return true;
   }
   bool actuator_set(armature::control::LimitedEffort effort) override {
@@ -33,8 +33,7 @@ class Servo final : public armature::library::JointHardware {
   }
   /// Once in each sampling period: what the axis did since the one before.
   bool sensor_read() override {
-    const double wanted = on_ && !braked_ ? kSpeedPerVolt * voltage_ : 0.0;
-    speed_ += std::min(1.0, period_ / kTimeConstant) * (wanted - speed_);
+    speed_ = braked_ ? 0.0 : speed_ + acceleration() * period_;
     const double displacement = speed_ * period_;
     angle_ += displacement;
     displacement_.write(displacement);
@@ -50,11 +49,28 @@ class Servo final : public armature::library::JointHardware {
     return true;
   }
 
+  void switch_to(bool on) {
+    on_ = on;
+    shown_on_.assign(on);
+  }
+
+  /// A motor that is on resists by its own voltage; one that is off falls freely.
+  double acceleration() const {
+    const double weight = weight_ * std::cos(angle_ * kGearRatio);
+    const double driven = on_ ? voltage_ - speed_ / kSpeedPerVolt : 0.0;
+    return (driven - weight) * kSpeedPerVolt / kTimeConstant;
+  }
+
   static constexpr double kSpeedPerVolt = 20.0;  // rad/s/V
   static constexpr double kTimeConstant = 0.05;  // s
+  static constexpr double kGearRatio = 0.01;     // of the joint's angle
   static constexpr double kTurn = 6.283185307179586;
 
-  Property<double> period_{this, "Period", 0.01, "between two samples", "s", range(1e-4, 1.0)};
+  armature::library::SamplingPeriod period_{this};
+  Property<double> weight_{this, "Weight",
+                           0.0,  "voltage that holds the joint where it is level",
+                           "V",  range(-12.0, 12.0)};
+  Attribute<bool> shown_on_{this, "on", false, "the motor is switched on"};
 
   bool on_ = false;
   bool braked_ = true;

@@ -14,7 +14,6 @@ Outcome Aic::on_configure() {
     return component::refused("MotorSign and EncoderSign are 1 or -1");
   }
   rad_per_count_ = 2.0 * std::numbers::pi / counts_per_turn_ * encoder_sign_ * gear_ratio_;
-  position_exact_.assign(true);
   return component::accepted();
 }
 
@@ -35,6 +34,7 @@ bool Aic::usable(const AicSample& sample) {
   if (sample.no_bus) {
     fault("the bus of the card is gone");
   } else if (sample.restarted) {
+    lose_position();
     fault("the card restarted: what moved meanwhile is not known");
   } else if (sample.fresh && on_ && !sample.actuator_on) {
     fault("the card switched its actuator off by itself");
@@ -44,13 +44,13 @@ bool Aic::usable(const AicSample& sample) {
 }
 
 void Aic::note_lost_counts() {
-  position_exact_.assign(false);
+  lose_position();
   log_error("a report of card {} was lost, and its counts: the position is not exact", number_());
 }
 
 /// What the card has against it, such as its watchdog, is acknowledged first.
 bool Aic::actuator_on() {
-  on_ = command(AicCommand::kActuatorOff) && command(AicCommand::kActuatorOn);
+  on_ = command(AicCommand::kActuatorOff) && energize(AicCommand::kActuatorOn);
   return on_;
 }
 
@@ -66,6 +66,11 @@ bool Aic::actuator_set(control::LimitedEffort effort) {
 
 bool Aic::command(AicCommand command) {
   const auto answer = command_card_(number_, static_cast<int>(command));
+  return answer.status == CallStatus::kDone && answer.value;
+}
+
+bool Aic::energize(AicCommand command) {
+  const auto answer = energize_card_(number_, static_cast<int>(command), permit());
   return answer.status == CallStatus::kDone && answer.value;
 }
 

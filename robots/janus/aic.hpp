@@ -12,7 +12,7 @@ namespace armature::janus {
 /// It faults, and so stops its joint, when the bus is gone, when the card restarted (what moved
 /// meanwhile is not known) and when the card switched its actuator off by itself. A report that was
 /// lost on the bus has taken its counts along: that is counted and told, and `position_exact` says
-/// so until the next configuration.
+/// so until the operator has confirmed where the joint is: before that it is not armed again.
 class Aic final : public library::JointHardware {
  public:
   using JointHardware::JointHardware;
@@ -26,9 +26,10 @@ class Aic final : public library::JointHardware {
   bool actuator_set(control::LimitedEffort effort) override;
   bool sensor_read() override;
   bool brake_apply() override { return !brake_ || command(AicCommand::kBrakeApply); }
-  bool brake_release() override { return !brake_ || command(AicCommand::kBrakeRelease); }
+  bool brake_release() override { return !brake_ || energize(AicCommand::kBrakeRelease); }
 
   bool command(AicCommand command);
+  bool energize(AicCommand command);
   bool usable(const AicSample& sample);
   void note_lost_counts();
 
@@ -52,9 +53,9 @@ class Aic final : public library::JointHardware {
   component::OperationCaller<bool(int, control::LimitedEffort)> set_motor_{
       this, "setMotor", "sets the card's motor value"};
   component::OperationCaller<bool(int, int)> command_card_{this, "commandCard",
-                                                           "sends the card a command"};
-  component::Attribute<bool> position_exact_{this, "position_exact", true,
-                                             "no counts were lost since the configuration"};
+                                                           "switches the card off, brakes it"};
+  component::OperationCaller<bool(int, int, control::DrivePermit)> energize_card_{
+      this, "energizeCard", "switches the card on, opens its brake"};
 
   double rad_per_count_ = 0.0;
   bool on_ = false;  ///< switched on, as far as this side knows

@@ -12,6 +12,12 @@ namespace armature::janus {
 
 using component::Outcome;
 
+namespace {
+
+bool is(int command, AicCommand expected) { return command == static_cast<int>(expected); }
+
+}  // namespace
+
 Outcome AicHost::on_configure() {
   AicDriver::Config config;
   if (Outcome outcome = make_config(config); !outcome) return outcome;
@@ -30,7 +36,7 @@ Outcome AicHost::on_configure() {
   for (std::size_t i = 0; i < driver_->cards(); ++i) {
     index_of_[static_cast<std::size_t>(driver_->card(i).number)] = i;
   }
-  return component::accepted();
+  return begin_to_guard();
 }
 
 Outcome AicHost::make_config(AicDriver::Config& config) const {
@@ -55,6 +61,7 @@ Outcome AicHost::on_start() {
 }
 
 void AicHost::on_cleanup() {
+  end_guard();
   driver_.reset();
   link_.reset();
 }
@@ -62,6 +69,7 @@ void AicHost::on_cleanup() {
 AicSample AicHost::read_card(int number) {
   const auto index = index_of(number);
   if (!index || state() != component::State::kRunning) return {.no_bus = true};
+  if (read_at_ != time() && !is_guarded()) return {.no_bus = true};
   if (read_at_ != time()) read_all();
   return take(*index);
 }
@@ -126,12 +134,19 @@ bool AicHost::send_motors() {
   return driver_->send_motors() == can::SendStatus::kSent;
 }
 
-bool AicHost::command_card(int number, int command) {
+bool AicHost::make_card_safe(int number, int command) {
+  const bool safe = is(command, AicCommand::kActuatorOff) || is(command, AicCommand::kBrakeApply);
+  return safe && command_card(number, static_cast<AicCommand>(command));
+}
+
+bool AicHost::energize_card(int number, int command, control::DrivePermit permit) {
+  const bool known = is(command, AicCommand::kActuatorOn) || is(command, AicCommand::kBrakeRelease);
+  return permit && known && command_card(number, static_cast<AicCommand>(command));
+}
+
+bool AicHost::command_card(int number, AicCommand command) {
   const auto index = index_of(number);
-  const bool known = command >= static_cast<int>(AicCommand::kActuatorOn) &&
-                     command <= static_cast<int>(AicCommand::kBrakeRelease);
-  if (!index || !known) return false;
-  return driver_->command(*index, static_cast<AicCommand>(command)) == can::SendStatus::kSent;
+  return index && driver_->command(*index, command) == can::SendStatus::kSent;
 }
 
 void AicHost::make_safe() {
@@ -141,6 +156,7 @@ void AicHost::make_safe() {
     driver_->command(i, AicCommand::kBrakeApply);
     driver_->command(i, AicCommand::kActuatorOff);
   }
+  rest();
 }
 
 std::optional<std::size_t> AicHost::index_of(int number) const {

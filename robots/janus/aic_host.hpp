@@ -43,6 +43,16 @@ class AicHost : public component::Component {
   /// Not opened yet.
   virtual base::Result<std::unique_ptr<can::Link>> make_link() = 0;
   const std::vector<int>& cards() const { return numbers_; }
+  /// Motor values 0, brakes applied, actuators off.
+  void make_safe();
+
+  // Of a bus that has a guardian.
+  virtual component::Outcome begin_to_guard() { return component::accepted(); }
+  /// A cycle begins; false if the host is out of service.
+  virtual bool is_guarded() { return true; }
+  /// No cycle is expected.
+  virtual void rest() {}
+  virtual void end_guard() {}
 
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
@@ -52,14 +62,15 @@ class AicHost : public component::Component {
  private:
   AicSample read_card(int number);
   bool set_motor(int number, control::LimitedEffort effort);
-  bool command_card(int number, int command);
+  bool make_card_safe(int number, int command);
+  bool energize_card(int number, int command, control::DrivePermit permit);
+  bool command_card(int number, AicCommand command);
 
   component::Outcome make_config(AicDriver::Config& config) const;
   void read_all();
   void note_losses();
   AicSample take(std::size_t index);
   bool send_motors();
-  void make_safe();
   std::optional<std::size_t> index_of(int number) const;
 
   component::Property<std::vector<int>> numbers_{
@@ -88,10 +99,16 @@ class AicHost : public component::Component {
   component::Operation<bool(int, int)> command_card_{
       this,
       "commandCard",
-      component::serve<&AicHost::command_card>,
-      "sends a command of PROTOCOL.md: 1 and 2 actuator on and off, 3 and 4 brake apply and "
-      "release",
+      component::serve<&AicHost::make_card_safe>,
+      "sends a command of PROTOCOL.md that makes safe: 2 actuator off, 3 brake apply",
       component::args("number", "command"),
+      component::in_own_thread};
+  component::Operation<bool(int, int, control::DrivePermit)> energize_card_{
+      this,
+      "energizeCard",
+      component::serve<&AicHost::energize_card>,
+      "sends a command of PROTOCOL.md that lets energy in: 1 actuator on, 4 brake release",
+      component::args("number", "command", "permit"),
       component::in_own_thread};
   component::Attribute<int> lost_answers_{this, "lost_answers", 0,
                                           "readings since the start without a card's answer"};

@@ -18,4 +18,9 @@ void ActuatorWam::actuate(const std::vector<double>& act) {
   torque_.write(act);
 }
 
+std::vector<library::DrivenJoint> ActuatorWam::joints_behind(
+    const component::InputPortBase* /*input*/, const component::Check& check) {
+  return library::joints_behind(torque_, check);
+}
+
 }  // namespace armature::wam

@@ -20,6 +20,8 @@ struct ArmConnectionConfig {
   base::Duration patience = std::chrono::seconds(5);  ///< for the operator to bring it to idle
   /// The operator says that the arm is at home: where a board without positions is zeroed.
   bool at_home = false;
+  /// What he sets to true to say so.
+  std::string word = "at_home";
   /// Called once when the operator has to bring the arm to idle, with what the board said last.
   std::function<void(std::optional<BoardMode>)> ask_for_idle{};
 };

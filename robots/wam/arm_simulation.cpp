@@ -47,6 +47,19 @@ base::Result<void> check_joints(const sim::Plant& plant, const ArmNumbers& arm,
                      joint_name(arm.joints() - 1) + ", in this order"};
 }
 
+/// Where no arm can be it cannot begin.
+base::Result<void> check_start(const sim::Plant& plant, const std::vector<double>& start) {
+  constexpr double kGive = 0.05;  // [rad] home lies a little beyond
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const auto stops = plant.stops(i).value_or(std::pair{-1e3, 1e3});
+    if (start[i] >= stops.first - kGive && start[i] <= stops.second + kGive) continue;
+    return base::Error{"ArmSimulation: start has " + std::to_string(start[i]) + " rad for joint " +
+                       std::to_string(i + 1) + ", expected from " + std::to_string(stops.first) +
+                       " to " + std::to_string(stops.second)};
+  }
+  return {};
+}
+
 }  // namespace
 
 base::Result<ArmSimulation> ArmSimulation::load(const ArmNumbers& arm, const Config& config) {
@@ -66,6 +79,9 @@ base::Result<ArmSimulation> ArmSimulation::parse(const ArmNumbers& arm, const st
   auto plant = sim::Plant::parse(urdf, config.urdf_file, options_for(transmission.value(), config));
   if (!plant) return base::Error{plant.error()};
   if (const auto checked = check_joints(plant.value(), arm, config.urdf_file); !checked) {
+    return base::Error{checked.error()};
+  }
+  if (const auto checked = check_start(plant.value(), config.start); !checked) {
     return base::Error{checked.error()};
   }
   ArmSimulation made(arm, config, std::move(transmission).value(), std::move(plant).value());

@@ -202,5 +202,16 @@ TEST(SimulatedArm, RefusesAnotherRobotsFileAndOtherNumbersOfJoints) {
       "ArmSimulation: start has 1 numbers, expected 4, one for each joint");
 }
 
+TEST(SimulatedArm, RefusesToBeginBeyondItsStopsOrNowhere) {
+  const auto begin_at = [](double angle) {
+    return ArmSimulation::load(
+        wam4(), {.urdf_file = description_of(wam4()), .start = {0.0, -2.0, 0.0, angle}});
+  };
+  EXPECT_TRUE(begin_at(3.13).ok());
+  EXPECT_THAT(begin_at(5.0).error(),
+              HasSubstr("start has 5.000000 rad for joint 4, expected from"));
+  EXPECT_THAT(begin_at(std::numeric_limits<double>::quiet_NaN()).error(), HasSubstr("nan rad"));
+}
+
 }  // namespace
 }  // namespace armature::wam

@@ -52,7 +52,7 @@ void BoardWatch::give_up() {
   asked_ = Asked::kNothing;
 }
 
-bool BoardWatch::take(const can::Frame& frame) {
+bool BoardWatch::take(const can::Frame& frame, base::Time now) {
   const auto mode = parse_reply(frame, config_.mode_number);
   const auto pendant = parse_reply(frame, config_.pendant_number);
   if (asked_ == Asked::kMode && mode) {
@@ -64,6 +64,7 @@ bool BoardWatch::take(const can::Frame& frame) {
       return true;
     }
     mode_ = static_cast<BoardMode>(*mode);
+    mode_time_ = now;
   } else if (asked_ == Asked::kPendant && pendant) {
     asked_ = Asked::kNothing;
     ++pendant_answers_;

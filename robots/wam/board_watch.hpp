@@ -39,7 +39,7 @@ class BoardWatch {
   std::optional<can::Frame> question(base::Time now);
   /// A frame from the board to the host.
   /// @return whether it was an answer that was waited for
-  bool take(const can::Frame& frame);
+  bool take(const can::Frame& frame, base::Time now);
   /// What the board says to all, the modes that it sets the pucks to. These frames are inferred
   /// (PROTOCOL.md), so nothing is believed of them but that there is news: MODE is asked for at
   /// once, for that reason once in a period.
@@ -52,6 +52,7 @@ class BoardWatch {
 
   /// As it was said last; none before it was.
   std::optional<BoardMode> mode() const { return mode_; }
+  base::Time mode_time() const { return mode_time_; }  ///< when it was
   std::optional<PendantWord> pendant() const { return pendant_; }
   /// Answers to PEN until now, to see when there is a new one.
   std::uint64_t pendant_answers() const { return pendant_answers_; }
@@ -71,6 +72,7 @@ class BoardWatch {
   base::Time hears_again_ = base::Time::min();
   int missed_modes_ = 0;
   std::optional<BoardMode> mode_;
+  base::Time mode_time_{};
   std::optional<PendantWord> pendant_;
   std::uint64_t pendant_answers_ = 0;
   Counters counters_;

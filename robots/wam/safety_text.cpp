@@ -30,7 +30,9 @@ std::string_view safety_state(std::optional<BoardMode> mode) {
   return "unknown";
 }
 
-component::Reason fault_reason(WamFault fault, int node) {
+namespace {
+
+component::Reason cause_of(WamFault fault, int node) {
   switch (fault) {
     case WamFault::kNone:
       return "";
@@ -75,6 +77,14 @@ component::Reason fault_reason(WamFault fault, int node) {
              "start, arm";
   }
   return "";
+}
+
+}  // namespace
+
+component::Reason fault_reason(WamFault fault, int node, bool may_drive_on) {
+  component::Reason reason(may_drive_on ? "press E-stop, motors may go on as they were told last; "
+                                        : "");
+  return reason.append(cause_of(fault, node));
 }
 
 std::string_view activation_request(const std::optional<PendantWord>& pendant, bool was_active) {

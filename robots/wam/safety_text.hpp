@@ -17,8 +17,9 @@ namespace armature::wam {
 std::string_view safety_state(std::optional<BoardMode> mode);
 
 /// Why the arm is out of service, and what the operator has to do.
-/// @param node  of the puck, where the fault is one's
-component::Reason fault_reason(WamFault fault, int node);
+/// @param node          of the puck, where the fault is one's
+/// @param may_drive_on  nobody knows what its motor does: the first words are what saves
+component::Reason fault_reason(WamFault fault, int node, bool may_drive_on = false);
 
 /// What has to be pressed so that the arm becomes active, and why.
 /// @param was_active  it was active before the run, whose pucks may be idle

@@ -4,6 +4,7 @@
 namespace armature::wam {
 
 component::Outcome SensorWam::on_configure() {
+  if (component::Outcome outcome = period_.known(); !outcome) return outcome;
   measured_.assign(2 * static_cast<std::size_t>(joints_.get()), 0.0);
   unread_.assign(0);
   return component::accepted();
@@ -16,9 +17,10 @@ void SensorWam::sample_now() {
 
 void SensorWam::on_data(const Vector& data) {
   const std::size_t joints = measured_.size() / 2;
+  const double period_s = period_.seconds();
   for (std::size_t i = 0; i < joints; ++i) {
     measured_[i] = data[i];
-    measured_[joints + i] = data[joints + i] * period_;
+    measured_[joints + i] = data[joints + i] * period_s;
   }
   sensor_.write(measured_);
 }

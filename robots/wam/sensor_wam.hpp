@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/max_age.hpp"
+#include "armature/library/base/sampling_period.hpp"
 #include "armature/library/base/sensor.hpp"
 
 namespace armature::wam {
@@ -12,9 +14,14 @@ namespace armature::wam {
 /// The sensors of the arm (paper 3, SensorWAM): asks its peer WamHardware for a reading at each
 /// Sample, and makes `sensor` of what comes.
 /// @rt nonblocking but for the hardware's reading, no allocation, O(joints)
-class SensorWam final : public library::Sensor {
+class SensorWam final : public library::Sensor, public library::PassesSamples {
  public:
   using Sensor::Sensor;
+
+  std::vector<const component::InputPortBase*> samples_behind(
+      const component::OutputPortBase& /*output*/) const override {
+    return {&data_};
+  }
 
  private:
   using Vector = std::vector<double>;
@@ -23,8 +30,7 @@ class SensorWam final : public library::Sensor {
   void sample_now() override;
   void on_data(const Vector& data);
 
-  component::Property<double> period_{
-      this, "Period", 0.002, "between two samples", "s", component::range(1e-4, 0.1)};
+  library::SamplingPeriod period_{this};
   component::OperationCaller<bool()> read_{this, "getJointSensorsOperation",
                                            "has the sensors read"};
   component::InputPort<Vector> data_{this,

@@ -62,6 +62,17 @@ std::optional<double> TipSpeed::add(std::size_t motor, std::int32_t counts, base
   return fastest;
 }
 
+double TipSpeed::of(std::span<const double> q, std::span<const double> qd) {
+  constexpr double kStep = 1e-4;  // [s]
+  Joints before, after;
+  for (std::size_t i = 0; i < kMotors; ++i) {
+    before[i] = q[i] - 0.5 * kStep * qd[i];
+    after[i] = q[i] + 0.5 * kStep * qd[i];
+  }
+  return std::max(distance(elbow(before), elbow(after)), distance(wrist(before), wrist(after))) /
+         kStep;
+}
+
 void TipSpeed::forget() {
   counts_.fill(std::nullopt);
   last_.reset();

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "armature/base/time.hpp"
 
@@ -32,6 +33,11 @@ class TipSpeed {
   /// @return [m/s] if this completes a round, and the last was not long ago
   std::optional<double> add(std::size_t motor, std::int32_t counts, base::Time now, bool zeroed);
   void forget();
+
+  /// Of elbow and wrist, of joints that move.
+  /// @param q, qd  of at least four joints [rad, rad/s]
+  /// @return the faster one [m/s]
+  static double of(std::span<const double> q, std::span<const double> qd);
 
  private:
   using Joints = std::array<double, kMotors>;

@@ -51,6 +51,13 @@ TEST(TipSpeed, TurnsWithEveryJoint) {
   EXPECT_NEAR(found({0, 0, 0.7, kRight}, {0, 0, 1, 0}), 0.35, kQuantum) << "forearm swings round";
 }
 
+TEST(TipSpeed, OfKnownVelocitiesIsWhatTheBoardFinds) {
+  const Joints q{0.3, 1.2, -0.7, 0.9}, qd{0.5, -0.4, 0.8, 1.0};
+  EXPECT_NEAR(TipSpeed::of(q, qd), found(q, qd), kQuantum);
+  EXPECT_NEAR(TipSpeed::of(Joints{}, Joints{0, 1, 0, 0}), 0.9, 1e-6);
+  EXPECT_NEAR(TipSpeed::of(q, Joints{}), 0.0, 1e-12);
+}
+
 TEST(TipSpeed, WithoutZeroItTakesTheLongestArm) {
   EXPECT_NEAR(found({0, 0, 0, 0}, {1, 0, 0, 0}, false), 0.9, kQuantum);
   EXPECT_NEAR(found({0, 0, 0, 0}, {0, 0, 0, 2}, false), 0.7, kQuantum);

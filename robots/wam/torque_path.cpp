@@ -101,8 +101,13 @@ void TorquePath::go_off() {
   for (auto* numbers : {&driving_, &torques_, &motors_}) std::ranges::fill(*numbers, 0.0);
 }
 
-void TorquePath::begin_to_hold() {
-  if (mode_ == Mode::kDriven) hand_over_.begin(driving_);
+void TorquePath::begin_to_hold(Last driven) {
+  if (driven == Last::kEndsAtOnce) {
+    hand_over_.reset();
+    std::ranges::fill(driving_, 0.0);
+  } else if (mode_ == Mode::kDriven) {
+    hand_over_.begin(driving_);
+  }
   mode_ = Mode::kHolding;
   for (JointLimiter& limiter : limiters_) limiter.disarm();
   std::ranges::copy(positions_, motion_.begin());

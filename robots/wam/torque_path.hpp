@@ -57,8 +57,10 @@ class TorquePath {
   void measure(std::span<const double> positions, std::span<const double> velocities);
 
   void go_off();
+  enum class Last { kDiesAway, kEndsAtOnce };
   /// From where the joints are, as fast as they are.
-  void begin_to_hold();
+  /// @param driven  what drove them last: it ends at once if it was what is not to go on
+  void begin_to_hold(Last driven = Last::kDiesAway);
   /// @return false, and it goes on as it was, unless it holds and the joints are known
   bool begin_to_drive();
   Mode mode() const { return mode_; }
@@ -72,6 +74,8 @@ class TorquePath {
   std::span<const double> motor_torques() const { return motors_; }
   std::span<const double> joint_torques() const { return torques_; }
   std::span<const double> weight() const { return weight_; }
+  /// [N m] What drives or holds the joints, without the weight.
+  std::span<const double> moving_torques() const { return driving_; }
   std::size_t joints() const { return positions_.size(); }
   /// Commands that a limit of a joint changed.
   int clipped() const { return clipped_; }

@@ -197,7 +197,7 @@ void WamDriver::take(const can::Arrival& arrival, base::Time now) {
   const std::optional<Address> address = address_of(arrival.frame);
   const int most = static_cast<int>(arm_.motors);
   if (address == from_node(kBoardNode, Group::kReplies)) {
-    if (watch_.take(arrival.frame)) judge_board(now);
+    if (watch_.take(arrival.frame, now)) judge_board(now);
   } else if (address == from_node(kBoardNode, Group::kAll)) {
     watch_.hear(arrival.frame, now);
   } else if (address && address->group && address->to == static_cast<int>(Group::kPositions) &&

@@ -163,6 +163,8 @@ class WamDriver {
 
   /// As the board said last; none before it did.
   std::optional<BoardMode> board_mode() const { return watch_.mode(); }
+  /// When it said so.
+  base::Time board_mode_time() const { return watch_.mode_time(); }
   /// What the pendant shows; none before the board told, or if its firmware tells something else.
   std::optional<PendantWord> pendant() const { return watch_.pendant(); }
   /// The first since `start` or `acknowledge`, except that kPositionJump replaces it, kEstop and

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
 #include "armature/rt/guard.hpp"
 #include "robots/wam/safety_text.hpp"
+#include "robots/wam/tip_speed.hpp"
 
 namespace armature::wam {
 
@@ -21,6 +23,10 @@ namespace {
 constexpr int kMostWithoutCommand = 3;
 /// [rad/s] of all joints together, on the way home.
 constexpr double kHomeRate = 0.5;
+/// [m/s] of a motion: the board idles the arm at 1 m/s, and what follows overshoots a little.
+constexpr double kFastestTip = 0.95;
+/// [rad] Nearer each joint lies where it may be let go of.
+constexpr double kAtHome = 0.05;
 /// In which a motion that was cancelled has come to rest.
 constexpr base::Duration kRestTime = std::chrono::seconds(2);
 
@@ -28,11 +34,14 @@ constexpr base::Duration kRestTime = std::chrono::seconds(2);
 
 Outcome WamHardware::on_start() {
   if (positions_lost_) return component::refused(fault_reason(WamFault::kEstop, 0));
+  at_home_.withdraw();  // It counts for a configuration that follows; from now on the arm moves.
+  held_by_hand_.withdraw();
   link_->begin_run(time());
   driver_->start(link_->now());
   driver_->send_idle();  // A puck may have missed that the board went to idle.
   path_->go_off();
   motion_->forget();
+  watch_.begin(parameters_.period().duration());
   followed_ = base::Time::min();
   read_at_ = base::Time::min();
   idle_seen_ = asks_ = commanded_ = false;
@@ -50,6 +59,7 @@ void WamHardware::on_cleanup() {
   // What was sent last gets on its way.
   const base::Time end = link_->now() + std::chrono::milliseconds(2);
   while (link_->now() < end) link_->wait_for_news(end);
+  guard_.end();
   driver_.reset();
   link_->bus().close();
 }
@@ -70,7 +80,15 @@ bool WamHardware::get_joint_sensors() {
 }
 
 void WamHardware::on_sample() {
-  if (read_at_ != time()) read_all();
+  if (read_at_ != time() && is_guarded() && is_in_time()) read_all();
+}
+
+/// Out of service if it is sampled otherwise than everything is computed for.
+bool WamHardware::is_in_time() {
+  if (state() != component::State::kRunning) return true;
+  const std::optional<component::Reason> wrong = watch_.sample(*this);
+  if (wrong) fault(*wrong);
+  return !wrong;
 }
 
 void WamHardware::read_all() {
@@ -107,9 +125,35 @@ void WamHardware::drive_or_hold() {
     if (arming_ != nullptr && arming_->state() == component::State::kException) {
       disarm("who armed it is out of service");
     }
+    watch_driven();
   }
   if (armed()) return;
-  if (path_->mode() == TorquePath::Mode::kHolding) path_->step_hold(link_->now());
+  if (path_->mode() == TorquePath::Mode::kHolding) return hold();
+  standing_->move();
+  send_torques();
+}
+
+/// Whatever its controller does, it comes to rest and is held.
+void WamHardware::watch_driven() {
+  if (!armed()) return;
+  const auto why =
+      driven_->step({.positions = motion_->positions(),
+                     .velocities = motion_->velocities(),
+                     .torques = path_->moving_torques(),
+                     .weight = path_->weight(),
+                     .tip = TipSpeed::of(motion_->positions(), motion_->velocities())});
+  if (why) disarm(why->view(), TorquePath::Last::kEndsAtOnce);
+}
+
+/// Where it is, and watched: whatever does not fit the arm must not shake it.
+void WamHardware::hold() {
+  standing_->stand(motion_->velocities());
+  if (const auto why =
+          standing_->step(motion_->positions(), motion_->velocities(), path_->moving_torques())) {
+    leave_service();
+    return fault(*why);  // which has the pucks braked
+  }
+  path_->step_hold(link_->now());
   send_torques();
 }
 
@@ -123,7 +167,7 @@ void WamHardware::on_torque(const Vector& torques) {
 
 void WamHardware::on_position(const Vector& reference) {
   if (!motion_->known()) return;
-  const base::Duration pause = kMostWithoutCommand * base::from_seconds(parameters_.period());
+  const base::Duration pause = kMostWithoutCommand * parameters_.period().duration();
   if (base::later(followed_, pause) < time()) {
     own_controller_->reset_to(reference, motion_->positions());
   }
@@ -141,6 +185,28 @@ void WamHardware::send_torques() {
   sent_torques_.write(sent_);
 }
 
+// ---- Whether it may stop
+
+/// Of the joint that is farthest [rad].
+double WamHardware::from_home() const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < path_->joints(); ++i) {
+    most = std::max(most, std::abs(motion_->positions()[i] - numbers_->home[i]));
+  }
+  return most;
+}
+
+component::Reason WamHardware::held() {
+  if (path_->mode() == TorquePath::Mode::kOff || !motion_->known()) return {};
+  if (held_by_hand_.said() || from_home() < kAtHome) return {};
+  component::Reason what("the arm's weight away from home: ");
+  what.append(armed() ? "" : "arm it, then ")
+      .append("say ")
+      .append(name())
+      .append(":moveHome(); or ");
+  return what.append("hold it, and say ").append(name()).append(".held_by_hand = true");
+}
+
 // ---- Arming
 
 void WamHardware::on_arm() {
@@ -149,6 +215,9 @@ void WamHardware::on_arm() {
     log_error("not armed: the arm is not active, it waits for {}", waits_for_.get().view());
     return tell_armed(false);
   }
+  held_by_hand_.withdraw();
+  standing_->move();
+  driven_->begin();
   followed_ = base::Time::min();
   without_command_ = 0;
   commanded_ = true;  // from the next cycle on
@@ -156,9 +225,9 @@ void WamHardware::on_arm() {
   log_info("armed");
 }
 
-void WamHardware::disarm(std::string_view why) {
+void WamHardware::disarm(std::string_view why, TorquePath::Last driven) {
   const bool was_armed = armed();
-  if (was_armed) path_->begin_to_hold();
+  if (was_armed) path_->begin_to_hold(driven);
   tell_armed(false);
   if (was_armed) log_warning("disarmed, and holds the arm where it is: {}", why);
   if (move_home_.active()) move_home_.fail("disarmed");
@@ -170,23 +239,38 @@ void WamHardware::tell_armed(bool armed) {
 
 // ---- Commands
 
+/// In whichever thread; it knows nothing but the arm's shape.
+double WamHardware::motion_limit_used(const Vector& positions, const Vector& velocities) {
+  const auto joints = static_cast<std::size_t>(joints_.get());
+  const bool fit = positions.size() == joints && velocities.size() == joints;
+  if (!fit) return std::numeric_limits<double>::infinity();
+  return TipSpeed::of(positions, velocities) / kFastestTip;
+}
+
 Outcome WamHardware::move_home() {
   if (!armed()) return component::refused("the arm is not armed");
   if (!generator_.bound()) return component::refused("it has no peer with a command moveTo");
   home_asked_at_ = time();
-  send_home();
+  home_by_limits_ = false;
+  send_home(home_time());
+  if (home_motion_.stage() == CommandStage::kRefused) send_home(0.0);  // short ways take longer
   if (home_motion_.stage() != CommandStage::kRefused) return component::accepted();
   return component::refused(home_motion_.reason());
 }
 
-void WamHardware::send_home() {
+/// Of a motion of which no part is faster than twice its mean.
+double WamHardware::home_time() const {
   double length = 0.0;
   for (std::size_t i = 0; i < path_->joints(); ++i) {
     length = std::hypot(length, numbers_->home[i] - motion_->positions()[i]);
   }
+  return 2.0 * length / kHomeRate;
+}
+
+/// @param time_s  0: as long as the limits demand
+void WamHardware::send_home(double time_s) {
   const rt::PermitScope first_target_makes_room;
-  // A motion of which no part is faster than twice its mean.
-  home_motion_ = generator_.send(numbers_->home, 2.0 * length / kHomeRate);
+  home_motion_ = generator_.send(numbers_->home, time_s);
 }
 
 void WamHardware::follow_home() {
@@ -194,7 +278,11 @@ void WamHardware::follow_home() {
   if (!home_motion_.ended()) return;
   // A motion that was cancelled comes to rest first.
   const bool in_time = time() - home_asked_at_ < kRestTime;
-  if (home_motion_.stage() == CommandStage::kRefused && in_time) return send_home();
+  if (home_motion_.stage() == CommandStage::kRefused && in_time) {
+    // It rests already if only the time is refused, which is too short for a short way.
+    home_by_limits_ = !home_by_limits_;
+    return send_home(home_by_limits_ ? 0.0 : home_time());
+  }
   if (home_motion_.stage() == CommandStage::kDone) {
     move_home_.complete();
   } else {
@@ -204,6 +292,8 @@ void WamHardware::follow_home() {
 
 Outcome WamHardware::press(void (WamHardware::*key)(), component::Command<>& command) {
   if (emulated_ == nullptr) {
+    if (bus_.get() == "emulator")
+      return component::refused("the arm is emulated once it is configured");
     component::Reason why("the arm on ");
     return component::refused(
         why.append(bus_.get()).append(" has an operator and a pendant of its own"));

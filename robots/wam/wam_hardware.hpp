@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/library/base/guarded_bus.hpp"
 #include "armature/library/base/max_age.hpp"
 #include "armature/library/base/robot_description.hpp"
+#include "armature/library/base/sample_watch.hpp"
+#include "robots/wam/arm_check.hpp"
 #include "robots/wam/emulated_link.hpp"
 #include "robots/wam/torque_path.hpp"
 #include "robots/wam/wam_driver.hpp"
@@ -24,15 +27,18 @@ namespace armature::wam {
 /// The first that asks in a cycle, or Sample, has all positions read; torque frames are sent in
 /// every cycle, 0 until the operator has activated the arm. Activated, it holds where it is.
 /// Armed, `torRefPort` is passed, through a TorquePath; a command that stays away for three cycles
-/// disarms it, and it holds again. Whatever ends the activation disarms it: by the operator's hand,
-/// it waits for the next; any other loss is a fault with torques 0 and the pucks idle, which brakes
-/// the arm.
+/// disarms it, and it holds again; so does what a DrivenWatch finds. Whatever ends the activation
+/// disarms it: by the operator's hand, it waits for the next; any other loss is a fault with
+/// torques 0 and the pucks idle, which brakes the arm.
 ///
 /// Properties count from the configuration on.
 /// @rt no allocation; waits for the pucks' answers, 1.4 ms at most
-class WamHardware final : public component::Component {
+class WamHardware final : public component::Component, public library::DrivesJoints {
  public:
   using Component::Component;
+
+  std::vector<library::DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                                  const component::Check& check) override;
 
   /// For tests that break something: the arm in this process; nullptr on another bus.
   EmulatedLink* emulated() { return emulated_; }
@@ -58,23 +64,34 @@ class WamHardware final : public component::Component {
   void on_cleanup() override;
 
   // wam_hardware_set_up.cpp
+  void on_check(component::Check& check) const override;
+  component::Outcome check_period() const;
   component::Outcome set_up_path();
   component::Outcome make_link();
-  component::Outcome connect();
+  component::Outcome connect(bool said_at_home);
   void help_to_idle();
+
+  // wam_hardware_guard.cpp
+  component::Outcome guard_arm();
+  bool is_guarded();
 
   // The cycle.
   bool get_joint_sensors();
   void on_sample();
   void read_all();
+  bool is_in_time();
   void count_lost_answers();
   void drive_or_hold();
+  void watch_driven();
+  void hold();
   void on_torque(const Vector& torques);
   void on_position(const Vector& reference);
   void send_torques();
 
   // Safety.
   bool supervise();
+  void tell_safety_state();
+  void note_last_safety_state();
   base::Duration be_out();
   void wait_for_cause();
   void wait_for_puck();
@@ -85,17 +102,25 @@ class WamHardware final : public component::Component {
   void leave_service();
   void make_safe();
 
+  // Whether it may stop.
+  double from_home() const;
+  component::Reason held();
+
   // Arming.
   void on_arm();
+  void on_rest() { driven_->rest(); }
+  void on_motion() { driven_->move(); }
   void on_disarm() { disarm("the operator disarmed it"); }
-  void disarm(std::string_view why);
+  void disarm(std::string_view why, TorquePath::Last driven = TorquePath::Last::kDiesAway);
   void tell_armed(bool armed);
   bool armed() const { return path_->mode() == TorquePath::Mode::kDriven; }
 
   // Commands.
+  double motion_limit_used(const Vector& positions, const Vector& velocities);
   component::Outcome move_home();
   void cancel_home() { home_motion_.cancel(); }
-  void send_home();
+  double home_time() const;
+  void send_home(double time_s);
   void follow_home();
   component::Outcome press(void (WamHardware::*key)(), component::Command<>& command);
   void press_estop() { emulated_->emulator().board().estop(); }
@@ -112,19 +137,30 @@ class WamHardware final : public component::Component {
   component::Outcome carry_home() { return press(&WamHardware::carry, carry_home_); }
 
   component::Property<int> joints_{
-      this, "joints", 7, "4, or 7 with the wrist", "", component::mandatory};
+      this,
+      "joints",
+      7,
+      "4, or 7 with the wrist",
+      "",
+      component::mandatory,
+      component::range(1, 100)};  // so that nobody makes ports for millions, before it is refused
   component::Property<std::string> bus_{
       this, "bus", "emulator",
       "emulator: the arm emulated in this process; virtual:PATH; or an interface such as can0"};
   library::RobotDescription description_{this};
   WamParameters parameters_{this};
+  library::GuardedBus guard_{this};
+  ArmCheck arm_check_{this, joints_, bus_, description_, parameters_};
   component::Property<double> idle_patience_{
       this, "idle_patience",
       5.0,  "how long to wait at the configuration for the arm to be brought to idle",
       "s",  component::range(0.0, 7.0)};
-  component::Property<bool> at_home_{
-      this, "at_home", false,
-      "the operator has put the arm at home: pucks that lost their positions are told them there"};
+  component::OperatorsWord at_home_{this, "at_home",
+                                    "the operator has put the arm at home: pucks that lost their "
+                                    "positions are told them there, by "
+                                    "the configuration that follows"};
+  component::OperatorsWord held_by_hand_{
+      this, "held_by_hand", "the operator holds the arm, whose torques end when it stops"};
   component::Property<bool> emulated_operator_{
       this, "emulated_operator",
       true, "the emulator's operator puts the arm at home, presses Shift+Idle and Shift+Activate",
@@ -166,13 +202,31 @@ class WamHardware final : public component::Component {
   component::Operation<bool()> get_joint_sensors_{
       this, "getJointSensorsOperation", component::serve<&WamHardware::get_joint_sensors>,
       "has the positions of this cycle read, and writes jointsDataPort", component::in_own_thread};
+  component::Operation<double(const Vector&, const Vector&)> motion_limit_used_{
+      this, "motionLimitUsed", component::serve<&WamHardware::motion_limit_used>,
+      "the share of the tip's fastest speed that joints use which move so; above 1: too fast",
+      component::args("positions [rad]", "velocities [rad/s]")};
   component::EventHandler<> sample_{this, "Sample", component::serve<&WamHardware::on_sample>,
                                     "reads, so that the arm is held also if nobody asks",
                                     component::leads_to("Armed")};
+  component::Holding holding_{this, component::serve<&WamHardware::held>, sample_};
   component::EventHandler<> arm_{this, "Arm", component::serve<&WamHardware::on_arm>,
                                  "torRefPort is passed from now on", component::leads_to("Armed")};
   component::EventHandler<> disarm_{this, "Disarm", component::serve<&WamHardware::on_disarm>,
                                     "holds the arm where it is", component::leads_to("Armed")};
+
+  component::EventHandler<> rest_{this,
+                                  "Rest",
+                                  component::serve<&WamHardware::on_rest>,
+                                  "the armed arm is to stand from now on",
+                                  component::optional,
+                                  component::leads_to_nothing()};
+  component::EventHandler<> motion_handler_{this,
+                                            "Motion",
+                                            component::serve<&WamHardware::on_motion>,
+                                            "it may move from now on",
+                                            component::optional,
+                                            component::leads_to_nothing()};
 
   component::CommandCaller<const Vector&, double> generator_{this, "moveTo", "moves the joints",
                                                              component::optional};
@@ -180,21 +234,34 @@ class WamHardware final : public component::Component {
                                   "moves the armed arm home, at 0.5 rad/s of all joints together",
                                   component::cancelled_by<&WamHardware::cancel_home>};
   component::Command<> estop_{this, "estop", component::serve<&WamHardware::estop>,
-                              "presses the emulated E-stop button"};
-  component::Command<> release_estop_{this, "releaseEstop",
-                                      component::serve<&WamHardware::release_estop>,
-                                      "pulls the emulated E-stop button out"};
+                              "presses the emulated E-stop button", component::in_any_state};
+  component::Command<> release_estop_{
+      this, "releaseEstop", component::serve<&WamHardware::release_estop>,
+      "pulls the emulated E-stop button out", component::in_any_state};
   component::Command<> shift_idle_{this, "shiftIdle", component::serve<&WamHardware::shift_idle>,
-                                   "presses Shift+Idle of the emulated pendant"};
-  component::Command<> shift_activate_{this, "shiftActivate",
-                                       component::serve<&WamHardware::shift_activate>,
-                                       "presses Shift+Activate of the emulated pendant"};
+                                   "presses Shift+Idle of the emulated pendant",
+                                   component::in_any_state};
+  component::Command<> shift_activate_{
+      this, "shiftActivate", component::serve<&WamHardware::shift_activate>,
+      "presses Shift+Activate of the emulated pendant", component::by_operator};
   component::Command<> carry_home_{
-      this, "carryHome", component::serve<&WamHardware::carry_home>,
-      "the emulated operator carries the arm home, and holds it until it is active"};
+      this,
+      "carryHome",
+      component::serve<&WamHardware::carry_home>,
+      "the emulated operator carries the arm home, and holds it until it is active",
+      component::by_operator,
+      component::in_any_state};
 
   component::Attribute<component::Reason> safety_state_{
-      this, "safety_state", {}, "of the safety board: E-STOP, IDLE or ACTIVATED"};
+      this,
+      "safety_state",
+      {},
+      "what the safety board said last: E-STOP, IDLE or ACTIVATED; and how old that is, if it has "
+      "not "
+      "said it lately"};
+  component::Attribute<double> safety_state_age_{
+      this, "safety_state_age", 0.0,
+      "since the board said so; as it was when the component stopped", "s"};
   component::Attribute<component::Reason> waits_for_{
       this, "waits_for", {}, "what the operator has to do, and why; empty if nothing"};
   component::Attribute<int> lost_answers_{this, "lost_answers", 0,
@@ -207,11 +274,14 @@ class WamHardware final : public component::Component {
   const ArmNumbers* numbers_ = nullptr;
   const component::Component* arming_ = nullptr;  ///< who arms it, and could take that back
   std::optional<TorquePath> path_;
+  std::optional<StandingWatch> standing_;
+  std::optional<DrivenWatch> driven_;
   std::optional<JointController> own_controller_;
   std::unique_ptr<can::Link> link_;
   EmulatedLink* emulated_ = nullptr;
   std::optional<WamDriver> driver_;
   std::optional<WamMotion> motion_;
+  library::SampleWatch watch_;
 
   Ending ending_{*this};
   base::Time read_at_ = base::Time::min();
@@ -225,6 +295,7 @@ class WamHardware final : public component::Component {
   std::optional<base::Time> out_since_;      ///< its cause is not known yet
   bool cuts_power_ = false;                  ///< has asked for it since
   base::Time home_asked_at_{};
+  bool home_by_limits_ = false;  ///< asked for the shortest way last
   component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
   Vector own_torques_;
   Vector sent_;

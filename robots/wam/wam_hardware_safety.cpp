@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamHardware: what the safety board, the pucks and the bus say, and what becomes of it.
+#include <charconv>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "robots/wam/safety_text.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
@@ -15,6 +18,8 @@ constexpr base::Duration kIdleCauseTime = std::chrono::milliseconds(150);
 constexpr base::Duration kSilenceCauseTime = std::chrono::milliseconds(30);
 /// Until then it has cut the power of those that do not.
 constexpr base::Duration kPowerCutTime = std::chrono::milliseconds(50);
+/// A board that has not answered for so long is silent.
+constexpr base::Duration kSilentBoardTime = std::chrono::milliseconds(150);
 /// Between two keys of the emulated operator.
 constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
@@ -22,13 +27,7 @@ constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
 
 /// @return it runs on
 bool WamHardware::supervise() {
-  const auto mode = driver_->board_mode();
-  board_state_.write(mode ? static_cast<int>(*mode) : -1);
-  const std::string_view told = safety_state(mode);
-  if (safety_state_.get().view() != told) {
-    safety_state_.assign(told);
-    if (mode) log_info("the safety board is in {}", told);
-  }
+  tell_safety_state();
   const WamFault fault = driver_->fault();
   if (fault == WamFault::kNone) {
     watch_activation();
@@ -40,6 +39,30 @@ bool WamHardware::supervise() {
     take_out(fault);
   }
   return state() == component::State::kRunning;
+}
+
+void WamHardware::tell_safety_state() {
+  const auto mode = driver_->board_mode();
+  board_state_.write(mode ? static_cast<int>(*mode) : -1);
+  const std::string_view told = safety_state(mode);
+  if (mode) safety_state_age_.assign(base::to_seconds(link_->now() - driver_->board_mode_time()));
+  if (safety_state_.get().view() == told) return;
+  safety_state_.assign(told);
+  if (mode) log_info("the safety board is in {}", told);
+}
+
+/// From now on nobody listens to the board: what it said last gets old.
+void WamHardware::note_last_safety_state() {
+  if (!driver_->board_mode()) return safety_state_.assign(safety_state({}));
+  char room[32];
+  const auto end = std::to_chars(std::begin(room), std::end(room), safety_state_age_(),
+                                 std::chars_format::fixed, 2);
+  component::Reason told(safety_state(driver_->board_mode()));
+  told.append(", said last ").append({room, static_cast<std::size_t>(end.ptr - room)});
+  const bool silent = safety_state_age_() > base::to_seconds(kSilentBoardTime);
+  told.append(silent ? " s before it was found silent"
+                     : " s before it was not listened to any more");
+  safety_state_.assign(told);
 }
 
 /// Out of service at once, to look for the cause.
@@ -107,10 +130,13 @@ void WamHardware::help_to_activate() {
 
 void WamHardware::take_out(WamFault why) {
   positions_lost_ = loses_positions(why);
+  at_home_.withdraw();
   const int node = driver_->fault_node();
+  const bool deaf =
+      why == WamFault::kNoBus || (why == WamFault::kPuckSilent && driver_->any_silent());
   leave_service();
   waits_for_.assign({});
-  fault(fault_reason(why, node));
+  fault(fault_reason(why, node, deaf));
 }
 
 void WamHardware::leave_service() {
@@ -122,10 +148,13 @@ void WamHardware::leave_service() {
 
 /// Pucks that are idle brake their motors.
 void WamHardware::make_safe() {
+  held_by_hand_.withdraw();
   if (!driver_) return;  // it was not configured
+  note_last_safety_state();
   path_->go_off();
   send_torques();
   driver_->send_idle();
+  guard_.rest();
   tell_armed(false);
 }
 

@@ -2,6 +2,7 @@
 // The hardware's component alone, on the emulated arm.
 #include "robots/wam/wam_hardware.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -25,6 +26,7 @@ class WamHardwareTest : public ::testing::Test {
   WamHardwareTest() : bench(std::make_unique<WamHardware>("WAM"), 2ms) {
     bench.component().context().simulated = true;
     bench.set("joints", 4);
+    bench.set("Period", 0.002);
     bench.set("robot_description", description_of(wam4()));
     bench.set("PositionMin", Vector{-3.0});
     bench.set("PositionMax", Vector{3.2});
@@ -125,6 +127,80 @@ TEST_F(WamHardwareTest, ARunThatFindsTheArmActiveHasItIdledFirst) {
                                               "was active before")));
   cycle(200);
   EXPECT_EQ(hardware().torque_path().mode(), TorquePath::Mode::kHolding);
+}
+
+TEST_F(WamHardwareTest, TheGainsThatCountAreShown) {
+  start();
+  std::vector<double> vendors;
+  for (const JointGains& joint : wam4().gains) vendors.push_back(joint.kp);
+  const auto shown = [&] {
+    for (const component::PropertyBase* one : hardware().interface().properties) {
+      if (one->name() == "Kp") return *static_cast<const Vector*>(one->data());
+    }
+    return Vector{};
+  };
+  EXPECT_EQ(shown(), vendors);
+  bench.stop();
+  hardware().cleanup();
+  bench.set("Kp", Vector{500.0});
+  ASSERT_TRUE(bench.start()) << bench.reason();
+  EXPECT_EQ(shown(), Vector{500.0});
+}
+
+/// What does not fit the arm, and passed every check.
+struct Misfit {
+  const char* name;
+  const char* property;
+  Vector value;
+  base::Duration period = 2ms;
+  const char* says = "do not fit the arm";
+};
+class UnfitForTheArm : public WamHardwareTest, public ::testing::WithParamInterface<Misfit> {
+ protected:
+  /// How far any joint is from where it was [rad].
+  double moved_from(const Vector& begin) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < begin.size(); ++i) {
+      most = std::max(most, std::abs(position(i) - begin[i]));
+    }
+    return most;
+  }
+  double position(std::size_t joint) {
+    return hardware().emulated()->motors().arm().joint_position(joint);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(
+    Is, UnfitForTheArm,
+    ::testing::Values(Misfit{"GainsOfAThousandTimes", "Kp", {900e3, 2500e3, 600e3, 500e3}},
+                      Misfit{"DampingOfAThousandTimes", "Kd", {10e3, 20e3, 5e3, 2e3}},
+                      Misfit{"GravityOfTenTimes", "gravity", {0.0, 0.0, -98.05}},
+                      Misfit{"GravityOfTheWrongSign", "gravity", {0.0, 0.0, 9.805}},
+                      Misfit{"ASamplerOfTenTimesThePeriod",
+                             "Kp",
+                             {900.0, 2500.0, 600.0, 500.0},
+                             20ms,
+                             "it is sampled after 20 ms, but its period is 2 ms"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_P(UnfitForTheArm, ItIsBrakedAtOnceAndSaysWhyOrStandsWithinTheBound) {
+  bench.set(GetParam().property, GetParam().value);
+  bench.set("MaxTorque", Vector{300.0});
+  bench.set("MaxTorqueGrowth", Vector{300.0});
+  start();
+  Vector begin;
+  for (std::size_t i = 0; i < 4; ++i) begin.push_back(position(i));
+  double until_braked = 0.0;
+  for (int i = 0; i < 3000 && hardware().state() == component::State::kRunning; ++i) {
+    bench.advance(GetParam().period);
+    bench.raise("Sample");
+    until_braked = std::max(until_braked, moved_from(begin));
+  }
+  if (hardware().state() == component::State::kRunning) {
+    EXPECT_LT(until_braked, 0.01) << "its gains hold it";
+    return;
+  }
+  EXPECT_THAT(bench.reason(), HasSubstr(GetParam().says));
+  EXPECT_LT(until_braked, 0.03);
 }
 
 TEST_F(WamHardwareTest, ABusThatIsNotThereIsNamed) {

@@ -6,7 +6,11 @@
 
 #include "armature/base/result.hpp"
 #include "armature/component/author.hpp"
+#include "armature/library/base/checked_gains.hpp"
+#include "armature/library/base/sampling_period.hpp"
 #include "robots/wam/arm_numbers.hpp"
+#include "robots/wam/driven_watch.hpp"
+#include "robots/wam/standing_watch.hpp"
 #include "robots/wam/torque_path.hpp"
 
 namespace armature::wam {
@@ -19,15 +23,30 @@ class WamParameters {
 
   /// An error names the property, what was expected and what was found.
   /// @thread configuration only
-  base::Result<TorquePath::Config> torque_path(const ArmNumbers& numbers) const;
-  double period() const { return period_; }
+  /// @param wanted  another value of one of them
+  base::Result<TorquePath::Config> torque_path(
+      const ArmNumbers& numbers, const library::CheckedGains::Wanted& wanted = {}) const;
+  /// Of what `torque_path` says, but for the period.
+  void add_follower(component::PropertyFollower& follower);
+  bool says_who_holds_the_weight(const component::PropertyBase& property) const {
+    return &property == &controller_has_gravity_;
+  }
+  /// The same for the watch over the arm that is to stand.
+  base::Result<StandingWatch::Config> standing_watch(const ArmNumbers& numbers) const;
+  /// The same for the watch over the arm that is armed.
+  base::Result<DrivenWatch::Config> driven_watch(const ArmNumbers& numbers) const;
+  const library::SamplingPeriod& period() const { return period_; }
+  /// Where no gains were given, those of the vendor are shown: they count.
+  /// @thread configuration only
+  void show_gains(const std::vector<JointGains>& used);
 
  private:
   using Numbers = component::Property<std::vector<double>>;
 
-  base::Result<std::vector<JointGains>> gains(const ArmNumbers& numbers) const;
+  base::Result<std::vector<JointGains>> gains(const ArmNumbers& numbers,
+                                              const library::CheckedGains::Wanted& wanted) const;
 
-  component::Property<double> period_;
+  library::SamplingPeriod period_;
   component::Property<bool> controller_has_gravity_;
   component::Property<double> arming_time_;
   component::Property<double> hand_over_;
@@ -42,6 +61,11 @@ class WamParameters {
   Numbers ki_;
   Numbers kd_;
   Numbers max_own_torque_;
+  Numbers stand_motion_;
+  Numbers stand_velocity_;
+  component::Property<double> stand_alternation_;
+  component::Property<double> driven_motion_;
+  component::Property<double> sinking_;
 };
 
 }  // namespace armature::wam

@@ -9,8 +9,6 @@
 namespace armature::wam {
 namespace {
 
-std::string text(int number) { return std::to_string(number); }
-
 bool contains(const std::array<int, 3>& groups, int group) {
   return std::ranges::find(groups, group) != groups.end();
 }
@@ -20,8 +18,8 @@ std::optional<Mistake> check_values(const PuckRecord& puck) {
                                         std::pair{Property::kIpnm, puck.units_per_nm},
                                         std::pair{Property::kMt, puck.most_torque}}) {
     if (value > 0) continue;
-    return Mistake{"puck " + text(puck.node) + " has " + to_text(property) + " " + text(value) +
-                       ", expected above 0",
+    return Mistake{"puck " + std::to_string(puck.node) + " has " + to_text(property) + " " +
+                       std::to_string(value) + ", expected above 0",
                    "write the value of the maker's data sheet and save it"};
   }
   return std::nullopt;
@@ -31,17 +29,17 @@ std::optional<Mistake> check_values(const PuckRecord& puck) {
 
 std::optional<Mistake> check_motor(int node, int role, int status) {
   if ((role & kKindMask) != kMotorRole) {
-    return Mistake{
-        "puck " + text(node) + " has role " + text(role & kKindMask) + ", expected 0, a motor puck",
-        "only motor pucks may have numbers 1 to 7"};
+    return Mistake{"puck " + std::to_string(node) + " has role " +
+                       std::to_string(role & kKindMask) + ", expected 0, a motor puck",
+                   "only motor pucks may have numbers 1 to 7"};
   }
   if (status == static_cast<int>(PuckStatus::kReset) ||
       status == static_cast<int>(PuckStatus::kReady)) {
     return std::nullopt;
   }
-  return Mistake{
-      "puck " + text(node) + " has status " + text(status) + ", expected 0 (reset) or 2 (ready)",
-      "switch the arm off and on; if that does not help, the puck is broken"};
+  return Mistake{"puck " + std::to_string(node) + " has status " + std::to_string(status) +
+                     ", expected 0 (reset) or 2 (ready)",
+                 "switch the arm off and on; if that does not help, the puck is broken"};
 }
 
 std::optional<Mistake> check_puck(const PuckRecord& puck) {
@@ -50,17 +48,19 @@ std::optional<Mistake> check_puck(const PuckRecord& puck) {
   const bool wrist = puck.node > last_of_lower_arm;
   const int slot = wrist ? puck.node - last_of_lower_arm : puck.node;
   if (puck.slot != slot) {
-    return Mistake{"puck " + text(puck.node) + " takes torque " + text(puck.slot) +
-                       " of its frame (PIDX), expected " + text(slot),
-                   "set PIDX to " + text(slot) + " and save it"};
+    return Mistake{"puck " + std::to_string(puck.node) + " takes torque " +
+                       std::to_string(puck.slot) + " of its frame (PIDX), expected " +
+                       std::to_string(slot),
+                   "set PIDX to " + std::to_string(slot) + " and save it"};
   }
   const int torques = static_cast<int>(wrist ? Group::kWrist : Group::kLowerArm);
   if (contains(puck.groups, torques) && contains(puck.groups, static_cast<int>(Group::kArm))) {
     return std::nullopt;
   }
-  return Mistake{"puck " + text(puck.node) + " is in groups " + text(puck.groups[0]) + ", " +
-                     text(puck.groups[1]) + " and " + text(puck.groups[2]) + ", expected 0, " +
-                     text(torques) + " for torques and 4 for positions",
+  return Mistake{"puck " + std::to_string(puck.node) + " is in groups " +
+                     std::to_string(puck.groups[0]) + ", " + std::to_string(puck.groups[1]) +
+                     " and " + std::to_string(puck.groups[2]) + ", expected 0, " +
+                     std::to_string(torques) + " for torques and 4 for positions",
                  "set GRPA, GRPB and GRPC to these and save them"};
 }
 

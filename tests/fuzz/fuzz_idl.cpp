@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "idl/cpp_backend.hpp"
+#include "idl/cpp_name_check.hpp"
 #include "idl/cpp_names.hpp"
 #include "idl/json_backend.hpp"
 #include "idl/load.hpp"

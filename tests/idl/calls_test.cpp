@@ -167,6 +167,53 @@ TEST_F(Calls, ARequestOutsideItsRangeIsNotSent) {
   EXPECT_EQ(echo_.echo_ranged({good()}, {3}, kPatient).value().size(), 1u);
 }
 
+/// A placeholder that sends whatever it is told to, as one of another language may.
+class Unchecked : public ride::Placeholder {
+ public:
+  explicit Unchecked(ride::Peer& peer) : Placeholder(peer, "echo", everything::kEcho) {}
+  template <typename... Parameters>
+  std::string refusal(std::string_view canonical, const Parameters&... parameters) {
+    const auto answer =
+        request<std::int32_t>(ride::number_of(canonical), "asked", kPatient, parameters...);
+    EXPECT_EQ(answer.code(), ride::Code::kMalformed);
+    return answer.error();
+  }
+};
+
+std::string_view canonical_of(std::string_view operation) {
+  for (const ride::Declaration& declaration : everything::kEchoDeclarations) {
+    if (declaration.canonical.find(operation) != std::string_view::npos) {
+      return declaration.canonical;
+    }
+  }
+  return {};
+}
+
+TEST_F(Calls, AServiceNamesWhatIsOutsideItsRangeWithItsLimits) {
+  Unchecked echo(peer());
+  const std::vector<everything::Ranges> none;
+  EXPECT_THAT(echo.refusal(canonical_of("request("), std::string("most"), 0.8f),
+              HasSubstr("parameter part is 0.8, expected 0.25 to 0.75"));
+  EXPECT_THAT(echo.refusal(canonical_of("echo_ranged("), none, std::vector<std::uint8_t>{4}),
+              HasSubstr("parameter small has an element outside its range, expected 0 to 3"));
+}
+
+TEST_F(Calls, AServiceNamesAMemberThatIsOutsideItsRangeWithItsLimits) {
+  Unchecked echo(peer());
+  everything::Ranges bad = good();
+  bad.c = 6;
+  EXPECT_THAT(echo.refusal(canonical_of("echo_ranges("), bad),
+              HasSubstr("member Ranges.c is 6, expected -5 to 5"));
+  bad = good();
+  bad.later = {{0}, {2}};
+  EXPECT_THAT(echo.refusal(canonical_of("echo_ranges("), bad),
+              HasSubstr("member Later.bit is 2, expected 0 to 1"));
+  bad = good();
+  bad.ul = 7;
+  EXPECT_THAT(echo.refusal(canonical_of("echo_ranges("), bad),
+              HasSubstr("Ranges.ul is 7, expected 9223372036854775808 to 18446744073709551615"));
+}
+
 TEST_F(Calls, AnEventReachesItsSubscriber) {
   std::promise<everything::Everything> raised;
   const auto told =

@@ -88,6 +88,7 @@ TEST(Ranges, ACharIsANumberFromMinus128) {
 
 TEST(Ranges, TheTextNamesParameterValueAndRange) {
   EXPECT_EQ(ride::outside("a", 300, "0 to 255"), "parameter a is 300, expected 0 to 255");
+  EXPECT_EQ(ride::outside("f", 0.1f, "0.25 to 1"), "parameter f is 0.1, expected 0.25 to 1");
   EXPECT_EQ(ride::outside("q", std::vector<int>{7}, "0 to 5"),
             "parameter q has an element outside its range, expected 0 to 5");
 }

@@ -35,7 +35,7 @@ class Head : public ::testing::Test {
 TEST_F(Head, StandsStillBeforeItIsArmedWhateverItIsTold) {
   robot.start();
   robot.run_for(1s);
-  ASSERT_EQ(robot.move_to({1.0, 1.0}, 1.0), "");
+  EXPECT_THAT(robot.move_to({1.0, 1.0}, 1.0), HasSubstr("the robot is not armed: arm first"));
   robot.run_for(3s);
   expect_off();
   EXPECT_NEAR(position(0), 0.0, 1e-6);
@@ -45,7 +45,7 @@ TEST_F(Head, StandsStillBeforeItIsArmedWhateverItIsTold) {
 TEST_F(Head, ArmingMovesNothingAlsoAfterAMotionThatWasNotMade) {
   robot.start();
   robot.run_for(1s);
-  ASSERT_EQ(robot.move_to({1.0, 1.0}, 1.0), "");
+  EXPECT_NE(robot.move_to({1.0, 1.0}, 1.0), "") << "arm first";
   robot.run_for(2s);
   robot.arm();
   double farthest = 0.0;
@@ -58,6 +58,57 @@ TEST_F(Head, ArmingMovesNothingAlsoAfterAMotionThatWasNotMade) {
   EXPECT_LE(farthest, 0.005);
   EXPECT_EQ(card(0), AicState::kOn);
   EXPECT_EQ(card(1), AicState::kOn);
+}
+
+/// A head that is armed step by step, with one of its controllers.
+struct ArmingHead {
+  explicit ArmingHead(const std::string& file, std::vector<std::string> overrides = {})
+      : robot(file, std::move(overrides)) {
+    robot.start();
+    robot.run_for(105ms);
+  }
+  SimulatedJanus& janus() {
+    return *static_cast<SimulatedJanus*>(robot.application().find("Cards"));
+  }
+  AicFirmware& card() { return janus().simulation().card(1); }
+  /// A cycle; how far joint 2 was at most from where it was.
+  void cycle() {
+    robot.run_for(10ms);
+    farthest = std::max(farthest, std::abs(janus().position(1)));
+  }
+
+  Robot robot;
+  double farthest = 0.0;
+};
+
+TEST(ArmingHead, WithAModelTheWeightIsHeldBeforeTheBrakeOpens) {
+  ArmingHead head("pid_feed_forward.yaml");
+  const auto arming = head.robot.application().begin("Arming", "arm", {}).value();
+  while (!head.card().brake_released()) {
+    ASSERT_FALSE(arming.ended()) << arming.reason();
+    head.cycle();
+  }
+  EXPECT_GT(head.robot.value<control::LimitedEffort>("Joint2", "VoltageActuator"), 0.4)
+      << "[V]; 0.49 V hold it where it is level";
+  while (!arming.ended()) head.cycle();
+  EXPECT_EQ(arming.stage(), component::CommandStage::kDone) << arming.reason();
+  for (int k = 0; k < 200; ++k) head.cycle();
+  EXPECT_LT(head.farthest, 1e-3);
+}
+
+TEST(ArmingHead, WithGainsThatDoNotHoldItTheBrakeClosesAgainAndTheReasonSaysWhy) {
+  ArmingHead head("pid.yaml", {"PID2.Kp=5", "PID2.Ki=0", "PID2.Kd=0"});
+  const auto arming = head.robot.application().begin("Arming", "arm", {}).value();
+  while (!arming.ended()) head.cycle();
+  EXPECT_EQ(arming.stage(), component::CommandStage::kFailed);
+  EXPECT_THAT(std::string(arming.reason()), HasSubstr("Joint2 is not armed: it moved by 0.01"));
+  head.cycle();  // the card is told
+  EXPECT_FALSE(head.card().brake_released());
+  EXPECT_LT(head.farthest, 0.03);
+  for (int k = 0; k < 100; ++k) head.cycle();
+  EXPECT_NE(head.card().state(), AicState::kOn);
+  EXPECT_LT(head.farthest, 0.03);
+  EXPECT_EQ(head.robot.application().faults(), 0u);
 }
 
 TEST_F(Head, AMotionEndsWhereItShould) {
@@ -76,7 +127,7 @@ TEST_F(Head, StopIsASmoothMotionToRest) {
   Vector last{position(0), position(1)};
   Vector velocity(2, 0.0);
   double hardest = 0.0;
-  for (int k = 0; k < 100; ++k) {
+  for (int k = 0; k < 150; ++k) {
     robot.run_for(10ms);
     for (std::size_t i = 0; i < kJoints; ++i) {
       const double now = (position(i) - last[i]) / 0.01;
@@ -128,6 +179,47 @@ TEST_F(Head, NoToolCallsAroundTheLimiter) {
       HasSubstr("takes a LimitedEffort"));
   EXPECT_THAT(robot.call("AIC1", "actuatorSet", {types::Value::of(5.0)}),
               HasSubstr("it was called with (double)"));
+}
+
+TEST_F(Head, NoToolSwitchesAMotorOnOrOpensABrake) {
+  robot.start();
+  robot.run_for(500ms);
+  const types::Value permit(types::type_of<control::DrivePermit>());
+  const auto number = types::Value::of(2);
+  for (const auto& [component, operation] :
+       {std::pair("AIC2", "actuatorOn"), std::pair("AIC2", "brakeRelease"),
+        std::pair("Joint2", "motorOn"), std::pair("Joint2", "brakeRelease")}) {
+    EXPECT_THAT(robot.call(component, operation, {permit}), HasSubstr("takes a DrivePermit"));
+    EXPECT_THAT(robot.call(component, operation), HasSubstr("it was called with ()"));
+  }
+  for (const int command : {1, 4}) {
+    EXPECT_THAT(robot.call("Cards", "energizeCard", {number, types::Value::of(command), permit}),
+                HasSubstr("takes a DrivePermit"));
+    static_cast<void>(robot.call("Cards", "commandCard", {number, types::Value::of(command)}));
+  }
+  robot.run_for(1s);
+  expect_off();
+  EXPECT_NEAR(position(1), 0.0, 2e-3) << "the brake holds it";
+}
+
+TEST_F(Head, AnybodySwitchesOffAndBrakesAlsoWhatDoesNotRun) {
+  robot.start_armed();
+  robot.application().find("AIC2")->fault("for the test");
+  robot.run_for(1s);
+  expect_off();
+  const double there = position(1);
+  for (const char* operation : {"motorOff", "brakeApply"}) {
+    EXPECT_EQ(robot.call("Joint2", operation), "");
+    EXPECT_EQ(robot.call("Joint1", operation), "");
+  }
+  ASSERT_TRUE(robot.application().stop_component("AIC1"));
+  for (const char* operation : {"actuatorOff", "brakeApply"}) {
+    EXPECT_EQ(robot.call("AIC1", operation), "");
+    EXPECT_EQ(robot.call("AIC2", operation), "") << "which has faulted";
+  }
+  EXPECT_EQ(robot.call("Arming", "disarm"), "");
+  robot.run_for(1s);
+  EXPECT_NEAR(position(1), there, 2e-3);
 }
 
 TEST_F(Head, IsDisarmedAsAWholeIfOneJointIs) {

@@ -57,10 +57,18 @@ class Robot {
     ASSERT_TRUE(started.ok()) << started.to_text();
   }
   void run_for(base::Duration duration) { application_->run_for(duration); }
+  /// Where a sample was lost, the operator has looked.
+  void confirm_positions() {
+    for (const char* card : {"AIC1", "AIC2"}) {
+      if (value<bool>(card, "position_exact")) continue;
+      ASSERT_TRUE(application_->set_property(card, "position_confirmed", types::Value::of(true)));
+    }
+  }
   /// Also waits until it is done.
   void arm() {
+    confirm_positions();
     call("Arming", "arm");
-    for (int k = 0; k < 20 && !value<bool>("Arming", "armed"); ++k) {
+    for (int k = 0; k < 300 && !value<bool>("Arming", "armed"); ++k) {
       run_for(std::chrono::milliseconds(10));
     }
     ASSERT_TRUE(value<bool>("Arming", "armed"));

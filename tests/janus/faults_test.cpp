@@ -56,6 +56,47 @@ TEST_P(Fault, OneMissingAnswerIsCountedAndTheMotionGoesOn) {
   EXPECT_NEAR(position(1), 3.0, 0.02) << "less what the lost report had";
 }
 
+TEST_P(Fault, ASampleThatWasLostForGoodRefusesArmingUntilTheOperatorHasLooked) {
+  simulation().bus().lose_next(1, can::Filter{.id = 0x182, .mask = 0x7ff});
+  robot.run_for(7s);
+  ASSERT_EQ(robot.call("Arming", "disarm"), "");
+  robot.run_for(2s);
+  robot.call("Arming", "arm");
+  robot.run_for(3s);
+  EXPECT_FALSE(robot.value<bool>("Arming", "armed"));
+  robot.arm();  // he looks
+  EXPECT_TRUE(robot.value<bool>("AIC2", "position_exact"));
+}
+
+TEST_P(Fault, WhatAToolSaysOfTheCardsPositionIsNotTheOperatorsWord) {
+  simulation().bus().lose_next(1, can::Filter{.id = 0x182, .mask = 0x7ff});
+  robot.run_for(7s);
+  ASSERT_EQ(robot.call("Arming", "disarm"), "");
+  robot.run_for(2s);
+  ASSERT_TRUE(robot.application().stop_component("AIC2"));
+  ASSERT_TRUE(robot.application().set_property("AIC2", "position_exact", types::Value::of(true)));
+  ASSERT_TRUE(robot.application().start_component("AIC2"));
+  robot.run_for(1s);
+  robot.call("Arming", "arm");
+  robot.run_for(3s);
+  EXPECT_FALSE(robot.value<bool>("Arming", "armed"));
+  EXPECT_FALSE(robot.value<bool>("AIC2", "position_exact"));
+  robot.arm();  // now he looks
+  EXPECT_TRUE(robot.value<bool>("Arming", "armed"));
+}
+
+TEST_P(Fault, WhatTheOperatorConfirmedBeforeASampleWasLostIsVoid) {
+  ASSERT_TRUE(
+      robot.application().set_property("AIC2", "position_confirmed", types::Value::of(true)));
+  simulation().bus().lose_next(1, can::Filter{.id = 0x182, .mask = 0x7ff});
+  robot.run_for(7s);
+  ASSERT_EQ(robot.call("Arming", "disarm"), "");
+  robot.run_for(2s);
+  robot.call("Arming", "arm");
+  robot.run_for(3s);
+  EXPECT_FALSE(robot.value<bool>("Arming", "armed"));
+}
+
 TEST_P(Fault, ASilentCardStopsBothJointsAndIsNamed) {
   simulation().bus().lose_next(1000, can::Filter{.id = 0x182, .mask = 0x7ff});
   expect_off_within(150ms);

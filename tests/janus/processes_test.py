@@ -8,7 +8,6 @@ Nothing here depends on how fast the machine is but that a motion gets under way
 tried several times: what is waited for has to come true in a long while.
 """
 
-import json
 import os
 import re
 import signal
@@ -17,24 +16,16 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 import zlib
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "harness"))
+from processes import LONG, Process, states_in, wait_for
+
 PROGRAM, PLANT, LIBRARIES, JANUS = sys.argv[1:5]
-LONG = 60.0
 STILL = 2e-3  # rad; a joint at rest under friction and brake may creep so far
 OFF = {"off", "watchdog", "started"}
-
-
-def wait_for(condition, what):
-    end = time.monotonic() + LONG
-    while time.monotonic() < end:
-        if found := condition():
-            return found
-        time.sleep(0.01)
-    raise AssertionError(f"it did not come true: {what}")
 
 
 class Plant:
@@ -49,10 +40,7 @@ class Plant:
         wait_for(lambda: os.path.exists(self.bus) and self.states(), "the plant is there")
 
     def states(self):
-        if not os.path.exists(self.file):
-            return []
-        with open(self.file, encoding="utf-8") as file:
-            return [json.loads(line) for line in file if line.endswith("\n")]
+        return states_in(self.file)
 
     def now(self):
         return self.states()[-1]
@@ -73,41 +61,18 @@ class Plant:
         return code
 
 
-class Controller:
+class Controller(Process):
     """armature run FILE --browse, its operator this test."""
 
     def __init__(self, plant, folder, *arguments):
-        self.lines, self.asked = [], 0
         deployment = os.path.join(folder, "controller.yaml")
         with open(deployment, "w", encoding="utf-8") as file:
             file.write(f"include: [{JANUS}/deployments/on_can.yaml, {JANUS}/demo/recorder.yaml]\n")
         # A machine that is busy with other things may let a card wait for longer than a real one does.
-        self.process = subprocess.Popen(
+        super().__init__(
             [PROGRAM, "run", deployment, "--set", f"bus=virtual:{plant.bus}", "--set",
              f"description={JANUS}/janus.urdf", "--set", "Cards.answer_timeout=8 ms", "--browse",
-             "--statistics", "--out", os.path.join(folder, "out"), "-L", LIBRARIES, *arguments],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.reader = threading.Thread(target=self.read)
-        self.reader.start()
-
-    def read(self):
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip("\n"))
-
-    def text(self):
-        return "\n".join(self.lines)
-
-    def say(self, line):
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-
-    def ask(self, expression):
-        self.asked += 1
-        mark = f"@{self.asked}@"
-        self.say(f"print('{mark}', {expression})")
-        line = wait_for(lambda: next((line for line in self.lines if line.startswith(mark)), None),
-                        f"an answer to {expression}; {self.text()}")
-        return line[len(mark):].strip()
+             "--statistics", "--out", os.path.join(folder, "out"), "-L", LIBRARIES, *arguments])
 
     def mend(self):
         """Until nothing is wrong any more; nothing is armed by that."""
@@ -123,17 +88,10 @@ class Controller:
         raise AssertionError("it does not run again: " + self.text())
 
     def arm(self):
+        """Where a sample was lost, the operator has looked."""
+        for card in ("AIC1", "AIC2"):
+            self.say(f"if not {card}.position_exact then {card}.position_confirmed = true end")
         return self.ask("pcall(function() return wait(Arming:arm()) end)").split() == ["true", "true"]
-
-    def end(self):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGCONT)
-            self.process.terminate()
-        code = self.process.wait(timeout=LONG)
-        self.reader.join(LONG)
-        self.process.stdin.close()
-        self.process.stdout.close()
-        return code
 
 
 def whole_chunks(path):
@@ -206,7 +164,7 @@ class Processes(unittest.TestCase):
         self.let_move(controller)
 
     def test_a_killed_controller_stops_by_the_watchdogs_and_leaves_a_recording(self):
-        controller = self.start_controller()
+        controller = self.start_controller("--set", "Cards.guardian=off")
         self.let_move(controller)
         file = os.path.join(self.folder, "out", "janus.mcap")
         wait_for(lambda: os.path.exists(file) and whole_chunks(file) > 0, "a chunk is written")
@@ -219,12 +177,38 @@ class Processes(unittest.TestCase):
 
         another = self.start_controller()
         wait_for(lambda: self.plant.now()["state"] == ["off", "off"], "the new host has the cards")
-        another.say("Generator:moveTo(array(1.0, 1.0), 1)")
+        another.say("Generator:moveTo(array(1.0, 1.0), 3)")
         self.assert_at_rest_and_off()
         self.assert_moves_again_when_armed(another)
 
-    def test_a_controller_that_was_stopped_for_a_second_moves_nothing_when_it_goes_on(self):
+    def test_a_killed_controller_has_its_cards_switched_off_by_its_guardian(self):
         controller = self.start_controller()
+        self.let_move(controller)
+        controller.process.kill()
+        wait_for(lambda: "has died; switches the drives off" in controller.text(), "it is told")
+        wait_for(lambda: "are idle" in controller.text(), "the guardian ends")
+        self.assertEqual(self.plant.now()["brake_released"], [False, False])
+        self.wait_for_rest()
+        self.assert_at_rest_and_off()
+        self.assertNotIn("watchdog", self.plant.now()["state"])
+
+    def test_a_controller_that_was_stopped_faults_and_moves_nothing_when_it_goes_on(self):
+        controller = self.start_controller()
+        self.let_move(controller)
+        controller.process.send_signal(signal.SIGSTOP)
+        wait_for(lambda: set(self.plant.now()["state"]) <= OFF, "both are off")
+        controller.process.send_signal(signal.SIGCONT)
+        wait_for(lambda: "Cards: fault: its guardian has switched the drives off" in controller.text(),
+                 "it finds out")
+        self.wait_for_rest()
+        self.assert_at_rest_and_off()
+        self.assertEqual(controller.ask("Arming.armed"), "false")
+        controller.mend()
+        self.assert_at_rest_and_off()
+        self.assert_moves_again_when_armed(controller)
+
+    def test_a_controller_that_was_stopped_for_a_second_moves_nothing_when_it_goes_on(self):
+        controller = self.start_controller("--set", "Cards.guardian=off")
         self.let_move(controller)
         controller.process.send_signal(signal.SIGSTOP)
         wait_for(lambda: self.plant.now()["state"] == ["watchdog", "watchdog"], "both watchdogs trip")
@@ -281,7 +265,7 @@ class Processes(unittest.TestCase):
         self.assertFalse(controller.arm())
         wait_for(lambda: f"the bus 'virtual:{self.plant.bus}' is bus-off" in controller.text(),
                  "it is named: " + controller.text())
-        controller.say("Generator:moveTo(array(1.0, 1.0), 1)")
+        controller.say("Generator:moveTo(array(1.0, 1.0), 3)")
         for state in self.plant.after(1.0):
             self.assertNotIn("on", state["state"])
             self.assertAlmostEqual(state["position"][0], 0.0, delta=STILL)

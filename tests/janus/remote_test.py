@@ -104,7 +104,7 @@ class Remote(unittest.TestCase):
             self.stop(robot)
         self.assertTrue(armed)
         end = time.monotonic() + LONG
-        while True:  # the motion that was begun comes to its end, and nothing follows
+        while True:  # the motion that was begun is cancelled, and nothing follows
             self.assertLess(time.monotonic(), end, "the head does not come to rest")
             _, velocity = self.browse("Generator.nAxesDesiredVelocity\n")
             if velocity.startswith("[0, 0]"):

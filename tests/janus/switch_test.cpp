@@ -209,6 +209,13 @@ class Switching : public ::testing::Test {
     head.robot.run_for(2s);
   }
   State state(const char* component) { return head.robot.state(component); }
+  /// As no tool can: what they set is judged before.
+  void spoil(const char* component, std::string_view name, double value) {
+    for (auto* property : head.robot.application().find(component)->interface().properties) {
+      if (property->name() != name) continue;
+      dynamic_cast<component::Property<double>&>(*property).assign(value);
+    }
+  }
   /// All that was stopped with the controller.
   void put_back_into_service() {
     exec::Application& application = head.robot.application();
@@ -243,7 +250,7 @@ TEST_F(Switching, ARefusedStartLeavesThePresentControllerInMotionToTheBit) {
   ASSERT_EQ(undisturbed.robot.move_to({4.0, 4.0}, 5.0), "");
   undisturbed.robot.run_for(2s);
   move();
-  ASSERT_TRUE(head.robot.application().set_property("PIDFF2", "UMin", types::Value::of(12.0)));
+  spoil("PIDFF2", "UMin", 12.0);
   EXPECT_THAT(head.switch_to(kFeedForward),
               HasSubstr("'PIDFF2' refuses to start: Pid: u_max is 12, expected a number above"));
   EXPECT_EQ(head.mode(), kPid);

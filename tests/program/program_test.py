@@ -7,6 +7,8 @@ usage: program_test.py PROGRAM EXAMPLES_DIR
 
 import json
 import os
+import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -47,6 +49,18 @@ class WrongUse(unittest.TestCase):
 
     def test_unknown_realtime_mode(self):
         self.assert_wrong_use("run", WAVE, "--realtime", "maybe", says="maybe")
+
+    def test_unknown_values_are_told_with_the_known_ones(self):
+        self.assert_wrong_use("run", WAVE, "--realtime", "maybe", says="(known: off, prefer, require)")
+        self.assert_wrong_use("run", WAVE, "--realtime", "requir", says="did you mean 'require'?")
+        self.assert_wrong_use("graph", WAVE, "--format", "pdf", says="svg, dot, mermaid")
+
+    def test_a_misspelt_option_has_a_suggestion(self):
+        self.assert_wrong_use("run", WAVE, "--realtme", "off", says="did you mean '--realtime'?")
+        self.assert_wrong_use("check", WAVE, "--ordr", says="did you mean '--order'?")
+
+    def test_a_library_folder_that_is_not_there(self):
+        self.assert_wrong_use("check", WAVE, "-L", "/nowhere", says="there is no folder '/nowhere'")
 
     def test_help_is_no_mistake(self):
         done = armature("run", "--help")
@@ -121,7 +135,7 @@ class Running(unittest.TestCase):
         self.assertIn("linux-image-rt", done.stderr)
 
     def test_stop_by_signal_is_in_order(self):
-        for sent in (signal.SIGINT, signal.SIGTERM):
+        for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             running = subprocess.Popen([PROGRAM, "run", HELLO], stderr=subprocess.PIPE, text=True)
             for line in running.stderr:
                 if "hello, robot!" in line:
@@ -131,6 +145,40 @@ class Running(unittest.TestCase):
             self.assertEqual(running.wait(timeout=60), 0, rest)
             self.assertIn("goodbye after", rest)
             running.stderr.close()
+
+    def run_to_its_end(self, stream):
+        """A run in real time whose messages go to `stream`; what its summary says."""
+        with tempfile.TemporaryDirectory() as folder:
+            running = subprocess.Popen([PROGRAM, "run", HELLO, "--for", "2s", "--statistics", "--out", folder],
+                                       stdout=stream, stderr=stream)
+            os.close(stream)
+            yield running
+            self.assertEqual(running.wait(timeout=60), 0)
+            with open(os.path.join(folder, "run.json"), encoding="utf-8") as file:
+                yield json.load(file)
+
+    def test_a_reader_of_the_output_that_goes_away_stops_nothing_and_lost_lines_are_counted(self):
+        reader, writer = os.pipe()
+        run = self.run_to_its_end(writer)
+        next(run)
+        os.read(reader, 1)
+        os.close(reader)
+        summary = next(run)
+        self.assertEqual(summary["end"], "time up")
+        self.assertGreater(summary["lines_lost"], 0)
+
+    def test_output_that_nobody_reads_holds_up_nothing(self):
+        reader, writer = os.pipe()
+        os.set_blocking(writer, False)
+        try:
+            while True:
+                os.write(writer, b"." * 512)
+        except BlockingIOError:
+            os.set_blocking(writer, True)
+        run = self.run_to_its_end(writer)
+        next(run)
+        self.assertEqual(next(run)["end"], "time up")
+        os.close(reader)
 
     def test_old_data_on_an_input_stops_and_says_so(self):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
@@ -277,6 +325,93 @@ class Looking(unittest.TestCase):
         done = armature("convert", WAVE, "/nowhere/wave.xml")
         self.assertEqual(done.returncode, 1)
         self.assertIn("/nowhere/wave.xml", done.stderr)
+
+
+class Files(unittest.TestCase):
+    """What is read is a file, what is written is told if it is not, and nothing overwrites its source."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def assert_fails(self, done, says, code=1):
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(says, done.stderr)
+
+    def test_a_pipe_is_no_file_and_nobody_waits_for_it(self):
+        pipe, including = self.path("pipe.yaml"), self.path("including.yaml")
+        os.mkfifo(pipe)
+        self.assert_fails(armature("check", pipe), "it is a pipe, and a file is expected")
+        for key in ("include: pipe.yaml", "libraries: [./pipe.yaml]",
+                    "network: {policy: pipe.yaml, listen: unix:x}"):
+            with open(including, "w", encoding="ascii") as file:
+                file.write(f"{key}\ncomponents: {{}}\n")
+            self.assert_fails(armature("check", including), "it is a pipe")
+        os.mkfifo(self.path("run.json"))
+        os.mkfifo(self.path("a.mcap"))
+        self.assertNotEqual(armature("report", self.folder).returncode, 0)
+        self.assert_fails(armature("run", WAVE, "--sim", "--script", pipe), "it is a pipe")
+        self.assert_fails(armature("check", "/dev/zero"), "it is a device")
+
+    def test_output_that_cannot_be_written_is_told(self):
+        for command in (["models"], ["graph", WAVE], ["check", WAVE, "--order"], ["check", WAVE, "--load"], ["--help"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = subprocess.run([PROGRAM, *command], stdout=full, stderr=subprocess.PIPE, text=True, timeout=120)
+            self.assert_fails(done, "cannot write the standard output: No space left on device")
+        self.assert_fails(armature("graph", WAVE, "-o", "/dev/full"), "cannot write '/dev/full'")
+
+    def test_a_file_that_may_not_grow_ends_nothing_and_is_told(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, resource.RLIM_INFINITY))
+        done = armature("run", WAVE, "--sim", "--for", "60s", "--trace", self.path("trace.json"), preexec_fn=limit)
+        self.assert_fails(done, "File too large")
+        self.assertEqual(os.path.getsize(self.path("trace.json")), 4096)
+        with open(self.path("log"), "wb") as log:
+            log.write(b"." * 4096)
+            log.flush()
+            run = subprocess.run([PROGRAM, "run", WAVE, "--for", "200 ms"], stdout=log, stderr=log, timeout=120,
+                                 preexec_fn=limit)
+        self.assertGreaterEqual(run.returncode, 0, "it was not killed")
+
+    def test_nothing_overwrites_what_it_is_made_of(self):
+        source = self.path("a.yaml")
+        shutil.copy(WAVE, source)
+        os.symlink(source, self.path("soft.yaml"))
+        os.link(source, self.path("hard.yaml"))
+        with open(self.path("including.yaml"), "w", encoding="ascii") as file:
+            file.write("include: a.yaml\n")
+        before = open(source, "rb").read()
+        for name in ("a.yaml", "soft.yaml", "hard.yaml"):
+            self.assert_fails(armature("convert", source, self.path(name)), "is what is read", 2)
+            self.assert_fails(armature("convert", self.path("including.yaml"), self.path(name)), "is what is read", 2)
+            self.assert_fails(armature("graph", source, "-o", self.path(name)), "is what is read", 2)
+            self.assert_fails(armature("run", source, "--sim", "--write-times", self.path(name)), "is the deployment")
+        self.assertEqual(open(source, "rb").read(), before)
+        self.assert_fails(armature("report", self.folder, "--out", source), "ends in .html", 2)
+
+    def test_what_is_written_at_the_end_is_looked_at_before_the_run(self):
+        done = armature("run", WAVE, "--sim", "--for", "1h", "--write-times", "/nowhere/times")
+        self.assert_fails(done, "cannot write '/nowhere/times': No such file or directory")
+        self.assertNotIn("Watcher:", done.stderr)
+
+    def test_a_folder_of_recordings_is_of_one_run_at_a_time(self):
+        out = self.path("out")
+        first = subprocess.Popen([PROGRAM, "run", WAVE, "--realtime", "off", "--out", out], stderr=subprocess.PIPE)
+        self.addCleanup(first.stderr.close)
+        self.addCleanup(first.wait)
+        self.addCleanup(first.kill)
+        end = time.monotonic() + 60
+        while not os.path.exists(os.path.join(out, ".armature.lock")) and time.monotonic() < end:
+            time.sleep(0.01)
+        self.assert_fails(armature("run", WAVE, "--sim", "--for", "1s", "--out", out),
+                          f"is used by another run, process {first.pid}; give --out another folder")
+        first.kill()
+        first.wait()
+        done = armature("run", WAVE, "--sim", "--for", "1s", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

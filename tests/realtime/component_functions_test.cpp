@@ -41,6 +41,7 @@ class Server final : public Component {
   Command<const std::vector<double>&> move{this, "move", serve<&Server::begin_move>, "",
                                            cancelled_by<&Server::forget>};
   Event<double, int> happened{this, "happened", "", {}};
+  OperatorsWord at_home{this, "at_home", ""};
   Trigger forth{"forth"};
   Trigger back{"back"};
   StateMachine machine{
@@ -120,6 +121,10 @@ TEST_P(ComponentFunctions, TimeAndAdmission) {
   base::Time hold{};
   expect_realtime("Component::settle_ages", [&] { hold = server_.settle_ages(); });
   EXPECT_GE(hold, now);
+  server_.set_pace({.period = milliseconds(10), .owner = &server_});
+  base::Duration period{};
+  expect_realtime("Component::period", [&] { period = server_.period(); });
+  EXPECT_EQ(period, milliseconds(10));
   EXPECT_TRUE(admitted);
 }
 
@@ -176,6 +181,10 @@ TEST_P(ComponentFunctions, Properties) {
   types::Value other = types::Value::of(std::vector<double>{3.0, 4.0, 5.0});
   expect_realtime("PropertyBase::swap", [&] { server_.gains.swap(other); });
   EXPECT_EQ(server_.gains.get().size(), 3u);
+  EXPECT_TRUE(server_.at_home.set(types::Value::of(true)));
+  bool said = false;
+  expect_realtime("OperatorsWord::said", [&] { said = server_.at_home.said(); });
+  EXPECT_TRUE(said);
 }
 
 TEST_P(ComponentFunctions, AChangeOfATappedProperty) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,8 +21,10 @@
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/low_pass.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/control/polynomial.hpp"
 #include "armature/control/positional_pid.hpp"
 #include "armature/control/reference_brake.hpp"
+#include "armature/control/sampled_loop.hpp"
 #include "armature/control/trajectory.hpp"
 #include "armature/control/transmission.hpp"
 #include "armature/control/trapezoid.hpp"
@@ -97,6 +101,29 @@ TEST(RealtimeFunctions, Trajectory) {
   EXPECT_TRUE(accepted);
 }
 
+/// Allows the first axis half of the velocity that its motor has.
+class Slow final : public control::MotionLimit {
+ public:
+  double used(std::span<const double>, std::span<const double> velocities) override {
+    return velocities[0] / 0.5;
+  }
+};
+
+TEST(RealtimeFunctions, TrajectoryWithALimitOfItsOwn) {
+  const control::Trajectory::Axis axis{.max_velocity = 1.0, .max_acceleration = 5.0};
+  auto trajectory = control::Trajectory::make({std::vector(7, axis)}).value();
+  const std::vector<double> start(7, 0.0);
+  const std::vector<double> target(7, 1.0);
+  Slow slow;
+  control::Trajectory::Answer answer;
+  expect_realtime("MotionLimit::used", [&] {
+    static_cast<void>(trajectory.hold(start));
+    answer = trajectory.move_to(target, 1.5, &slow);
+  });
+  EXPECT_EQ(answer.refusal, control::Refusal::kTooFast);
+  EXPECT_GT(answer.shortest_s, 2.0);
+}
+
 TEST(RealtimeFunctions, JointLimiter) {
   auto made = control::JointLimiter::make({.lower = -1.0,
                                            .upper = 1.0,
@@ -114,6 +141,12 @@ TEST(RealtimeFunctions, JointLimiter) {
     driven = limiter.step_effort({0.0, 0.0}, 20.0);
   });
   EXPECT_EQ(driven.value, 12.0);
+  expect_realtime("JointLimiter::end_rate_limit", [&] {
+    limiter.arm({0.0, 0.0});
+    limiter.end_rate_limit();
+    driven = limiter.step_effort({0.0, 0.0}, 10.0);
+  });
+  EXPECT_EQ(driven.value, 10.0) << "at once";
   expect_realtime("JointLimiter::step_velocity", [&] {
     limited = limiter.step_velocity({0.0, 0.0}, 20.0);
   });
@@ -256,6 +289,31 @@ TEST(RealtimeFunctions, LowPass) {
   expect_realtime("LowPass::reset_to", [&] { filter.reset_to(1.0); });
   expect_realtime("LowPass::step", [&] { output = filter.step(1.0); });
   EXPECT_EQ(output, 1.0);
+}
+
+TEST(RealtimeFunctions, RootsOfAPolynomial) {
+  const control::Polynomial polynomial{-6.0, 11.0, -6.0, 1.0};
+  control::Polynomial::Roots roots;
+  std::size_t count = 0;
+  expect_realtime("Polynomial::find_roots", [&] { count = polynomial.find_roots(roots); });
+  EXPECT_EQ(count, 3u);
+}
+
+TEST(RealtimeFunctions, SampledLoop) {
+  constexpr double kPeriod = 0.002;
+  const control::JointPlant plant{.inertia = 0.3, .delay_s = 0.001};
+  const auto gains = control::SampledController::FilteredPd{
+      .kp = 30.0, .kd = 6.0, .cutoff = 300.0, .period_s = kPeriod};
+  const auto controller = control::SampledController::of(gains);
+  control::LoopStability loop;
+  expect_realtime("control::judge_loop",
+                  [&] { loop = control::judge_loop(plant, controller, kPeriod); });
+  EXPECT_TRUE(loop.finite);
+  EXPECT_GT(loop.gain_margin, 1.0);
+  bool margin = false;
+  expect_realtime("control::has_margin",
+                  [&] { margin = control::has_margin(plant, controller, kPeriod); });
+  EXPECT_EQ(margin, loop.has_margin());
 }
 
 TEST(RealtimeFunctions, DcMotor) {

@@ -133,6 +133,7 @@ TEST(RealtimeComponents, ControllerThatBrakesForWantOfAReference) {
   testing::Harness controller(std::make_unique<ControllerNPID>("Controller"));
   controller.set("joints", 2);
   controller.set("MaxAcceleration", Vector{1.0});
+  controller.set("Period", 0.01);
   start(controller);
   write_reference_and_sensor(controller);
   const auto sample = [&] {
@@ -166,6 +167,7 @@ TEST(RealtimeComponents, ControllerNPIDFF) {
 TEST(RealtimeComponents, ControllerComputedTorque) {
   testing::Harness controller(std::make_unique<ControllerComputedTorque>("Controller"));
   controller.set("joints", 2);
+  controller.set("Period", 0.001);
   controller.set("robot_description", std::string_view(TESTDATA "/pan_tilt.urdf"));
   start(controller);
   expect_realtime_on_bench("ControllerComputedTorque",
@@ -180,6 +182,7 @@ TEST(RealtimeComponents, ControllerComputedTorque) {
 TEST(RealtimeComponents, ControllerGravityPD) {
   testing::Harness controller(std::make_unique<ControllerGravityPD>("Controller"));
   controller.set("joints", 2);
+  controller.set("Period", 0.001);
   controller.set("robot_description", std::string_view(TESTDATA "/pan_tilt.urdf"));
   controller.set("Kp", "[1]");
   controller.set("Kd", "[1]");
@@ -199,7 +202,7 @@ TEST(RealtimeComponents, Model) {
   EXPECT_EQ(model.state(), component::State::kException);
 }
 
-/// Armed, driven, disarmed while it turns and switched off, again and again.
+/// Held, let go, driven, watched, disarmed while it turns and switched off, again and again.
 TEST(RealtimeComponents, Joint) {
   testing::Harness joint(std::make_unique<Joint>("Joint1"));
   joint.set("PeerName", "Card");
@@ -210,27 +213,37 @@ TEST(RealtimeComponents, Joint) {
   joint.set("MaxAcceleration", 100.0);
   joint.set("MaxVoltage", 12.0);
   joint.set("Period", 0.001);
-  for (const char* name :
-       {"actuatorOn", "actuatorOff", "brakeApply", "brakeRelease", "sensorRead"}) {
+  for (const char* name : {"actuatorOff", "brakeApply", "sensorRead"}) {
     joint.serve<bool()>(name, [] { return true; });
+  }
+  for (const char* name : {"actuatorOn", "brakeRelease"}) {
+    joint.serve<bool(control::DrivePermit)>(name, [](control::DrivePermit) { return true; });
   }
   joint.write("Voltage", 0.0);
   start(joint);
   int armed = 0;
-  expect_realtime_on_bench("Joint", [&] {
+  const auto cycle = [&joint](double displacement) {
     joint.run_cycles();
     joint.raise("Sample");
-    joint.write("DisplacementSensor", 0.001);
+    joint.write("DisplacementSensor", displacement);
     joint.write("IndexSensor", true);
-    joint.raise("Arm");
-    armed += joint.output<bool>("Armed") ? 1 : 0;
-    joint.write("Voltage", 20.0);
+    joint.write("Voltage", 2.0);
     joint.raise("Act");
+  };
+  expect_realtime_on_bench("Joint", [&] {
+    cycle(0.0);
+    joint.raise("Arm");
+    for (int k = 0; k < 2000 && !joint.output<bool>("Armed"); ++k) cycle(0.0);
+    armed += joint.output<bool>("Armed") ? 1 : 0;
+    joint.raise("Rest");
+    cycle(0.0);
+    joint.raise("Motion");
+    cycle(0.001);
     joint.raise("Disarm");
-    joint.run_cycles();
-    joint.write("DisplacementSensor", 0.0);
+    cycle(0.0);
   });
   EXPECT_EQ(armed, 100);
+  joint.run_cycles();
   joint.raise("Sample");
   expect_realtime_on_bench("Joint", [&] {
     joint.run_cycles();
@@ -348,9 +361,10 @@ TEST(RealtimeComponents, AStartAllocatesNothingIfNoPropertyChanged) {
                                                                  {"motor_gear_ratio", "[1]"}});
   expect_realtime_restart<ControllerComputedTorque>(
       "ControllerComputedTorque",
-      {{"joints", "2"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
+      {{"joints", "2"}, {"Period", "0.001"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
   expect_realtime_restart<ControllerGravityPD>("ControllerGravityPD",
                                                {{"joints", "2"},
+                                                {"Period", "0.001"},
                                                 {"robot_description", TESTDATA "/pan_tilt.urdf"},
                                                 {"Kp", "[1]"},
                                                 {"Kd", "[1]"}});

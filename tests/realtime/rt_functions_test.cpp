@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -187,9 +188,18 @@ TEST(RealtimeFunctions, LogQueueFullOrNot) {
   rt::LogQueue queue(8);
   rt::LogRecord record;
   record.format = "{} of {}";
-  record.arguments = {rt::LogArgument(1), rt::LogArgument("a text")};
+  record.take({rt::LogArgument(1), rt::LogArgument("a text")});
   expect_realtime("LogQueue::push", [&] { queue.push(record); });
   EXPECT_EQ(queue.dropped(), 101u - 8u);
+}
+
+TEST(RealtimeFunctions, LogRecordOfNumbersAndOfTextsTooLongForIt) {
+  const std::string texts(rt::LogRecord::kTextRoom / 2 + 1, 'x');
+  const std::string_view text = texts;
+  rt::LogRecord record;
+  record.format = "{} {} {} {}";
+  expect_realtime("LogRecord::take", [&] { record.take({1, 2.0, text, text}); });
+  EXPECT_TRUE(record.message().ends_with("x...")) << record.message();
 }
 
 TEST(RealtimeFunctions, Distribution) {

@@ -23,6 +23,7 @@ class RealtimeWam : public ::testing::Test {
   RealtimeWam() : bench(std::make_unique<WamHardware>("WAM"), 2ms) {
     bench.component().context().simulated = true;
     bench.set("joints", 7);
+    bench.set("Period", 0.002);
     bench.set("robot_description", WAM "/wam7.urdf");
     bench.set("PositionMin", Vector{-4.8});
     bench.set("PositionMax", Vector{3.2});
@@ -97,6 +98,7 @@ TEST_F(RealtimeWam, TheWayToAFault) {
 TEST(RealtimeComponents, SensorWam) {
   testing::Harness sensor(std::make_unique<SensorWam>("Sensor"));
   sensor.set("joints", 7);
+  sensor.set("Period", 0.002);
   sensor.serve<bool()>("getJointSensorsOperation", [] { return true; });
   ASSERT_TRUE(sensor.start()) << sensor.reason();
   const Vector data(21, 0.5);

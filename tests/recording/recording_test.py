@@ -348,8 +348,9 @@ class FullDisk(unittest.TestCase):
         self.assertGreater(messages_in_whole_chunks(mcap), 0)
         failed, lost = map(int, re.match(pattern % "csv", csv_says).groups())
         self.assertEqual((failed, lost), (1, total))
-        self.assertEqual((len(mcap), len(csv)), (AMID_A_CHUNK, AMID_A_CHUNK))
-        self.assertTrue(mcap.startswith(MAGIC) and csv.startswith(b"time_s,"))
+        # What was written in part is taken back: the files end with a whole chunk, and a whole row.
+        self.assertLess(max(len(mcap), len(csv)), AMID_A_CHUNK)
+        self.assertTrue(mcap.startswith(MAGIC) and csv.startswith(b"time_s,") and csv.endswith(b"\n"))
 
 
 if __name__ == "__main__":

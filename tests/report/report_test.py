@@ -156,7 +156,7 @@ class Demonstration(unittest.TestCase):
         self.assertEqual((run["application"], run["time"], run["end"]),
                          ("janus-pid", "simulated", "stopped as asked"))
         self.assertEqual((run["faults"], run["reactions"], run["casualties"]), (0, 0, []))
-        self.assertAlmostEqual(run["duration_s"], 60.12, delta=0.02)
+        self.assertAlmostEqual(run["duration_s"], 60.41, delta=0.02)
         sampler = next(thread for thread in run["threads"] if thread["name"] == "Sampler")
         self.assertEqual(sampler["cycles_run"], sampler["cycles_due"])
         self.assertEqual(sampler["cycles_skipped"], 0)
@@ -179,7 +179,7 @@ class Demonstration(unittest.TestCase):
             self.assertNotRegex(code, r"https?://|@import|\burl\(|\bfetch\(|XMLHttpRequest|import\(")
         data = json.loads(page.texts["script"][0])
         self.assertEqual([run["name"] for run in data["runs"]], list(CONTROLLERS))
-        self.assertEqual(len(data["runs"][0]["joints"][0]["curves"]["measured"]["v"]), 6011)
+        self.assertEqual(len(data["runs"][0]["joints"][0]["curves"]["measured"]["v"]), 6040)
         timeline = data["runs"][0]["timeline"]
         self.assertEqual([lane["component"] for lane in timeline["lanes"]],
                          ["Sampler", "Joint1", "AIC1", "Controller", "PID1"])

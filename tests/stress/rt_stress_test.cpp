@@ -292,7 +292,7 @@ TEST(LogQueueStress, EveryRecordIsPrintedOrCountedAsDropped) {
   std::thread thread([&] {
     LogRecord record;
     for (std::uint64_t i = 0; i < kRounds / 10; ++i) {
-      record.arguments[0] = i;
+      record.take({rt::LogArgument(i)});
       queue.push(record);
     }
     finished = true;

@@ -2,6 +2,7 @@
 // The arm's controllers as their deployments have them, on the simulated arm.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <tuple>
@@ -70,6 +71,13 @@ Tracking track(Robot& robot) {
   return tracking;
 }
 
+/// As MODEL.md has it.
+void print(const Tracking& made, const std::string& what) {
+  std::printf("%-28s largest error [mrad]", what.c_str());
+  for (const double error : made.largest) std::printf(" %.2f", 1e3 * error);
+  std::printf("\n");
+}
+
 /// The tour of each controller is made once for all tests.
 enum class Steps { kNone, kOfPucks };
 const Tracking& tracking_of(int joints, const std::string& controller, Steps steps) {
@@ -79,7 +87,9 @@ const Tracking& tracking_of(int joints, const std::string& controller, Steps ste
   Robot::Config config{.joints = joints, .controller = controller};
   if (steps == Steps::kOfPucks) config.overrides = {"Sensor.rounds=true"};
   Robot robot(config);
-  return known.emplace(key, track(robot)).first->second;
+  const Tracking& made = known.emplace(key, track(robot)).first->second;
+  print(made, controller + std::to_string(joints) + (steps == Steps::kOfPucks ? " in steps" : ""));
+  return made;
 }
 
 class Control : public ::testing::TestWithParam<std::tuple<int, const char*>> {};
@@ -173,7 +183,9 @@ TEST_P(Compared, TheDeploymentsGainsAreTheVendorsOfOneSample) {
     EXPECT_EQ(robot.value<double>(pid.c_str(), "Kp"), vendors.kp);
     EXPECT_NEAR(robot.value<double>(pid.c_str(), "Ki"), vendors.ki * 0.002, 1e-12);
     EXPECT_NEAR(robot.value<double>(pid.c_str(), "Kd"), vendors.kd / 0.002, 1e-9);
-    EXPECT_EQ(robot.value<double>(pid.c_str(), "UMax"), vendors.max_torque);
+    // The motor of joint 7 gives less than the vendor asks for.
+    const double most = i == 6 ? 1.3 : vendors.max_torque;
+    EXPECT_EQ(robot.value<double>(pid.c_str(), "UMax"), most);
   }
 }
 

@@ -67,7 +67,9 @@ TEST_F(WamInMotion, ALostAnswerIsCountedAndTheMotionGoesOn) {
 
 TEST_F(WamInMotion, BusOffIsFoundInTheCycleAndNamed) {
   arm.hardware().emulated()->station().force_bus_off();
-  expect_fault_within(2 * Arm::kPeriod, "the bus is off or unplugged");
+  expect_fault_within(2 * Arm::kPeriod,
+                      "press E-stop, motors may go on as they were told last; the bus is off");
+  EXPECT_TRUE(arm.reason("WAM").starts_with("press E-stop"));
   arm.let_emulator_run(150ms);
   expect_braked();
   return_to_service();
@@ -86,6 +88,8 @@ TEST_F(WamInMotion, AnUnpluggedBusIsFoundAndTheBoardMissesItsHeartbeat) {
 TEST_F(WamInMotion, ASilentSafetyBoardIsNamed) {
   board().set_dead(true);
   expect_fault_within(300ms, "the safety board is silent");
+  EXPECT_THAT(arm.safety_state(), ::testing::StartsWith("ACTIVATED, said last 0.1"));
+  EXPECT_THAT(arm.safety_state(), ::testing::EndsWith("s before it was found silent"));
 }
 
 TEST_F(WamInMotion, APuckThatHasLostItsZeroIsNamedAndTheArmHasToBePutAtHome) {

@@ -27,6 +27,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
 
 constexpr base::Duration kPatience = 15s;
 
@@ -80,6 +81,7 @@ class Program {
     said_.erase(0, found + text.size());
     return testing::AssertionSuccess();
   }
+  void kill() { ::kill(process_, SIGKILL); }
   /// What else it said until it ended by itself.
   std::string rest() {
     const base::Time end = platform::monotonic_now() + kPatience;
@@ -120,12 +122,17 @@ void PrintTo(const Case& tested, std::ostream* out) {
 
 constexpr const char* kStates = "/tmp/states";
 
-/// Numbers behind `name` in what the emulator wrote last.
-std::vector<double> last(const std::string& name) {
-  std::ifstream states(kStates);
+/// What the emulator wrote, a line for each state.
+std::vector<std::string> states() {
+  std::ifstream file(kStates);
+  std::vector<std::string> lines;
   std::string line;
-  std::string state;
-  while (std::getline(states, line) && !states.eof()) state = line;
+  while (std::getline(file, line) && !file.eof()) lines.push_back(line);
+  return lines;
+}
+
+/// Numbers behind `name` in a state.
+std::vector<double> numbers(const std::string& state, const std::string& name) {
   const std::size_t found = state.find('"' + name + "\":[");
   if (found == std::string::npos) return {};
   std::vector<double> numbers;
@@ -136,6 +143,12 @@ std::vector<double> last(const std::string& name) {
     text = end;
   }
   return numbers;
+}
+
+/// In what the emulator wrote last.
+std::vector<double> last(const std::string& name) {
+  const std::vector<std::string> all = states();
+  return all.empty() ? std::vector<double>{} : numbers(all.back(), name);
 }
 
 class DeployedOnCan : public ::testing::TestWithParam<Case> {
@@ -197,6 +210,31 @@ TEST_P(DeployedOnCan, AtFiveHundredCyclesASecondItMovesWithEachAnswerAndNamesAnE
   EXPECT_THAT(last("torque"), testing::Each(0.0));
   host.type("quit");
   EXPECT_THAT(host.rest(), ContainsRegex("thread Sampler: [0-9]+ cycles run, 0 skipped"));
+}
+
+TEST_P(DeployedOnCan, KilledInAMotionItsGuardianIdlesTheArmAndKnowsThatItIs) {
+  ASSERT_NO_FATAL_FAILURE(be_ready_and_armed());
+  begin_to_move_to({0.5, -1.5, 0.3, 2.5, -0.3, 0.2, 0.4}, 4);
+  host.type("run 1");
+  host.type("print('under way')");
+  ASSERT_TRUE(host.says("under way"));
+  EXPECT_THAT(last("torque"), testing::Not(testing::Each(0.0)));
+  host.kill();
+  EXPECT_TRUE(host.says("has died; switches the drives off on " + GetParam().host));
+  EXPECT_TRUE(host.says("armature-guardian: the drives on " + GetParam().host + " are idle"));
+  // States are in the file 30 ms late at most; the board waits for longer until nobody asks it.
+  platform::sleep_until(platform::monotonic_now() + 50ms);
+  const std::size_t known = states().size();
+  platform::sleep_until(platform::monotonic_now() + 500ms);
+  const std::vector<std::string> all = states();
+  ASSERT_GT(known, 0U);
+  ASSERT_GE(all.size(), known + 25);
+  EXPECT_THAT(all[known - 1], HasSubstr(R"("mode":"active")")) << "its guardian is first";
+  for (std::size_t i = known - 1; i < all.size(); ++i) {
+    ASSERT_THAT(numbers(all[i], "torque"),
+                testing::AllOf(testing::SizeIs(GetParam().joints()), testing::Each(0.0)))
+        << all[i];
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

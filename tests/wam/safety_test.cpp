@@ -3,6 +3,8 @@
 // board or a controller ends it: nobody but the operator lets it move again.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -17,7 +19,6 @@ namespace armature::wam {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 // ---- Until it is armed
 
@@ -36,8 +37,49 @@ TEST(WamSafety, PositionsAreWrittenOnlyIfTheOperatorSaysThatTheArmIsAtHome) {
   arm.emulator().board().shift_idle();
   const auto started = arm.application().start();
   EXPECT_THAT(started.to_text(), HasSubstr("put the arm at home (0, -2, 0, 3.13, 0, 0, 0) rad, "
-                                           "then set at_home: true"));
+                                           "say so, WAM.at_home = true"));
   EXPECT_FALSE(arm.emulator().board().zeroed());
+}
+
+TEST(WamSafety, ThatTheArmIsAtHomeIsBelievedOnce) {
+  Arm arm("npid7.yaml", {"at_home=true"});
+  arm.start_active();
+  EXPECT_FALSE(arm.value<bool>("WAM", "at_home"))
+      << "the start has taken it, though it needed none";
+  arm.set("WAM", "emulated_operator", false);
+  arm.set("WAM", "at_home", true);  // before what makes it false
+  ASSERT_EQ(arm.call("WAM", "estop"), "");
+  arm.run_for(50ms);
+  exec::Application& application = arm.application();
+  ASSERT_TRUE(application.reset_component("WAM"));
+  ASSERT_EQ(arm.call("WAM", "releaseEstop"), "") << "while it does not run";
+  ASSERT_EQ(arm.call("WAM", "shiftIdle"), "");
+  ASSERT_TRUE(application.clean_up_component("WAM"));
+  const auto refused = application.start_component("WAM");
+  EXPECT_FALSE(refused);
+  EXPECT_THAT(std::string(refused.reason()), HasSubstr("say so, WAM.at_home = true"));
+  EXPECT_FALSE(arm.emulator().board().zeroed());
+  arm.set("WAM", "at_home", true);
+  EXPECT_TRUE(application.start_component("WAM")) << arm.reason("WAM");
+  EXPECT_TRUE(arm.emulator().board().zeroed());
+  EXPECT_FALSE(arm.value<bool>("WAM", "at_home"));
+}
+
+TEST(WamSafety, NoFileSaysThatTheArmIsAtHomeAndNoScriptWithoutAGrant) {
+  Arm arm("npid7.yaml");
+  arm.start();
+  const auto set = arm.application().set_property("WAM", "at_home", types::Value::of(true),
+                                                  exec::Caller::kScript);
+  EXPECT_THAT(set.error(), HasSubstr("grants: {script: [WAM.at_home]}"));
+  deploy::DeploymentOptions options;
+  options.library_folders = {LIBRARIES};
+  const auto path = std::filesystem::temp_directory_path() / "armature_at_home.yaml";
+  std::ofstream(path) << "include: " WAM "/deployments/npid7.yaml\nparameters: {at_home: true}\n";
+  const deploy::Deployment deployment = deploy::load_deployment(path.string(), options);
+  std::filesystem::remove(path);
+  EXPECT_THAT(
+      deployment.diagnostics.to_text(),
+      HasSubstr("'WAM.at_home' is the operator's word, which counts once: no file gives it"));
 }
 
 TEST(WamSafety, IdleItIsReadAndSendsTorquesOfZeroInEachCycleUntilItIsActivated) {
@@ -95,18 +137,16 @@ TEST(WamSafety, ActivatedItIsHeldWithinThreeCycles) {
 TEST(WamSafety, UnarmedItPassesNoCommand) {
   Arm arm("npid7.yaml");
   arm.start_active();
-  ASSERT_EQ(arm.move_to(kTarget, 3.0), "");
+  EXPECT_THAT(arm.move_to(kTarget, 3.0), HasSubstr("the robot is not armed: arm first"));
   const Vector before = arm.positions();
   arm.run_for(4s);
   EXPECT_LT(largest_apart(arm.positions(), before), 0.002);
 }
 
-/// Also where the controller desired something else before.
 TEST(WamSafety, ArmingMovesNothingAndMakesNoStep) {
   for (const char* file : {"npid7.yaml", "computed_torque7.yaml"}) {
     Arm arm(file);
     arm.start_active();
-    ASSERT_EQ(arm.move_to(kTarget, 1.0), "");
     arm.run_for(5s);
     const Vector before = arm.positions();
     Vector torques = arm.motor_torques();
@@ -249,38 +289,6 @@ TEST_F(WamInMotion, MovesHomeSlowlyOnCommand) {
   EXPECT_GT(fastest, 0.25);
   arm.run_for(1s);
   EXPECT_LT(largest_apart(arm.positions(), wam7().home), 0.005);
-}
-
-TEST(WamHome, BeforeTheStopAMotionComesToRestAndTheArmGoesHome) {
-  Arm arm("npid7.yaml");
-  arm.start_armed();
-  arm.run_for(1500ms);
-  const auto motion = arm.application().begin("Generator", "moveTo",
-                                              {types::Value::of(kTarget), types::Value::of(5.0)});
-  ASSERT_TRUE(motion) << motion.error();
-  arm.run_for(2s);
-  EXPECT_GT(largest_apart(arm.positions(), wam7().home), 0.1);
-  EXPECT_EQ(arm.application().run_before_stop(exec::RunEnd::kTimeUp).to_text(), "");
-  EXPECT_EQ(motion.value().stage(), component::CommandStage::kCancelled);
-  EXPECT_TRUE(arm.armed());
-  EXPECT_LT(largest_apart(arm.positions(), wam7().home), 0.005);
-}
-
-TEST(WamHome, IsRefusedUnarmed) {
-  Arm arm("npid4.yaml");
-  arm.start_active();
-  EXPECT_THAT(arm.call("WAM", "moveHome"), HasSubstr("the arm is not armed"));
-}
-
-TEST(WamTwice, TwoRunsAreTheSameToTheBit) {
-  const auto run = [] {
-    Arm arm("npid7.yaml");
-    arm.start_armed();
-    EXPECT_EQ(arm.move_to(kTarget, 5.0), "");
-    arm.run_for(3s);
-    return arm.positions();
-  };
-  EXPECT_EQ(run(), run());
 }
 
 }  // namespace

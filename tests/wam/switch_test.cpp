@@ -90,5 +90,35 @@ TEST_P(SwitchInMotion, ArmsNothing) {
   EXPECT_LT(largest_apart(arm.positions(), rest), 0.002);
 }
 
+/// A resting arm goes over to a controller that drives nothing, at `cycles` after it was told to
+/// rest: what it took over dies away, and pushes it.
+double pushed(const char* switch_time, int cycles) {
+  Arm arm("../../../tests/wam/weightless7.yaml",
+          {std::string("Weightless.SwitchTime=") + switch_time});
+  arm.start_armed();
+  arm.run_for(1s);
+  EXPECT_EQ(arm.move_to({0.5, -1.2, 0.3, 2.2, -0.5, 0.4, 0.5}, 5.0), "");
+  arm.run_for(8s);
+  for (int k = 0; k < cycles; ++k) arm.cycle();
+  const Vector rest = arm.positions();
+  EXPECT_TRUE(arm.application().switch_mode("weightless"));
+  double farthest = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    arm.cycle();
+    farthest = std::max(farthest, largest_apart(arm.positions(), rest));
+  }
+  EXPECT_TRUE(arm.armed()) << arm.log;
+  return farthest;
+}
+
+TEST(SwitchAtRest, ToAControllerThatDrivesNothingPushesTheArmNowhere) {
+  for (const char* switch_time : {"0.02", "0.5"}) {
+    for (const int cycles : {0, 1, 2, 3, 7}) {
+      EXPECT_LT(pushed(switch_time, cycles), 0.05)
+          << "SwitchTime " << switch_time << ", " << cycles << " cycles later";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace armature::wam

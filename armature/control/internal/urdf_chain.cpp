@@ -82,6 +82,19 @@ bool turns(const urdf::Joint& joint) {
   return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
 }
 
+/// Of what the description leaves out or gives as 0 nothing is known.
+JointLimits limits_of(const urdf::Joint& joint) {
+  JointLimits limits;
+  if (!joint.limits) return limits;
+  if (joint.limits->lower < joint.limits->upper) {
+    limits.lower = joint.limits->lower;
+    limits.upper = joint.limits->upper;
+  }
+  if (joint.limits->velocity > 0.0) limits.max_velocity = joint.limits->velocity;
+  if (joint.limits->effort > 0.0) limits.max_effort = joint.limits->effort;
+  return limits;
+}
+
 /// Walks from the base link to the tip and makes a segment for each movable joint on the way.
 class ChainReader {
  public:
@@ -220,6 +233,7 @@ class ChainReader {
     chain_.segments.addSegment(
         KDL::Segment(next.joint->child_link_name, joint, next.origin, inertia));
     chain_.joints.push_back(next.joint->name);
+    chain_.limits.push_back(limits_of(*next.joint));
     if (inertia.getMass() == 0.0) {
       warning("nothing that moves with joint " + quoted(next.joint->name) + " has a mass",
               "give link " + quoted(next.joint->child_link_name) + " an inertial element");

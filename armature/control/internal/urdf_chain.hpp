@@ -8,6 +8,7 @@
 #include <kdl/chain.hpp>
 
 #include "armature/base/diagnostic.hpp"
+#include "armature/control/joint_limits.hpp"
 
 namespace armature::control::internal {
 
@@ -15,6 +16,7 @@ namespace armature::control::internal {
 struct UrdfChain {
   KDL::Chain segments;              ///< one for each movable joint
   std::vector<std::string> joints;  ///< their names, from the base on
+  std::vector<JointLimits> limits;  ///< of the joints, as the description has them
   KDL::Frame tip;                   ///< of the tip link, if one was named, in the last segment
 };
 

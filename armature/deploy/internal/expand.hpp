@@ -56,7 +56,8 @@ struct Scope {
 /// Makes expanded copies of trees, as many as the limits allow.
 class Expander {
  public:
-  explicit Expander(const Limits& limits) : nodes_left_(limits.expanded_nodes) {}
+  explicit Expander(const Limits& limits)
+      : nodes_left_(limits.expanded_nodes), most_entries_(limits.expanded_entries) {}
 
   /// A copy of `value`: list items and keys with a range are repeated, all else is replaced.
   Value expand(const Value& value, const Scope& scope, base::Diagnostics& diagnostics);
@@ -67,13 +68,22 @@ class Expander {
   std::string replace_parameters(std::string_view text, const Scope& scope,
                                  const base::Location& where, base::Diagnostics& diagnostics);
 
+  /// Where a text got what may be wrong with it: its first parameter's value, or its own place.
+  static base::Location origin_of(std::string_view text, const Scope& scope,
+                                  const base::Location& where);
+
   /// Final values of parameters that may use one another: `declared` with those of `given` instead.
   std::vector<Property> resolve_parameters(const std::vector<Property>& declared,
                                            const std::vector<Property>& given,
                                            const std::string& owner,
                                            base::Diagnostics& diagnostics);
 
-  /// True once the limit is passed; it has been reported then, and copies are empty.
+  /// Counts `count` components, composites or connections before they are made; false once there
+  /// would be more than the limits allow, which is reported.
+  bool spend_entries(std::size_t count, const std::string& what, const base::Location& where,
+                     base::Diagnostics& diagnostics);
+
+  /// True once a limit is passed; it has been reported then, and copies are empty.
   bool exhausted() const { return exhausted_; }
 
  private:
@@ -83,8 +93,11 @@ class Expander {
                    base::Diagnostics& diagnostics);
   void expand_entry(const Property& entry, const Scope& scope, Value& map,
                     base::Diagnostics& diagnostics);
+  static void refuse_twins(const Value& map, base::Diagnostics& diagnostics);
 
   std::size_t nodes_left_;
+  std::size_t most_entries_;
+  std::size_t entries_ = 0;
   bool exhausted_ = false;
 };
 

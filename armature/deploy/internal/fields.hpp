@@ -69,20 +69,24 @@ class ValueReader {
   base::Diagnostics& diagnostics_;
 };
 
+/// What a key means that has no value: a section may be empty, a setting is a mistake.
+enum class Empty { kRefused, kAllowed };
+
 /// The keys of a map; knows which were asked for and refuses the others.
 class Fields {
  public:
-  Fields(const Value& value, const ValueReader& reader);
+  Fields(const Value& value, const ValueReader& reader, Empty empty = Empty::kRefused);
 
   /// The value of `key`, nullptr if it is not there or empty.
   const Value* take(std::string_view key);
 
-  /// Reports every key that was never asked for.
+  /// Reports every key that was never asked for, and those without a value.
   void refuse_others() const;
 
  private:
   const Value& value_;
   const ValueReader& reader_;
+  Empty empty_;
   std::vector<std::string> known_;
 };
 

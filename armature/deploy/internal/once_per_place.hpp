@@ -12,7 +12,8 @@
 namespace armature::deploy::internal {
 
 /// Collects what each of many passes over a text found, once for each place: a range, or a
-/// composite that is used many times, meets the same mistake each time.
+/// composite that is used many times, meets the same mistake each time. Where only numbers differ
+/// the first one says for how many others it stands.
 class OncePerPlace {
  public:
   explicit OncePerPlace(base::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -27,7 +28,12 @@ class OncePerPlace {
         return cause.where == all[i].where;
       });
       const auto [place, is_new] = passes_.emplace(place_text(all[i].where), pass_);
-      if (!follows && (is_new || place->second == pass_)) diagnostics_.add(all[i]);
+      if (follows) continue;
+      if (is_new || place->second == pass_) {
+        diagnostics_.add(all[i]);
+      } else {
+        diagnostics_.add_likewise(all[i]);
+      }
     }
   }
 

@@ -19,6 +19,9 @@ struct Override {
   bool names_parameter() const { return path.find('.') == std::string::npos; }
 };
 
+/// Where what `--set` gives stands, in place of a file.
+inline constexpr std::string_view kCommandLineName = "<command line>";
+
 /// Those of `settings` that have the form `path=value`; errors for the others.
 std::vector<Override> parse_overrides(const std::vector<std::string>& settings,
                                       base::Diagnostics& diagnostics);

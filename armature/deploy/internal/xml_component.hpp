@@ -32,6 +32,9 @@ Value connections_of(const std::vector<const XmlElement*>& policies,
 void add_extras(const XmlElement& element, Value& map, const Limits& limits,
                 base::Diagnostics& diagnostics);
 
+/// Gives each SlaveActivity the activity of its Master, in the Master's thread.
+void seat_slaves(std::vector<XmlElement>& components, base::Diagnostics& diagnostics);
+
 void add_entry(Value& map, std::string key, Value value);
 void add_entry(Value& map, std::string key, std::string text, const base::Location& where);
 

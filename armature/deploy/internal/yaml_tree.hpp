@@ -10,6 +10,9 @@
 
 namespace armature::deploy::internal {
 
+/// Begins the tag of a map that is an OROCOS struct: `!orocos:KDL.Frame`.
+inline constexpr std::string_view kStructTag = "orocos:";
+
 /// YAML text as a tree with the place of each node; kNone if it is empty or, with errors, not YAML.
 /// Aliases are copied and count as often as they are used.
 Value parse_yaml(std::string_view text, const std::string& file, const Limits& limits,

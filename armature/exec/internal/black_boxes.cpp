@@ -15,8 +15,10 @@ using component::Component;
 
 /// What a fault sets off is part of it.
 constexpr base::Duration kAftermath = std::chrono::milliseconds(200);
-/// A component that faults again and again fills no disk.
+/// A component that faults again and again fills no disk: of more faults only those of another kind
+/// are written.
 constexpr int kMostReports = 4;
+constexpr std::size_t kMostKinds = 32;
 constexpr std::size_t kNotes = 48;  // of each thread
 constexpr std::size_t kFewestPictures = 4;
 
@@ -81,6 +83,7 @@ void BlackBoxes::set_engines(const std::vector<std::unique_ptr<Engine>>& engines
   boxes_.clear();
   noticed_.reset();
   written_ = 0;
+  kinds_.clear();
   if (!options_.write || options_.history <= base::Duration::zero()) return;
   const std::size_t rate = simulated ? simulated_rate(options_.memory) : kValuesPerMillisecond;
   double wanted = 0.0;
@@ -121,14 +124,26 @@ std::string BlackBoxes::write_last(Incidents& incidents, base::Time now) {
 }
 
 std::string BlackBoxes::write(const Component& first, base::Time now) {
-  if (written_ == kMostReports) return {};
-  const bool last = ++written_ == kMostReports;
   try {
-    const std::string said = options_.write(report_of(first, now));
-    return last ? said + "; it is the last of this run" : said;
+    const BlackBoxReport report = report_of(first, now);
+    const bool is_new = is_another_kind(report);
+    if (!is_new && written_ >= kMostReports) return {};
+    const bool last = ++written_ == kMostReports;
+    const std::string said = options_.write(report);
+    return last ? said + "; from now on only faults of another kind are kept" : said;
   } catch (const std::exception& thrown) {
     return std::string("black box: ") + thrown.what();
   }
+}
+
+/// The kind of a fault is whose it is and what it says, without its figures.
+bool BlackBoxes::is_another_kind(const BlackBoxReport& report) {
+  std::string kind = report.component + ": " + report.reason;
+  std::erase_if(kind, [](char one) { return one >= '0' && one <= '9'; });
+  const bool known = std::ranges::find(kinds_, kind) != kinds_.end();
+  if (known || kinds_.size() == kMostKinds) return false;
+  kinds_.push_back(std::move(kind));
+  return true;
 }
 
 BlackBoxReport BlackBoxes::report_of(const Component& first, base::Time now) const {

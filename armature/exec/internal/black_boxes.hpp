@@ -38,6 +38,7 @@ class BlackBoxes {
   };
 
   std::string write(const component::Component& first, base::Time now);
+  bool is_another_kind(const BlackBoxReport& report);
   BlackBoxReport report_of(const component::Component& first, base::Time now) const;
   void add_box(const Kept& kept, BlackBoxReport& report) const;
 
@@ -45,6 +46,7 @@ class BlackBoxes {
   std::vector<Kept> boxes_;
   std::optional<base::Time> noticed_;
   int written_ = 0;
+  std::vector<std::string> kinds_;  ///< of the faults that were written
 };
 
 }  // namespace armature::exec::internal

@@ -12,9 +12,31 @@
 #include "armature/exec/task.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/thread.hpp"
+#include "armature/rt/guard.hpp"
 
 namespace armature::exec::internal {
 namespace {
+
+thread_local const component::Component* hooked = nullptr;
+
+const char* name_of_hooked(const void*) {
+  return hooked == nullptr ? nullptr : hooked->name().c_str();
+}
+
+/// While it exists, what happens in this thread, which runs hooks alone and so has no context, is
+/// known as the work of `component`.
+class AtHook {
+ public:
+  explicit AtHook(const component::Component& component) {
+    hooked = &component;
+    rt::GuardState& state = rt::guard_state();
+    state.thread = kLifeCycleThread;
+    state.running_component = &name_of_hooked;
+  }
+  AtHook(const AtHook&) = delete;
+  AtHook& operator=(const AtHook&) = delete;
+  ~AtHook() { hooked = nullptr; }
+};
 
 /// A series under way: shared by the thread that runs it and the one that waits, whichever lives
 /// longer.
@@ -22,9 +44,19 @@ class Progress {
  public:
   explicit Progress(const HookSeries& series) : series_(series) {}
 
-  void run() {
+  /// In a thread that is there for that.
+  void run_apart() {
+    run_by([this](component::Component& component) {
+      const AtHook at_hook(component);
+      return series_.transition(component);
+    });
+  }
+  void run() { run_by(series_.transition); }
+
+  template <typename Run>
+  void run_by(const Run& run_one) {
     for (component::Component* component : series_.components) {
-      const component::Outcome outcome = series_.transition(*component);
+      const component::Outcome outcome = run_one(*component);
       if (!go_on_after(*component, outcome)) break;
     }
     const std::lock_guard lock(mutex_);
@@ -93,7 +125,7 @@ HookReport run_hooks(const HookSeries& series, const HookPatience& patience) {
   request.prefault = false;
   std::unique_ptr<platform::Thread> thread;
   try {
-    thread = std::make_unique<platform::Thread>(request, [progress] { progress->run(); });
+    thread = std::make_unique<platform::Thread>(request, [progress] { progress->run_apart(); });
   } catch (const std::system_error&) {
     progress->run();  // without anybody to watch it: better than not at all
     return progress->report();

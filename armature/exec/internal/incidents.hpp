@@ -8,12 +8,18 @@
 
 namespace armature::exec::internal {
 
-/// Counts what components report from their threads, and remembers the first.
+/// Counts what components report from their threads, and remembers the first that faulted.
 class Incidents final : public component::Supervisor {
  public:
-  void component_faulted(component::Component& component) override { note(faults_, component); }
-  void component_stopped_itself(component::Component& component) override {
-    note(reactions_, component);
+  void component_faulted(component::Component& component) override {
+    const component::Component* none = nullptr;
+    first_.compare_exchange_strong(none, &component, std::memory_order_acq_rel,
+                                   std::memory_order_relaxed);
+    faults_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// What somebody has stopped stops its readers by their reactions: that is no fault.
+  void component_stopped_itself(component::Component&) override {
+    reactions_.fetch_add(1, std::memory_order_relaxed);
   }
 
   std::uint64_t faults() const { return faults_.load(std::memory_order_relaxed); }
@@ -26,13 +32,6 @@ class Incidents final : public component::Supervisor {
   }
 
  private:
-  void note(std::atomic<std::uint64_t>& counter, const component::Component& component) {
-    const component::Component* none = nullptr;
-    first_.compare_exchange_strong(none, &component, std::memory_order_acq_rel,
-                                   std::memory_order_relaxed);
-    counter.fetch_add(1, std::memory_order_relaxed);
-  }
-
   std::atomic<std::uint64_t> faults_{0};
   std::atomic<std::uint64_t> reactions_{0};
   std::atomic<const component::Component*> first_{nullptr};

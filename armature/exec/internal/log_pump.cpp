@@ -38,7 +38,7 @@ void LogPump::tell_losses(base::Time now) {
     record.component = source.engine->context().name;
     record.format =
         "{} log lines of this thread were dropped: they came faster than they can be printed";
-    record.arguments[0] = dropped - before;
+    record.take({dropped - before});
     tell(record);
   }
 }
@@ -48,13 +48,8 @@ void LogPump::say(std::string_view text, base::Time now) {
   record.level = rt::LogLevel::kWarning;
   record.time = now;
   record.component = "application";
-  // An argument holds less than a path may have.
-  record.format = "{}{}{}{}";
-  constexpr std::size_t kEach = 95;
-  for (rt::LogArgument& argument : record.arguments) {
-    argument = rt::LogArgument(text.substr(0, kEach));
-    text.remove_prefix(std::min(text.size(), kEach));
-  }
+  record.format = "{}";
+  record.take({text});
   tell(record);
 }
 

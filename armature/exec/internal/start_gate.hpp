@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <unordered_map>
 
 namespace armature::exec::internal {
 
@@ -10,12 +11,21 @@ namespace armature::exec::internal {
 class StartGate {
  public:
   /// True if the threads may go, false if the start was given up.
-  bool wait() {
+  /// @param thread  the number of the one that waits
+  /// @param runs    what it runs: its ExecutionContext
+  bool wait(const void* runs, int thread) {
     std::unique_lock lock(mutex_);
+    threads_[runs] = thread;
     changed_.wait(lock, [this] { return state_ != State::kClosed; });
     return state_ == State::kOpen;
   }
   void open() { change(State::kOpen); }
+  /// Of the thread that runs it; 0 if it never waited here.
+  int thread_of(const void* runs) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = threads_.find(runs);
+    return found == threads_.end() ? 0 : found->second;
+  }
   /// Threads that still wait go home.
   void give_up() { change(State::kGivenUp); }
 
@@ -30,8 +40,9 @@ class StartGate {
     changed_.notify_all();
   }
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
+  std::unordered_map<const void*, int> threads_;
   State state_ = State::kClosed;
 };
 

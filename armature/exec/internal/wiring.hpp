@@ -45,6 +45,12 @@ std::vector<component::Component*> components_of(const Blueprint& blueprint);
 /// Has observers say what is wrong with what they are to look at, and gives them their place.
 void plan_observers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
 
+/// Finds how often each component is run, and tells it.
+void plan_periods(const Blueprint& blueprint, const Plan& plan);
+
+/// Has the components say what is wrong with what the deployment makes of them.
+void check_components(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
+
 /// Refuses a triggered consumer that is more urgent than its producer.
 void check_priorities(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "armature/guard/internal/places.hpp"
-#include "armature/guard/internal/symbols.hpp"
+#include "armature/platform/symbols.hpp"
 
 namespace armature::guard {
 
 /// What happened at `place`, with its call stack, for people.
-std::string describe(const Place& place, Symbols& symbols);
+std::string describe(const Place& place, platform::Symbols& symbols);
 
 /// `3 violations at 2 places`.
 std::string summary(const Places& places);

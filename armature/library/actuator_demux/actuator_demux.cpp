@@ -21,4 +21,16 @@ void ActuatorNDemux::actuate(const std::vector<double>& act) {
   if (take_sample()) act_.raise();
 }
 
+/// Without those of which nobody knows anything there would be others in their places.
+std::vector<DrivenJoint> ActuatorNDemux::joints_behind(const component::InputPortBase* /*input*/,
+                                                       const component::Check& check) {
+  std::vector<DrivenJoint> all;
+  for (std::size_t i = 0; i < voltage_.size(); ++i) {
+    std::vector<DrivenJoint> joints = library::joints_behind(voltage_[i], check);
+    if (joints.size() != 1) return {};
+    all.push_back(std::move(joints.front()));
+  }
+  return all;
+}
+
 }  // namespace armature::library

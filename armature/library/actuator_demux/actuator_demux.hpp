@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/library/base/actuator.hpp"
+#include "armature/library/base/driven_joint.hpp"
 
 namespace armature::library {
 
@@ -12,9 +13,12 @@ namespace armature::library {
 ///
 /// A signal that is no finite number is a fault that names the joint, and none is handed out.
 /// @rt nonblocking, no allocation, O(joints)
-class ActuatorNDemux final : public Actuator {
+class ActuatorNDemux final : public Actuator, public DrivesJoints {
  public:
   using Actuator::Actuator;
+
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
 
  private:
   void actuate(const std::vector<double>& act) override;

@@ -131,11 +131,47 @@ TEST_F(ArmingTest, FailsIfAJointDoesNotArmAndDisarmsAll) {
   desire(1.0, 2.0);
   arming.run_cycles();
   say_armed(true, false);
-  arming.run_cycles(150);
+  arming.run_cycles(550);
   EXPECT_EQ(command.stage(), CommandStage::kFailed);
   EXPECT_THAT(std::string(command.reason()), HasSubstr("did not arm"));
   EXPECT_EQ(disarms->size(), 1u);
   EXPECT_FALSE(arming.get<bool>("armed"));
+}
+
+TEST_F(ArmingTest, FailsAtOnceWithTheReasonOfAJoint) {
+  start();
+  auto command = arm();
+  desire(1.0, 2.0);
+  arming.run_cycles();
+  const auto told = arming.call("notArmed", ComponentName("Joint2"), component::Reason("it fell"));
+  ASSERT_TRUE(told) << told.error();
+  arming.run_cycles();
+  EXPECT_EQ(command.stage(), CommandStage::kFailed);
+  EXPECT_EQ(command.reason(), "Joint2 is not armed: it fell");
+  EXPECT_EQ(disarms->size(), 1u);
+  ASSERT_TRUE(arming.call("notArmed", ComponentName("Joint1"), component::Reason("late")));
+  EXPECT_EQ(disarms->size(), 1u);
+}
+
+TEST_F(ArmingTest, SaysWhenTheArmedJointsAreToStandAndWhenNot) {
+  const auto* rests = &arming.record<>("Rest");
+  const auto* motions = &arming.record<>("Motion");
+  start();
+  get_armed();
+  EXPECT_TRUE(rests->empty());
+  arming.run_cycles(20);
+  EXPECT_EQ(rests->size(), 1u);
+  desire(1.0, 2.0, 0.1);
+  arming.run_cycles();
+  EXPECT_EQ(motions->size(), 1u);
+  desire(1.0, 2.001);
+  arming.run_cycles(5);
+  desire(1.0, 2.002);
+  arming.run_cycles(9);
+  EXPECT_EQ(rests->size(), 1u) << "what changes does not rest";
+  arming.run_cycles(5);
+  EXPECT_EQ(rests->size(), 2u);
+  EXPECT_EQ(motions->size(), 1u);
 }
 
 TEST_F(ArmingTest, RefusesBeforeAnythingWasMeasuredAndWhenArmed) {

@@ -2,6 +2,8 @@
 #include "armature/library/axes_generator/axes_generator.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -44,6 +46,7 @@ Outcome AxesGeneratorPos::set_up() {
   if (!made) return component::refused(made.error());
   trajectory_ = std::move(made.value());
   numbers_.assign(axes, 0.0);
+  peers_limit_.resize(axes);
   changes_.take();
   return component::accepted();
 }
@@ -51,6 +54,7 @@ Outcome AxesGeneratorPos::set_up() {
 Outcome AxesGeneratorPos::on_start() {
   position_known_ = false;
   started_ = time();
+  armed_ = false;
   return changes_.take() ? set_up() : component::accepted();
 }
 
@@ -78,7 +82,9 @@ bool AxesGeneratorPos::knows_position() {
 
 Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, double time_s) {
   if (!knows_position()) return component::refused(control::to_text(Refusal::kNoPosition));
-  const Trajectory::Answer answer = trajectory_->move_to(positions, time_s);
+  if (!may_move()) return component::refused("the robot is not armed: arm first");
+  const Trajectory::Answer answer =
+      trajectory_->move_to(positions, time_s, limit_used_.bound() ? &peers_limit_ : nullptr);
   if (!answer.accepted()) return component::refused(refusal_of(answer, positions, time_s));
   stepped_at_ = time();
   return component::accepted();
@@ -93,6 +99,36 @@ void AxesGeneratorPos::reset_position() {
 void AxesGeneratorPos::settle() {
   if (!knows_position()) return;
   begin_anew(trajectory_->hold(measured_.read().value), "the robot was disarmed or armed");
+}
+
+void AxesGeneratorPos::on_disarm() {
+  armed_ = false;
+  settle();
+}
+
+/// Where nobody arms, everything may move. An Arming that lives elsewhere is believed its events.
+bool AxesGeneratorPos::may_move() {
+  if (is_armed_.bound()) {
+    const auto answer = is_armed_();
+    if (answer.status != component::CallStatus::kWouldWait) return answer && answer.value;
+  }
+  if (!arm_.bound()) return true;
+  return armed_ && arm_.source()->owner().state() == component::State::kRunning;
+}
+
+void AxesGeneratorPos::PeersLimit::resize(std::size_t axes) {
+  positions_.assign(axes, 0.0);
+  velocities_.assign(axes, 0.0);
+}
+
+/// A peer that does not answer allows nothing.
+double AxesGeneratorPos::PeersLimit::used(std::span<const double> positions,
+                                          std::span<const double> velocities) {
+  std::ranges::copy(positions, positions_.begin());
+  std::ranges::copy(velocities, velocities_.begin());
+  const auto answer = generator_.limit_used_(positions_, velocities_);
+  const bool usable = answer && std::isfinite(answer.value);
+  return usable ? answer.value : std::numeric_limits<double>::infinity();
 }
 
 /// @param answer  of the trajectory, which begins where the axes are
@@ -138,6 +174,11 @@ Reason AxesGeneratorPos::refusal_of(const Trajectory::Answer& answer,
     case Refusal::kNotFinite:
       why.append(answer.axis == Trajectory::kNoAxis ? ": the time is " : ": ");
       append_number(why, answer.axis == Trajectory::kNoAxis ? time_s : positions[answer.axis]);
+      break;
+    case Refusal::kTooFast:
+      why.append(": it takes ");
+      append_number(why, answer.shortest_s).append(" s at least, found ");
+      append_number(why, time_s).append(" s (0 asks for the shortest)");
       break;
     case Refusal::kNegativeTime:
       why.append(": ");

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "armature/component/author.hpp"
 #include "armature/control/trajectory.hpp"
+#include "armature/library/axes_generator/axes_check.hpp"
 #include "armature/library/base/changes.hpp"
 #include "armature/library/base/max_age.hpp"
 
@@ -19,10 +21,13 @@ namespace armature::library {
 ///
 /// After a start, also one behind a fault, the desired position is the measured one, and nothing
 /// moves before `moveTo`. Refused with the reason, and nothing changes: another number of
-/// positions, a target outside the limits, a number that is not finite, a negative time, a motion
-/// or stop under way, and a moveTo before anything was measured. Cancelling a motion is a smooth
-/// deceleration to rest, where it then holds. So is Stop; Settle and Disarm make the measured
-/// position the desired one (see Arming). Limits are one number for each axis, or one for all.
+/// positions, a target outside the limits, a number that is not finite, a negative time, one in
+/// which the limits do not allow the motion, a motion or stop under way, a robot that is not armed
+/// (if Arming is a peer), and a moveTo before anything was measured. A peer that offers
+/// `motionLimitUsed` limits motions too, such as by the speed of the robot's tip. Cancelling a
+/// motion is a smooth deceleration to rest, where it then holds. So is Stop; Settle and Disarm make
+/// the measured position the desired one (see Arming). Limits are one number for each axis, or one
+/// for all.
 /// @rt nonblocking, no allocation, O(axes)
 class AxesGeneratorPos final : public component::Component {
  public:
@@ -40,6 +45,9 @@ class AxesGeneratorPos final : public component::Component {
   void brake() { trajectory_->stop(); }
   void reset_position();
   void settle();
+  void on_arm() { armed_ = true; }
+  void on_disarm();
+  bool may_move();
   void begin_anew(const control::Trajectory::Answer& answer, std::string_view why);
   void stop();
   component::Reason refusal_of(const control::Trajectory::Answer& answer,
@@ -48,6 +56,19 @@ class AxesGeneratorPos final : public component::Component {
   void write_desired();
 
   using Vector = std::vector<double>;
+
+  /// What a peer says of it.
+  class PeersLimit final : public control::MotionLimit {
+   public:
+    explicit PeersLimit(AxesGeneratorPos& generator) : generator_(generator) {}
+    void resize(std::size_t axes);
+    double used(std::span<const double> positions, std::span<const double> velocities) override;
+
+   private:
+    AxesGeneratorPos& generator_;
+    Vector positions_;
+    Vector velocities_;
+  };
   component::Property<int> axes_{
       this, "num_axes", 1, "how many", "", component::mandatory, component::range(1, 100000)};
   component::Property<Vector> max_velocity_{
@@ -75,7 +96,7 @@ class AxesGeneratorPos final : public component::Component {
       this,
       "moveTo",
       component::serve<&AxesGeneratorPos::begin_move>,
-      "moves all axes to positions, in a time if that is longer than the shortest",
+      "moves all axes to positions in a time; 0: as fast as the limits allow",
       component::args("positions [rad]", "time [s]"),
       component::done_when<&AxesGeneratorPos::arrived>,
       component::cancelled_by<&AxesGeneratorPos::brake>};
@@ -91,22 +112,36 @@ class AxesGeneratorPos final : public component::Component {
                                     component::leads_to_nothing()};
   component::EventHandler<> disarm_{this,
                                     "Disarm",
-                                    component::serve<&AxesGeneratorPos::settle>,
-                                    "desired := measured, at rest",
+                                    component::serve<&AxesGeneratorPos::on_disarm>,
+                                    "desired := measured, at rest; nothing moves any more",
                                     component::optional,
                                     component::leads_to_nothing()};
+  component::EventHandler<> arm_{this,
+                                 "Arm",
+                                 component::serve<&AxesGeneratorPos::on_arm>,
+                                 "motions may begin",
+                                 component::optional,
+                                 component::leads_to_nothing()};
+  component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
+                                               component::optional};
+  component::OperationCaller<double(const Vector&, const Vector&)> limit_used_{
+      this, "motionLimitUsed", "the share that positions and velocities use of a limit",
+      component::optional};
   component::EventHandler<> stop_{this,
                                   "Stop",
                                   component::serve<&AxesGeneratorPos::stop>,
                                   "brakes smoothly, and holds where it comes to rest",
                                   component::optional,
                                   component::leads_to_nothing()};
+  AxesCheck check_{this, axes_, {position_, lower_, upper_, max_velocity_, max_acceleration_}};
   Changes changes_{axes_, max_velocity_, max_acceleration_, lower_, upper_};
 
   std::optional<control::Trajectory> trajectory_;
+  PeersLimit peers_limit_{*this};
   base::Time started_{};
   base::Time stepped_at_{};
   bool position_known_ = false;
+  bool armed_ = false;
   Vector numbers_;
 };
 

@@ -7,11 +7,13 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/exec/application.hpp"
 #include "armature/testing/harness.hpp"
 
 namespace armature::library {
@@ -95,10 +97,10 @@ TEST_F(AxesGenerator, AllAxesBeginAndEndTogetherInTheAskedTime) {
   EXPECT_THAT(acceleration(), Each(0.0));
 }
 
-TEST_F(AxesGenerator, TakesLongerThanAskedIfAnAxisCannotBeSoFast) {
+TEST_F(AxesGenerator, AskedForNoTimeItIsAsFastAsTheLimitsAllow) {
   start_at({0.0, 0.0});
   // 2 rad at 1 rad/s and 2 rad/s^2: 2 s and half a second for the ramps.
-  auto motion = generator.send("moveTo", Vector{2.0, 0.5}, 0.1);
+  auto motion = generator.send("moveTo", Vector{2.0, 0.5}, 0.0);
   double fastest = 0.0;
   int cycles = 0;
   for (; motion.stage() == CommandStage::kAccepted && cycles < 1000; ++cycles) {
@@ -121,16 +123,123 @@ TEST_F(AxesGenerator, RefusesWhatCannotBeWithTheReasonAndNothingMoves) {
   EXPECT_EQ(refusal_of({nan, 1.0}, 1.0), "axis 1: a number is not finite: nan");
   EXPECT_EQ(refusal_of({1.0, 1.0}, inf), "a number is not finite: the time is inf");
   EXPECT_EQ(refusal_of({1.0, 1.0}, -1.0), "the time is negative: -1");
+  EXPECT_EQ(refusal_of({2.25, 1.0}, 2.4),
+            "the motion is faster than the limits allow: it takes 2.5 s at least, found 2.4 s (0 "
+            "asks for the shortest)");
   cycle(10);
   EXPECT_THAT(desired(), ElementsAre(0.25, 0.5));
   EXPECT_EQ(generator.state(), component::State::kRunning);
 }
 
+TEST_F(AxesGenerator, ATimeThatTheLimitsJustAllowIsAccepted) {
+  start_at({0.25, 0.5});
+  EXPECT_EQ(refusal_of({2.25, 1.0}, 2.5), "accepted");
+}
+
+/// With an Arming among its peers.
+class OfAnArmedRobot : public AxesGenerator {
+ protected:
+  OfAnArmedRobot() {
+    generator.serve<bool()>("isArmed", [this] { return armed; });
+    start_at({0.25, 0.5});
+  }
+  bool armed = false;
+};
+
+TEST_F(OfAnArmedRobot, MotionsAreRefusedUntilItIsArmedAndOnceItIsDisarmed) {
+  EXPECT_EQ(refusal_of({1.0, 1.0}, 2.0), "the robot is not armed: arm first");
+  armed = true;
+  EXPECT_EQ(refusal_of({1.0, 1.0}, 2.0), "accepted");
+  armed = false;
+  generator.raise("Disarm");
+  cycle();
+  EXPECT_EQ(refusal_of({1.0, 1.0}, 2.0), "the robot is not armed: arm first");
+  cycle(10);
+  EXPECT_THAT(desired(), ElementsAre(0.25, 0.5));
+}
+
+/// An Arming that cannot be asked, and where the axes are.
+class Elsewhere final : public component::Component {
+ public:
+  using Component::Component;
+  component::Event<> arm{this, "Arm", "", component::occasional};
+  component::Event<> disarm{this, "Disarm", "", component::occasional};
+  component::OutputPort<Vector> measured{this, "Measured", "", "rad", component::fixed_size(2)};
+  bool arms = false;
+
+ private:
+  void on_update() override {
+    measured.write(there_);
+    static_cast<void>(arms ? arm.raise() : disarm.raise());
+  }
+  const Vector there_{0.25, 0.5};
+};
+
+TEST(AxesGeneratorWithEvents, BelievesAnArmingThatCannotBeAskedItsEvents) {
+  exec::Blueprint blueprint;
+  auto& elsewhere = blueprint.add<Elsewhere>("Elsewhere", exec::Activity::periodic(10ms));
+  auto& generator = blueprint.add<AxesGeneratorPos>("Generator", exec::Activity::periodic(10ms));
+  blueprint.connect("Elsewhere.Measured", "Generator.nAxesSensorPosition");
+  blueprint.add_peer("Generator", "Elsewhere");
+  exec::ApplicationOptions options;
+  options.simulated = true;
+  exec::Application application(std::move(blueprint), std::move(options));
+  for (component::PropertyBase* property : generator.interface().properties) {
+    const bool axes = property->name() == "num_axes";
+    const double limit = property->name() == "lower" ? -0.5 : 4.5;
+    ASSERT_TRUE(property->set(axes ? types::Value::of(2) : types::Value::of(Vector{limit})));
+  }
+  ASSERT_EQ(application.start().to_text(), "");
+  application.run_for(50ms);
+  const auto move = [&] {
+    return application.call("Generator", "moveTo",
+                            {types::Value::of(Vector{1.0, 1.0}), types::Value::of(2.0)});
+  };
+  const auto refused = move();
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error(), HasSubstr("the robot is not armed: arm first"));
+  elsewhere.arms = true;
+  application.run_for(20ms);
+  EXPECT_TRUE(move());
+}
+
+/// A peer that allows the fastest axis half of its velocity.
+class WithALimitOfAPeer : public AxesGenerator {
+ protected:
+  WithALimitOfAPeer() {
+    generator.serve<double(const Vector&, const Vector&)>(
+        "motionLimitUsed", [](const Vector&, const Vector& velocities) {
+          return 2.0 * std::max(std::abs(velocities[0]), std::abs(velocities[1]));
+        });
+    start_at({0.25, 0.5});
+  }
+};
+
+TEST_F(WithALimitOfAPeer, RefusesWhatIsFasterAndSaysTheShortestTime) {
+  // 2 rad in 2.5 s reach 1 rad/s, in 5 s half of that.
+  EXPECT_EQ(refusal_of({2.25, 1.0}, 3.0),
+            "the motion is faster than the limits allow: it takes 5 s at least, found 3 s (0 asks "
+            "for the shortest)");
+  EXPECT_EQ(refusal_of({2.25, 1.0}, 5.0), "accepted");
+}
+
+TEST_F(WithALimitOfAPeer, AskedForNoTimeItKeepsWithinThatToo) {
+  auto motion = generator.send("moveTo", Vector{2.25, 1.0}, 0.0);
+  double fastest = 0.0;
+  int cycles = 0;
+  for (; motion.stage() == CommandStage::kAccepted && cycles < 1000; ++cycles) {
+    cycle();
+    fastest = std::max(fastest, std::abs(velocity()[0]));
+  }
+  EXPECT_EQ(cycles, 500);
+  EXPECT_NEAR(fastest, 0.5, 1e-9);
+}
+
 TEST_F(AxesGenerator, RefusesASecondMotionAndTheFirstGoesOn) {
   start_at({0.25, 0.5});
-  auto first = generator.send("moveTo", Vector{1.25, 1.0}, 1.0);
+  auto first = generator.send("moveTo", Vector{1.25, 1.0}, 2.0);
   cycle(10);
-  auto second = generator.send("moveTo", Vector{0.0, 0.0}, 1.0);
+  auto second = generator.send("moveTo", Vector{0.0, 0.0}, 2.0);
   EXPECT_EQ(second.stage(), CommandStage::kRefused);
   EXPECT_NE(second.reason(), "");
   cycle(200);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -8,8 +9,11 @@
 #include "armature/component/author.hpp"
 #include "armature/control/hand_over.hpp"
 #include "armature/control/reference_brake.hpp"
+#include "armature/control/resting_mean.hpp"
 #include "armature/library/base/changes.hpp"
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/max_age.hpp"
+#include "armature/library/base/sampling_period.hpp"
 
 namespace armature::library {
 
@@ -21,12 +25,21 @@ namespace armature::library {
 /// again that begins where they are (see control::ReferenceBrake).
 ///
 /// If it takes over from another controller because modes are switched, `act` goes on from what
-/// that one wrote last, and the difference dies away in `SwitchTime`; arming ends that. A reference
+/// that one wrote last, at rest from the mean of what it wrote lately, and the difference dies away
+/// in `SwitchTime`; arming ends that. A reference
 /// that is far from where the joints are was not followed any more: with MaxAcceleration it is not
 /// followed now either, and the joints are braked.
-class Controller : public component::Component {
+class Controller : public component::Component, public PassesSamples, public DrivesJoints {
  public:
   using Component::Component;
+
+  std::vector<const component::InputPortBase*> samples_behind(
+      const component::OutputPortBase& /*output*/) const override {
+    return {&sensor_};
+  }
+  /// Of `reference`: all of its joints.
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
 
  protected:
   /// A sampling period begins; by default that is noted, to count those in which nothing was
@@ -44,18 +57,33 @@ class Controller : public component::Component {
   /// Runs in real time: nonblocking, no allocation.
   /// @thread the component's own
   void drive(const std::vector<double>& signals) {
-    if (!hand_over_.active()) [[likely]] {
-      act_.write(signals);
-      return;
+    if (hand_over_.active()) [[unlikely]] {
+      handed_over_ = signals;
+      hand_over_.step(handed_over_, time(), base::from_seconds(switch_time_));
+      write(handed_over_);
+    } else {
+      write(signals);
     }
-    handed_over_ = signals;
-    hand_over_.step(handed_over_, time(), base::from_seconds(switch_time_));
-    act_.write(handed_over_);
   }
 
   /// Whoever overrides these calls them.
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
+  void on_check(component::Check& check) const override;
+
+  /// What `act` drives; nothing if nobody says, or not as many joints as this has.
+  /// @thread configuration only
+  std::vector<DrivenJoint> driven_joints(const component::Check& check) const;
+  /// The same as who has samples of its own knows them: not how late those of this one are.
+  std::vector<DrivenJoint> acted_joints(const component::Check& check) const;
+
+  /// The gravity that its control signals hold the joints' weight against [m/s^2], 0 if they leave
+  /// it to others; nothing: it has no model of it.
+  /// @thread configuration only
+  virtual std::optional<std::array<double, 3>> gravity_held(
+      const component::Check& /*check*/) const {
+    return std::nullopt;
+  }
 
   /// What is to be followed in this sampling period; to be asked once in each. nullptr: nothing
   /// came yet since the start, or nothing is followed any more.
@@ -72,8 +100,7 @@ class Controller : public component::Component {
       "with which a joint is braked when its reference stays away, one for each or one for all; "
       "none: the component stops then",
       "rad/s^2"};
-  component::Property<double> period_{this, "Period", 0.01,
-                                      "between two samples; counts with MaxAcceleration", "s"};
+  SamplingPeriod period_{this, SamplingPeriod::Need::kIfAsked};  ///< with MaxAcceleration
   component::InputPort<std::vector<double>> reference_{
       this,
       "reference",
@@ -85,11 +112,29 @@ class Controller : public component::Component {
                                                   component::size_of(joints_)};
 
  private:
+  /// Refuses a weight that would be driven twice, or that everybody leaves to others.
+  class WeightCheck final : public component::Checked {
+   public:
+    explicit WeightCheck(Controller& controller) : Checked(&controller), controller_(controller) {}
+    void check(component::Check& check) const override;
+
+   private:
+    const Controller& controller_;
+  };
+
   void sensor_arrived(const std::vector<double>& measured) {
     sampled_ = false;
     controller_now(measured);
   }
   component::Outcome set_up();
+  void write(const std::vector<double>& signals) {
+    lately_.add(signals, rests_);
+    act_.write(signals);
+  }
+  const std::vector<double>* choose_reference(const std::vector<double>& measured);
+  bool all_rest(const std::vector<double>& reference, const std::vector<double>& measured) const;
+  void take_over();
+  const Controller* predecessor() const;
   void begin_to_brake(const std::vector<double>& last);
   void take_over_reference(const std::vector<double>& measured);
   void forget_other() { hand_over_.reset(); }
@@ -100,7 +145,7 @@ class Controller : public component::Component {
                                            "in which the difference to the controller before dies "
                                            "away when modes are switched; 0: a step",
                                            "s",
-                                           component::range(0.0, 60.0),
+                                           component::range(0.0, 0.5),
                                            component::changeable_while_running};
   component::InputPort<std::vector<double>> sensor_{
       this,
@@ -121,12 +166,15 @@ class Controller : public component::Component {
                                  "what the controller before wrote means nothing any more",
                                  component::optional,
                                  component::leads_to_nothing()};
+  WeightCheck weight_check_{*this};
   control::HandOver hand_over_;
+  control::RestingMean lately_;  ///< what was written
+  bool rests_ = false;           ///< the joints, in this sampling period
   std::vector<double> handed_over_;
   std::vector<double> motion_;  ///< as measured, like a reference
   component::Attribute<int> brakings_{this, "brakings", 0,
                                       "how often since the start the reference stayed away"};
-  Changes changes_{joints_, max_acceleration_, period_};
+  Changes changes_{joints_, max_acceleration_, period_.property()};
   std::optional<control::ReferenceBrake> brake_;
   base::Time started_{};
   base::Time followed_{};  ///< when the reference was written that was followed last

@@ -26,6 +26,7 @@ Outcome ControllerOfModel::on_start() {
 }
 
 Outcome ControllerOfModel::set_up() {
+  if (Outcome outcome = period_.known(); !outcome) return outcome;
   std::vector<std::string> warnings;
   auto links = description_.load(joints(), warnings);
   for (const std::string& warning : warnings) log_warning("{}", warning);
@@ -33,7 +34,8 @@ Outcome ControllerOfModel::set_up() {
   if (const auto made = make_law(std::move(links).value()); !made) {
     return component::refused(made.error());
   }
-  const auto filter = control::LowPass::make({.omega = velocity_cutoff_, .period_s = period_});
+  const auto filter =
+      control::LowPass::make({.omega = velocity_cutoff_, .period_s = period_.seconds()});
   if (!filter) return component::refused(filter.error());
   filters_.assign(joints(), filter.value());
   measured_motion_.assign(2 * joints(), 0.0);
@@ -67,14 +69,23 @@ void ControllerOfModel::controller_now(const std::vector<double>& measured) {
 void ControllerOfModel::estimate_motion(const std::vector<double>& reference,
                                         const std::vector<double>& measured) {
   const std::size_t count = joints();
+  const double period_s = period_.seconds();
   const bool first = !std::exchange(filtered_before_, true);
   for (std::size_t i = 0; i < count; ++i) {
     const double desired = reference[count + i];
-    const double error = desired - measured[count + i] / period_;
+    const double error = desired - measured[count + i] / period_s;
     if (first) filters_[i].reset_to(error);
     measured_motion_[i] = measured[i];
     measured_motion_[count + i] = desired - filters_[i].step(error);
   }
+}
+
+std::vector<control::JointRange> ControllerOfModel::model_ranges(
+    const control::Transmission* rotors) const {
+  std::vector<std::string> warnings;
+  auto links = description_.load(joints(), warnings);
+  if (!links) return {};
+  return control::find_joint_ranges(links.value(), rotors, control::search_limits(links.value()));
 }
 
 }  // namespace armature::library

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/joint_inertias.hpp"
 #include "armature/control/low_pass.hpp"
 #include "armature/library/base/changes.hpp"
+#include "armature/library/base/checked_gains.hpp"
 #include "armature/library/base/controller.hpp"
 #include "armature/library/base/robot_description.hpp"
 
@@ -28,6 +33,10 @@ class ControllerOfModel : public Controller {
  protected:
   component::Outcome on_configure() final;
   component::Outcome on_start() final;
+  void on_check(component::Check& check) const override { period_.expect_known(check); }
+  std::optional<std::array<double, 3>> gravity_held(const component::Check& /*check*/) const final {
+    return description_.gravity();
+  }
   void controller_now(const std::vector<double>& measured) final;
 
   /// Makes the control law, from the properties.
@@ -46,6 +55,17 @@ class ControllerOfModel : public Controller {
 
   std::size_t joints() const { return static_cast<std::size_t>(joints_.get()); }
 
+  // For the check of gains.
+  /// The law of one joint as a loop sees it.
+  control::SampledController::FilteredPd loop_of(double kp, double kd, double period_s,
+                                                 const CheckedGains::Wanted& wanted) const {
+    return {kp, kd, wanted.value_of(velocity_cutoff_), period_s};
+  }
+  /// What the model has the joints move, with rotors; nothing if it cannot be read.
+  /// @thread configuration only: milliseconds
+  std::vector<control::JointRange> model_ranges(const control::Transmission* rotors) const;
+  component::Property<double>& velocity_cutoff() { return velocity_cutoff_; }
+
  private:
   component::Outcome set_up();
   bool take_any_change();
@@ -56,7 +76,7 @@ class ControllerOfModel : public Controller {
       180.0,   "corner of the low pass behind the errors of the velocities",
       "rad/s", component::range(0.001, 1e6)};
   RobotDescription description_{this};
-  Changes changes_{joints_, period_, velocity_cutoff_};
+  Changes changes_{joints_, period_.property(), velocity_cutoff_};
   std::vector<control::LowPass> filters_;
   bool filtered_before_ = false;
   std::vector<double> measured_motion_;  ///< [q, qd]

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/library/base/controller_of_pids.hpp"
 
+#include <algorithm>
+#include <string>
+
 namespace armature::library {
 
 using component::Outcome;
@@ -61,6 +64,46 @@ void ControllerOfPids::note_missing() {
   const bool news =
       missing_.note(*answers_, [this](std::size_t member) { return name_of(member); });
   if (news) log_warning("no answer from {} in the last round", missing_.names());
+}
+
+std::vector<DrivenJoint> ControllerOfPids::joints_behind(const component::InputPortBase* input,
+                                                         const component::Check& check) {
+  // Of the PID's samples, the PID itself knows how late they are.
+  const std::vector<DrivenJoint> joints = acted_joints(check);
+  for (std::size_t i = 0; i < out_.size() && i < joints.size(); ++i) {
+    if (&out_[i] == input) return {joints[i]};
+  }
+  return Controller::joints_behind(input, check);
+}
+
+void ControllerOfPids::on_check(component::Check& check) const {
+  Controller::on_check(check);
+  for (const component::InputPortBase* const input : interface().inputs) {
+    const std::string_view name = input->name();
+    const bool of_a_pid = name.starts_with("Out") &&
+                          name.find_first_not_of("0123456789", 3) == std::string_view::npos;
+    if (of_a_pid) check_pid(*input, std::string(name.substr(3)), check);
+  }
+}
+
+void ControllerOfPids::check_pid(const component::InputPortBase& out, const std::string& number,
+                                 component::Check& check) const {
+  const auto fits = [&](const component::InputPortBase& input, const std::string& name) {
+    return std::ranges::all_of(check.writers_of(input), [&](const auto* writer) {
+      return &writer->owner() != this || writer->name() == name;
+    });
+  };
+  for (const component::OutputPortBase* const writer : check.writers_of(out)) {
+    const auto* const pid = dynamic_cast<const ControlsJoint*>(&writer->owner());
+    if (pid == nullptr) continue;
+    const std::string ref = "Ref" + number, sen = "Sen" + number;
+    if (fits(pid->desired_input(), ref) && fits(pid->measured_input(), sen)) continue;
+    const std::string name(writer->owner().name());
+    check.error("'" + name + "' answers for joint " + number + ", and is given what is of another",
+                "connect " + ref + " to " + name + "." + std::string(pid->desired_input().name()) +
+                    " and " + sen + " to " + name + "." +
+                    std::string(pid->measured_input().name()));
+  }
 }
 
 }  // namespace armature::library

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "armature/control/gathering.hpp"
 #include "armature/library/base/changes.hpp"
 #include "armature/library/base/controller.hpp"
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/missing_answers.hpp"
 
 namespace armature::library {
@@ -23,9 +25,15 @@ class ControllerOfPids : public Controller {
  public:
   using Controller::Controller;
 
+  /// Of a PID's answer: the joint of that PID.
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
+
  protected:
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
+  /// Refuses PIDs that are given what is of other joints than they answer for.
+  void on_check(component::Check& check) const override;
   void controller_now(const std::vector<double>& measured) final;
 
   /// How many answer besides the PIDs; they are the members from `joints` on.
@@ -43,6 +51,8 @@ class ControllerOfPids : public Controller {
  private:
   void on_out(std::size_t joint, double out) { answer(joint, out); }
   component::Outcome set_up();
+  void check_pid(const component::InputPortBase& out, const std::string& number,
+                 component::Check& check) const;
   std::string_view name_of(std::size_t member);
   void note_missing();
 

@@ -20,4 +20,15 @@ inline const types::Type& armature_describe(const LimitedEffort*) {
   return type;
 }
 
+/// Sealed likewise: no tool, file, script or peer switches on or opens a brake.
+inline const types::Type& armature_describe(const DrivePermit*) {
+  static_assert(std::is_standard_layout_v<DrivePermit> && sizeof(DrivePermit) == sizeof(bool),
+                "the flag is all that there is");
+  static const types::Type& type =
+      types::internal::make_sealed("DrivePermit", types::internal::kFootprint<DrivePermit>,
+                                   types::internal::kLifetime<DrivePermit>,
+                                   types::internal::make_field("armed", 0, types::type_of<bool>()));
+  return type;
+}
+
 }  // namespace armature::control

@@ -19,7 +19,7 @@ MissingAnswers::MissingAnswers(component::Component* owner)
       missing_(owner, "missing", {}, "rounds since the start in which each did not answer"),
       names_(owner, "missing_names", {}, "who did not answer in the last such round"),
       event_(owner, "Missing", "given up: the fault of this component follows",
-             {"number", "name"}) {}
+             component::occasional, {"number", "name"}) {}
 
 void MissingAnswers::resize(std::size_t members) {
   counts_.assign(members, 0);

@@ -30,4 +30,16 @@ void Bridge::on_desired(const Vector& desired) {
   for (std::size_t i = 0; i < desired.size(); ++i) ref_[i].write(desired[i]);
 }
 
+std::vector<DrivenJoint> Bridge::joints_behind(const component::InputPortBase* input,
+                                               const component::Check& check) {
+  std::vector<DrivenJoint> all;
+  if (input != &desired_) return all;
+  for (std::size_t i = 0; i < ref_.size(); ++i) {
+    std::vector<DrivenJoint> joints = library::joints_behind(ref_[i], check);
+    if (joints.size() != 1) return {};
+    all.push_back(std::move(joints.front()));
+  }
+  return all;
+}
+
 }  // namespace armature::library

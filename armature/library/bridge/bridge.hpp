@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/max_age.hpp"
 
 namespace armature::library {
@@ -13,9 +14,12 @@ namespace armature::library {
 /// section 5.3): makes one vector of the measured positions, written with each that comes once all
 /// have come, and hands out the desired ones.
 /// @rt nonblocking, no allocation, O(joints)
-class Bridge final : public component::Component {
+class Bridge final : public component::Component, public DrivesJoints {
  public:
   using Component::Component;
+
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
 
  private:
   component::Outcome on_configure() override;

@@ -34,4 +34,10 @@ void BridgeRef::take(Part part, const std::vector<double>& desired) {
   reference_.write(composed_);
 }
 
+std::vector<DrivenJoint> BridgeRef::joints_behind(const component::InputPortBase* input,
+                                                  const component::Check& check) {
+  return input == &position_ ? library::joints_behind(reference_, check)
+                             : std::vector<DrivenJoint>{};
+}
+
 }  // namespace armature::library

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/max_age.hpp"
 
 namespace armature::library {
@@ -14,9 +15,12 @@ namespace armature::library {
 /// of desired positions, velocities and accelerations, once all three of a step have come, in
 /// whatever order. What is desired has no age here: who follows `reference` looks at that.
 /// @rt nonblocking, no allocation, O(joints)
-class BridgeRef final : public component::Component {
+class BridgeRef final : public component::Component, public DrivesJoints {
  public:
   using Component::Component;
+
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
 
  private:
   component::Outcome on_configure() override;

@@ -24,6 +24,13 @@ class ControllerComputedTorque final : public ControllerOfModel {
   void compute(std::span<const double> reference, std::span<const double> motion,
                std::span<double> torques) override;
 
+  base::Result<control::Transmission> motors(const CheckedGains::Wanted& wanted) const;
+  std::vector<DrivenJoint> joints_and_model(const component::Check& check);
+  std::string objection(const std::vector<DrivenJoint>& joints, double period_s,
+                        const CheckedGains::Wanted& wanted) const;
+  static std::string objection_to_friction(const DrivenJoint& joint,
+                                           const control::Transmission& rotors, std::size_t number);
+
   using Numbers = component::Property<std::vector<double>>;
   Numbers kp_{this,    "Kp",
               {100.0}, "acceleration for an error: the square of the joint's frequency in rad/s",
@@ -40,6 +47,20 @@ class ControllerComputedTorque final : public ControllerOfModel {
                  "row of all joints for each motor",
                  ""};
   Changes changes_{kp_, kd_, rotor_inertia_, friction_, turns_};
+  /// What the model has the joints move, without motors; as the check found it.
+  std::vector<control::JointRange> model_;
+  std::optional<control::Transmission> checked_motors_;
+  CheckedGains gains_{
+      this,
+      [this](const component::Check& check) { return joints_and_model(check); },
+      [this](const std::vector<DrivenJoint>& joints, double period_s,
+             const CheckedGains::Wanted& wanted) { return objection(joints, period_s, wanted); },
+      kp_,
+      kd_,
+      rotor_inertia_,
+      friction_,
+      turns_,
+      velocity_cutoff()};
   std::optional<control::ComputedTorque> law_;
 };
 

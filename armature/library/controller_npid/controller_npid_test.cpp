@@ -54,6 +54,11 @@ TEST_F(ControllerNpid, HandsPositionsOutAndWritesActOnceAllHaveAnswered) {
   EXPECT_THAT(act(), ElementsAre(4.0, -3.0));
 }
 
+TEST_F(ControllerNpid, RefusesASwitchTimeOfMoreThanHalfASecond) {
+  EXPECT_NO_THROW(controller.set("SwitchTime", 0.5));
+  EXPECT_THROW(controller.set("SwitchTime", 0.6), std::invalid_argument);
+}
+
 TEST_F(ControllerNpid, AsksNobodyBeforeTheFirstReference) {
   start();
   measure(0.5, 0.6);
@@ -303,6 +308,7 @@ TEST_F(ControllerNpidInPlaceOfAnother, UsesTheReferenceThatIsThereSoThatNoCycleI
 
 TEST_F(ControllerNpidInPlaceOfAnother, BrakesIfTheReferenceWasNotFollowedAnyMore) {
   controller.set("MaxAcceleration", "[5.0]");
+  controller.set("Period", 0.01);
   take_over(4.0, -3.0);
   measure(0.5, 0.6);  // 0.5 rad and more from the reference
   EXPECT_NEAR(output("Ref1"), 0.5, 0.02);
@@ -312,6 +318,7 @@ TEST_F(ControllerNpidInPlaceOfAnother, BrakesIfTheReferenceWasNotFollowedAnyMore
 
 TEST_F(ControllerNpidInPlaceOfAnother, FollowsWhatWasFollowed) {
   controller.set("MaxAcceleration", "[5.0]");
+  controller.set("Period", 0.01);
   take_over(4.0, -3.0);
   measure(0.98, 1.97);
   EXPECT_EQ(output("Ref1"), 1.0);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "armature/control/per_joint.hpp"
 
@@ -27,6 +28,15 @@ Outcome ControllerNPIDFF::on_start() {
 }
 
 Outcome ControllerNPIDFF::set_up_motors() {
+  auto made = make_motors({});
+  if (!made) return component::refused(made.error());
+  motors_ = std::move(made).value();
+  changes_.take();
+  return component::accepted();
+}
+
+base::Result<std::vector<DcMotor>> ControllerNPIDFF::make_motors(
+    const CheckedGains::Wanted& wanted) const {
   std::vector<DcMotor::Config> configs(joints());
   struct Parameter {
     const Numbers& numbers;
@@ -40,18 +50,62 @@ Outcome ControllerNPIDFF::set_up_motors() {
                                   {coulomb_friction_, &DcMotor::Config::coulomb_friction},
                                   {coulomb_velocity_, &DcMotor::Config::coulomb_velocity}};
   for (const auto& [numbers, field] : parameters) {
-    const auto each = control::per_joint(numbers.name(), numbers.get(), joints());
-    if (!each) return component::refused(each.error());
+    const auto each = control::per_joint(numbers.name(), wanted.value_of(numbers), joints());
+    if (!each) return base::Error{each.error()};
     for (std::size_t i = 0; i < joints(); ++i) configs[i].*field = each.value()[i];
   }
-  motors_.clear();
+  std::vector<DcMotor> motors;
   for (std::size_t i = 0; i < joints(); ++i) {
     const auto made = DcMotor::make(configs[i]);
-    if (!made) return component::refused("joint " + std::to_string(i + 1) + ": " + made.error());
-    motors_.push_back(made.value());
+    if (!made) return base::Error{"joint " + std::to_string(i + 1) + ": " + made.error()};
+    motors.push_back(made.value());
   }
-  changes_.take();
-  return component::accepted();
+  return motors;
+}
+
+/// Feed-forward for other motors than those of the robot would drive it away from what is desired.
+std::string ControllerNPIDFF::objection(const std::vector<DrivenJoint>& joints,
+                                        const CheckedGains::Wanted& wanted) const {
+  constexpr double kAlike = 1.5;
+  const auto motors = make_motors(wanted);
+  if (!motors) return motors.error();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const DcMotor& motor = motors.value()[i];
+    const control::JointPlant& plant = joints[i].heaviest;
+    const double per_torque = motor.voltage(1.0, 0.0);
+    const double expected = 1.0 / plant.torque_per_effort;
+    if (!(per_torque <= kAlike * expected && expected <= kAlike * per_torque)) {
+      return joints[i].name + ": feed-forward gives " + figure(per_torque) +
+             " V for 1 Nm at the joint, its drive needs " + figure(expected) + " V";
+    }
+    const double braking = motor.config().viscous_friction +
+                           motor.config().torque_constant * motor.config().gear_ratio / per_torque;
+    if (!(braking <= kAlike * plant.damping && plant.damping <= kAlike * braking)) {
+      return joints[i].name + ": feed-forward is for friction and back-EMF of " + figure(braking) +
+             " Nm s/rad, its drive has " + figure(plant.damping);
+    }
+    if (!(motor.reflected_inertia() <= kAlike * plant.inertia)) {
+      return joints[i].name + ": feed-forward is for a rotor of " +
+             figure(motor.reflected_inertia()) + " kg m^2 at the joint, the joint moves " +
+             figure(plant.inertia) + " in all";
+    }
+    const double most = plant.torque_per_effort * joints[i].most_effort;
+    if (!(motor.config().coulomb_friction <= 0.5 * most)) {
+      return joints[i].name + ": coulomb_friction is " + figure(motor.config().coulomb_friction) +
+             " Nm, its drive gives " + figure(most) + " Nm";
+    }
+  }
+  return {};
+}
+
+/// A model without gravity leaves the weight to the PIDs.
+std::optional<std::array<double, 3>> ControllerNPIDFF::gravity_held(
+    const component::Check& check) const {
+  for (const component::OutputPortBase* const writer : check.writers_of(out_model_)) {
+    const auto* const model = dynamic_cast<const ComputesTorques*>(&writer->owner());
+    if (model != nullptr && model->gravity() != std::array<double, 3>{}) return model->gravity();
+  }
+  return std::nullopt;
 }
 
 std::string_view ControllerNPIDFF::name_of_other(std::size_t /*member*/) const {

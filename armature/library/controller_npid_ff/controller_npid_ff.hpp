@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "armature/control/dc_motor.hpp"
+#include "armature/library/base/checked_gains.hpp"
 #include "armature/library/base/controller_of_pids.hpp"
 
 namespace armature::library {
@@ -24,6 +28,13 @@ class ControllerNPIDFF final : public ControllerOfPids {
  public:
   using ControllerOfPids::ControllerOfPids;
 
+  /// Of the torques of its model: all joints.
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override {
+    if (input == &out_model_) return driven_joints(check);
+    return ControllerOfPids::joints_behind(input, check);
+  }
+
  private:
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
@@ -31,8 +42,12 @@ class ControllerNPIDFF final : public ControllerOfPids {
   std::string_view name_of_other(std::size_t member) const override;
   void ask_others(const std::vector<double>& reference) override;
   void conclude(const std::vector<double>& answers) override;
+  std::optional<std::array<double, 3>> gravity_held(const component::Check& check) const override;
 
   component::Outcome set_up_motors();
+  base::Result<std::vector<control::DcMotor>> make_motors(const CheckedGains::Wanted& wanted) const;
+  std::string objection(const std::vector<DrivenJoint>& joints,
+                        const CheckedGains::Wanted& wanted) const;
   void on_torques(const std::vector<double>& torques);
 
   using Numbers = component::Property<std::vector<double>>;
@@ -65,6 +80,17 @@ class ControllerNPIDFF final : public ControllerOfPids {
   Changes changes_{joints_,        resistance_,       torque_constant_,  gear_ratio_,
                    rotor_inertia_, viscous_friction_, coulomb_friction_, coulomb_velocity_};
 
+  CheckedGains checked_{
+      this,
+      [this](const component::Check& check) { return driven_joints(check); },
+      [this](const std::vector<DrivenJoint>& joints, double /*period_s*/,
+             const CheckedGains::Wanted& wanted) { return objection(joints, wanted); },
+      resistance_,
+      torque_constant_,
+      gear_ratio_,
+      rotor_inertia_,
+      viscous_friction_,
+      coulomb_friction_};
   std::vector<control::DcMotor> motors_;
   std::vector<double> desired_;  ///< reference of this round
   std::vector<double> torques_;  ///< that the model answered last

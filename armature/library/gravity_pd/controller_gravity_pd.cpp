@@ -23,4 +23,19 @@ void ControllerGravityPD::compute(std::span<const double> reference, std::span<c
   law_->step(reference, motion, torques);
 }
 
+std::string ControllerGravityPD::objection(const std::vector<DrivenJoint>& joints, double period_s,
+                                           const CheckedGains::Wanted& wanted) const {
+  const auto kp = control::per_joint(kp_.name(), wanted.value_of(kp_), joints.size());
+  if (!kp) return kp.error();
+  const auto kd = control::per_joint(kd_.name(), wanted.value_of(kd_), joints.size());
+  if (!kd) return kd.error();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto loop = loop_of(kp.value()[i], kd.value()[i], period_s, wanted);
+    std::string wrong =
+        objection_to_gains(joints[i], control::SampledController::of(loop), period_s);
+    if (!wrong.empty()) return wrong;
+  }
+  return {};
+}
+
 }  // namespace armature::library

@@ -24,6 +24,9 @@ class ControllerGravityPD final : public ControllerOfModel {
   void compute(std::span<const double> reference, std::span<const double> motion,
                std::span<double> torques) override;
 
+  std::string objection(const std::vector<DrivenJoint>& joints, double period_s,
+                        const CheckedGains::Wanted& wanted) const;
+
   using Numbers = component::Property<std::vector<double>>;
   Numbers kp_{this,
               "Kp",
@@ -40,6 +43,14 @@ class ControllerGravityPD final : public ControllerOfModel {
               component::mandatory,
               component::range(0.0, 1e9)};
   Changes changes_{kp_, kd_};
+  CheckedGains gains_{
+      this,
+      [this](const component::Check& check) { return driven_joints(check); },
+      [this](const std::vector<DrivenJoint>& joints, double period_s,
+             const CheckedGains::Wanted& wanted) { return objection(joints, period_s, wanted); },
+      kp_,
+      kd_,
+      velocity_cutoff()};
   std::optional<control::GravityPd> law_;
 };
 

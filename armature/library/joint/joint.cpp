@@ -16,11 +16,18 @@ using control::JointLimiter;
 
 namespace {
 
-/// How long a motor that is to be switched off may brake itself first.
-constexpr base::Duration kLongestBraking = std::chrono::seconds(1);
+using namespace std::chrono_literals;
 
-/// Faster than noise [rad/s].
-bool moves(double velocity) { return std::abs(velocity) > 0.02; }
+/// For which the effort has to be the same before the joint is let go.
+constexpr base::Duration kSettling = 100ms;
+/// How long that may take besides the effort's growth.
+constexpr base::Duration kSettlingPatience = 2s;
+/// For which a joint is watched that was let go.
+constexpr base::Duration kWatchTime = 200ms;
+/// Over which signs of the effort are counted.
+constexpr base::Duration kAlternationTime = 500ms;
+/// How long a joint may take to come to rest once it is to stand.
+constexpr base::Duration kComingToRest = 2s;
 
 bool is_sign(double number) { return number == 1.0 || number == -1.0; }
 
@@ -34,13 +41,19 @@ Outcome Joint::on_start() {
     return component::refused("nobody writes the input Voltage (connect it, or Sampler: false)");
   }
   arming_ = arm_handler_.bound() ? &arm_handler_.source()->owner() : nullptr;
+  if (dynamic_cast<const component::StandIn*>(arming_) != nullptr) {
+    return component::refused("the event Arm comes from '" + arming_->name() +
+                              "', which is elsewhere: a joint is armed in its own process");
+  }
   started_ = time();
+  intervals_.begin(period_.duration());
   measured_since_start_ = false;
   switch_off();
   return component::accepted();
 }
 
 Outcome Joint::set_up() {
+  if (Outcome outcome = period_.known(); !outcome) return outcome;
   if (!is_sign(actuator_sign_) || !is_sign(sensor_sign_)) {
     return component::refused("ActuatorSign and SensorSign are 1 or -1");
   }
@@ -49,7 +62,13 @@ Outcome Joint::set_up() {
   }
   auto limiter = JointLimiter::make(limits());
   if (!limiter) return component::refused(limiter.error());
+  auto sequence = control::ArmingSequence::make(arming_steps());
+  if (!sequence) return component::refused(sequence.error());
+  auto watch = control::HoldingWatch::make(holding());
+  if (!watch) return component::refused(watch.error());
   limiter_ = limiter.value();
+  sequence_ = sequence.value();
+  watch_ = watch.value();
   sensor_ratio_ = sensor_sign_ * gear_ratio_;
   measured_ = {.position = initial_position_, .velocity = 0.0};
   clipped_.assign(0);
@@ -63,16 +82,65 @@ JointLimiter::Config Joint::limits() const {
           .max_velocity = max_velocity_,
           .max_acceleration = max_acceleration_,
           .max_effort = max_effort_,
-          .period = base::from_seconds(period_),
+          .period = period_.duration(),
           .arming_time = base::from_seconds(arming_time_),
           .effort_rate = arming_time_ > 0.0 ? max_effort_ / arming_time_ : 0.0};
 }
 
+control::ArmingSequence::Config Joint::arming_steps() const {
+  return {.max_motion = arming_motion_,
+          .effort_tolerance = 0.02 * max_effort_,
+          .settling_time = kSettling,
+          .patience = base::from_seconds(arming_time_) + kSettlingPatience,
+          .watch_time = kWatchTime};
+}
+
+control::HoldingWatch::Config Joint::holding() const {
+  return {.period = base::from_seconds(period_),
+          .max_motion = holding_motion_,
+          .max_velocity = holding_velocity_,
+          .sinking_velocity = 0.0,
+          .least_effort = 0.02 * max_effort_,
+          .max_alternation = holding_alternation_ < 1.0 ? holding_alternation_ : 2.0,
+          .alternation_time = kAlternationTime,
+          .rest_velocity = kRest,
+          .settling_time = kComingToRest};
+}
+
+std::vector<DrivenJoint> Joint::joints_behind(const component::InputPortBase* /*input*/,
+                                              const component::Check& check) {
+  const auto joint = model_.driven(check);
+  if (!joint) return {};
+  std::vector<DrivenJoint> joints{*joint};
+  for (const component::InputPortBase* const hardware : check.readers_of(voltage_actuator_)) {
+    if (!check.delayed(voltage_actuator_, *hardware)) continue;
+    answer_later(joints, 1, base::to_seconds(period()));
+    break;
+  }
+  return joints;
+}
+
 // --- measuring -------------------------------------------------------------------------------
 
-void Joint::on_sample() { sensor_read(); }
+void Joint::on_sample() {
+  if (is_in_time()) succeeds(read_hardware_);
+}
 
-bool Joint::sensor_read() { return succeeds(read_hardware_); }
+/// Without Sampler, whoever calls this samples it.
+bool Joint::sensor_read() {
+  if (!sampler_ && !is_in_time()) return false;
+  return succeeds(read_hardware_);
+}
+
+/// Out of service if it is sampled otherwise than everything is computed for.
+bool Joint::is_in_time() {
+  if (state() != component::State::kRunning) return true;
+  const std::optional<component::Reason> wrong = intervals_.sample(*this);
+  if (!wrong) return true;
+  switch_off();
+  fault(*wrong);
+  return false;
+}
 
 void Joint::on_displacement(double of_motor) {
   const double displacement = sensor_ratio_ * of_motor;
@@ -85,17 +153,25 @@ void Joint::on_displacement(double of_motor) {
   displacement_.write(displacement);
   position_.write(measured_.position);
   if (off_at_rest_) cut_power_at_rest();
+  if (phase_ == Phase::kDisarmed) {
+    note_sinking(displacement);
+  } else if (phase_ == Phase::kArmed) {
+    watch();
+  } else {
+    go_on_arming();
+  }
 }
 
 /// In this sampling period or the one before.
 bool Joint::measured_lately() const {
-  return measured_since_start_ && base::to_seconds(time() - measured_at_) < 1.5 * period_;
+  return measured_since_start_ && base::to_seconds(time() - measured_at_) < 1.5 * period_.seconds();
 }
 
 // --- driving ---------------------------------------------------------------------------------
 
 void Joint::on_act() {
-  if (limiter_->armed() && arming_ != nullptr && arming_->state() == component::State::kException) {
+  if (phase_ != Phase::kDisarmed && arming_ != nullptr &&
+      arming_->state() == component::State::kException) {
     log_error("{} is out of service, so it disarms", arming_->name());
     disarm();
   }
@@ -106,6 +182,9 @@ void Joint::on_act() {
 /// True if it was passed unchanged.
 bool Joint::apply(double voltage) {
   const JointLimiter::LimitedStep step = limiter_->step_effort(measured_, voltage);
+  commanded_ = voltage;
+  effort_ = step.value;
+  passed_ = step.status == JointLimiter::Status::kPassed;
   voltage_actuator_.write(actuator_sign_ > 0.0 ? step.value : -step.value);
   if (step.status == JointLimiter::Status::kPassed) return true;
   if (step.status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
@@ -115,71 +194,6 @@ bool Joint::apply(double voltage) {
   append_number(why, voltage).append(" at the position ");
   fault(append_number(why, measured_.position).append(", expected finite numbers"));
   return false;
-}
-
-// --- arming ----------------------------------------------------------------------------------
-
-void Joint::on_arm() {
-  if (limiter_->armed()) return;
-  if (!measured_lately()) return refuse_to_arm("it was not measured in this sampling period");
-  if (!limiter_->arm(measured_)) return refuse_to_arm("its position is no finite number");
-  off_at_rest_ = false;
-  const bool ready = succeeds(actuator_on_) && (!brake_ || succeeds(release_brake_));
-  if (!ready) {
-    switch_off();
-    return refuse_to_arm("its hardware does not switch on");
-  }
-  armed_.write(true);
-  log_info("armed");
-}
-
-void Joint::refuse_to_arm(std::string_view why) {
-  log_error("not armed: {}", why);
-  armed_.write(false);
-}
-
-/// @return the brake is applied
-bool Joint::disarm() {
-  off_at_rest_ = limiter_->armed() && measured_lately() && moves(measured_.velocity);
-  disarmed_at_ = time();
-  const bool braked = let_go();
-  if (!off_at_rest_) cut_power();
-  return braked;
-}
-
-/// Effort 0 and brake, at once.
-bool Joint::let_go() {
-  const bool was_armed = limiter_->armed();
-  limiter_->disarm();
-  voltage_actuator_.write({});
-  const bool braked = !brake_ || succeeds(apply_brake_);
-  armed_.write(false);
-  if (was_armed) log_info("disarmed");
-  if (was_armed && !braked) log_error("the hardware did not confirm that it brakes");
-  return braked;
-}
-
-/// The brake first, so that nothing falls between the two.
-bool Joint::switch_off() {
-  let_go();
-  return cut_power();
-}
-
-bool Joint::cut_power() {
-  off_at_rest_ = false;
-  return succeeds(actuator_off_);
-}
-
-void Joint::cut_power_at_rest() {
-  const bool waited = time() - disarmed_at_ > kLongestBraking;
-  if (waited || !moves(measured_.velocity)) cut_power();
-}
-
-bool Joint::brake_release() { return limiter_->armed() && brake_ && succeeds(release_brake_); }
-
-bool Joint::succeeds(component::OperationCaller<bool()>& call) {
-  const component::CallResult<bool> answer = call();
-  return answer.status == component::CallStatus::kDone && answer.value;
 }
 
 }  // namespace armature::library

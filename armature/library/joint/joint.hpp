@@ -6,10 +6,16 @@
 #include <string_view>
 
 #include "armature/component/author.hpp"
+#include "armature/control/arming_sequence.hpp"
+#include "armature/control/holding_watch.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/library/base/changes.hpp"
 #include "armature/library/base/limited_effort.hpp"
 #include "armature/library/base/max_age.hpp"
+#include "armature/library/base/missing_answers.hpp"
+#include "armature/library/base/sample_watch.hpp"
+#include "armature/library/base/sampling_period.hpp"
+#include "armature/library/joint/joint_model.hpp"
 
 namespace armature::library {
 
@@ -20,24 +26,49 @@ namespace armature::library {
 ///
 /// After a start, also one behind a fault, the joint is disarmed: motor off, brake applied, effort
 /// 0. Only Arm, an event of the component Arming, changes that, and only if the joint was measured
-/// just before. Disarm, a stop, a fault, data that is too old, motorOff and brakeApply disarm it.
-/// At Disarm a motor that turns is switched off when it has come to rest, after a second at the
-/// latest: with effort 0 it brakes itself, switched off it would coast.
+/// just before. It is held before it is let go (control::ArmingSequence): the effort grows against
+/// the closed brake until it has settled, then the brake opens, and a joint that then moves by more
+/// than ArmingMotion is braked again and not armed. Without a brake the motor is switched on with
+/// the effort that holds. Disarm, a stop, a fault, data that is too old, motorOff and brakeApply
+/// disarm it. At Disarm a motor that turns is switched off when it has come to rest, after a second
+/// at the latest: with effort 0 it brakes itself, switched off it would coast.
+///
+/// Between Rest and Motion, events of Arming, the armed joint is to stand: beyond what the
+/// properties Holding... say it is braked, and faults (control::HoldingWatch).
 /// @rt nonblocking but for the hardware's answers, no allocation
-class Joint final : public component::Component {
+class Joint final : public component::Component, public DrivesJoints, public PassesSamples {
  public:
   using Component::Component;
 
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
+  std::vector<const component::InputPortBase*> samples_behind(
+      const component::OutputPortBase& /*output*/) const override {
+    return {&displacement_sensor_};
+  }
+
  private:
+  static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
+
+  enum class Phase {
+    kDisarmed,
+    kTakingLoad,  ///< the brake is closed, or the motor off without one
+    kLetGo,       ///< and watched
+    kArmed,
+  };
+
   component::Outcome on_configure() override { return set_up(); }
   component::Outcome on_start() override;
   void on_stop() override { switch_off(); }
 
   component::Outcome set_up();
   control::JointLimiter::Config limits() const;
+  control::ArmingSequence::Config arming_steps() const;
+  control::HoldingWatch::Config holding() const;
 
   // Measuring.
   void on_sample();
+  bool is_in_time();
   void on_displacement(double of_motor);
   void on_index(bool closed) { index_.write(closed); }
   bool sensor_read();
@@ -47,18 +78,40 @@ class Joint final : public component::Component {
   void on_act();
   bool apply(double voltage);
 
-  // Arming.
+  // Arming: joint_arming.cpp.
   void on_arm();
-  void refuse_to_arm(std::string_view why);
+  void go_on_arming();
+  void let_go();
+  void be_armed();
+  void fail_to_arm(const component::Reason& why);
+  component::Reason not_held() const;
+  component::Reason moved_before() const;
+  component::Reason never_settled() const;
+
+  // Standing: joint_arming.cpp.
+  void watch();
+  void brake_because(const control::HoldingWatch::Finding& finding);
+  void on_rest();
+  void on_motion() { watch_->move(); }
+  void note_sinking(double displacement);
+
+  // Disarming: joint_arming.cpp.
   bool disarm();
-  bool let_go();
+  bool brake_at_once();
   bool switch_off();
   bool cut_power();
   void cut_power_at_rest();
-  bool motor_on() { return succeeds(actuator_on_); }
+  bool motor_on(control::DrivePermit permit) {
+    return limiter_->armed() && succeeds(actuator_on_, permit);
+  }
   bool brake_apply() { return disarm() && brake_; }
-  bool brake_release();
-  static bool succeeds(component::OperationCaller<bool()>& call);
+  bool brake_release(control::DrivePermit permit);
+  template <typename... Arguments>
+  static bool succeeds(component::OperationCaller<bool(Arguments...)>& call,
+                       Arguments... arguments) {
+    const component::CallResult<bool> answer = call(arguments...);
+    return answer.status == component::CallStatus::kDone && answer.value;
+  }
 
   // Of the hardware; paper 1, section 3.1.
   component::Property<std::string> peer_name_{
@@ -87,25 +140,48 @@ class Joint final : public component::Component {
       "rad/s^2", component::mandatory};
   component::Property<double> max_effort_{
       this, "MaxVoltage", 0.0, "the most that is applied", "V", component::mandatory};
-  component::Property<double> period_{
-      this, "Period", 0.01, "between two samples", "s", component::mandatory};
+  SamplingPeriod period_{this};
   component::Property<double> arming_time_{
       this, "ArmingTime",
       1.0,  "for which the voltage may only grow slowly after arming",
       "s",  component::range(0.0, 60.0)};
 
+  component::Property<double> arming_motion_{
+      this,  "ArmingMotion",
+      0.01,  "a joint that moves more when it is armed is braked again, and not armed",
+      "rad", component::range(1e-6, 1.0)};
+
+  // Of the watch over the joint while it is to stand.
+  component::Property<double> holding_motion_{
+      this,  "HoldingMotion",
+      0.1,   "a joint that is to stand and moves farther is braked, and faults",
+      "rad", component::range(1e-6, 1e3)};
+  component::Property<double> holding_velocity_{
+      this,    "HoldingVelocity",
+      0.5,     "a joint that is to stand and is faster in three samples is braked, and faults",
+      "rad/s", component::range(1e-6, 1e3)};
+  component::Property<double> holding_alternation_{
+      this, "HoldingAlternation",
+      0.4,  "largest share of samples in which the effort that holds it changes its sign; 1: any",
+      "",   component::range(0.01, 1.0)};
+  JointModel model_{this,
+                    {lower_, upper_, max_velocity_, max_acceleration_, max_effort_, gear_ratio_}};
+
   component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
                                                     component::from(peer_name_)};
-  component::OperationCaller<bool()> actuator_on_{this, "actuatorOn", "switches the actuator on",
-                                                  component::from(peer_name_)};
+  component::OperationCaller<bool()> position_known_{
+      this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
+      component::optional};
+  component::OperationCaller<bool(control::DrivePermit)> actuator_on_{
+      this, "actuatorOn", "switches the actuator on", component::from(peer_name_)};
   component::OperationCaller<bool()> actuator_off_{this, "actuatorOff", "switches the actuator off",
                                                    component::from(peer_name_)};
   component::OperationCaller<bool()> apply_brake_{this, "brakeApply", "applies the brake",
                                                   component::from(peer_name_),
                                                   component::only_if(brake_)};
-  component::OperationCaller<bool()> release_brake_{this, "brakeRelease", "releases the brake",
-                                                    component::from(peer_name_),
-                                                    component::only_if(brake_)};
+  component::OperationCaller<bool(control::DrivePermit)> release_brake_{
+      this, "brakeRelease", "releases the brake", component::from(peer_name_),
+      component::only_if(brake_)};
   component::EventHandler<> sample_handler_{
       this,
       "Sample",
@@ -120,11 +196,25 @@ class Joint final : public component::Component {
                                          component::only_if(sampler_),
                                          component::leads_to("VoltageActuator")};
   component::EventHandler<> arm_handler_{this, "Arm", component::serve<&Joint::on_arm>,
-                                         "motor on, brake released",
+                                         "held by the motor, then let go",
                                          component::leads_to("Armed", "VoltageActuator")};
   component::EventHandler<> disarm_handler_{this, "Disarm", component::serve<&Joint::disarm>,
                                             "effort 0, brake applied, motor off",
                                             component::leads_to("Armed", "VoltageActuator")};
+  component::EventHandler<> rest_handler_{this,
+                                          "Rest",
+                                          component::serve<&Joint::on_rest>,
+                                          "the armed joint is to stand from now on",
+                                          component::optional,
+                                          component::leads_to_nothing()};
+  component::EventHandler<> motion_handler_{this,
+                                            "Motion",
+                                            component::serve<&Joint::on_motion>,
+                                            "it may move from now on",
+                                            component::optional,
+                                            component::leads_to_nothing()};
+  component::OperationCaller<void(const ComponentName&, const component::Reason&)> not_armed_{
+      this, "notArmed", "says why a joint does not arm", component::optional};
 
   component::InputPort<double> displacement_sensor_{
       this,
@@ -132,7 +222,7 @@ class Joint final : public component::Component {
       "of the motor's axis",
       "rad",
       component::on_data<&Joint::on_displacement>,
-      component::leads_to("Displacement", "Position")};
+      component::leads_to("Displacement", "Position", "Armed", "VoltageActuator")};
   component::InputPort<bool> index_sensor_{this,
                                            "IndexSensor",
                                            "the index switch is closed",
@@ -153,12 +243,18 @@ class Joint final : public component::Component {
   component::OutputPort<bool> index_{this, "Index", "the index switch is closed"};
   component::OutputPort<bool> armed_{this, "Armed", "efforts are passed"};
 
-  component::Operation<bool()> motor_on_{this, "motorOn", component::serve<&Joint::motor_on>,
-                                         "switches the motor on; effort 0 as long as disarmed",
-                                         component::in_own_thread};
-  component::Operation<bool()> motor_off_{this, "motorOff", component::serve<&Joint::switch_off>,
+  component::Operation<bool(control::DrivePermit)> motor_on_{this,
+                                                             "motorOn",
+                                                             component::serve<&Joint::motor_on>,
+                                                             "switches the motor on",
+                                                             component::args("permit"),
+                                                             component::in_own_thread};
+  component::Operation<bool()> motor_off_{this,
+                                          "motorOff",
+                                          component::serve<&Joint::switch_off>,
                                           "disarms, and switches the motor off",
-                                          component::in_own_thread};
+                                          component::in_own_thread,
+                                          component::in_any_state};
   component::Operation<bool(double)> motor_set_{
       this,
       "motorSet",
@@ -169,25 +265,45 @@ class Joint final : public component::Component {
   component::Operation<bool()> read_sensor_{this, "sensorRead",
                                             component::serve<&Joint::sensor_read>,
                                             "has the sensors read", component::in_own_thread};
-  component::Operation<bool()> brake_apply_{
-      this, "brakeApply", component::serve<&Joint::brake_apply>,
-      "disarms, and applies the brake; false without one", component::in_own_thread};
-  component::Operation<bool()> brake_release_{
-      this, "brakeRelease", component::serve<&Joint::brake_release>,
-      "releases the brake; false without one, or while disarmed", component::in_own_thread};
+  component::Operation<bool()> brake_apply_{this,
+                                            "brakeApply",
+                                            component::serve<&Joint::brake_apply>,
+                                            "disarms, and applies the brake; false without one",
+                                            component::in_own_thread,
+                                            component::in_any_state};
+  component::Operation<bool(control::DrivePermit)> brake_release_{
+      this,
+      "brakeRelease",
+      component::serve<&Joint::brake_release>,
+      "releases the brake; false without one, or while disarmed",
+      component::args("permit"),
+      component::in_own_thread};
 
+  component::Attribute<double> arming_moved_{
+      this, "arming_moved", 0.0, "by how much it moved when it was armed last, or failed to [rad]"};
+  component::Attribute<double> sunk_{
+      this, "sunk", 0.0, "by how much it moved since it was disarmed, against its brake [rad]"};
   component::Attribute<int> clipped_{this, "clipped", 0,
                                      "efforts since the configuration that the limiter changed"};
 
-  Changes changes_{actuator_sign_, sensor_sign_, gear_ratio_,   initial_position_,
-                   lower_,         upper_,       max_velocity_, max_acceleration_,
-                   max_effort_,    period_,      arming_time_};
+  Changes changes_{
+      actuator_sign_, sensor_sign_,   gear_ratio_,       initial_position_, lower_,
+      upper_,         max_velocity_,  max_acceleration_, max_effort_,       period_.property(),
+      arming_time_,   arming_motion_, holding_motion_,   holding_velocity_, holding_alternation_};
   const component::Component* arming_ = nullptr;  ///< who lets it move, and could take that back
   std::optional<control::JointLimiter> limiter_;
+  std::optional<control::ArmingSequence> sequence_;
+  std::optional<control::HoldingWatch> watch_;
+  Phase phase_ = Phase::kDisarmed;
+  double commanded_ = 0.0;  ///< last, whatever became of it
+  double effort_ = 0.0;     ///< sent last
+  bool passed_ = false;     ///< it is what was commanded
   control::JointLimiter::Measured measured_;
+  SampleWatch intervals_;
   base::Time started_{};
   base::Time measured_at_{};
   bool measured_since_start_ = false;
+  bool told_of_sinking_ = false;
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
   double sensor_ratio_ = 1.0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/reason_text.hpp"
 
 namespace armature::library {
@@ -20,6 +21,19 @@ Outcome Model::on_configure() {
   dynamics_ = std::move(loaded).value();
   torques_.assign(dynamics_->joints(), 0.0);
   return component::accepted();
+}
+
+/// The base is mounted in one way, whoever computes with it.
+void Model::on_check(component::Check& check) const {
+  const auto is_zero = [](double number) { return number == 0.0; };
+  if (std::ranges::all_of(description_.gravity(), is_zero)) return;
+  for (const DrivenJoint& joint : joints_behind(out_, check)) {
+    if (std::ranges::all_of(joint.gravity, is_zero)) continue;  // nobody knows how it is mounted
+    const std::string wrong = objection_to_gravity(joint, description_.gravity());
+    if (wrong.empty()) continue;
+    return check.error(wrong,
+                       "gravity is in the axes of the base link: the same for all who compute it");
+  }
 }
 
 void Model::compute(const std::vector<double>& motion) {

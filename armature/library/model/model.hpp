@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "armature/component/author.hpp"
 #include "armature/control/inverse_dynamics.hpp"
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/max_age.hpp"
 #include "armature/library/base/robot_description.hpp"
 
@@ -16,14 +18,18 @@ namespace armature::library {
 /// control::InverseDynamics. Actuators, with their rotors and friction, are not in it.
 ///
 /// Refuses to be configured if the file cannot be read, is no URDF, or has another number of
-/// movable joints than `joints`. A motion that is not finite is a fault, and nothing is written.
+/// movable joints than `joints`; the check refuses a gravity in another direction than that of the
+/// joints that it drives. A motion that is not finite is a fault, and nothing is written.
 /// @rt nonblocking, no allocation, O(joints)
-class Model final : public component::Component {
+class Model final : public component::Component, public ComputesTorques {
  public:
   using Component::Component;
 
+  const std::array<double, 3>& gravity() const override { return description_.gravity(); }
+
  private:
   component::Outcome on_configure() override;
+  void on_check(component::Check& check) const override;
   void compute(const std::vector<double>& motion);
 
   component::Property<int> joints_{

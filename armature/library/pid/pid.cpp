@@ -1,17 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/library/pid/pid.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "armature/base/seconds.hpp"
 #include "armature/library/base/of_this_run.hpp"
 #include "armature/library/base/reason_text.hpp"
 
 namespace armature::library {
+namespace {
+
+constexpr double kRounding = 1.001;
+/// Of the effort one way, the other way: with less a joint is not held.
+constexpr double kLeastShare = 0.1;
+
+/// One that cannot drive nothing drives a joint that is to stand.
+std::string objection_to_range(double u_min, double u_max) {
+  if (u_min <= 0.0 && u_max >= 0.0) return {};
+  return "UMin is " + figure(u_min) + " and UMax " + figure(u_max) +
+         ", expected 0 between them: else it drives a joint that is where it should be";
+}
+
+}  // namespace
 
 component::Outcome Pid::on_start() {
   auto made = control::Pid::make(config());
   if (!made) return component::refused(made.error());
   pid_ = made.value();
+  fade_.be(config());
   started_ = time();
   if (const double* const present = output_.taken_over()) take_over(*present);
   return component::accepted();
@@ -52,7 +69,73 @@ void Pid::step(double measured) {
 void Pid::take_gains() {
   const control::Pid::Config& present = pid_->config();
   const bool same = present.kp == kp_ && present.ki == ki_ && present.kd == kd_;
-  if (!same) static_cast<void>(pid_->reconfigure(config()));
+  if (same) return;
+  static_cast<void>(
+      pid_->reconfigure(fade_.step(config(), time(), base::from_seconds(gain_fade_time_))));
+}
+
+std::vector<DrivenJoint> Pid::joints(const component::Check& check) {
+  const component::OperationBase* const target = check.target_of(motor_set_);
+  std::vector<DrivenJoint> joints;
+  if (target == nullptr) {
+    joints = library::joints_behind(output_, check);
+  } else if (auto* const joint = dynamic_cast<DrivesJoints*>(&target->owner())) {
+    joints = joint->joints_behind(nullptr, check);
+  }
+  answer_later(joints, cycles_late(measured_, check), base::to_seconds(period()));
+  return joints;
+}
+
+std::vector<DrivenJoint> Pid::joints_behind(const component::InputPortBase* input,
+                                            const component::Check& check) {
+  return input == &reference_ ? joints(check) : std::vector<DrivenJoint>{};
+}
+
+/// With a joint of its own it is to measure that one, and to follow something else.
+void Pid::on_check(component::Check& check) const {
+  if (const std::string wrong = objection_to_range(u_min_, u_max_); !wrong.empty()) {
+    check.error(wrong);
+  }
+  const component::OperationBase* const target = check.target_of(motor_set_);
+  if (target == nullptr) return;
+  const component::Component& joint = target->owner();
+  for (const component::OutputPortBase* const writer : check.writers_of(measured_)) {
+    if (&writer->owner() == &joint) continue;
+    check.error("it drives '" + std::string(joint.name()) + "', and Sen is of '" +
+                    std::string(writer->owner().name()) + "'",
+                "connect the position of the joint that it drives");
+  }
+  for (const component::OutputPortBase* const writer : check.writers_of(reference_)) {
+    if (&writer->owner() != &joint) continue;
+    check.error("it would follow what it drives: Ref is of '" + std::string(joint.name()) + "'",
+                "connect what is desired");
+  }
+}
+
+std::string Pid::objection(const DrivenJoint& joint, double period_s,
+                           const CheckedGains::Wanted& wanted) const {
+  const control::Pid::Config gains{.kp = wanted.value_of(kp_),
+                                   .ki = wanted.value_of(ki_),
+                                   .kd = wanted.value_of(kd_),
+                                   .u_min = wanted.value_of(u_min_),
+                                   .u_max = wanted.value_of(u_max_)};
+  if (const auto checked = control::Pid::check(gains); !checked) return checked.error();
+  if (std::string wrong = objection_to_range(gains.u_min, gains.u_max); !wrong.empty())
+    return wrong;
+  const double most = std::max(std::abs(gains.u_min), std::abs(gains.u_max));
+  if (most > kRounding * joint.most_effort) {
+    return "UMin and UMax are up to " + figure(most) + ", " + joint.name + " takes " +
+           figure(joint.most_effort);
+  }
+  const double least = std::min(std::abs(gains.u_min), std::abs(gains.u_max));
+  if (least < kLeastShare * most) {
+    return "UMin is " + figure(gains.u_min) + " and UMax " + figure(gains.u_max) + ": " +
+           joint.name + " would be driven one way only, expected at least " +
+           figure(kLeastShare * most) + " both ways";
+  }
+  const bool drives = gains.kp > 0.0 || gains.ki > 0.0 || gains.kd > 0.0;
+  if (!drives) return {};
+  return objection_to_gains(joint, control::SampledController::of(gains), period_s);
 }
 
 void Pid::reset() {

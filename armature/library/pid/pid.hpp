@@ -4,9 +4,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/control/gain_fade.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/library/base/checked_gains.hpp"
 #include "armature/library/base/max_age.hpp"
 
 namespace armature::library {
@@ -16,17 +19,27 @@ namespace armature::library {
 /// start. Neither a start nor `reset` kicks, and so it is when a
 /// robot is armed (see Arming). A difference that is no finite number is a fault, and nothing is
 /// written. If it takes over the place of another writer of its output because modes are switched,
-/// it goes on from what that one wrote last.
+/// it goes on from what that one wrote last. Gains that are changed while it runs become the new
+/// ones in GainFadeTime.
+///
+/// Where the deployment says what the joint is (see Robot), gains that would shake it are refused,
+/// at check and at any time after it.
 ///
 /// With `PeerName` it has a joint of its own (paper 2, section 5.2): each update has that joint
 /// read its sensor, and each output is set there.
 /// @rt nonblocking, no allocation; with a joint in another thread it waits for that
-class Pid final : public component::Component {
+class Pid final : public component::Component, public ControlsJoint, public DrivesJoints {
  public:
   using Component::Component;
 
+  const component::InputPortBase& desired_input() const override { return reference_; }
+  const component::InputPortBase& measured_input() const override { return measured_; }
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
+
  private:
   component::Outcome on_start() override;
+  void on_check(component::Check& check) const override;
   void on_update() override;
   void step(double measured);
   void expect_done(component::CallStatus status, std::string_view operation);
@@ -34,6 +47,9 @@ class Pid final : public component::Component {
   void reset();
   void take_gains();
   control::Pid::Config config() const { return {kp_, ki_, kd_, u_min_, u_max_}; }
+  std::vector<DrivenJoint> joints(const component::Check& check);
+  std::string objection(const DrivenJoint& joint, double period_s,
+                        const CheckedGains::Wanted& wanted) const;
 
   static constexpr double kLargestGain = 1e9;
 
@@ -62,6 +78,10 @@ class Pid final : public component::Component {
       this, "UMin", -1.0, "lower limit of the output", "V", component::mandatory};
   component::Property<double> u_max_{
       this, "UMax", 1.0, "upper limit of the output", "V", component::mandatory};
+  component::Property<double> gain_fade_time_{
+      this, "GainFadeTime",
+      0.2,  "in which gains that are changed in motion become the new ones",
+      "s",  component::range(0.0, 60.0)};
   component::Property<std::string> peer_name_{
       this, "PeerName", "", "the joint that it reads and drives itself; none: others do"};
   component::InputPort<double> reference_{this, "Ref", "desired position", "rad",
@@ -88,7 +108,19 @@ class Pid final : public component::Component {
   component::OperationCaller<bool(double)> motor_set_{
       this, "motorSet", "drives the joint", component::from(peer_name_), component::optional};
 
+  CheckedGains gains_{this,
+                      [this](const component::Check& check) { return joints(check); },
+                      [this](const std::vector<DrivenJoint>& joints, double period_s,
+                             const CheckedGains::Wanted& wanted) {
+                        return objection(joints.front(), period_s, wanted);
+                      },
+                      kp_,
+                      ki_,
+                      kd_,
+                      u_min_,
+                      u_max_};
   std::optional<control::Pid> pid_;
+  control::GainFade fade_;
   base::Time started_{};
 };
 

@@ -89,6 +89,7 @@ TEST_F(PidTest, NeitherResetNorAStartKicks) {
 }
 
 TEST_F(PidTest, GainsMayChangeWhileItRunsWithoutAJump) {
+  pid.set("GainFadeTime", 0.0);
   ASSERT_TRUE(pid.start()) << pid.reason();
   step(1.0, 0.0);
   const double before = step(1.0, 0.0);
@@ -142,6 +143,30 @@ TEST_F(PidTest, GoesOnFromWhatItsPredecessorWroteAndDesired) {
   out.take_over_from(nullptr);
   pid.write("Sen", 0.8);
   EXPECT_DOUBLE_EQ(pid.output<double>("Out"), 3.0 + 0.5 * 0.2) << "its integral alone";
+}
+
+/// Along a ramp the damper's output changes by its gain: that of the moment.
+TEST_F(PidTest, GainsThatAreChangedWhileItRunsFadeIn) {
+  pid.set("Kp", 1.0);
+  pid.set("Ki", 0.0);
+  pid.set("Kd", 0.0);
+  ASSERT_TRUE(pid.start()) << pid.reason();
+  step(1.0, 0.0);
+  pid.set("Kp", 3.0);
+  double measured = 0.0;
+  const auto gain = [&] {
+    const double before = pid.output<double>("Out");
+    measured -= 0.01;
+    return (step(1.0, measured) - before) / 0.01;
+  };
+  EXPECT_NEAR(gain(), 1.0, 1e-9);
+  pid.advance(100ms);
+  EXPECT_NEAR(gain(), 2.0, 1e-9);
+  pid.advance(50ms);
+  EXPECT_NEAR(gain(), 2.5, 1e-9);
+  pid.advance(50ms);
+  EXPECT_NEAR(gain(), 3.0, 1e-9);
+  EXPECT_NEAR(gain(), 3.0, 1e-9);
 }
 
 }  // namespace

@@ -58,4 +58,10 @@ void SensorNMux::note_missing() {
   if (news) log_warning("no answer from {} in the last round", missing_.names());
 }
 
+std::vector<const component::InputPortBase*> SensorNMux::samples_behind(
+    const component::OutputPortBase& /*output*/) const {
+  const auto& inputs = interface().inputs;
+  return {inputs.begin(), inputs.end()};
+}
+
 }  // namespace armature::library

@@ -7,6 +7,7 @@
 
 #include "armature/control/gathering.hpp"
 #include "armature/library/base/changes.hpp"
+#include "armature/library/base/driven_joint.hpp"
 #include "armature/library/base/missing_answers.hpp"
 #include "armature/library/base/sensor.hpp"
 
@@ -24,9 +25,12 @@ namespace armature::library {
 /// component faults, both naming the joint; so it does at once for a value that is no finite
 /// number.
 /// @rt nonblocking, no allocation; O(1) for a value, O(joints) for a Sample
-class SensorNMux final : public Sensor {
+class SensorNMux final : public Sensor, public PassesSamples {
  public:
   using Sensor::Sensor;
+
+  std::vector<const component::InputPortBase*> samples_behind(
+      const component::OutputPortBase& output) const override;
 
  private:
   component::Outcome on_configure() override { return set_up(); }

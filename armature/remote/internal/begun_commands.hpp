@@ -8,7 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "armature/component/command.hpp"
+#include "armature/base/time.hpp"
+#include "armature/remote/internal/peer_command.hpp"
 
 namespace armature::remote::internal {
 
@@ -17,7 +18,7 @@ struct BegunCommand {
   std::int32_t handle;
   std::string component;
   std::string command;
-  component::CommandHandle state;
+  PeerCommand state;
 };
 
 /// The commands that were begun and may be asked for, by their handles.
@@ -30,10 +31,13 @@ class BegunCommands {
   bool make_room();
   /// @return its handle, which is given once
   /// @thread the controlling one, after `make_room`
-  std::int32_t add(std::string component, std::string command, component::CommandHandle state);
+  std::int32_t add(std::string component, std::string command, PeerCommand state);
   /// nullptr if it was forgotten, or never was.
   /// @thread the controlling one; valid until the next `make_room`
   BegunCommand* find(std::int32_t handle);
+  /// Cancels those whose peers are gone.
+  /// @thread the controlling one
+  void cancel_lost(base::Time now, const PeerCommand::Tell& tell);
   /// The component that it was given to.
   /// @thread any
   std::optional<std::string> component_of(std::int32_t handle) const;

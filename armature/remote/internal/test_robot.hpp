@@ -46,6 +46,10 @@ class TestAxis final : public component::Component {
     arm_.complete();
     return component::accepted();
   }
+  component::Outcome begin_park() { return begin_move(1e6); }
+  component::Reason held() {
+    return loaded_() ? component::Reason("its load") : component::Reason();
+  }
   bool arrived() { return position_ == target_; }
   void brake() { target_ = position_; }
   double sum(const std::vector<double>& values, double factor) {
@@ -91,6 +95,15 @@ class TestAxis final : public component::Component {
                                    component::cancelled_by<&TestAxis::brake>};
   component::Command<> arm_{this, "arm", component::serve<&TestAxis::begin_arm>, "lets it move",
                             component::by_operator};
+  component::Property<bool> loaded_{this, "Loaded", false,
+                                    "",   "",       component::changeable_while_running};
+  component::Command<> park_{this,
+                             "park",
+                             component::serve<&TestAxis::begin_park>,
+                             "goes where it may stop",
+                             component::done_when<&TestAxis::arrived>,
+                             component::cancelled_by<&TestAxis::brake>};
+  component::Holding holding_{this, component::serve<&TestAxis::held>};
 
   double position_ = 0.0;
   double target_ = 0.0;
@@ -109,10 +122,12 @@ class TestRobot {
     for (exec::ComponentEntry& entry : blueprint.components) entry.model = "TestAxis";
     exec::ApplicationOptions options;
     options.simulated = true;
+    options.before_stop = {{"Axis", "park"}};
     options.attend = [this] { queue_.run(); };
     application_.emplace(std::move(blueprint), std::move(options));
     EXPECT_EQ(application_->start().to_text(), "");
-    inspector_.emplace(*application_, queue_);
+    inspector_.emplace(*application_, queue_,
+                       [this](const std::string& text) { told_ += text + "\n"; });
     ride::NodeOptions node_options;
     node_options.allows = std::move(allows);
     node_options.log = [this](const rt::LogRecord& record) {
@@ -137,6 +152,8 @@ class TestRobot {
     const std::lock_guard lock(mutex_);
     return log_;
   }
+  /// What the inspector had to tell the operator.
+  const std::string& told() const { return told_; }
   void pass(base::Duration time) { application_->run_for(time); }
 
   /// What `ask` brings, which waits for the robot; simulated time stands still.
@@ -155,6 +172,7 @@ class TestRobot {
   std::string address_;
   std::mutex mutex_;
   std::string log_;
+  std::string told_;
 };
 
 }  // namespace armature::remote

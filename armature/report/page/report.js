@@ -202,6 +202,9 @@
       });
     });
     part.append(table([['', ''], ['', '', 'text'], ...kinds.map(([, title, unit]) => [title, unit])], rows));
+    const moved = tracked.flatMap((run) => run.joints.filter((j) => j.moved_arming_rad > 1e-3)
+      .map((j) => `${run.name}, joint ${j.joint}: ${short(j.moved_arming_rad * scale)} ${angle}`));
+    if (moved.length > 0) part.append(el('p', {class: 'note'}, `Moved while the joints were being armed: ${moved.join('; ')}.`));
     const missing = tracked.flatMap((run) => run.joints.filter((j) => j.samples_missing > 0)
       .map((j) => `${run.name}, joint ${j.joint}: ${whole(j.samples_missing)} of ${whole(j.samples + j.samples_missing)}`));
     if (missing.length > 0) part.append(el('p', {class: 'note bad'}, `Samples missing, for which the one before stands: ${missing.join('; ')}.`));

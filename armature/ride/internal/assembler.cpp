@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
+#include <utility>
+
+#include "armature/ride/memory_share.hpp"
 
 namespace armature::ride::internal {
 
 std::span<std::byte> Assembler::room() {
-  if (!bytes_) bytes_.reset(new std::byte[kRoom]);  // Untouched, so that it takes no memory yet.
+  if (!bytes_) {
+    std::unique_ptr<std::byte[]> bytes(new std::byte[kRoom]);  // Untouched: it takes no memory yet.
+    if (share_ != nullptr && !share_->take(kRoom)) throw std::bad_alloc();
+    bytes_ = std::move(bytes);
+  }
   if (begin_ == end_) {
     begin_ = end_ = 0;
   } else if (begin_ != 0 && kRoom - end_ < Header::kMostLength) {
@@ -28,6 +36,8 @@ std::size_t Assembler::missing() const {
 
 void Assembler::reset() {
   begin_ = end_ = 0;
+  if (bytes_ != nullptr && share_ != nullptr) share_->give(kRoom);
+  bytes_.reset();
   parts_.clear();
   whole_.clear();
   kept_ = 0;
@@ -45,6 +55,7 @@ Found Assembler::next(Message& message) {
     begin_ += header->length;
     ++taken_;
     message.body = {at + Header::kSize, header->length - Header::kSize};
+    message.whole = nullptr;
     if (!header->continues && parts_.empty()) return Found::kMessage;
     const Found found = join(message);
     if (found != Found::kNothing) return found;
@@ -68,31 +79,50 @@ Found Assembler::join(Message& message) {
   if (parts == parts_.end()) {
     if (!message.header.continues) return Found::kMessage;
     if (parts_.size() == kMostParts) return Found::kTooMany;
-    parts = parts_.insert(parts_.end(), Parts{message.header, taken_, {}, false});
+    parts = parts_.insert(parts_.end(), Parts{message.header, taken_, Body(share_)});
+    if (gate_ != nullptr && !gate_->admits(message)) parts->end = Found::kNothing;
   }
   add(*parts, message.body);
   if (message.header.continues) return Found::kNothing;
   kept_ -= parts->body.size();
   whole_.splice(whole_.begin(), parts_, parts);
   message.body = whole_.front().body.bytes();
-  return whole_.front().too_large ? Found::kTooLarge : Found::kMessage;
+  message.whole = &whole_.front().body;
+  return whole_.front().end;
 }
 
-/// Of a body that is too large its beginning is kept, to say whose it was.
 void Assembler::add(Parts& parts, std::span<const std::byte> body) {
-  if (!parts.too_large && body.size() > most_body_ - std::min(kept_, most_body_)) {
-    parts.too_large = true;
-    kept_ -= parts.body.size();
-    Body beginning;
-    beginning.append(parts.body.bytes().first(std::min(parts.body.size(), kBeginning)));
-    parts.body = std::move(beginning);
-    kept_ += parts.body.size();
+  if (parts.end == Found::kMessage) {
+    if (body.size() > most_body_ - std::min(kept_, most_body_)) {
+      keep_beginning(parts, Found::kTooLarge);
+    } else if (!keep(parts, body)) {
+      keep_beginning(parts, Found::kNoMemory);
+    } else {
+      return;
+    }
   }
-  if (parts.too_large) {
-    body = body.first(std::min(body.size(), kBeginning - std::min(parts.body.size(), kBeginning)));
+  const std::size_t missing = kBeginning - std::min(parts.body.size(), kBeginning);
+  keep(parts, body.first(std::min(body.size(), missing)));
+}
+
+/// False if there is no memory for it.
+bool Assembler::keep(Parts& parts, std::span<const std::byte> body) {
+  try {
+    parts.body.append(body);
+  } catch (const std::bad_alloc&) {
+    return false;
   }
-  parts.body.append(body);
   kept_ += body.size();
+  return true;
+}
+
+/// Of a body that is not taken its beginning is kept, to say whose it was.
+void Assembler::keep_beginning(Parts& parts, Found end) {
+  parts.end = end;
+  kept_ -= parts.body.size();
+  parts.body.truncate(kBeginning);
+  parts.body.shrink(kBeginning);
+  kept_ += parts.body.size();
 }
 
 }  // namespace armature::ride::internal

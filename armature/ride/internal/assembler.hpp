@@ -17,12 +17,23 @@ namespace armature::ride::internal {
 struct Message {
   Header header;
   std::span<const std::byte> body;
+  Body* whole = nullptr;  ///< what it lies in, if it came in several: for who keeps it to move
+};
+
+/// Whether a body that goes on is worth its memory.
+class BodyGate {
+ public:
+  virtual ~BodyGate() = default;
+  /// @param first  its first message
+  /// @return false: what comes of it is dropped, and nothing more is told of it
+  virtual bool admits(const Message& first) = 0;
 };
 
 enum class Found {
   kMessage,
   kNothing,   ///< more has to be received first
   kTooLarge,  ///< a message that was too large has ended; `body` is how it began
+  kNoMemory,  ///< the same of one that there was no memory for
   kBadMagic,  ///< these three are the end: nobody knows where the next message begins
   kBadLength,
   kTooMany,  ///< more messages go on at the same time than are kept
@@ -33,7 +44,13 @@ enum class Found {
 /// @thread one at a time
 class Assembler {
  public:
-  explicit Assembler(std::size_t most_body) : most_body_(most_body) {}
+  /// Of what was received and not looked at.
+  static constexpr std::size_t kRoom = 128 * 1024;
+
+  /// @param share  of which bodies that go on take their memory; none: without bound
+  /// @param gate   asked before it takes any; none: takes all
+  explicit Assembler(std::size_t most_body, MemoryShare* share = nullptr, BodyGate* gate = nullptr)
+      : most_body_(most_body), share_(share), gate_(gate) {}
 
   /// Where to receive to: what is missing of the message that has begun, and at least 16 KiB, but
   /// no more, so that what one connection floods takes no long time to look at. Ends the life of
@@ -52,7 +69,6 @@ class Assembler {
   std::size_t kept() const { return kept_; }
 
  private:
-  static constexpr std::size_t kRoom = 128 * 1024;
   static constexpr std::size_t kLeastRoom = 16 * 1024;
   static constexpr std::size_t kMostParts = 16;
   static constexpr std::size_t kBeginning = 8;  ///< operation and call
@@ -62,15 +78,19 @@ class Assembler {
     Header header;
     std::uint64_t number;  ///< of its first message
     Body body;
-    bool too_large = false;
+    Found end = Found::kMessage;  ///< kTooLarge, kNoMemory, kNothing: only its beginning is kept
   };
 
   Found join(Message& message);
   std::size_t missing() const;
   std::list<Parts>::iterator find(const Header& header);
   void add(Parts& parts, std::span<const std::byte> body);
+  bool keep(Parts& parts, std::span<const std::byte> body);
+  void keep_beginning(Parts& parts, Found end);
 
   const std::size_t most_body_;
+  MemoryShare* const share_;
+  BodyGate* const gate_;
   std::unique_ptr<std::byte[]> bytes_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

@@ -2,6 +2,7 @@
 // Of NodeState: what a message does.
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "armature/ride/internal/node_state.hpp"
@@ -26,6 +27,13 @@ const Declaration* find_declaration(const Interface& interface, Number number) {
       interface.declarations,
       [&](const Declaration& declaration) { return declaration.number() == number; });
   return found == interface.declarations.end() ? nullptr : &*found;
+}
+
+std::string what_is_malformed(const Decoder& parameters) {
+  if (parameters.problem().empty()) {
+    return "its parameters are not those of the operation, or out of range";
+  }
+  return parameters.problem();
 }
 
 }  // namespace
@@ -68,7 +76,8 @@ void NodeState::take_control(Link& link, const Message& message) {
     case Code::kHello:
       if (link.peer != nullptr) return link.peer->take_hello(control.text);
       if (!std::exchange(link.greeted, true)) {
-        link.send_control(0, {Code::kHello, 0, 0, 0, options_.name + " armature"});
+        link.send_control(0,
+                          {Code::kHello, 0, 0, 0, options_.name + " armature/" ARMATURE_VERSION});
       }
       return;
     case Code::kPing:
@@ -92,7 +101,8 @@ NodeState::Hosted* NodeState::find_hosted(std::uint32_t identifier) {
 }
 
 void NodeState::execute(Link& link, const Message& message, bool is_request) {
-  Decoder parameters(message.body);
+  Holding holding(link.memory);
+  Decoder parameters(message.body, &holding);
   Number operation = 0;
   std::uint32_t call = 0;
   if (!parameters.take(operation) || (is_request && !parameters.take(call))) {
@@ -105,54 +115,95 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
   if (hosted == nullptr) {
     return link.refuse(Code::kNoSuchComponent, message, "no component has this identifier");
   }
-  if (const auto access = access_to_refuse(link, *hosted, operation)) {
-    return link.refuse(Code::kNotAllowed, message, not_allowed(link, hosted->name, *access));
+  if (options_.allows) {
+    const auto refusal = refusal_of_operation(link, *hosted, operation, link.identity());
+    if (refusal) return link.refuse(refusal->code, message, refusal->text);
   }
   if (is_request &&
       link.kept_replies.load(std::memory_order_relaxed) >= options_.limits.pending_replies) {
     return link.refuse(Code::kBusy, message, "as many answers are owed as may be");
   }
-  run_service(link, message, *hosted, operation, call, is_request, parameters);
+  run_service(link, message, *hosted, operation, call, is_request, parameters, holding);
+}
+
+/// What a refusal would cost to gather first: nothing is kept for who may not, or asks what is not
+/// there.
+std::optional<Refusal> NodeState::refusal_of(const Link& link, const Message& first,
+                                             const std::string& identity) {
+  const Type type = first.header.type;
+  const bool is_operation = type == Type::kCommand || type == Type::kRequest;
+  if (type == Type::kEvent && link.peer != nullptr) return std::nullopt;
+  if (type == Type::kEvent) return Refusal{Code::kNoSuchComponent, "nobody has subscribed to it"};
+  if (type == Type::kControl) return Refusal{Code::kTooLarge, "CONTROL is a single message"};
+  if (!is_operation) return Refusal{Code::kMalformed, "no type of message"};
+  Decoder from(first.body);
+  Number operation = 0;
+  if (!from.take(operation)) return Refusal{Code::kMalformed, "no operation in its body"};
+  if (first.header.identifier == kDirectory) {
+    return Refusal{Code::kTooLarge, "what the directory is asked is a single message"};
+  }
+  const std::lock_guard lock(hosted_mutex_);
+  const Hosted* const hosted = find_hosted(first.header.identifier);
+  if (hosted == nullptr) {
+    return Refusal{Code::kNoSuchComponent, "no component has this identifier"};
+  }
+  const Declaration* const declaration = find_declaration(hosted->service->interface(), operation);
+  if (declaration == nullptr || declaration->is_event()) {
+    return Refusal{Code::kNoSuchOperation,
+                   "'" + hosted->name + "' has no operation of this number"};
+  }
+  return refusal_of_operation(link, *hosted, operation, identity);
 }
 
 /// The other end of a link, for an operation that asks what it may do to further components.
 class NodeState::SenderAt final : public Sender {
  public:
-  SenderAt(const NodeState& node, const Link& link) : node_(node), link_(link) {}
+  SenderAt(const NodeState& node, Link& link) : node_(node), link_(link) {}
 
   bool allows(std::string_view component, Access access) const override {
-    return node_.is_allowed(link_, component, access);
+    return node_.is_allowed({link_.scheme, link_.identity(), component, access});
   }
   std::string refusal(std::string_view component, Access access) const override {
-    return node_.not_allowed(link_, component, access);
+    return node_.not_allowed({link_.scheme, link_.identity(), component, access});
+  }
+  Origin origin() const override {
+    const auto identity = link_.identity();
+    const AccessQuestion question{link_.scheme, identity, {}, Access::kCommand};
+    return {link_.weak_from_this(), link_.connection_number(), who(question)};
   }
 
  private:
   const NodeState& node_;
-  const Link& link_;
+  Link& link_;
 };
 
 void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
-                            std::uint32_t call, bool is_request, Decoder& parameters) {
+                            std::uint32_t call, bool is_request, Decoder& parameters,
+                            Holding& holding) {
   const Priority priority{static_cast<std::uint8_t>(message.header.priority)};
   const SenderAt sender(*this, link);
-  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier, &sender);
+  Reply reply(is_request ? &link : nullptr, call, priority, operation, hosted.identifier, &sender,
+              &holding, &parameters);
   try {
-    switch (ServiceAccess::execute(*hosted.service, operation, parameters, reply)) {
+    const Executed executed = ServiceAccess::execute(*hosted.service, operation, parameters, reply);
+    if (reply.settled()) return;
+    switch (executed) {
       case Executed::kDone:
-        if (!reply.settled()) reply.done();
-        return;
+        return reply.done();
       case Executed::kNoSuchOperation:
         return link.refuse(Code::kNoSuchOperation, message,
                            "'" + hosted.name + "' has no operation of this number");
       case Executed::kMalformed:
-        return link.refuse(Code::kMalformed, message,
-                           "its parameters are not those of the operation, or out of range");
+        return link.refuse(Code::kMalformed, message, what_is_malformed(parameters));
       case Executed::kBusy:
         return link.refuse(Code::kBusy, message, "'" + hosted.name + "' has too much to do");
     }
   } catch (const NotAllowed& refusal) {
     if (!reply.settled()) link.refuse(Code::kNotAllowed, message, refusal.what());
+  } catch (const Malformed& refusal) {
+    if (!reply.settled()) link.refuse(Code::kMalformed, message, refusal.what());
+  } catch (const std::bad_alloc&) {
+    if (!reply.settled()) link.refuse(Code::kBusy, message, "there is no memory for it");
   } catch (const std::exception& failure) {
     if (!reply.settled()) fail(link, message, hosted, operation, failure.what());
   }
@@ -176,26 +227,24 @@ void NodeState::fail(Link& link, const Message& message, Hosted& hosted, Number 
 }
 
 /// What is no operation is refused as such, by who is to execute it.
-std::optional<Access> NodeState::access_to_refuse(Link& link, const Hosted& hosted,
-                                                  Number operation) const {
-  if (!options_.allows) return std::nullopt;
+std::optional<Refusal> NodeState::refusal_of_operation(const Link& link, const Hosted& hosted,
+                                                       Number operation,
+                                                       const std::string& identity) const {
   const Declaration* const declaration = find_declaration(hosted.service->interface(), operation);
-  if (declaration == nullptr || is_allowed(link, hosted.name, declaration->access))
-    return std::nullopt;
-  return declaration->access;
+  if (declaration == nullptr) return std::nullopt;
+  const AccessQuestion question{link.scheme, identity, hosted.name, declaration->access};
+  if (is_allowed(question)) return std::nullopt;
+  return Refusal{Code::kNotAllowed, not_allowed(question)};
 }
 
 /// `operator@tls may not command 'Vision'`.
-std::string NodeState::not_allowed(const Link& link, std::string_view component,
-                                   Access access) const {
-  const std::string identity = link.identity();
-  return who({link.scheme, identity, component, access}) + " may not " +
-         std::string(name_of(access)) + " '" + std::string(component) + "'";
+std::string NodeState::not_allowed(const AccessQuestion& question) const {
+  return who(question) + " may not " + std::string(name_of(question.access)) + " '" +
+         std::string(question.component) + "'";
 }
 
-bool NodeState::is_allowed(const Link& link, std::string_view component, Access access) const {
-  if (!options_.allows) return true;
-  return options_.allows({link.scheme, link.identity(), component, access});
+bool NodeState::is_allowed(const AccessQuestion& question) const {
+  return !options_.allows || options_.allows(question);
 }
 
 ComponentEntry NodeState::entry_of(const Hosted& hosted) const {
@@ -256,13 +305,19 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
   if (hosted == nullptr) return refusal(Code::kNoSuchComponent);
   Publisher& publisher = ServiceAccess::publisher(*hosted->service);
   if (!publisher.has_event(event)) return refusal(Code::kNoSuchOperation);
-  if (!is_allowed(link, hosted->name, Access::kRead)) {
-    return refuse_subscription(link, Code::kNotAllowed,
-                               not_allowed(link, hosted->name, Access::kRead));
+  const std::string identity = link.identity();
+  const AccessQuestion question{link.scheme, identity, hosted->name, Access::kRead};
+  if (!is_allowed(question)) {
+    return refuse_subscription(link, Code::kNotAllowed, not_allowed(question));
   }
   bool too_many = false;
-  auto queue = std::make_shared<EventQueue>(link.shared_from_this(), chosen, event, identifier,
-                                            options_.limits.events_per_subscription);
+  std::shared_ptr<EventQueue> queue;
+  try {
+    queue = std::make_shared<EventQueue>(link.shared_from_this(), link.memory, chosen, event,
+                                         identifier, options_.limits.events_per_subscription);
+  } catch (const std::bad_alloc&) {
+    return refuse_subscription(link, Code::kBusy, "there is no memory for it");
+  }
   {
     const std::lock_guard lock(link.mutex());
     // It may have gone with this message still here: nobody would ever end the subscription.

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "armature/ride/body.hpp"
+#include "armature/ride/memory_share.hpp"
 #include "armature/ride/wire.hpp"
 
 namespace armature::ride::internal {
@@ -19,26 +21,38 @@ class Link;
 /// When it is full the oldest goes. Guarded by the link's lock.
 class EventQueue {
  public:
-  EventQueue(std::shared_ptr<Link> subscriber, std::uint32_t chosen, Number number,
-             std::uint32_t publisher, std::size_t capacity)
+  /// @throws std::bad_alloc  the subscriber has no memory left for it
+  EventQueue(std::shared_ptr<Link> subscriber, const std::shared_ptr<MemoryShare>& share,
+             std::uint32_t chosen, Number number, std::uint32_t publisher, std::size_t capacity)
       : link(std::move(subscriber)),
         subscription(chosen),
         event(number),
         component(publisher),
-        events_(capacity) {}
+        place_(share) {
+    place_.take(sizeof(EventQueue) + capacity * sizeof(Body) + kElsewhere);
+    events_.reserve(capacity);
+    while (events_.size() < capacity) events_.emplace_back(share.get());
+  }
 
   bool empty() const { return count_ == 0; }
-  /// @return false if the oldest was lost for it
+  /// @return false if the oldest was lost for it, or there is no memory for it
   bool push(std::span<const std::byte> message) {
     const bool full = count_ == events_.size();
     if (full) pop();
-    Body& place = events_[(first_ + count_++) % events_.size()];
+    Body& place = events_[(first_ + count_) % events_.size()];
     place.clear();
-    place.append(message);
+    try {
+      place.append(message);
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
+    ++count_;
     return !full;
   }
   std::span<const std::byte> front() const { return events_[first_].bytes(); }
   void pop() {
+    events_[first_].clear();
+    events_[first_].shrink(kMostKept);
     first_ = (first_ + 1) % events_.size();
     --count_;
   }
@@ -49,6 +63,10 @@ class EventQueue {
   const std::uint32_t component;
 
  private:
+  static constexpr std::size_t kElsewhere = 4096;  ///< lists; so that each is counted
+  static constexpr std::size_t kMostKept = 1024;   ///< what a large event took is given back
+
+  Holding place_;
   std::vector<Body> events_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "armature/ride/internal/assembler.hpp"
@@ -17,17 +18,27 @@ class HandedOver {
   bool full() const { return bytes_.size() >= kMostBytes || kept_.size() >= kMostMessages; }
 
   void push(Link& link, const Message& message) {
-    kept_.push_back({&link, message.header, bytes_.size(), message.body.size()});
+    if (message.whole != nullptr) {
+      wholes_.push_back(std::move(*message.whole));
+      kept_.push_back({&link, message.header, wholes_.size() - 1, message.body.size(), true});
+      return;
+    }
     bytes_.append(message.body);
+    kept_.push_back(
+        {&link, message.header, bytes_.size() - message.body.size(), message.body.size(), false});
   }
 
   /// Gives them to `take(Link&, const Message&)`, and forgets them.
   template <typename Take>
   void take_all(const Take& take) {
     for (const Kept& kept : kept_) {
-      take(*kept.link, Message{kept.header, bytes_.bytes().subspan(kept.begin, kept.size)});
+      Body* const whole = kept.is_whole ? &wholes_[kept.begin] : nullptr;
+      const auto body =
+          whole != nullptr ? whole->bytes() : bytes_.bytes().subspan(kept.begin, kept.size);
+      take(*kept.link, Message{kept.header, body, whole});
     }
     kept_.clear();
+    wholes_.clear();
     bytes_.clear();
     bytes_.shrink(2 * kMostBytes);
   }
@@ -39,12 +50,14 @@ class HandedOver {
   struct Kept {
     Link* link;
     Header header;
-    std::size_t begin;
+    std::size_t begin;  ///< in `bytes_`, or which of `wholes_`
     std::size_t size;
+    bool is_whole;
   };
 
   std::vector<Kept> kept_;
   Body bytes_;
+  std::vector<Body> wholes_;  ///< those that came in several messages
 };
 
 }  // namespace armature::ride::internal

@@ -40,10 +40,12 @@ class Journal {
     }
     ++kind.told;
     if (kind.left_out != 0) {
-      sink_({level, now, node_, "{} more like the next were left out", {kind.left_out}});
+      const std::array left_out{rt::LogArgument(kind.left_out)};
+      sink_({level, now, node_, "{} more like the next were left out", left_out});
       kind.left_out = 0;
     }
-    sink_({level, now, node_, format, {argument(arguments)...}});
+    const std::array<rt::LogArgument, sizeof...(arguments)> given{argument(arguments)...};
+    sink_({level, now, node_, format, given});
   }
 
  private:

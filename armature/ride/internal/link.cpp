@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/ride/internal/link.hpp"
 
-#include <algorithm>
 #include <utility>
-
-#include "armature/platform/clock.hpp"
 
 namespace armature::ride::internal {
 
-Link::Link(LinkHost& host, platform::Poller& poller, const Limits& limits)
-    : host_(host), poller_(poller), limits_(limits), assembler_(limits.body_bytes) {}
+Link::Link(LinkHost& host, platform::Poller& poller, const Limits& limits,
+           std::shared_ptr<MemoryBound> all)
+    : memory(std::make_shared<MemoryShare>(std::move(all), kReserve)),
+      host_(host),
+      poller_(poller),
+      limits_(limits),
+      assembler_(limits.body_bytes, memory.get(), this),
+      out_(memory.get()) {}
 
 void Link::begin(std::unique_ptr<Connection> connection) {
   const std::lock_guard lock(mutex_);
@@ -64,26 +67,15 @@ bool Link::establish_locked(Progress progress) {
   return progress == Progress::kDone;
 }
 
-std::optional<std::uint64_t> Link::read(std::size_t& size) {
+void Link::end_if_all_is_sent() {
   const std::lock_guard lock(mutex_);
-  if (!open() || reader_ == Reader::kCaller) return std::nullopt;
-  if (reader_ == Reader::kNobody) {
-    reader_ = Reader::kIo;
-    update_interest();
-  }
-  const std::span<std::byte> room = assembler_.room();
-  const Progress progress = connection_->receive(room, size);
-  if (progress == Progress::kGone) break_off_locked(connection_->problem());
-  if (progress == Progress::kDone) {
-    assembler_.received(size);
-    take_messages();
-  }
-  if (progress == Progress::kWantWrite) {
-    reading_waits_ = true;
-    update_interest();
-  }
-  if (progress != Progress::kDone || size == room.size()) look_again_locked();
-  return open() ? assembler_.incomplete() : std::nullopt;
+  if (!open() || unsent() != 0 || kept_replies.load(std::memory_order_relaxed) != 0) return;
+  break_off_locked(connection_->problem());
+}
+
+void Link::reply_was_given() {
+  kept_replies.fetch_sub(1, std::memory_order_relaxed);
+  if (is_leaving()) host_.attend(*this);
 }
 
 void Link::look_again() {
@@ -102,6 +94,7 @@ bool Link::write() {
   if (!open()) return false;
   const bool has_waited = std::exchange(reading_waits_, false);
   if (std::exchange(blocked_, false)) {
+    signs_of_life_.fetch_add(1, std::memory_order_relaxed);
     transmit();
     drain_event_queues();
   }
@@ -119,16 +112,6 @@ bool Link::flush(base::Time now, base::Duration age) {
   return true;
 }
 
-bool Link::take_back() {
-  const std::lock_guard lock(mutex_);
-  if (reader_ == Reader::kNobody && takeovers_ == takeovers_seen_) {
-    reader_ = Reader::kIo;
-    update_interest();
-  }
-  takeovers_seen_ = takeovers_;
-  return reader_ == Reader::kIo;
-}
-
 bool Link::ended() const {
   const std::lock_guard lock(mutex_);
   return connection_ != nullptr && !problem_.empty();
@@ -140,12 +123,15 @@ bool Link::close() {
   connection_.reset();
   assembler_.reset();
   out_.clear();
+  out_.shrink(0);
+  sent_ = 0;
   blocked_ = false;
   reading_waits_ = false;
   flush_due_ = false;
   establishing_ = Progress::kDone;
   reader_ = Reader::kIo;
   event_queues.clear();
+  leaving_.store(false, std::memory_order_relaxed);
   established = false;
   shakes_hands = false;
   greeted = false;
@@ -200,110 +186,11 @@ std::string Link::problem() const {
   return problem_;
 }
 
-/// What was received: answers go to their calls, all else to the node.
-void Link::take_messages() {
-  Message message;
-  std::uint64_t count = 0;
-  for (Found found = assembler_.next(message); found != Found::kNothing && open();
-       found = assembler_.next(message)) {
-    ++count;
-    switch (found) {
-      case Found::kMessage:
-        take_message(message);
-        break;
-      case Found::kTooLarge:
-        refuse_locked(Code::kTooLarge, message, "the body is larger than this node takes");
-        break;
-      case Found::kBadMagic:
-        return end_with(Code::kBadMagic, {}, "what came is no message: no 'RIDE'");
-      case Found::kBadLength:
-        return end_with(Code::kMalformed, message, "a length below that of the header");
-      case Found::kTooMany:
-        return end_with(Code::kTooLarge, message, "too many bodies go on at once");
-      case Found::kNothing:
-        break;
-    }
-  }
-  received_.fetch_add(count, std::memory_order_relaxed);
-  host_.count(count);
-}
-
-/// Nobody knows where the next message begins.
-void Link::end_with(Code code, const Message& message, const std::string& text) {
-  refuse_locked(code, message, text);
-  break_off_locked(text);
-}
-
-void Link::take_message(const Message& message) {
-  const bool may_be_answer =
-      message.header.type == Type::kReply ||
-      (message.header.type == Type::kControl && message.header.identifier != 0);
-  if (!may_be_answer || !complete(message)) host_.deliver(*this, message);
-}
-
-/// False if no call is open that it answers.
-bool Link::complete(const Message& message) {
-  if (message.header.type == Type::kReply) {
-    OpenCall* const call = remove_call(message.header.identifier);
-    if (call != nullptr) call->answered(message.body);
-    return call != nullptr;
-  }
-  Decoder from(message.body);
-  Control control;
-  if (!from.take(control) || !from.ended()) return false;
-  OpenCall* const call = remove_call(message.header.identifier);
-  if (call != nullptr) call->refused(control.code, control.text);
-  return call != nullptr;
-}
-
-OpenCall* Link::remove_call(std::uint32_t id) {
-  const auto at = std::ranges::find(calls_, id, &OpenCall::id);
-  if (at == calls_.end()) return nullptr;
-  OpenCall* const call = *at;
-  calls_.erase(at);
-  return call;
-}
-
-void Link::receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock) {
-  const std::span<std::byte> room = assembler_.room();
-  std::size_t size = 0;
-  lock.unlock();
-  const Progress progress = connection_->wait_and_receive(room, size, limit);
-  lock.lock();
-  if (progress == Progress::kGone) return break_off_locked(connection_->problem());
-  if (progress != Progress::kDone) return;
-  assembler_.received(size);
-  take_messages();
-}
-
-bool Link::take_reading() {
-  if (!open() || reader_ == Reader::kCaller) return false;
-  ++takeovers_;
-  const bool was_the_nodes = reader_ == Reader::kIo;
-  reader_ = Reader::kCaller;
-  update_interest();
-  if (was_the_nodes && !listens_) host_.return_soon(*this);
-  return true;
-}
-
-/// Another caller who waits goes on reading; otherwise the node does, at once or later.
-void Link::leave_reading() {
-  const auto next = std::ranges::find_if(calls_, [](const OpenCall* call) { return call->waits; });
-  if (next != calls_.end() && open()) {
-    auto* const call = static_cast<WaitingCall*>(*next);
-    call->promoted = true;
-    call->notify();
-    return;
-  }
-  reader_ = listens_ || !open() ? Reader::kIo : Reader::kNobody;
-  update_interest();
-  if (!open()) host_.attend(*this);
-}
-
 platform::Interest Link::wanted() const {
   const bool flows = establishing_ == Progress::kDone;
   const bool takes_nothing = peer == nullptr && is_backed_up();
-  const bool reads = reader_ == Reader::kIo && !throttled && !takes_nothing && !reading_waits_;
+  const bool reads =
+      reader_ == Reader::kIo && !throttled && !takes_nothing && !reading_waits_ && !is_leaving();
   return {flows ? reads : establishing_ == Progress::kWantRead,
           flows ? blocked_ || reading_waits_ : establishing_ == Progress::kWantWrite,
           flows && connection_->takes_all()};

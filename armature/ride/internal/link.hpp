@@ -17,6 +17,7 @@
 #include "armature/ride/internal/event_queue.hpp"
 #include "armature/ride/internal/open_call.hpp"
 #include "armature/ride/internal/waiting.hpp"
+#include "armature/ride/memory_share.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/transport.hpp"
 
@@ -43,6 +44,12 @@ class Recipient {
   const std::atomic<std::uint32_t>* looked_up_ = nullptr;
 };
 
+/// Why a message is not taken.
+struct Refusal {
+  Code code;
+  std::string text;
+};
+
 /// What a link needs of its node. Called with the link's lock held, by any thread.
 class LinkHost {
  public:
@@ -62,6 +69,10 @@ class LinkHost {
   /// The other side was told that what it has sent is at fault.
   virtual void refused(const Link& link, Code code, const Message& message,
                        std::string_view text) = 0;
+  /// Whether a body that goes on in several messages is to be taken; its first message.
+  /// @return why not
+  virtual std::optional<Refusal> refusal_of(const Link& link, const Message& first,
+                                            const std::string& identity) = 0;
 };
 
 /// A connection with its messages: what is to be sent, what was received, the calls that are open.
@@ -70,11 +81,14 @@ class LinkHost {
 /// One thread reads at a time: the I/O thread, or a caller who waits for its answer. A caller takes
 /// over without a word and gives back lazily, so that calls in a row cost no system call but their
 /// own; where events are subscribed it gives back at once.
-class Link : public std::enable_shared_from_this<Link> {
+class Link : public std::enable_shared_from_this<Link>, private BodyGate {
  public:
   enum class Flush { kNow, kGather };
+  /// Of the node's memory, whatever others take: what is received, and as much again.
+  static constexpr std::size_t kReserve = 2 * Assembler::kRoom;
 
-  Link(LinkHost& host, platform::Poller& poller, const Limits& limits);
+  Link(LinkHost& host, platform::Poller& poller, const Limits& limits,
+       std::shared_ptr<MemoryBound> memory);
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
@@ -103,8 +117,12 @@ class Link : public std::enable_shared_from_this<Link> {
   bool write();
   /// Sends what was gathered `age` ago; false if there is nothing.
   bool flush(base::Time now, base::Duration age);
+  /// Breaks it off if the other side has taken nothing for so long, and keeps memory of others.
+  void end_if_stuck(base::Time now, base::Duration limit);
   /// Takes reading back from a caller who has gone; false if there still is one.
   bool take_back();
+  /// The number of the oldest message that has begun and not ended, whoever reads it.
+  std::optional<std::uint64_t> incomplete() const;
   /// True if its connection has ended and was not forgotten.
   bool ended() const;
   /// Forgets a connection that has ended; false if another thread has yet to notice.
@@ -122,6 +140,8 @@ class Link : public std::enable_shared_from_this<Link> {
   Sent send_control(std::uint32_t call, const Control& control);
   /// Answers a message that is at fault.
   void refuse(Code code, const Message& message, std::string_view text);
+  /// Counts an event that could not be sent.
+  void lose_event(const EventQueue& queue);
   /// Why the connection has ended, or who the other end is; with the lock held.
   std::string end_locked() const { return connection_ ? connection_->other_end() : "nobody"; }
   /// Sends an event that was encoded before, or puts it into the queue.
@@ -135,6 +155,14 @@ class Link : public std::enable_shared_from_this<Link> {
   /// Ends the connection; calls that are open fail.
   void break_off(const std::string& why);
 
+  /// True if the other side sends no more, and is owed something.
+  bool is_leaving() const { return leaving_.load(std::memory_order_relaxed); }
+  /// Ends the connection of one that is leaving once it is owed nothing more.
+  /// @thread the I/O thread
+  void end_if_all_is_sent();
+  /// One of `kept_replies` was given.
+  void reply_was_given();
+
   bool open() const { return open_.load(std::memory_order_acquire); }
   /// Counts the connections that it has had.
   std::uint32_t connection_number() const { return connections_.load(std::memory_order_relaxed); }
@@ -142,6 +170,9 @@ class Link : public std::enable_shared_from_this<Link> {
   std::string identity() const;
   std::string problem() const;
   std::mutex& mutex() { return mutex_; }
+
+  /// Of the node's memory.
+  const std::shared_ptr<MemoryShare> memory;
 
   // Bookkeeping of the I/O thread.
   PeerState* peer = nullptr;  ///< whose link it is, if this side has connected
@@ -154,27 +185,37 @@ class Link : public std::enable_shared_from_this<Link> {
   base::Time window_end{};
   std::uint64_t window_messages = 0;
   bool throttled = false;
-  bool sends_much = false;  ///< as of the last time it was read
-  Waiting waiting{this};
+  bool sends_much = false;      ///< as of the last time it was read
+  bool waits_for_turn = false;  ///< to be read again
+  Waiting waiting{this, memory.get()};
   std::atomic<std::size_t> kept_replies{0};
   std::vector<std::shared_ptr<EventQueue>> event_queues;  ///< with the lock held
 
   /// Messages since it began.
   std::uint64_t received() const { return received_.load(std::memory_order_relaxed); }
+  /// Changes whenever something came, or something was taken that had to wait: it lives.
+  std::uint64_t signs_of_life() const { return signs_of_life_.load(std::memory_order_relaxed); }
 
  private:
   enum class Reader { kIo, kCaller, kNobody };
 
   Sent send_locked(Priority priority, Type type, std::uint32_t recipient,
                    std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush);
-  void append_event(EventQueue& queue, std::span<const std::byte> message);
+  template <typename Append>
+  bool append(const Append& append);
+  Sent no_memory_for(Type type, std::uint32_t recipient);
+  bool admits(const Message& first) override;
+  std::size_t unsent() const { return out_.size() - sent_; }
+  bool append_event(EventQueue& queue, std::span<const std::byte> message);
   bool too_much_for(Type type);
   bool is_backed_up() const;
   bool establish_locked(Progress progress);
   void send_out();
   void gather(base::Time now);
   void transmit();
+  void forget_sent();
   void drain_event_queues();
+  void arrived(std::size_t size);
   void look_again_locked();
   void take_messages();
   void take_message(const Message& message);
@@ -182,8 +223,13 @@ class Link : public std::enable_shared_from_this<Link> {
   void refuse_locked(Code code, const Message& message, std::string_view text);
   void end_with(Code code, const Message& message, const std::string& text);
   void break_off_locked(const std::string& why);
+  void hear_the_end();
+  void answer(OpenCall& call, std::span<const std::byte> result);
+  template <typename Step>
+  bool reserves(const Step& step);
   void receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock);
   bool take_reading();
+  void return_later();
   void leave_reading();
   platform::Interest wanted() const;
   void update_interest();
@@ -191,15 +237,21 @@ class Link : public std::enable_shared_from_this<Link> {
 
   LinkHost& host_;
   platform::Poller& poller_;
+  /// So short that to say it needs no memory.
+  static constexpr const char* kNoMemory = "no memory";
+
   const Limits& limits_;
 
   mutable std::mutex mutex_;
   std::unique_ptr<Connection> connection_;
   std::atomic<bool> open_{false};
+  std::atomic<bool> leaving_{false};
   std::atomic<std::uint32_t> connections_{0};
   Assembler assembler_;
   Body out_;
+  std::size_t sent_ = 0;        ///< of `out_`
   bool blocked_ = false;        ///< the other side has not taken what was sent
+  base::Time stuck_since_{};    ///< if it is blocked: when it has taken something
   bool reading_waits_ = false;  ///< until it can write
   bool flush_due_ = false;      ///< the I/O thread looks after what was gathered
   base::Time last_sent_{};
@@ -208,6 +260,7 @@ class Link : public std::enable_shared_from_this<Link> {
   std::uint32_t last_call_ = 0;
   Reader reader_ = Reader::kIo;
   bool listens_ = false;
+  bool returns_ = false;  ///< the I/O thread looks after it until it has reading back
   std::uint32_t takeovers_ = 0;
   std::uint32_t takeovers_seen_ = 0;
   Progress establishing_ = Progress::kDone;
@@ -215,6 +268,7 @@ class Link : public std::enable_shared_from_this<Link> {
   platform::Interest interest_;
   std::string problem_;
   std::atomic<std::uint64_t> received_{0};
+  std::atomic<std::uint64_t> signs_of_life_{0};
 };
 
 }  // namespace armature::ride::internal

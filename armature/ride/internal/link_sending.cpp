@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of Link: what is sent, and calls.
 #include <algorithm>
+#include <new>
+#include <tuple>
 #include <utility>
 
 #include "armature/platform/clock.hpp"
@@ -57,29 +59,60 @@ void Link::refuse_locked(Code code, const Message& message, std::string_view tex
 bool Link::too_much_for(Type type) {
   if (!is_backed_up()) return false;
   if (type != Type::kReply && type != Type::kControl) return true;
-  if (out_.size() < limits_.unsent_bytes + limits_.body_bytes) return false;
+  if (unsent() < limits_.unsent_bytes + limits_.body_bytes) return false;
   break_off_locked("it does not take what it is sent");
   return true;
 }
 
-bool Link::is_backed_up() const { return blocked_ && out_.size() >= limits_.unsent_bytes; }
+bool Link::is_backed_up() const { return blocked_ && unsent() >= limits_.unsent_bytes; }
 
 Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
                        std::initializer_list<std::uint32_t> head, const Fields& fields,
                        Flush flush) {
   if (too_much_for(type)) return open() ? Sent::kQueueFull : Sent::kNotConnected;
-  const std::size_t start = out_.size();
-  out_.extend(Header::kSize);
-  Encoder body(out_);
-  for (const std::uint32_t word : head) body.put(word);
-  fields.put(body);
-  finish_message(out_, start, priority, type, recipient);
+  const bool appended = append([&] {
+    const std::size_t start = out_.size();
+    out_.extend(Header::kSize);
+    Encoder body(out_);
+    for (const std::uint32_t word : head) body.put(word);
+    fields.put(body);
+    finish_message(out_, start, priority, type, recipient);
+  });
+  if (!appended) return no_memory_for(type, recipient);
   if (flush == Flush::kNow) {
     send_out();
   } else {
     gather(platform::monotonic_now());
   }
   return open() ? Sent::kYes : Sent::kNotConnected;
+}
+
+/// All of it or nothing: false if there is no memory for it.
+template <typename Append>
+bool Link::append(const Append& append) {
+  const std::size_t start = out_.size();
+  try {
+    append();
+    return true;
+  } catch (const std::bad_alloc&) {
+    out_.truncate(start);
+    out_.shrink(kMostKept);
+    return false;
+  }
+}
+
+/// Who waits for an answer is told, so it does not wait for nothing.
+Sent Link::no_memory_for(Type type, std::uint32_t recipient) {
+  if (type == Type::kReply) {
+    host_.refused(*this, Code::kBusy, {{.type = type, .identifier = recipient}, {}}, kNoMemory);
+    const Control control{Code::kBusy, static_cast<std::uint32_t>(Type::kRequest), 0, 0,
+                          "there is no memory for the answer"};
+    const auto fields = std::tie(control);
+    return send_locked({}, Type::kControl, recipient, {}, Fields(fields), Flush::kNow);
+  }
+  if (type != Type::kControl) return Sent::kQueueFull;
+  break_off_locked(kNoMemory);
+  return Sent::kNotConnected;
 }
 
 /// Sends what was appended.
@@ -92,7 +125,7 @@ void Link::send_out() {
 void Link::gather(base::Time now) {
   if (blocked_) return update_interest();
   const bool alone = !flush_due_ && now - last_sent_ >= kMoment;
-  if (alone || out_.size() >= kMostGathered) {
+  if (alone || unsent() >= kMostGathered) {
     transmit();
     last_sent_ = now;
     gathered_since_ = now;
@@ -105,47 +138,70 @@ void Link::gather(base::Time now) {
 }
 
 void Link::transmit() {
-  std::size_t done = 0;
-  while (done < out_.size()) {
+  const std::size_t before = sent_;
+  while (sent_ < out_.size()) {
     std::size_t sent = 0;
-    const Progress progress = connection_->send(out_.bytes().subspan(done), sent);
+    const Progress progress = connection_->send(out_.bytes().subspan(sent_), sent);
     if (progress == Progress::kGone) return break_off_locked(connection_->problem());
     if (progress != Progress::kDone) {
+      if (before != sent_ || stuck_since_ == base::Time{}) stuck_since_ = platform::monotonic_now();
       blocked_ = true;
       update_interest();
       break;
     }
-    done += sent;
+    sent_ += sent;
   }
-  out_.erase_front(done);
+  if (sent_ == out_.size()) stuck_since_ = {};
+  forget_sent();
+}
+
+/// What is left is moved seldom: the other side may take much in small pieces.
+void Link::forget_sent() {
+  if (sent_ != out_.size() && sent_ < out_.size() / 2) return;
+  out_.erase_front(std::exchange(sent_, 0));
   out_.shrink(kMostKept);
+}
+
+void Link::end_if_stuck(base::Time now, base::Duration limit) {
+  const std::lock_guard lock(mutex_);
+  if (!open() || !blocked_ || !memory->exceeds_reserve()) return;
+  if (stuck_since_ != base::Time{} && now - stuck_since_ >= limit) {
+    break_off_locked("it does not take what it is sent, and others want the memory");
+  }
+}
+
+void Link::lose_event(const EventQueue& queue) {
+  const std::lock_guard lock(mutex_);
+  host_.event_dropped(queue);
 }
 
 void Link::send_event(EventQueue& queue, std::span<const std::byte> message, base::Time now) {
   const std::lock_guard lock(mutex_);
   if (!open()) return;
   if (!blocked_) {
-    append_event(queue, message);
-    return gather(now);
+    if (append_event(queue, message)) return gather(now);
+    return host_.event_dropped(queue);
   }
   if (!queue.push(message)) host_.event_dropped(queue);
 }
 
 /// The subscriber's identifier goes into the header of each part.
-void Link::append_event(EventQueue& queue, std::span<const std::byte> message) {
+/// @return false if there is no memory for it
+bool Link::append_event(EventQueue& queue, std::span<const std::byte> message) {
   const std::size_t start = out_.size();
-  out_.append(message);
+  if (!append([&] { out_.append(message); })) return false;
   for (std::size_t at = start; at < out_.size();) {
     std::byte* const header = out_.data() + at;
     store(header + 12, queue.subscription);
     at += load<std::uint16_t>(header + 10);
   }
+  return true;
 }
 
 void Link::drain_event_queues() {
   for (const auto& queue : event_queues) {
     while (open() && !blocked_ && !queue->empty()) {
-      append_event(*queue, queue->front());
+      if (!append_event(*queue, queue->front())) host_.event_dropped(*queue);
       queue->pop();
       transmit();
     }

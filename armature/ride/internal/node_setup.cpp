@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of NodeState: what it listens at, hosts and connects to.
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "armature/platform/stream_socket.hpp"
@@ -40,32 +41,28 @@ base::Result<Address> NodeState::listen(const std::string& text) {
   }
   base::Result<Address> got = base::Error{};
   run([&] { got = listen_at(numeric.value()); });
+  if (got && !options_.allows) warn_of_everyone(got.value());
   return got;
+}
+
+/// What a newcomer does not expect.
+void NodeState::warn_of_everyone(const Address& address) {
+  constexpr unsigned kOthers = 0022;
+  if (address.scheme == "unix" && (options_.socket_mode & kOthers) == 0) return;
+  constexpr const char* kWarning =
+      "everyone on this machine may do everything at {}: there is no policy (NodeOptions::allows)";
+  journal_.tell(rt::LogLevel::kWarning, kWarning, address.text());
+  if (options_.log) return;
+  std::fprintf(stderr,
+               "ride: everyone on this machine may do everything at %s: there is no policy "
+               "(NodeOptions::allows)\n",
+               address.text().c_str());
 }
 
 base::Result<Address> NodeState::listen_at(const Address& address) {
   auto listener = find_transport(address.scheme)->listen(address);
   if (!listener) return base::Error{listener.error()};
-  listeners_.push_back(std::move(listener).value());
-  const Listener& added = *listeners_.back();
-  poller_->add(added.handle(), listeners_.size() - 1, {.read = true});
-  return added.address();
-}
-
-/// Who has proven nothing yet makes room for others, the oldest first: connections that are only
-/// begun keep nobody out.
-bool NodeState::make_room() {
-  const auto half_open = std::ranges::find_if(
-      links_, [](const auto& link) { return !link->established && link->problem().empty(); });
-  if (half_open == links_.end()) return false;
-  (*half_open)->break_off("others came before its handshake was done");
-  return true;
-}
-
-void NodeState::tell_end(const std::string& who, bool was_established, std::string_view why) {
-  if (was_established) return journal_.tell(rt::LogLevel::kInfo, "{} is gone: {}", who, why);
-  counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
-  journal_.tell(rt::LogLevel::kWarning, "{} was refused: {}", who, why);
+  return entrance_.add(std::move(listener).value());
 }
 
 base::Result<std::uint32_t> NodeState::add(std::string name, Service& service) {
@@ -80,6 +77,7 @@ base::Result<std::uint32_t> NodeState::add(std::string name, Service& service) {
       return;
     }
     const auto next = static_cast<std::uint32_t>(hosted_.size() + 1);
+    const std::lock_guard lock(hosted_mutex_);
     hosted_.push_back({next, std::move(name), digest(service.interface()), &service});
     identifier = next;
   });
@@ -90,7 +88,10 @@ void NodeState::remove(Service& service) {
   run([&] {
     for (Hosted& hosted : hosted_) {
       if (hosted.service != &service) continue;
-      hosted.service = nullptr;
+      {
+        const std::lock_guard lock(hosted_mutex_);
+        hosted.service = nullptr;
+      }
       ServiceAccess::publisher(service).remove_all();
       for (const auto& link : links_) {
         const std::lock_guard lock(link->mutex());
@@ -129,7 +130,7 @@ NodeStatistics NodeState::statistics() const {
   return {get(counters_.connections),     get(counters_.connections_refused),
           get(counters_.messages),        get(counters_.refusals),
           get(counters_.commands_failed), get(counters_.events_dropped),
-          get(counters_.throttled)};
+          get(counters_.throttled),       memory_->used()};
 }
 
 }  // namespace armature::ride::internal

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <new>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "armature/platform/clock.hpp"
@@ -19,18 +22,33 @@ constexpr base::Duration kRound = std::chrono::microseconds(20);
 /// Who has sent so many messages at once, or bytes, sends much.
 constexpr std::uint64_t kManyMessages = 64;
 constexpr std::size_t kManyBytes = 4 * 1024;
-/// Without descriptors or memory a connection would be refused again and again.
-constexpr base::Duration kNoDescriptors = std::chrono::milliseconds(100);
+/// What takes longer is followed by a pause of so many times as long, in which no other such
+/// message is executed.
+constexpr base::Duration kLongTurn = std::chrono::microseconds(200);
+constexpr int kPauseFactor = 20;
+constexpr base::Duration kLongestPause = std::chrono::milliseconds(100);
+/// Without memory it goes on when others may have given some back.
+constexpr base::Duration kShort = std::chrono::milliseconds(1);
 
 thread_local const NodeState* node_of_this_thread = nullptr;
+
+std::unique_ptr<platform::Poller> make_poller(const std::string& node) {
+  auto poller = platform::Poller::make();
+  if (!poller) throw std::runtime_error("node '" + node + "': " + poller.error());
+  return std::move(poller).value();
+}
 
 }  // namespace
 
 NodeState::NodeState(NodeOptions options)
     : options_(std::move(options)),
+      memory_(std::make_shared<MemoryBound>(options_.limits.memory_bytes,
+                                            options_.limits.connections * Link::kReserve)),
       journal_(options_.name, options_.log),
       transports_(options_.transports),
+      poller_(make_poller(options_.name)),
       random_(static_cast<unsigned>(base::to_ns(platform::monotonic_now()))),
+      entrance_(*poller_, options_.limits.connections_per_second),
       handshakes_(
           options_.name,
           [this](Link& link, Progress progress) {
@@ -39,12 +57,9 @@ NodeState::NodeState(NodeOptions options)
           },
           [this] { poller_->wake(); }) {
   transports_.push_back(make_tcp_transport());
-  transports_.push_back(make_unix_transport());
-  auto poller = platform::Poller::make();
-  if (!poller) throw std::runtime_error("node '" + options_.name + "': " + poller.error());
-  poller_ = std::move(poller).value();
-  flushed_.reserve(Letters::kUsual);
-  lent_.reserve(Letters::kUsual);
+  transports_.push_back(make_unix_transport(options_.socket_mode));
+  flushed_.reserve(Mailbox::kUsual);
+  lent_.reserve(Mailbox::kUsual);
 }
 
 NodeState::~NodeState() {
@@ -73,17 +88,26 @@ void NodeState::stop() {
 
 void NodeState::run_loop() {
   node_of_this_thread = this;
-  while (!stopping_.load(std::memory_order_relaxed)) step(base::Duration::max());
+  memory_->set_keeper(std::this_thread::get_id());
+  while (!stopping_.load(std::memory_order_relaxed)) {
+    try {
+      step(base::Duration::max());
+    } catch (const std::bad_alloc&) {
+      wait_for_memory();
+    } catch (const std::system_error&) {  // no memory for another thread
+      wait_for_memory();
+    }
+  }
   handshakes_.stop();
   say_goodbye();
-  Letters last;
-  {
-    const std::lock_guard lock(letters_mutex_);
-    stopped_ = true;
-    std::swap(last.tasks, letters_.tasks);
-  }
-  for (const auto& task : last.tasks) task();
+  for (const auto& task : mailbox_.close()) task();
+  memory_->set_keeper({});
   node_of_this_thread = nullptr;
+}
+
+void NodeState::wait_for_memory() {
+  was_short_ = true;
+  platform::sleep_until(platform::monotonic_now() + kShort);
 }
 
 bool NodeState::in_io_thread() const { return node_of_this_thread == this; }
@@ -104,24 +128,12 @@ void NodeState::run(const std::function<void()>& task) {
 }
 
 void NodeState::post(std::function<void()> task) {
-  {
-    const std::lock_guard lock(letters_mutex_);
-    if (!stopped_) {
-      letters_.tasks.push_back(std::move(task));
-      has_letters_.store(true);
-    }
-  }
-  if (task) return task();  // The thread is no more.
+  if (!mailbox_.post(task)) return task();  // The thread is no more.
   poller_->wake();
 }
 
-template <typename Write>
-void NodeState::leave_letter(const Write& write) {
-  {
-    const std::lock_guard lock(letters_mutex_);
-    write(letters_);
-    has_letters_.store(true);
-  }
+/// A round of the thread itself ends with a look into its mailbox.
+void NodeState::wake() {
   if (!in_io_thread()) poller_->wake();
 }
 
@@ -130,39 +142,38 @@ void NodeState::count(std::uint64_t messages) {
 }
 
 void NodeState::deliver(Link& link, const Message& message) {
-  if (in_io_thread()) {
+  // A handler that calls receives for the node like any other caller: the message that it handles
+  // has to stay where it lies.
+  if (in_io_thread() && !dispatches_) {
     // What a caller has received before comes first.
-    if (has_handed_over_.load(std::memory_order_acquire)) take_handed_over();
+    if (mailbox_.has_messages()) take_handed_over();
     return pending_.push(link.waiting, message);
   }
-  bool full = false;
-  leave_letter([&](Letters& letters) {
-    full = letters.messages.full();
-    if (!full) letters.messages.push(link, message);
-    has_handed_over_.store(true, std::memory_order_release);
-  });
-  if (!full) return;
+  const bool fits = mailbox_.hand_over(link, message);
+  wake();
+  if (fits) return;
   counters_.events_dropped.fetch_add(1, std::memory_order_relaxed);
   journal_.tell(rt::LogLevel::kWarning, "messages were dropped: the node's thread is too slow");
 }
 
 void NodeState::take_handed_over() {
-  const std::lock_guard lock(letters_mutex_);
-  has_handed_over_.store(false);
-  letters_.messages.take_all(
+  mailbox_.take_messages(
       [this](Link& link, const Message& message) { pending_.push(link.waiting, message); });
 }
 
 void NodeState::attend(Link& link) {
-  leave_letter([&](Letters& letters) { letters.attention.push_back(link.shared_from_this()); });
+  mailbox_.attend(link.shared_from_this());
+  wake();
 }
 
 void NodeState::flush_soon(Link& link) {
-  leave_letter([&](Letters& letters) { letters.flushes.push_back(link.shared_from_this()); });
+  mailbox_.flush(link.shared_from_this());
+  wake();
 }
 
 void NodeState::return_soon(Link& link) {
-  leave_letter([&](Letters& letters) { letters.returns.push_back(link.shared_from_this()); });
+  mailbox_.take_back(link.shared_from_this());
+  wake();
 }
 
 void NodeState::event_dropped(const EventQueue& queue) {
@@ -173,17 +184,17 @@ void NodeState::event_dropped(const EventQueue& queue) {
 }
 
 void NodeState::step(base::Duration limit) {
-  if (!pending_.empty() || has_letters_.load()) limit = {};
+  if (std::exchange(was_short_, false)) look_after_all();
+  if (memory_->is_in_use()) wake_at(base::later(now_, options_.limits.time_to_complete / 4));
+  const bool has_to_do = !pending_.empty() || !mailbox_.empty() || !greedy_.empty();
+  if (has_to_do || memory_->release_scrap()) limit = {};
   const auto ready = poller_->wait(std::min(limit, time_left()));
   ++rounds_;  // Another one is first in each round.
   for (std::size_t i = 0; i < ready.size(); ++i) take_ready(ready[(rounds_ + i) % ready.size()]);
   handshakes_.take_done();
-  if (has_letters_.load(std::memory_order_acquire)) take_letters();
+  if (!mailbox_.empty()) take_letters();
   dispatch_pending();
-  if (Link* const link = std::exchange(sends_much_, nullptr)) {
-    receive(*link);
-    link->look_again();
-  }
+  receive_of_greedy();
   if (poller_->time_has_come() || flush_at_ != base::Time::max()) look_at_clock();
   forget_departed();
 }
@@ -191,79 +202,35 @@ void NodeState::step(base::Duration limit) {
 /// Listeners are known by their place, links by where they are.
 void NodeState::take_ready(const platform::Ready& ready) {
   const auto key = static_cast<std::uintptr_t>(ready.key);
-  if (key < listeners_.size()) return accept(*listeners_[key]);
+  if (Listener* const listener = entrance_.find(key)) return accept(*listener);
   service_link(*reinterpret_cast<Link*>(key), ready);
-}
-
-void NodeState::accept(Listener& listener) {
-  now_ = platform::monotonic_now();
-  auto connection = listener.accept();
-  if (!connection) return pause_accepting(now_ + kNoDescriptors);
-  space_connections();
-  if (links_.size() >= options_.limits.connections && !make_room()) {
-    counters_.connections_refused.fetch_add(1, std::memory_order_relaxed);
-    return journal_.tell(rt::LogLevel::kWarning,
-                         "{} was sent away: there are {} connections, as many as may be",
-                         connection->other_end(), links_.size());
-  }
-  adopt(std::move(connection), listener.address().scheme);
-}
-
-/// To come and go costs the node more than its messages do.
-void NodeState::space_connections() {
-  constexpr base::Duration kSecond = std::chrono::seconds(1);
-  connection_due_ = std::max(connection_due_, now_) +
-                    kSecond / std::max(options_.limits.connections_per_second, 1u);
-  const base::Time from = connection_due_ - kSecond / 10;
-  if (from > now_) pause_accepting(from);
-}
-
-void NodeState::pause_accepting(base::Time until) {
-  for (std::size_t k = 0; k < listeners_.size(); ++k) {
-    poller_->change(listeners_[k]->handle(), k, {});
-  }
-  accept_from_ = until;
-  wake_at(until);
-}
-
-std::shared_ptr<Link> NodeState::adopt(std::unique_ptr<Connection> connection,
-                                       const std::string& scheme) {
-  links_.push_back(std::make_shared<Link>(*this, *poller_, options_.limits));
-  const auto link = links_.back();
-  link->scheme = scheme;
-  link->incomplete_since = now_;
-  link->begin(std::move(connection));
-  counters_.connections.store(links_.size(), std::memory_order_relaxed);
-  service_link(*link, {});
-  if (!link->established) wake_at(base::later(now_, options_.limits.time_to_complete));
-  return link;
-}
-
-void NodeState::bring_up(Link& link) {
-  if (link.shakes_hands) return;
-  link.shakes_hands = link.hold();
-  if (link.shakes_hands) return handshakes_.add(link.shared_from_this());
-  if (link.establish()) is_up(link);
-}
-
-/// Data can flow.
-void NodeState::is_up(Link& link) {
-  link.established = true;
-  link.incomplete_since = base::Time::max();
-  if (link.peer != nullptr) link.peer->established();
 }
 
 void NodeState::service_link(Link& link, const platform::Ready& ready) {
   if (!link.established) return bring_up(link);
+  if (ready.ended && link.is_leaving()) return link.break_off("the other side has ended it");
   const bool can_go_on_reading = ready.write && link.write();
+  if (link.is_leaving()) return let_go(link);
   if (!ready.read && !can_go_on_reading) return;
   if (!link.waiting.empty()) return link.look_again();  // its turn comes when those are done
-  if (link.sends_much) {
-    if (Link* const other = std::exchange(sends_much_, &link)) other->look_again();
-    return;
-  }
+  if (link.sends_much) return wait_for_turn(link);
   receive(link);
   if (ready.ended) link.look_again();  // after what came last the end is to be seen
+}
+
+void NodeState::wait_for_turn(Link& link) {
+  if (!std::exchange(link.waits_for_turn, true)) greedy_.push_back(&link);
+}
+
+/// Of those who send much one is read in a round, last of all: what others have sent does not wait
+/// until all their floods have been read.
+void NodeState::receive_of_greedy() {
+  if (greedy_.empty()) return;
+  Link& link = *greedy_.front();
+  greedy_.pop_front();
+  link.waits_for_turn = false;
+  receive(link);
+  link.look_again();
 }
 
 /// Asks what time it is only where that matters.
@@ -279,6 +246,7 @@ void NodeState::receive(Link& link) {
     wake_at(base::later(link.incomplete_since, options_.limits.time_to_complete));
   }
   const std::uint64_t count = link.received() - before;
+  if (link.is_leaving()) let_go(link);
   link.sends_much = count >= kManyMessages || size >= kManyBytes;
   link.window_messages += count;
   if (link.window_messages > options_.limits.messages_per_second) throttle(link);
@@ -287,25 +255,21 @@ void NodeState::receive(Link& link) {
 void NodeState::take_letters() {
   now_ = platform::monotonic_now();
   take_handed_over();
-  {
-    const std::lock_guard lock(letters_mutex_);
-    has_letters_.store(false);
-    opened_.swap(letters_);
-  }
-  for (auto& link : opened_.flushes) {
+  Mailbox::Letters& letters = mailbox_.open();
+  for (auto& link : letters.flushes) {
     flushed_.push_back(std::move(link));
     flush_at_ = std::min(flush_at_, now_ + kFlushAge);
   }
-  for (auto& link : opened_.returns) {
+  for (auto& link : letters.returns) {
     lent_.push_back(std::move(link));
     return_at_ = std::min(return_at_, now_ + kLending);
   }
-  for (const auto& link : opened_.attention) look_after(*link);
-  for (const auto& task : opened_.tasks) task();
-  opened_.flushes.clear();
-  opened_.returns.clear();
-  opened_.attention.clear();
-  opened_.tasks.clear();
+  for (const auto& link : letters.attention) look_after(*link);
+  for (const auto& task : letters.tasks) task();
+  letters.flushes.clear();
+  letters.returns.clear();
+  letters.attention.clear();
+  letters.tasks.clear();
 }
 
 void NodeState::dispatch_pending() {
@@ -314,7 +278,13 @@ void NodeState::dispatch_pending() {
   for (int i = 1; !pending_.empty(); ++i) {
     const Pending::Entry entry = pending_.pop();
     const bool is_large = entry.message.body.size() >= kManyBytes;
-    dispatch(*entry.link, entry.message);
+    if (entry.link->waiting.has_large()) {
+      dispatch_large(*entry.link, entry.message);
+    } else {
+      dispatch_safely(*entry.link, entry.message);
+    }
+    entry.link->waiting.settle();
+    let_go(*entry.link);
     if (i % kBetweenLooks != 0 && !is_large) continue;
     const base::Time now = platform::monotonic_now();
     if (end == base::Time{}) end = now + kRound;
@@ -322,34 +292,31 @@ void NodeState::dispatch_pending() {
   }
 }
 
-/// A connection has ended.
-void NodeState::look_after(Link& link) {
-  if (!link.ended() || link.shakes_hands) return;  // Then it is attended to when it comes back.
-  const std::string why = link.problem();
-  const std::string who = link.other_end();
-  const bool was_established = link.established;
-  for (Hosted& hosted : hosted_) {
-    if (hosted.service != nullptr) ServiceAccess::publisher(*hosted.service).remove(link);
+/// While one that takes long is executed all others wait: after it there is time for them, before
+/// the next one of whomever.
+void NodeState::dispatch_large(Link& link, const Message& message) {
+  const base::Time before = platform::monotonic_now();
+  dispatch_safely(link, message);
+  now_ = platform::monotonic_now();
+  const base::Duration took = now_ - before;
+  if (took < kLongTurn || links_.size() < 2) return;
+  large_from_ = now_ + std::min(kPauseFactor * took, kLongestPause);
+  pending_.hold_large();
+  wake_at(large_from_);
+}
+
+void NodeState::dispatch_safely(Link& link, const Message& message) {
+  dispatches_ = true;
+  try {
+    dispatch(link, message);
+  } catch (const std::bad_alloc&) {
+    link.refuse(Code::kBusy, message, "there is no memory for it");
   }
-  if (!link.close()) return;  // The thread that still has it comes back with it.
-  if (link.peer != nullptr) return link.peer->lost(why);
-  tell_end(who, was_established, why);
-  end(link);
-}
-
-void NodeState::end(Link& link) {
-  const auto at = std::ranges::find(links_, &link, &std::shared_ptr<Link>::get);
-  if (at == links_.end()) return;
-  departed_.push_back(std::move(*at));
-  links_.erase(at);
-  counters_.connections.store(links_.size(), std::memory_order_relaxed);
-}
-
-void NodeState::forget_departed() {
-  std::erase_if(departed_, [](const auto& link) { return link->waiting.empty(); });
+  dispatches_ = false;
 }
 
 void NodeState::say_goodbye() {
+  pending_.release_large();
   while (!pending_.empty()) {
     const Pending::Entry entry = pending_.pop();
     entry.link->refuse(Code::kShuttingDown, entry.message, "the node shuts down");
@@ -372,7 +339,7 @@ void NodeState::say_goodbye() {
   }
   links_.clear();
   departed_.clear();
-  listeners_.clear();
+  entrance_.close();
 }
 
 }  // namespace armature::ride::internal

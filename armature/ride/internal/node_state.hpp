@@ -16,10 +16,11 @@
 #include "armature/platform/poller.hpp"
 #include "armature/platform/thread.hpp"
 #include "armature/ride/internal/directory.hpp"
-#include "armature/ride/internal/handed_over.hpp"
+#include "armature/ride/internal/entrance.hpp"
 #include "armature/ride/internal/handshakes.hpp"
 #include "armature/ride/internal/journal.hpp"
 #include "armature/ride/internal/link.hpp"
+#include "armature/ride/internal/mailbox.hpp"
 #include "armature/ride/internal/pending.hpp"
 #include "armature/ride/node.hpp"
 
@@ -37,6 +38,7 @@ class NodeState final : public LinkHost {
 
   const NodeOptions& options() const { return options_; }
   platform::Poller& poller() { return *poller_; }
+  const std::shared_ptr<MemoryBound>& memory() const { return memory_; }
   Journal& journal() { return journal_; }
   Transport* find_transport(const std::string& scheme);
   std::mt19937& random() { return random_; }
@@ -74,6 +76,8 @@ class NodeState final : public LinkHost {
   void flush_soon(Link& link) override;
   void return_soon(Link& link) override;
   void refused(const Link& link, Code code, const Message& message, std::string_view text) override;
+  std::optional<Refusal> refusal_of(const Link& link, const Message& first,
+                                    const std::string& identity) override;
   void event_dropped(const EventQueue& queue) override;
 
   /// Executes a message (internal/dispatch.cpp).
@@ -96,29 +100,6 @@ class NodeState final : public LinkHost {
     std::atomic<std::uint64_t> connections{0};
   };
   class SenderAt;
-  /// What other threads have left for this one.
-  struct Letters {
-    Letters() {
-      flushes.reserve(kUsual);
-      returns.reserve(kUsual);
-    }
-
-    static constexpr std::size_t kUsual = 64;  ///< more of them at once ask for memory
-    std::vector<std::function<void()>> tasks;
-    std::vector<std::shared_ptr<Link>> attention;
-    std::vector<std::shared_ptr<Link>> flushes;
-    std::vector<std::shared_ptr<Link>> returns;
-    HandedOver messages;
-
-    /// All but the messages.
-    void swap(Letters& other) {
-      tasks.swap(other.tasks);
-      attention.swap(other.attention);
-      flushes.swap(other.flushes);
-      returns.swap(other.returns);
-    }
-  };
-
   /// How old gathered messages get.
   static constexpr base::Duration kFlushAge = std::chrono::microseconds(40);
   /// After so long without a call the node reads again what a caller has read.
@@ -129,41 +110,48 @@ class NodeState final : public LinkHost {
   void take_letters();
   void take_handed_over();
   void dispatch_pending();
+  void dispatch_safely(Link& link, const Message& message);
+  void dispatch_large(Link& link, const Message& message);
+  void look_after_all();
+  void wait_for_memory();
   void accept(Listener& listener);
   bool make_room();
-  void space_connections();
-  void pause_accepting(base::Time until);
+  void send_away(const Connection& connection, const char* why);
   void tell_end(const std::string& who, bool was_established, std::string_view why);
   void bring_up(Link& link);
   void is_up(Link& link);
   void service_link(Link& link, const platform::Ready& ready);
   void receive(Link& link);
+  void wait_for_turn(Link& link);
+  void receive_of_greedy();
   void throttle(Link& link);
   base::Duration time_left();
   void look_at_clock();
   void look_after(Link& link);
+  void let_go(Link& link);
   void end(Link& link);
   void forget_departed();
-  template <typename Write>
-  void leave_letter(const Write& write);
+  void wake();
   void flush_gathered();
   void take_back_lent();
   void look_at_timers();
+  void free_memory();
   void look_at_link(Link& link);
-  void accept_again();
   void say_goodbye();
   base::Result<Address> listen_at(const Address& address);
+  void warn_of_everyone(const Address& address);
 
   void execute(Link& link, const Message& message, bool is_request);
   void execute_directory(Link& link, const Message& message, Number operation, std::uint32_t call,
                          bool is_request, Decoder& parameters);
   void run_service(Link& link, const Message& message, Hosted& hosted, Number operation,
-                   std::uint32_t call, bool is_request, Decoder& parameters);
+                   std::uint32_t call, bool is_request, Decoder& parameters, Holding& holding);
   void fail(Link& link, const Message& message, Hosted& hosted, Number operation,
             std::string_view what);
-  std::optional<Access> access_to_refuse(Link& link, const Hosted& hosted, Number operation) const;
-  std::string not_allowed(const Link& link, std::string_view component, Access access) const;
-  bool is_allowed(const Link& link, std::string_view component, Access access) const;
+  std::optional<Refusal> refusal_of_operation(const Link& link, const Hosted& hosted,
+                                              Number operation, const std::string& identity) const;
+  std::string not_allowed(const AccessQuestion& question) const;
+  bool is_allowed(const AccessQuestion& question) const;
   std::int32_t subscribe(Link& link, std::int32_t component, Number event,
                          std::int32_t subscription);
   std::int32_t refuse_subscription(const Link& link, Code code, std::string_view why);
@@ -173,12 +161,15 @@ class NodeState final : public LinkHost {
   Hosted* find_hosted(std::uint32_t identifier);
 
   const NodeOptions options_;
+  const std::shared_ptr<MemoryBound> memory_;
   Journal journal_;
   std::vector<std::shared_ptr<Transport>> transports_;
   std::unique_ptr<platform::Poller> poller_;
   std::mt19937 random_;
+  /// Of `hosted_`: to change it, and to look at it in another thread.
+  std::mutex hosted_mutex_;
   std::deque<Hosted> hosted_;
-  std::vector<std::unique_ptr<Listener>> listeners_;
+  Entrance entrance_;
   std::vector<std::shared_ptr<Link>> links_;     ///< those that others have made
   std::vector<std::shared_ptr<Link>> departed_;  ///< until all was dispatched that they have sent
   std::vector<std::unique_ptr<Peer>> peers_;
@@ -187,23 +178,17 @@ class NodeState final : public LinkHost {
   std::vector<std::shared_ptr<Link>> lent_;  ///< to callers
   base::Time return_at_ = base::Time::max();
   base::Time due_ = base::Time::max();
-  base::Time accept_from_{};     ///< if it is paused
-  base::Time connection_due_{};  ///< if they came evenly
-  base::Time now_{};             ///< when the clock was last looked at
+  base::Time large_from_{};  ///< if large messages are held
+  base::Time now_{};         ///< when the clock was last looked at
   Pending pending_;
   std::size_t rounds_ = 0;
-  /// Of those who send much one is read in a round, last of all: what others have sent does not
-  /// wait until all their floods have been read.
-  Link* sends_much_ = nullptr;
+  bool dispatches_ = false;
+  bool was_short_ = false;    ///< of memory, so that something was left undone
+  std::deque<Link*> greedy_;  ///< who have sent much, and more; in the order of their turns
   Counters counters_;
 
-  std::mutex letters_mutex_;
-  Letters letters_;
-  Letters opened_;
-  std::atomic<bool> has_letters_{false};
-  std::atomic<bool> has_handed_over_{false};
+  Mailbox mailbox_;
   std::atomic<bool> stopping_{false};
-  bool stopped_ = false;  ///< with the letters' lock
   Handshakes handshakes_;
   std::unique_ptr<platform::Thread> thread_;
 };

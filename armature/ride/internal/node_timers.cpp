@@ -49,21 +49,27 @@ void NodeState::take_back_lent() {
 
 void NodeState::look_at_timers() {
   due_ = base::Time::max();
-  if (accept_from_ != base::Time{}) accept_again();
+  wake_at(entrance_.look_at_time(now_));
+  if (pending_.holds_large()) {
+    if (now_ >= large_from_) {
+      pending_.release_large();
+    } else {
+      wake_at(large_from_);
+    }
+  }
   const auto links = links_;  // One that ends is taken from the list.
   for (const auto& link : links) look_at_link(*link);
+  if (memory_->is_in_use()) free_memory();
   for (const auto& peer : peers_) {
     look_at_link(peer->state()->link());
     wake_at(peer->state()->look_at_timers(now_));
   }
 }
 
-void NodeState::accept_again() {
-  if (now_ < accept_from_) return wake_at(accept_from_);
-  accept_from_ = {};
-  for (std::size_t k = 0; k < listeners_.size(); ++k) {
-    poller_->change(listeners_[k]->handle(), k, {.read = true});
-  }
+/// What all share is not for those who do not take what they are sent.
+void NodeState::free_memory() {
+  for (const auto& link : links_) link->end_if_stuck(now_, options_.limits.time_to_complete);
+  wake_at(base::later(now_, options_.limits.time_to_complete / 4));
 }
 
 void NodeState::look_at_link(Link& link) {
@@ -78,6 +84,10 @@ void NodeState::look_at_link(Link& link) {
   const base::Time end = base::later(link.incomplete_since, options_.limits.time_to_complete);
   if (now_ < end) return wake_at(end);
   if (!link.established) return link.break_off("the handshake did not end in time");
+  if (link.incomplete() != link.incomplete_message) {  // a caller has read on
+    link.incomplete_since = base::Time::max();
+    return;
+  }
   journal_.tell(rt::LogLevel::kWarning, "{} is disconnected: its message did not end in time",
                 link.other_end());
   link.break_off("a message did not end in time");

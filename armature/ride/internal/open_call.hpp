@@ -16,7 +16,8 @@ namespace armature::ride::internal {
 class OpenCall {
  public:
   virtual ~OpenCall() = default;
-  virtual void answered(std::span<const std::byte> result) = 0;
+  /// @param holding  counts what the result takes while it is taken apart
+  virtual void answered(std::span<const std::byte> result, Holding& holding) = 0;
   virtual void refused(Code code, std::string_view text) = 0;
 
   std::uint32_t id = 0;
@@ -28,8 +29,8 @@ class WaitingCall final : public OpenCall {
  public:
   explicit WaitingCall(const Place& result) : result_(result) {}
 
-  void answered(std::span<const std::byte> result) override {
-    Decoder from(result);
+  void answered(std::span<const std::byte> result, Holding& holding) override {
+    Decoder from(result, &holding);
     if (result_.take(from)) {
       finish(Code::kNone);
     } else {
@@ -65,7 +66,7 @@ class CallbackCall final : public OpenCall {
   using Then = std::function<void(Code code, std::string_view text, std::span<const std::byte>)>;
   explicit CallbackCall(Then then) : then_(std::move(then)) {}
 
-  void answered(std::span<const std::byte> result) override {
+  void answered(std::span<const std::byte> result, Holding&) override {
     then_(Code::kNone, {}, result);
     delete this;
   }

@@ -21,7 +21,8 @@ constexpr base::Duration kAskAgain = std::chrono::seconds(1);
 PeerState::PeerState(NodeState& node, std::string text)
     : node_(&node),
       text_(std::move(text)),
-      link_(std::make_shared<Link>(node, node.poller(), node.options().limits)) {
+      link_(std::make_shared<Link>(node, node.poller(), node.options().limits, node.memory())) {
+  static_cast<void>(link_->memory->open(true));
   link_->peer = this;
 }
 
@@ -74,11 +75,14 @@ void PeerState::established() {
   ++generation_;
   up_ = true;
   heard_at_ = platform::monotonic_now();
-  heard_ = link_->received();
+  heard_ = link_->signs_of_life();
+  asked_ = 0;
+  ask_again_at_ = {};
   if (node_->options().reconnection.silence > base::Duration::zero()) {
     node_->wake_at(heard_at_ + node_->options().reconnection.silence);
   }
-  link_->send_control(0, {Code::kHello, 0, 0, 0, node_->options().name + " armature"});
+  link_->send_control(
+      0, {Code::kHello, 0, 0, 0, node_->options().name + " armature/" ARMATURE_VERSION});
   open_questions_ = 1;
   for (const auto& component : components_) look_up(component);
   if (components_.empty()) ask_whether_it_is_there();
@@ -116,7 +120,10 @@ void PeerState::lost(const std::string& why) {
     }
   }
   for (auto& subscription : subscriptions_) subscription->sent = false;
-  connected_.store(false, std::memory_order_release);
+  {
+    const std::lock_guard lock(mutex_);
+    connected_.store(false, std::memory_order_release);
+  }
   changed_.notify_all();
   try_later(platform::monotonic_now(), why);
   if (!was_connected) return;
@@ -137,26 +144,36 @@ base::Time PeerState::look_at_timers(base::Time now) {
     if (now >= connect_at_) connect(now);
     return connect_at_;
   }
-  base::Time next = base::Time::max();
   if (now >= ask_at_) {
     ask_at_ = base::Time::max();
     for (const auto& component : components_) {
       if (component->state.load() == RemoteComponent::State::kMissing) look_up(component);
     }
   }
-  next = std::min(next, ask_at_);
+  return std::min(ask_at_, look_for_life(now));
+}
+
+/// It is lost only if it was asked and did not answer: after a pause of this process nobody knows
+/// yet, and what it has sent meanwhile may wait to be read.
+base::Time PeerState::look_for_life(base::Time now) {
+  constexpr int kQuestions = 2;
   const base::Duration silence = node_->options().reconnection.silence;
-  if (silence <= base::Duration::zero()) return next;
-  if (const std::uint64_t heard = link_->received(); heard != heard_) {
+  if (silence <= base::Duration::zero()) return base::Time::max();
+  if (const std::uint64_t heard = link_->signs_of_life(); heard != heard_) {
     heard_ = heard;
     heard_at_ = now;
+    asked_ = 0;
   }
-  if (now - heard_at_ >= 3 * silence) {
+  if (asked_ >= kQuestions && now - heard_at_ >= 3 * silence) {
     link_->break_off("nothing was heard from it for three times as long as it may be silent");
-    return next;
+    return base::Time::max();
   }
-  if (now - heard_at_ >= silence) link_->send_control(0, {Code::kPing, 0, 0, 0, {}});
-  return std::min(next, now + silence);
+  if (now - heard_at_ >= silence && now >= ask_again_at_) {
+    ++asked_;
+    ask_again_at_ = now + silence;
+    link_->send_control(0, {Code::kPing, 0, 0, 0, {}});
+  }
+  return std::max(heard_at_ + silence, ask_again_at_);
 }
 
 /// The answer comes to whichever thread reads, and is handed to this one.
@@ -191,6 +208,7 @@ void PeerState::look_up(const std::shared_ptr<RemoteComponent>& component) {
         }
         node_->journal().tell(rt::LogLevel::kError, "{}: its directory does not answer: {} {}",
                               text_, name_of(code), text);
+        set_state(*component, RemoteComponent::State::kMissing);
       });
 }
 
@@ -216,20 +234,24 @@ void PeerState::found(const std::shared_ptr<RemoteComponent>& component,
     component->identifier.store(right ? static_cast<std::uint32_t>(entry.identifier) : 0);
   }
   const bool was_missing = component->state.load() == RemoteComponent::State::kMissing;
-  {
-    const std::lock_guard lock(mutex_);
-    component->state.store(right ? RemoteComponent::State::kFound
-                                 : RemoteComponent::State::kMissing);
-  }
-  changed_.notify_all();
-  if (!right) {
-    ask_at_ = std::min(ask_at_, platform::monotonic_now() + kAskAgain);
-    return node_->wake_at(ask_at_);
-  }
+  set_state(*component, right ? RemoteComponent::State::kFound : RemoteComponent::State::kMissing);
+  if (!right) return;
   for (const auto& subscription : subscriptions_) {
     if (subscription->component == component) send_subscription(*subscription);
   }
   if (was_missing && connected()) tell({true, greeting_});
+}
+
+/// Tells whoever waits for it; what is missing is looked for again.
+void PeerState::set_state(RemoteComponent& component, RemoteComponent::State state) {
+  {
+    const std::lock_guard lock(mutex_);
+    component.state.store(state);
+  }
+  changed_.notify_all();
+  if (state != RemoteComponent::State::kMissing) return;
+  ask_at_ = std::min(ask_at_, platform::monotonic_now() + kAskAgain);
+  node_->wake_at(ask_at_);
 }
 
 }  // namespace armature::ride::internal

@@ -81,8 +81,10 @@ class PeerState : public std::enable_shared_from_this<PeerState> {
   };
 
   void ask_whether_it_is_there();
+  base::Time look_for_life(base::Time now);
   void look_up(const std::shared_ptr<RemoteComponent>& component);
   void found(const std::shared_ptr<RemoteComponent>& component, const ComponentEntry& entry);
+  void set_state(RemoteComponent& component, RemoteComponent::State state);
   void send_subscription(WireSubscription& subscription);
   Subscription end_of(std::uint64_t handler);
   void unsubscribe(std::uint64_t handler);
@@ -108,6 +110,8 @@ class PeerState : public std::enable_shared_from_this<PeerState> {
   base::Time ask_at_ = base::Time::max();
   base::Time heard_at_{};
   std::uint64_t heard_ = 0;
+  int asked_ = 0;  ///< whether it lives, since it was heard
+  base::Time ask_again_at_{};
   std::string greeting_;
 
   std::vector<std::shared_ptr<RemoteComponent>> components_;

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/platform/clock.hpp"
 #include "armature/ride/internal/node_state.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 
@@ -101,7 +102,13 @@ void PeerState::wait_until_looked_up(const RemoteComponent& component, base::Dur
 
 void PeerState::request(RemoteComponent& component, Number operation, const CallOptions& options,
                         const Fields& parameters, WaitingCall& call) {
-  link_->call(operation, Recipient(component.identifier), options, parameters, call);
+  CallOptions left = options;
+  if (component.state.load() == RemoteComponent::State::kUnknown) {
+    const base::Time before = platform::monotonic_now();
+    wait_until_looked_up(component, options.deadline);
+    left.deadline -= std::min(platform::monotonic_now() - before, options.deadline);
+  }
+  link_->call(operation, Recipient(component.identifier), left, parameters, call);
   if (call.code != Code::kNotConnected) return;
   if (component.state.load() == RemoteComponent::State::kMissing) {
     call.code = Code::kNoSuchComponent;

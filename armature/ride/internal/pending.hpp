@@ -26,7 +26,24 @@ class Pending {
   void push(Waiting& whose, const Message& message) {
     if (whose.empty()) waiting_.push_back(&whose);
     whose.push(message);
+    if (holds_large_ && whose.has_large()) hold_large();
   }
+
+  /// Connections that have sent something large have no turn until `release_large`.
+  void hold_large() {
+    holds_large_ = true;
+    for (std::size_t at = waiting_.size(); at-- != 0;) {
+      if (!waiting_[at]->has_large()) continue;
+      held_.push_back(waiting_[at]);
+      remove(at);
+    }
+  }
+  void release_large() {
+    holds_large_ = false;
+    waiting_.insert(waiting_.end(), held_.begin(), held_.end());
+    held_.clear();
+  }
+  bool holds_large() const { return holds_large_; }
 
   /// There is one. Its body lies where it was until its connection's next `push`.
   Entry pop() {
@@ -64,6 +81,8 @@ class Pending {
   }
 
   std::vector<Waiting*> waiting_;  ///< none of them empty
+  std::vector<Waiting*> held_;     ///< neither
+  bool holds_large_ = false;
   std::size_t turn_ = 0;
   std::size_t order_ = 0;
   std::size_t count_ = 0;

@@ -2,6 +2,7 @@
 #include "armature/ride/internal/publisher.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include "armature/platform/clock.hpp"
 #include "armature/ride/internal/link.hpp"
@@ -12,20 +13,36 @@ void Publisher::publish(Number event, const Fields& members, Priority priority) 
   const std::lock_guard lock(mutex_);
   bool encoded = false;
   base::Time now{};
+  std::span<const std::byte> message;
   for (const auto& subscriber : subscribers_) {
     if (subscriber->event != event) continue;
     if (!encoded) {
-      message_.clear();
-      message_.extend(Header::kSize);
-      Encoder body(message_);
-      body.put(event);
-      members.put(body);
-      finish_message(message_, 0, priority, Type::kEvent, 0);
+      message = encode(event, members, priority);
       now = platform::monotonic_now();
       encoded = true;
     }
-    subscriber->link->send_event(*subscriber, message_.bytes(), now);
+    if (message.empty()) {
+      subscriber->link->lose_event(*subscriber);
+    } else {
+      subscriber->link->send_event(*subscriber, message, now);
+    }
   }
+}
+
+/// Nothing if there is no memory for it.
+std::span<const std::byte> Publisher::encode(Number event, const Fields& members,
+                                             Priority priority) {
+  message_.clear();
+  try {
+    message_.extend(Header::kSize);
+    Encoder body(message_);
+    body.put(event);
+    members.put(body);
+    finish_message(message_, 0, priority, Type::kEvent, 0);
+  } catch (const std::bad_alloc&) {
+    message_ = Body();
+  }
+  return message_.bytes();
 }
 
 bool Publisher::has_event(Number event) const {

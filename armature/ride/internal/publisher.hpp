@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ class Publisher {
   std::uint64_t changes() const { return changes_.load(std::memory_order_acquire); }
 
  private:
+  std::span<const std::byte> encode(Number event, const Fields& members, Priority priority);
   template <typename Is>
   std::size_t remove_if(Is is);
 

@@ -25,6 +25,10 @@ class RawClient {
     }
   }
 
+  /// The other end of a connection that was accepted.
+  explicit RawClient(std::unique_ptr<Connection> connection) : connection_(std::move(connection)) {}
+
+  int handle() const { return connection_->handle(); }
   void send(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
       std::size_t sent = 0;

@@ -166,7 +166,9 @@ int write_member(lua_State* lua) {
   }
   const auto value = value_at(lua, 3, property->type());
   if (!value) refuse(lua, component.name() + "." + name + value.error());
-  const auto set = application_of(lua).set_property(component.name(), name, value.value());
+  const Access& access = access_of(lua);
+  const auto set =
+      access.application.set_property(component.name(), name, value.value(), access.caller);
   if (!set) refuse(lua, set.error());
   return 0;
 }

@@ -2,16 +2,17 @@
 #include "armature/script/internal/console.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <utility>
 
+#include "armature/platform/printer.hpp"
 #include "armature/platform/terminal.hpp"
 #include "armature/script/internal/line_editor.hpp"
 
 namespace armature::script::internal {
 
+using platform::kStandardError;
 using platform::kStandardInput;
 using platform::kStandardOutput;
 
@@ -20,9 +21,8 @@ namespace {
 constexpr int kUsualWidth = 80;
 constexpr base::Duration kIdlePeriod = std::chrono::milliseconds(20);
 
-void write_line(std::FILE* file, std::string_view text) {
-  std::fprintf(file, "%.*s\n", static_cast<int>(text.size()), text.data());
-  std::fflush(file);
+void write_line(int descriptor, std::string_view text) {
+  platform::print(descriptor, std::string(text) + '\n');
 }
 
 /// Lines out and in, and nothing else.
@@ -30,8 +30,8 @@ class Pipe final : public Surface {
  public:
   Paper paper() const override { return {kUsualWidth, false}; }
   bool live() const override { return false; }
-  void say(std::string_view text) override { write_line(stdout, text); }
-  void complain(std::string_view text) override { write_line(stderr, text); }
+  void say(std::string_view text) override { write_line(kStandardOutput, text); }
+  void complain(std::string_view text) override { write_line(kStandardError, text); }
   void show(std::string_view) override {}
   bool interrupted() const override { return false; }
   bool take_interrupt() override { return false; }
@@ -57,10 +57,10 @@ class Terminal final : public Surface {
   }
   bool live() const override { return true; }
   void say(std::string_view text) override {
-    beside([&] { write_line(stdout, text); });
+    beside([&] { write_line(kStandardOutput, text); });
   }
   void complain(std::string_view text) override {
-    beside([&] { write_line(stdout, inked(paper(), Ink::kBad, text)); });
+    beside([&] { write_line(kStandardOutput, inked(paper(), Ink::kBad, text)); });
   }
   void show(std::string_view text) override {
     erase();
@@ -104,15 +104,14 @@ class Terminal final : public Surface {
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       const std::size_t columns = columns_of(rest.substr(0, end));
-      write_line(stdout, rest.substr(0, end));
+      write_line(kStandardOutput, rest.substr(0, end));
       rest.remove_prefix(std::min(end + 1, rest.size()));
       rows_ += columns == 0 ? 1 : (columns + width - 1) / width;
     }
   }
   void erase() {
     if (rows_ == 0) return;
-    std::printf("\x1b[%zuA\r\x1b[J", rows_);
-    std::fflush(stdout);
+    platform::print(kStandardOutput, "\x1b[" + std::to_string(rows_) + "A\r\x1b[J");
     rows_ = 0;
   }
 
@@ -124,11 +123,10 @@ class Terminal final : public Surface {
   std::size_t rows_ = 0;  ///< of the screen that what is shown takes
 };
 
-namespace {
-
 /// Lines of a pipe, as they come; the application goes on while none does.
 class PipedLines {
  public:
+  bool at_end() const { return at_end_ && text_.empty(); }
   /// Nothing at the end of the input, or of the run.
   std::optional<std::string> next(LineTaker& taker) {
     while (true) {
@@ -157,8 +155,6 @@ class PipedLines {
   bool at_end_ = false;
 };
 
-}  // namespace
-
 Console::Console() {
   if (platform::is_terminal(kStandardInput) && platform::is_terminal(kStandardOutput)) {
     auto terminal = std::make_unique<Terminal>();
@@ -166,10 +162,13 @@ Console::Console() {
     surface_ = std::move(terminal);
   } else {
     surface_ = std::make_unique<Pipe>();
+    lines_ = std::make_unique<PipedLines>();
   }
 }
 
 Console::~Console() = default;
+
+bool Console::at_end() const { return lines_ != nullptr && lines_->at_end(); }
 
 std::size_t Console::run(LineTaker& taker, std::string_view quitting) {
   if (terminal_ == nullptr) return run_by_pipe(taker);
@@ -186,14 +185,13 @@ void Console::beside(const std::function<void()>& write) {
 }
 
 std::size_t Console::run_by_pipe(LineTaker& taker) {
-  PipedLines lines;
   while (!taker.has_ended()) {
-    const std::optional<std::string> line = lines.next(taker);
+    const std::optional<std::string> line = lines_->next(taker);
     if (!line) break;
     taker.take(*line);
   }
   const bool unfinished = taker.wants_more();
-  if (unfinished) write_line(stderr, "error: the input ends within a statement");
+  if (unfinished) write_line(kStandardError, "error: the input ends within a statement");
   taker.stop();
   return taker.mistakes() + (unfinished ? 1 : 0);
 }

@@ -34,6 +34,7 @@ class LineTaker {
 };
 
 class Terminal;
+class PipedLines;
 
 /// The standard input and output: a terminal, where lines are edited, or pipes.
 class Console {
@@ -44,19 +45,23 @@ class Console {
   ~Console();
 
   Surface& surface() { return *surface_; }
+  const Surface& surface() const { return *surface_; }
   /// Gives `taker` line after line until it has ended.
   /// @param quitting  what `quit` does, for people: `stops the application`
   /// @return lines that were mistakes, if no terminal was there to see that
   std::size_t run(LineTaker& taker, std::string_view quitting);
   /// What others write to the terminal, whole lines, goes above the line that is being typed.
   void beside(const std::function<void()>& write);
+  /// Nobody will type another line.
+  bool at_end() const;
 
  private:
   void run_at_terminal(LineTaker& taker, const std::string& quitting);
-  static std::size_t run_by_pipe(LineTaker& taker);
+  std::size_t run_by_pipe(LineTaker& taker);
 
   Terminal* terminal_ = nullptr;  ///< if the surface is one
   std::unique_ptr<Surface> surface_;
+  std::unique_ptr<PipedLines> lines_;  ///< if it is none
 };
 
 }  // namespace armature::script::internal

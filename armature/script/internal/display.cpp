@@ -107,6 +107,12 @@ std::size_t line_end(std::string_view text, std::size_t room) {
 
 }  // namespace
 
+std::string number_text(const char* format, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
 std::string inked(const Paper& paper, Ink ink, std::string_view text) {
   if (!paper.colour || text.empty()) return std::string(text);
   return code_of(ink) + std::string(text) + "\x1b[0m";

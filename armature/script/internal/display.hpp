@@ -21,13 +21,18 @@ struct Paper {
 enum class Ink { kName, kHeading, kBad, kGood, kFaint };
 std::string inked(const Paper& paper, Ink ink, std::string_view text);
 
-/// Of a list that are shown.
+/// Of a list that are shown beside others.
 inline constexpr std::size_t kUsualElements = 8;
+/// Of one that was asked for: all, unless they would fill the screen.
+inline constexpr std::size_t kAskedElements = 100;
 
 /// For people: `0.25 rad`, `[1, 2, 3] V`, `{kp: 1 V/rad, steps: 2}`, `"left"`; of a long list the
 /// first elements and how many there are.
 std::string value_text(const types::Type& type, const void* value, std::string_view unit,
                        std::size_t most_elements = kUsualElements);
+
+/// One number as printf writes it.
+std::string number_text(const char* format, double number);
 
 /// `"left"`; nothing that a component says moves the cursor or rings the bell.
 std::string in_quotes(std::string_view text);

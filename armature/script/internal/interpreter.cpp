@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/platform/clock.hpp"
+#include "armature/script/internal/display.hpp"
 #include "armature/script/internal/standard.hpp"
 #include "armature/script/internal/values.hpp"
 
@@ -20,7 +21,6 @@ constexpr const char* kName = "prompt";
 constexpr const char* kInterrupted = "interrupted";
 constexpr const char* kShowing = "armature showing";
 constexpr std::size_t kMemoryLimit = 64u << 20;
-constexpr std::size_t kMostElements = 20;
 constexpr base::Duration kLookPeriod = 20ms;
 constexpr base::Duration kProgressPeriod = 100ms;
 
@@ -86,7 +86,7 @@ void Interpreter::show_result(lua_State* lua, int index) {
   if (const CommandHandle* const command = command_at(lua, index)) {
     show_command(command_name(lua, index), *command);
   } else {
-    surface_.say(text_at(lua, index, kMostElements));
+    surface_.say(text_at(lua, index, kAskedElements));
   }
 }
 

@@ -2,15 +2,11 @@
 #include "armature/script/internal/items.hpp"
 
 #include <algorithm>
-#include <cctype>
+
+#include "armature/script/internal/words.hpp"
 
 namespace armature::script::internal {
 namespace {
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_name_character(char c) {
-  return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
 
 constexpr std::string_view kReserved[] = {"and",   "break", "do",       "else", "elseif", "end",
                                           "false", "for",   "function", "goto", "if",     "in",

@@ -12,6 +12,7 @@
 
 #include <histedit.h>
 
+#include "armature/platform/printer.hpp"
 #include "armature/platform/terminal.hpp"
 
 namespace armature::script::internal {
@@ -29,17 +30,17 @@ struct LineEditor::State {
 
 namespace {
 
-using State = LineEditor::State;
+using Editing = LineEditor::State;
 
 constexpr int kMostLines = 1000;
 constexpr char kEscapeMark = '\1';
 constexpr char kEndOfInput = '\4';
 constexpr base::Duration kIdlePeriod = std::chrono::milliseconds(20);
 
-State& state_of(EditLine* editor) {
+Editing& state_of(EditLine* editor) {
   void* data = nullptr;
   el_get(editor, EL_CLIENTDATA, &data);
-  return *static_cast<State*>(data);
+  return *static_cast<Editing*>(data);
 }
 
 /// libedit holds each character as a wide one, of whichever locale there is.
@@ -65,7 +66,7 @@ std::optional<wchar_t> add_byte(char byte, std::mbstate_t& parts) {
 
 /// Gives libedit the next character; meanwhile the application goes on.
 int next_character(EditLine* editor, wchar_t* character) {
-  State& state = state_of(editor);
+  Editing& state = state_of(editor);
   std::mbstate_t parts{};
   while (true) {
     if (!state.typing.idle()) return 0;
@@ -90,7 +91,11 @@ int next_character(EditLine* editor, wchar_t* character) {
   }
 }
 
-void erase_line(const State& state) {
+/// libedit writes past the printer: what was printed before comes first, unless the terminal
+/// blocks.
+void let_catch_up() { platform::Printer::flush(std::chrono::milliseconds(50)); }
+
+void erase_line(const Editing& state) {
   const LineInfo* const line = el_line(state.editor);
   const auto before = static_cast<std::size_t>(line->cursor - line->buffer);
   std::string prompt;
@@ -104,20 +109,20 @@ void erase_line(const State& state) {
   }
   const std::size_t columns = columns_of(prompt) + columns_of({line->buffer, before});
   const std::size_t rows = state.width > 0 ? columns / static_cast<std::size_t>(state.width) : 0;
-  if (rows > 0) std::printf("\x1b[%zuA", rows);
-  std::printf("\r\x1b[J");
-  std::fflush(stdout);
+  std::string text;
+  if (rows > 0) text = "\x1b[" + std::to_string(rows) + "A";
+  platform::print(platform::kStandardOutput, text + "\r\x1b[J");
 }
 
-unsigned char list_words(const State& state, const Completion& completion) {
+unsigned char list_words(const Editing& state, const Completion& completion) {
   const Paper paper{static_cast<std::size_t>(state.width > 0 ? state.width : 80), false};
-  std::printf("\n%s\n", in_columns(paper, completion.words).c_str());
-  std::fflush(stdout);
+  platform::print(platform::kStandardOutput, "\n" + in_columns(paper, completion.words) + "\n");
+  let_catch_up();
   return CC_REDISPLAY;
 }
 
 unsigned char complete_word(EditLine* editor, int) {
-  State& state = state_of(editor);
+  Editing& state = state_of(editor);
   const LineInfo* const line = el_line(editor);
   const std::string_view before(line->buffer,
                                 static_cast<std::size_t>(line->cursor - line->buffer));
@@ -150,9 +155,9 @@ std::string with_marked_colour(const Paper& paper, const std::string& prompt) {
 
 }  // namespace
 
-LineEditor::LineEditor(Typing typing, std::string file) : state_(std::make_unique<State>()) {
+LineEditor::LineEditor(Typing typing, std::string file) : state_(std::make_unique<Editing>()) {
   make_characters_utf8();
-  State& state = *state_;
+  Editing& state = *state_;
   state.typing = std::move(typing);
   state.file = std::move(file);
   state.editor = el_init("armature", stdin, stdout, stderr);
@@ -192,11 +197,12 @@ LineEditor::~LineEditor() {
 
 LineEditor::Outcome LineEditor::read(const std::string& prompt, const Paper& paper,
                                      std::string& line) {
-  State& state = *state_;
+  Editing& state = *state_;
   state.prompt = with_marked_colour(paper, prompt);
   state.width = platform::terminal_width(platform::kStandardOutput, 80);
   state.interrupted = false;
   state.typing_now = true;
+  let_catch_up();
   int count = 0;
   const char* const typed = el_gets(state.editor, &count);
   state.typing_now = false;
@@ -221,6 +227,7 @@ void LineEditor::beside(const std::function<void()>& write) {
   }
   erase_line(*state_);
   write();
+  let_catch_up();
   el_set(state_->editor, EL_REFRESH);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/script/internal/listing.hpp"
 
-#include <cstdio>
 #include <vector>
 
 #include "armature/component/component.hpp"
@@ -24,12 +23,6 @@ Ink ink_of(const std::string& state) {
 
 std::string state_text(const Paper& paper, const ComponentStatus& component) {
   return inked(paper, ink_of(component.state), component.state);
-}
-
-std::string number_text(const char* format, double number) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
 }
 
 std::string microseconds(double us) { return number_text("%.1f us", us); }

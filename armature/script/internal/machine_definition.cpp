@@ -18,7 +18,7 @@ using component::MachineState;
 using Kind = MachineFunction::Kind;
 using Names = std::vector<std::string>;
 
-constexpr int kDeepest = 32;
+constexpr int kDeepestStates = 32;
 constexpr std::size_t kMostStates = 1000;
 constexpr int kStackForOne = 24;
 constexpr double kShortestPeriod = 0.001;
@@ -122,7 +122,8 @@ void MachineReader::read_substates(int table, int parent, const std::string& pla
   Names states = states_in(table, place, known);
   put_initial_first(table, place, states);
   for (const std::string& name : states) {
-    const bool too_many = depth_ >= kDeepest || definition_.table.states.size() >= kMostStates;
+    const bool too_many =
+        depth_ >= kDeepestStates || definition_.table.states.size() >= kMostStates;
     lua_pushlstring(lua_, name.data(), name.size());
     lua_rawget(lua_, table);
     if (!reader_.is(LUA_TTABLE)) {

@@ -2,7 +2,6 @@
 #include "armature/script/internal/plain_values.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdio>
 
@@ -25,11 +24,6 @@ std::string excerpt(std::string_view text) {
   constexpr std::size_t kLongest = 30;
   if (text.empty()) return "the end of the line";
   return "'" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "") + "'";
-}
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_name_character(char c) {
-  return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
 /// Reads what an operator types, from its beginning to its end.

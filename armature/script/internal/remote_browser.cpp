@@ -31,12 +31,6 @@ constexpr base::Duration kReconnectionLimit = 3s;
 /// An older value is told with its age.
 constexpr double kOldSeconds = 1.0;
 
-std::string number_text(const char* format, double number) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
-}
-
 std::string ended_text(const Paper& paper, const CommandStatus& command) {
   if (command.stage == component::name_of(CommandStage::kDone)) {
     return command.command + ": " + inked(paper, Ink::kGood, "done");
@@ -88,7 +82,8 @@ Completion RemoteBrowser::complete(std::string_view before_cursor) {
 void RemoteBrowser::stop() {
   ended_ = true;
   for (const CommandStatus& command : begun_) {
-    surface().say(command.command + ": still under way");
+    surface().say(command.command +
+                  ": cancelled, since it ends with the connection of who began it");
   }
 }
 
@@ -235,7 +230,7 @@ void RemoteBrowser::take_item(const std::string& line) {
                          std::ranges::any_of(details.inputs, is_it) ||
                          std::ranges::any_of(details.outputs, is_it);
   if (!has_value) return help({line});
-  const remote::ItemValue value = robot().read({line}, kUsualElements).at(0);
+  const remote::ItemValue value = robot().read({line}, kAskedElements).at(0);
   if (!value.error.empty()) return mistake(value.error);
   if (!value.written) return surface().say("not yet written");
   surface().say(with_unit(value.value, value.unit) +

@@ -181,7 +181,7 @@ Robot::Changed RemoteRobot::change(const std::string& component, const std::stri
 
 ItemValue RemoteRobot::write(const std::string& item, const std::string& value) {
   ItemValue now = take(inspector_.write(item, value, kPatient));
-  now.value = for_people(now.value, now.type, fields_of(now), kUsualElements);
+  now.value = for_people(now.value, now.type, fields_of(now), kAskedElements);
   return now;
 }
 
@@ -189,7 +189,7 @@ std::string RemoteRobot::call(const std::string& component, const std::string& o
                               const std::vector<std::string>& arguments) {
   const remote::CallResult result =
       take(inspector_.call(component, operation, arguments, kPatient));
-  return result.given ? for_people(result.value, result.type, {}, kUsualElements) : std::string();
+  return result.given ? for_people(result.value, result.type, {}, kAskedElements) : std::string();
 }
 
 remote::CommandStatus RemoteRobot::begin(const std::string& component, const std::string& command,

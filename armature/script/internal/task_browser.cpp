@@ -19,12 +19,6 @@ namespace {
 using component::Component;
 using component::State;
 
-std::string number_text(const char* format, double number) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
-}
-
 }  // namespace
 
 /// An assignment whose target may be an item.
@@ -131,7 +125,7 @@ bool TaskBrowser::take_item(const std::string& line) {
   } else if (!readings->front().written) {
     surface().say("not yet written");
   } else {
-    surface().say(value_text(*item.value().type, part, item.value().unit));
+    surface().say(value_text(*item.value().type, part, item.value().unit, kAskedElements));
   }
   return true;
 }
@@ -177,9 +171,9 @@ void TaskBrowser::take_lua(const std::string& text) {
   } else if (assignment.item) {
     const auto readings = read_members(application_, {assignment.item->member});
     if (!readings) return;
-    surface().say(
-        assignment.item->text + " = " +
-        value_text(*assignment.item->type, readings->front().whole.data(), assignment.item->unit));
+    surface().say(assignment.item->text + " = " +
+                  value_text(*assignment.item->type, readings->front().whole.data(),
+                             assignment.item->unit, kAskedElements));
   }
 }
 

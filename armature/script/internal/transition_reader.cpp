@@ -13,24 +13,26 @@ namespace armature::script::internal {
 namespace {
 
 using component::kNoState;
-using Kind = component::MachineTransition::Cause;
+using component::MachineTransition;
 
 constexpr double kLongestSeconds = 1e9;
 constexpr std::size_t kMostTransitions = 5000;
 const std::vector<std::string> kOptions = {"action", "back_to", "guard"};
 
 /// What stands before the target.
-int places_before_target(Kind kind) { return kind == Kind::kTime || kind == Kind::kCondition; }
+int places_before_target(MachineTransition::Cause kind) {
+  return kind == MachineTransition::Cause::kTime || kind == MachineTransition::Cause::kCondition;
+}
 
-const char* form_of(Kind kind) {
+const char* form_of(MachineTransition::Cause kind) {
   switch (kind) {
-    case Kind::kTime:
+    case MachineTransition::Cause::kTime:
       return "{5.0, \"Idle\"}";
-    case Kind::kCondition:
+    case MachineTransition::Cause::kCondition:
       return "{function() return ... end, \"Idle\"}";
-    case Kind::kDone:
+    case MachineTransition::Cause::kDone:
       return "\"Idle\" or {\"Idle\", guard = ...}";
-    case Kind::kTrigger:
+    case MachineTransition::Cause::kTrigger:
       break;
   }
   return "\"Idle\", a function, or {\"Idle\", guard = ..., action = ...}";
@@ -49,10 +51,13 @@ void TransitionReader::read(int table, int state, const std::string& place) {
     own.done = trigger("the end of run of " + definition_.table.path(state), {});
   }
   if (runs) lua_pop(lua_, 1);
-  read_reaction(table, "failed", place, {state, Kind::kTrigger, definition_.failed});
-  read_reaction(table, "done", place, {state, runs ? Kind::kTrigger : Kind::kDone, own.done});
-  read_reaction(table, "after", place, {state, Kind::kTime, kNoTrigger});
-  read_reaction(table, "when", place, {state, Kind::kCondition, kNoTrigger});
+  read_reaction(table, "failed", place,
+                {state, MachineTransition::Cause::kTrigger, definition_.failed});
+  read_reaction(table, "done", place,
+                {state, runs ? MachineTransition::Cause::kTrigger : MachineTransition::Cause::kDone,
+                 own.done});
+  read_reaction(table, "after", place, {state, MachineTransition::Cause::kTime, kNoTrigger});
+  read_reaction(table, "when", place, {state, MachineTransition::Cause::kCondition, kNoTrigger});
 }
 
 std::size_t TransitionReader::trigger(const std::string& name, MachineDefinition::Trigger how) {
@@ -88,7 +93,8 @@ void TransitionReader::read_on(int table, int state, const std::string& place) {
     lua_rawgeti(lua_, LUA_REGISTRYINDEX, cause.second);
     luaL_unref(lua_, LUA_REGISTRYINDEX, cause.second);
     const std::size_t index = trigger(name, {cause.first, cause.first == nullptr});
-    read_alternatives(place + ": on '" + name + "'", {state, Kind::kTrigger, index});
+    read_alternatives(place + ": on '" + name + "'",
+                      {state, MachineTransition::Cause::kTrigger, index});
     lua_pop(lua_, 1);
   }
 }
@@ -163,7 +169,7 @@ void TransitionReader::read_table(int table, Pending& pending) {
   if (reader_.get(table, "guard")) pending.guard = lua_topointer(lua_, -1);
   lua_pop(lua_, 1);
   const int guard = reader_.function(table, "guard", pending.place);
-  if (guard != LUA_NOREF && pending.transition.cause == Kind::kCondition) {
+  if (guard != LUA_NOREF && pending.transition.cause == MachineTransition::Cause::kCondition) {
     reader_.complain(pending.place, "its condition is the guard: write `a and b`");
   } else if (guard != LUA_NOREF) {
     pending.transition.guard = {&MachineFunction::ask, keep(guard, pending.transition), {}};
@@ -180,12 +186,14 @@ bool TransitionReader::read_first(int table, Pending& pending) {
   lua_rawgeti(lua_, table, 1);
   Transition& transition = pending.transition;
   const double seconds = reader_.is(LUA_TNUMBER) ? lua_tonumber(lua_, -1) : 0.0;
-  const bool time =
-      transition.cause == Kind::kTime && seconds >= 1e-9 && seconds <= kLongestSeconds;
-  const bool condition = transition.cause == Kind::kCondition && reader_.is(LUA_TFUNCTION);
+  const bool time = transition.cause == MachineTransition::Cause::kTime && seconds >= 1e-9 &&
+                    seconds <= kLongestSeconds;
+  const bool condition =
+      transition.cause == MachineTransition::Cause::kCondition && reader_.is(LUA_TFUNCTION);
   if (!time && !condition) {
-    const std::string wanted =
-        transition.cause == Kind::kTime ? "a number of seconds above 0" : "a function";
+    const std::string wanted = transition.cause == MachineTransition::Cause::kTime
+                                   ? "a number of seconds above 0"
+                                   : "a function";
     reader_.complain(pending.place, "must begin with " + wanted + ", " + form_of(transition.cause) +
                                         ", found " + reader_.top());
   }
@@ -216,7 +224,7 @@ void TransitionReader::read_target(int table, int position, Pending& pending) {
 }
 
 MachineFunction* TransitionReader::keep(int reference, const Transition& transition) {
-  const bool triggered = transition.cause == Kind::kTrigger;
+  const bool triggered = transition.cause == MachineTransition::Cause::kTrigger;
   return &definition_.functions.emplace_back(
       MachineFunction{MachineFunction::Kind::kTransition, reference, transition.source,
                       triggered ? transition.trigger : kNoTrigger, nullptr});
@@ -267,7 +275,7 @@ void TransitionReader::check_fights() {
       const Transition& a = other.transition;
       const Transition& b = mine.transition;
       if (a.source != b.source || a.cause != b.cause || a.trigger != b.trigger) return false;
-      if (a.cause == Kind::kCondition || a.after > b.after) return false;
+      if (a.cause == MachineTransition::Cause::kCondition || a.after > b.after) return false;
       return a.guard.call == nullptr || (other.guard != nullptr && other.guard == mine.guard);
     };
     const auto end = pending_.begin() + static_cast<std::ptrdiff_t>(later);

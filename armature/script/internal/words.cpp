@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/script/internal/words.hpp"
 
+#include <cctype>
 #include <utility>
 
 namespace armature::script::internal {
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_name_character(char c) {
+  return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
 
 std::string trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n";

@@ -9,6 +9,10 @@ namespace armature::script::internal {
 
 using Words = std::vector<std::string>;
 
+/// What names begin with, and what they go on with.
+bool is_letter(char c);
+bool is_name_character(char c);
+
 /// Without blanks around it.
 std::string trimmed(std::string_view text);
 

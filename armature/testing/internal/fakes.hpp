@@ -78,10 +78,12 @@ class Server<R(Args...)> final : public component::Component {
                                              "what the test serves"};
 };
 
-/// A value that can be kept: texts become std::string.
+/// A value that can be kept: texts of others become std::string.
 template <typename T>
 auto owned(const T& value) {
-  if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+  constexpr bool kOfOthers =
+      std::is_pointer_v<std::decay_t<T>> || std::is_same_v<T, std::string_view>;
+  if constexpr (kOfOthers && std::is_convertible_v<const T&, std::string_view>) {
     return std::string(std::string_view(value));
   } else {
     return value;

@@ -36,7 +36,7 @@ std::string_view common_name_in(const X509_NAME* name) {
   return view_of(X509_NAME_ENTRY_get_data(X509_NAME_get_entry(name, at)));
 }
 
-std::string text_of(const X509_NAME* name) {
+std::string name_in(const X509_NAME* name) {
   if (const auto common = common_name_in(name); !common.empty()) return shown(common);
   std::array<char, 256> line{};
   X509_NAME_oneline(name, line.data(), line.size());
@@ -97,11 +97,11 @@ std::string names_of(const X509& certificate) {
 }
 
 std::string subject_of(const X509& certificate) {
-  return text_of(X509_get_subject_name(&certificate));
+  return name_in(X509_get_subject_name(&certificate));
 }
 
 std::string issuer_of(const X509& certificate) {
-  return text_of(X509_get_issuer_name(&certificate));
+  return name_in(X509_get_issuer_name(&certificate));
 }
 
 std::string text_of(const ASN1_TIME* time) {

@@ -12,9 +12,13 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
     case 0x66e299df: {  // setVelocity
       float left = 0.0f;
       float right = 0.0f;
-      if (!parameters.take(left) || !parameters.take(right) || !parameters.ended() ||
-          !armature::ride::within(left, -1.5f, 1.5f) ||
-          !armature::ride::within(right, -1.5f, 1.5f)) {
+      if (!parameters.take(left) || !parameters.take(right) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("left", left, -1.5f, 1.5f)) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("right", right, -1.5f, 1.5f)) {
         return armature::ride::Executed::kMalformed;
       }
       setVelocity(left, right);
@@ -24,8 +28,10 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
     case 0x4de18ab0: {  // follow
       Route route;
       double speed = 0.0;
-      if (!parameters.take(route) || !parameters.take(speed) || !parameters.ended() ||
-          !armature::ride::within(speed, 0.0, 1.0)) {
+      if (!parameters.take(route) || !parameters.take(speed) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("speed", speed, 0.0, 1.0)) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(follow(route, speed));
@@ -40,8 +46,10 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
     }
     case 0x809a053f: {  // whereItStands
       double limit = 0.0;
-      if (!parameters.take(limit) || !parameters.ended() ||
-          !armature::ride::within(limit, 0.0, 60.0)) {
+      if (!parameters.take(limit) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("limit", limit, 0.0, 60.0)) {
         return armature::ride::Executed::kMalformed;
       }
       whereItStands(limit, armature::ride::ReplyOf<geometry::Pose>(reply));

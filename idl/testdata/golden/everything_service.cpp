@@ -172,8 +172,10 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
     case 0xb0018182: {  // echo_ranged
       std::vector<Ranges> value;
       std::vector<std::uint8_t> small;
-      if (!parameters.take(value) || !parameters.take(small) || !parameters.ended() ||
-          !armature::ride::within(small, 0, 3)) {
+      if (!parameters.take(value) || !parameters.take(small) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("small", small, 0, 3)) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(echo_ranged(value, small));
@@ -197,8 +199,10 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
     case 0xbe1a1d70: {  // request
       std::string name;
       float part = 0.0f;
-      if (!parameters.take(name) || !parameters.take(part) || !parameters.ended() ||
-          !armature::ride::within(part, 0.25f, 0.75f)) {
+      if (!parameters.take(name) || !parameters.take(part) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("part", part, 0.25f, 0.75f)) {
         return armature::ride::Executed::kMalformed;
       }
       request_(name, part);

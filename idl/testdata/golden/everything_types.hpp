@@ -147,7 +147,7 @@ struct Later {
 ARMATURE_STRUCT(Later, bit);
 inline void encode(armature::ride::Encoder& to, const Later& value) { to.put(value.bit); }
 inline bool decode(armature::ride::Decoder& from, Later& value) {
-  return from.take(value.bit) && armature::ride::within(value.bit, 0, 1);
+  return from.take(value.bit) && from.within(value.bit, 0, 1, value);
 }
 inline bool in_range(const Later& value) { return armature::ride::within(value.bit, 0, 1); }
 
@@ -202,16 +202,14 @@ inline bool decode(armature::ride::Decoder& from, Ranges& value) {
          from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
          from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.list) &&
          from.take(value.fixed) && from.take(value.later) &&
-         armature::ride::within(value.whole, -128, 127) && armature::ride::within(value.c, -5, 5) &&
-         armature::ride::within(value.o, 1, 255) && armature::ride::within(value.s, -32768, 0) &&
-         armature::ride::within(value.us, 0, 65535) &&
-         armature::ride::within(value.i, -2147483648, 7) &&
-         armature::ride::within(value.ui, 3, 4294967295) &&
-         armature::ride::within(value.l, -9223372036854775807 - 1, -1) &&
-         armature::ride::within(value.ul, 9223372036854775808u, 18446744073709551615u) &&
-         armature::ride::within(value.f, -0.1f, 1000.0f) &&
-         armature::ride::within(value.d, 0.5, 2.0) && armature::ride::within(value.list, 0, 9) &&
-         armature::ride::within(value.fixed, 0, 9);
+         from.within(value.whole, -128, 127, value) && from.within(value.c, -5, 5, value) &&
+         from.within(value.o, 1, 255, value) && from.within(value.s, -32768, 0, value) &&
+         from.within(value.us, 0, 65535, value) && from.within(value.i, -2147483648, 7, value) &&
+         from.within(value.ui, 3, 4294967295, value) &&
+         from.within(value.l, -9223372036854775807 - 1, -1, value) &&
+         from.within(value.ul, 9223372036854775808u, 18446744073709551615u, value) &&
+         from.within(value.f, -0.1f, 1000.0f, value) && from.within(value.d, 0.5, 2.0, value) &&
+         from.within(value.list, 0, 9, value) && from.within(value.fixed, 0, 9, value);
 }
 inline bool in_range(const Ranges& value) {
   return armature::ride::within(value.whole, -128, 127) && armature::ride::within(value.c, -5, 5) &&

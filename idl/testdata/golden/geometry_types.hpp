@@ -28,7 +28,7 @@ inline void encode(armature::ride::Encoder& to, const Pose& value) {
 }
 inline bool decode(armature::ride::Decoder& from, Pose& value) {
   return from.take(value.x) && from.take(value.y) && from.take(value.heading) &&
-         armature::ride::within(value.heading, -3.2, 3.2);
+         from.within(value.heading, -3.2, 3.2, value);
 }
 inline bool in_range(const Pose& value) { return armature::ride::within(value.heading, -3.2, 3.2); }
 

@@ -3,14 +3,14 @@
 
 namespace odd_names {
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::Service_(std::int32_t Service_,
-                                                              armature::ride::CallOptions options) {
-  return request<std::int32_t>(0xcc57e4f7, "Service", options, Service_);
+armature::ride::Answer<std::int32_t> OddPlaceholder::Service_2(
+    std::int32_t Service_2, armature::ride::CallOptions options) {
+  return request<std::int32_t>(0xcc57e4f7, "Service", options, Service_2);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::Placeholder_(
-    std::int32_t Placeholder_, std::int32_t kOdd_, armature::ride::CallOptions options) {
-  return request<std::int32_t>(0xbd51679a, "Placeholder", options, Placeholder_, kOdd_);
+armature::ride::Answer<std::int32_t> OddPlaceholder::Placeholder_2(
+    std::int32_t Placeholder_2, std::int32_t kOdd_, armature::ride::CallOptions options) {
+  return request<std::int32_t>(0xbd51679a, "Placeholder", options, Placeholder_2, kOdd_);
 }
 
 armature::ride::Answer<std::int32_t> OddPlaceholder::reply(std::int32_t operation_,

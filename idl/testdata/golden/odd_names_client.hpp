@@ -19,11 +19,11 @@ class OddPlaceholder : public armature::ride::Placeholder {
   OddPlaceholder(armature::ride::Peer& peer, std::string name)
       : Placeholder(peer, std::move(name), kOdd) {}
 
-  armature::ride::Answer<std::int32_t> Service_(std::int32_t Service_,
-                                                armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> Service_2(std::int32_t Service_2,
+                                                 armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> Placeholder_(std::int32_t Placeholder_, std::int32_t kOdd_,
-                                                    armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> Placeholder_2(std::int32_t Placeholder_2, std::int32_t kOdd_,
+                                                     armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::int32_t> reply(std::int32_t operation_,
                                              armature::ride::CallOptions options = {});

@@ -10,20 +10,20 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
                                              armature::ride::Reply& reply) {
   switch (operation) {
     case 0xcc57e4f7: {  // Service
-      std::int32_t Service_ = 0;
-      if (!parameters.take(Service_) || !parameters.ended()) {
+      std::int32_t Service_2 = 0;
+      if (!parameters.take(Service_2) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
-      reply.put(this->Service_(Service_));
+      reply.put(this->Service_2(Service_2));
       return armature::ride::Executed::kDone;
     }
     case 0xbd51679a: {  // Placeholder
-      std::int32_t Placeholder_ = 0;
+      std::int32_t Placeholder_2 = 0;
       std::int32_t kOdd_ = 0;
-      if (!parameters.take(Placeholder_) || !parameters.take(kOdd_) || !parameters.ended()) {
+      if (!parameters.take(Placeholder_2) || !parameters.take(kOdd_) || !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
-      reply.put(this->Placeholder_(Placeholder_, kOdd_));
+      reply.put(this->Placeholder_2(Placeholder_2, kOdd_));
       return armature::ride::Executed::kDone;
     }
     case 0x97fc23ce: {  // reply
@@ -113,8 +113,13 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
       std::int32_t outside = 0;
       std::int32_t refuse_ = 0;
       if (!parameters.take(within) || !parameters.take(outside) || !parameters.take(refuse_) ||
-          !parameters.ended() || !armature::ride::within(within, 0, 1) ||
-          !armature::ride::within(outside, 0, 1)) {
+          !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("within", within, 0, 1)) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("outside", outside, 0, 1)) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(decode(within, outside, refuse_));
@@ -123,8 +128,13 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
     case 0x86c35e86: {  // std
       std::int32_t std = 0;
       std::int32_t armature = 0;
-      if (!parameters.take(std) || !parameters.take(armature) || !parameters.ended() ||
-          !armature::ride::within(std, 0, 1) || !armature::ride::within(armature, 0, 1)) {
+      if (!parameters.take(std) || !parameters.take(armature) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("std", std, 0, 1)) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("armature", armature, 0, 1)) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(this->std(std, armature));

@@ -13,9 +13,9 @@ class OddService : public armature::ride::Service {
  public:
   OddService();
 
-  virtual std::int32_t Service_(std::int32_t Service_) = 0;
+  virtual std::int32_t Service_2(std::int32_t Service_2) = 0;
 
-  virtual std::int32_t Placeholder_(std::int32_t Placeholder_, std::int32_t kOdd_) = 0;
+  virtual std::int32_t Placeholder_2(std::int32_t Placeholder_2, std::int32_t kOdd_) = 0;
 
   virtual std::int32_t reply(std::int32_t operation_) = 0;
 

@@ -12,37 +12,37 @@
 
 namespace odd_names {
 
-struct Service {
+struct Service_ {
   std::int32_t encode = 0;
   std::int32_t to = 0;
   std::int32_t from = 0;
   std::int32_t value = 0;
 };
-ARMATURE_STRUCT(Service, encode, to, from, value);
-inline void encode(armature::ride::Encoder& to, const Service& value) {
+ARMATURE_STRUCT(Service_, encode, to, from, value);
+inline void encode(armature::ride::Encoder& to, const Service_& value) {
   to.put(value.encode);
   to.put(value.to);
   to.put(value.from);
   to.put(value.value);
 }
-inline bool decode(armature::ride::Decoder& from, Service& value) {
+inline bool decode(armature::ride::Decoder& from, Service_& value) {
   return from.take(value.encode) && from.take(value.to) && from.take(value.from) &&
          from.take(value.value);
 }
 
-struct Placeholder {
-  Service Service_;
-  std::int32_t Placeholder_ = 0;
+struct Placeholder_ {
+  Service_ Service;
+  std::int32_t Placeholder = 0;
   std::int32_t armature = 0;
 };
-ARMATURE_STRUCT(Placeholder, Service_, Placeholder_, armature);
-inline void encode(armature::ride::Encoder& to, const Placeholder& value) {
-  to.put(value.Service_);
-  to.put(value.Placeholder_);
+ARMATURE_STRUCT(Placeholder_, Service, Placeholder, armature);
+inline void encode(armature::ride::Encoder& to, const Placeholder_& value) {
+  to.put(value.Service);
+  to.put(value.Placeholder);
   to.put(value.armature);
 }
-inline bool decode(armature::ride::Decoder& from, Placeholder& value) {
-  return from.take(value.Service_) && from.take(value.Placeholder_) && from.take(value.armature);
+inline bool decode(armature::ride::Decoder& from, Placeholder_& value) {
+  return from.take(value.Service) && from.take(value.Placeholder) && from.take(value.armature);
 }
 
 struct armature_ {

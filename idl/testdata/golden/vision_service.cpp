@@ -21,8 +21,16 @@ armature::ride::Executed VisionService::execute(armature::ride::Number operation
       std::uint32_t b = 0;
       std::uint32_t c = 0;
       if (!parameters.take(a) || !parameters.take(b) || !parameters.take(c) ||
-          !parameters.ended() || !armature::ride::within(a, 0, 255) ||
-          !armature::ride::within(b, 0, 255) || !armature::ride::within(c, 0, 255)) {
+          !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("a", a, 0, 255)) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("b", b, 0, 255)) {
+        return armature::ride::Executed::kMalformed;
+      }
+      if (!parameters.expect_within("c", c, 0, 255)) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(setThreshold(a, b, c));

@@ -13,4 +13,5 @@ wait(2)   -- what the PIDs drove with dies away, and the arm comes to rest
 wait(10)  -- it stays there
 Arming:disarm()  -- a controller that drives nothing brings it nowhere, not home either
 wait(0.1)
+WAM.held_by_hand = true  -- in this demonstration the operator holds it when its torques end
 stop()

@@ -95,7 +95,7 @@ class Attacker:
             self.kept = [connection for connection in self.kept if self.take(connection, PATIENCE_S)]
 
     def see_one_end(self):
-        return any(not self.take(connection, 1.0) for connection in self.kept)
+        return any(connection.fileno() >= 0 and not self.take(connection, 1.0) for connection in self.kept)
 
     def flood(self, *chunks):
         """As fast as the node takes it, on a connection for each chunk."""

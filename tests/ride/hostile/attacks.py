@@ -3,6 +3,7 @@
 """One attack on a node, until the process is told to end; then it prints what it was told.
 
 usage: attacks.py NAME tcp://HOST:PORT tls://HOST:PORT FOLDER_OF_CERTIFICATES
+       attacks.py busy:PEERS ...
 
 The first line says that it goes on. The line at the end is JSON: {"controls": codes of CONTROL messages that
 came, "replies": how many,
@@ -22,8 +23,8 @@ import sys
 import time
 
 from attacker import PATIENCE_S, Attacker, Flood
-from wire import (COMMAND, CONTROL, ECHO, EVENT, GOES_ON, MESSAGES, MOVE, PING, REPLY, REQUEST, ROBOT, SUBSCRIBE, TICK,
-                  control, echo_of, fnv1a, message, words)
+from wire import (COMMAND, CONTROL, COUNT, ECHO, EVENT, GOES_ON, LOAD, MESSAGES, MOVE, PING, REPLY, REQUEST, ROBOT,
+                  SUBSCRIBE, TICK, control, echo_of, fnv1a, message, request_of, unfinished_of, words)
 
 
 def truncated(a):
@@ -51,12 +52,62 @@ def oversized(a):
 
 def unfinished(a):
     """Bodies that take as much as the node lets them and never end, on many connections."""
-    part = message(REQUEST | GOES_ON, ROBOT, b"x" * 65519)
+    body = unfinished_of(15 * 65000)
     while True:
         a.kept = [a.connect() for _ in range(16)]
         for connection in a.kept:
-            a.send(connection, part * 15)
+            a.send(connection, body)
         a.see_them_end()
+
+
+def endless_bodies(a):
+    """The same on as many connections as there may be, each as large as any body may be."""
+    pour(a, [unfinished_of(15 << 20)] * 60)
+
+
+def endless_bodies_of_four(a):
+    pour(a, [unfinished_of(15 << 20)] * 4)
+
+
+def endless_bodies_of_who_may_not(a):
+    pour(a, [unfinished_of(15 << 20, LOAD)] * 16)
+
+
+def unread_answers(a):
+    """Asks for answers as large as they may be, and takes none of them."""
+    pour(a, [echo_of(15 << 20)] * 9, reads=False)
+
+
+def values_that_grow(a):
+    """Lists of empty texts, in memory eight times as large as on the wire."""
+    pour(a, [request_of(words(COUNT, 1, 4 << 18) + bytes(4 * (4 << 18)))] * 9)
+
+
+def pour(a, data, reads=True):
+    """Each on a connection of its own, over and over, as fast as the node takes it."""
+    left = {}
+    while True:
+        for each in data[len(left):]:
+            connection = a.connect(buffer=None if reads else 4096)
+            connection.setblocking(False)
+            left[connection] = memoryview(each)
+            a.kept = list(left)
+        readable, writable, _ = select.select(left if reads else [], left, [], 1.0)
+        for connection in set(readable + writable):
+            try:
+                if connection in readable:
+                    got = connection.recv(1 << 16)
+                    a.note(got)
+                    if not got:
+                        raise ConnectionResetError
+                if connection in writable:
+                    left[connection] = left[connection][connection.send(left[connection]):] or memoryview(data[0])
+                    a.begin()
+            except BlockingIOError:
+                pass
+            except ConnectionError:
+                a.ended += 1
+                del left[connection]
 
 
 def slow_drip(a):
@@ -89,6 +140,18 @@ def urgent_flood(a):
 def malformed_flood(a):
     a.flood(b"".join(message(random.randrange(6, 0x7FFF), random.randrange(1 << 32), b"?" * random.randrange(40))
                      for _ in range(2000)))
+
+
+def busy(a, peers):
+    """No attack: so many honest peers, each with a small request under way at any time."""
+    connections = [a.connect() for _ in range(peers)]
+    for connection in connections:
+        a.send(connection, echo_of(100))
+    while True:
+        readable, _, _ = select.select(connections, [], [])
+        for connection in readable:
+            a.note(connection.recv(1 << 16))
+            a.send(connection, echo_of(100))
 
 
 def flood_of_four(a):
@@ -236,7 +299,7 @@ def half_open_handshakes(a):
         a.kept = [kept for kept in a.kept if a.take(kept)]
 
 
-ENDED_BY_THE_NODE = ("slow_drip", "unfinished", "half_open_handshakes")
+ENDED_BY_THE_NODE = ("slow_drip", "unfinished", "endless_bodies", "endless_bodies_of_four", "endless_bodies_of_who_may_not", "half_open_handshakes")
 
 
 class End(Exception):
@@ -254,6 +317,14 @@ def listen_for_the_end(listens):
         signal.signal(number, end if listens else signal.SIG_IGN)
 
 
+def stop_listening():
+    """The end may be told once more while it is being stopped."""
+    try:
+        listen_for_the_end(False)
+    except End:
+        stop_listening()
+
+
 def parse(address):
     host, port = re.fullmatch(r"\w+://(.*):(\d+)", address).groups()
     return host, int(port)
@@ -264,9 +335,10 @@ def main():
     attacker = Attacker(parse(plain), parse(tls), folder)
     listen_for_the_end(True)
     try:
-        globals()[name](attacker)
+        name, *peers = name.split(":")
+        globals()[name](attacker, *map(int, peers))
     except End:
-        listen_for_the_end(False)
+        stop_listening()
         if name in ENDED_BY_THE_NODE:
             attacker.see_one_end()
     print(json.dumps({"controls": sorted(attacker.controls), "replies": attacker.replies, "ended": attacker.ended,

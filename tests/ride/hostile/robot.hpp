@@ -32,7 +32,10 @@ constexpr ride::Number event_number(const Tick*) { return ride::number_of("event
 inline constexpr ride::Declaration kRobotDeclarations[] = {
     {"unsigned long messages()", ride::Access::kRead},  ///< that the node has taken so far
     {"unsigned long moves()", ride::Access::kRead},     ///< commands that were executed so far
-    {"String echo(String)", ride::Access::kRead},      {"void move()", ride::Access::kCommand},
+    {"String echo(String)", ride::Access::kRead},
+    {"void move()", ride::Access::kCommand},
+    {"int count(Array<String>)", ride::Access::kRead},
+    {"void load(String)", ride::Access::kCommand},
     {"event Tick{int}", ride::Access::kRead},
 };
 inline constexpr ride::Interface kRobot{"Robot", kRobotDeclarations};
@@ -40,6 +43,7 @@ inline constexpr ride::Number kMessages = kRobotDeclarations[0].number();
 inline constexpr ride::Number kMoves = kRobotDeclarations[1].number();
 inline constexpr ride::Number kEcho = kRobotDeclarations[2].number();
 inline constexpr ride::Number kMove = kRobotDeclarations[3].number();
+inline constexpr ride::Number kCount = kRobotDeclarations[4].number();
 
 /// TLS with the files NAME.pem, NAME.key and authority.pem of a folder.
 inline std::shared_ptr<ride::Transport> tls_of(const std::string& folder, const std::string& name) {

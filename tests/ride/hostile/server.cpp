@@ -2,7 +2,9 @@
 // A node for others to attack: listens at TCP and TLS, prints both addresses and then its log, and
 // ends with its standard input.
 //
-// usage: ride_hostile_server FOLDER_OF_CERTIFICATES
+// usage: ride_hostile_server FOLDER_OF_CERTIFICATES [large]
+//
+// It takes little; with `large` as much as a node takes by default.
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -30,6 +32,11 @@ class Robot : public ride::Service {
   ride::Executed execute(ride::Number operation, ride::Decoder& parameters,
                          ride::Reply& reply) override {
     std::string text;
+    std::vector<std::string> texts;
+    if (operation == kCount && parameters.take(texts) && parameters.ended()) {
+      reply.put(static_cast<std::int32_t>(texts.size()));
+      return ride::Executed::kDone;
+    }
     if (operation == kEcho && parameters.take(text) && parameters.ended()) {
       reply.put(text);
     } else if (operation == kEcho || !parameters.ended()) {
@@ -50,11 +57,13 @@ class Robot : public ride::Service {
   std::uint64_t moves_ = 0;
 };
 
-ride::NodeOptions options_of(const std::string& folder) {
+ride::NodeOptions options_of(const std::string& folder, bool large) {
   armature::base::Diagnostics diagnostics;
   ride::NodeOptions options;
-  options.limits.body_bytes = 1 << 20;
-  options.limits.unsent_bytes = 256 << 10;
+  if (!large) {
+    options.limits.body_bytes = 1 << 20;
+    options.limits.unsent_bytes = 256 << 10;
+  }
   options.limits.time_to_complete = 300ms;
   options.transports = {tls_of(folder, "robot")};
   options.allows = [policy = ride::Policy::parse("allow local read robot\n"
@@ -79,9 +88,9 @@ bool input_has_ended() {
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 2) return 2;
+  if (count < 2) return 2;
   Robot robot;
-  ride::Node node(options_of(arguments[1]));
+  ride::Node node(options_of(arguments[1], count > 2));
   robot.node = &node;
   const auto plain = node.listen("tcp://127.0.0.1:0");
   const auto tls = node.listen("tls://127.0.0.1:0");

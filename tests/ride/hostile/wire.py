@@ -17,6 +17,8 @@ def fnv1a(text):
 
 ECHO = fnv1a("String echo(String)")
 MOVE = fnv1a("void move()")
+COUNT = fnv1a("int count(Array<String>)")
+LOAD = fnv1a("void load(String)")
 MESSAGES = fnv1a("unsigned long messages()")
 TICK = fnv1a("event Tick{int}")
 
@@ -33,8 +35,17 @@ def control(code):
     return message(CONTROL, 0, words(code, 0, 0, 0, 0))
 
 
-def echo_of(size, call=1):
-    """A request whose body takes several messages."""
-    body = words(ECHO, call, size) + b"x" * size
+def request_of(body):
+    """In several messages where one does not hold it."""
     parts = [body[at:at + 65519] for at in range(0, len(body), 65519)]
     return b"".join(message(REQUEST | (GOES_ON if part is not parts[-1] else 0), ROBOT, part) for part in parts)
+
+
+def echo_of(size, call=1):
+    return request_of(words(ECHO, call, size) + b"x" * size)
+
+
+def unfinished_of(size, operation=ECHO):
+    """A request whose body goes on, and has no end."""
+    body = words(operation, 1, size) + b"x" * size
+    return b"".join(message(REQUEST | GOES_ON, ROBOT, body[at:at + 65519]) for at in range(0, len(body), 65519))

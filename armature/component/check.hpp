@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What a component says and sees when a deployment is checked, before anything runs.
+
+#include <string>
+#include <vector>
+
+#include "armature/component/component.hpp"
+
+namespace armature::component {
+
+/// Given to `Component::on_check` and to each `Checked` when names, peers, connections and periods
+/// are known and properties have their values. Nothing is configured, nothing is connected: whoever
+/// checks only looks.
+/// @thread configuration only
+class Check {
+ public:
+  /// The deployment is refused; the message gets the component's name and place.
+  virtual void error(std::string message, std::string hint = {}) = 0;
+  /// The deployment runs nevertheless.
+  virtual void warning(std::string message, std::string hint = {}) = 0;
+
+  /// The component drives what is not simulated, by `bus`: what is granted there is looked at
+  /// twice.
+  virtual void drives_hardware(std::string bus) = 0;
+
+  /// All components of the deployment, as declared.
+  virtual const std::vector<Component*>& components() const = 0;
+  /// Those that the component has as peers, as declared.
+  virtual std::vector<const Component*> peers() const = 0;
+  /// Who writes an input, in any mode; of any component.
+  virtual std::vector<const OutputPortBase*> writers_of(const InputPortBase& input) const = 0;
+  /// Who reads an output, in any mode; of any component.
+  virtual std::vector<const InputPortBase*> readers_of(const OutputPortBase& output) const = 0;
+  /// Whether what one writes reaches the other a cycle later, as the deployment declares.
+  virtual bool delayed(const OutputPortBase& writer, const InputPortBase& reader) const = 0;
+  /// The operation that serves a caller; nullptr: none.
+  virtual const OperationBase* target_of(const OperationCallerBase& caller) const = 0;
+  /// The event that a handler handles; nullptr: none.
+  virtual const EventBase* source_of(const EventHandlerBase& handler) const = 0;
+
+ protected:
+  ~Check() = default;
+};
+
+/// Part of a component that has something to check, whatever component it is part of.
+class Checked {
+ public:
+  explicit Checked(Component* owner) { owner->declare().checked.push_back(this); }
+  Checked(const Checked&) = delete;
+  Checked& operator=(const Checked&) = delete;
+
+  virtual void check(Check& check) const = 0;
+
+ protected:
+  ~Checked() = default;
+};
+
+}  // namespace armature::component

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "armature/component/component.hpp"
+#include "armature/component/event.hpp"
+#include "armature/component/signature.hpp"
+
+namespace armature::component {
+
+/// Something that a component keeps from falling, rolling or opening while it runs: an arm's
+/// weight. An orderly stop, of the component or of its application, asks first and lets go in no
+/// silence (exec/application.hpp).
+///
+///     component::EventHandler<> sample_{this, "Sample", ...};
+///     component::Holding holding_{this, component::serve<&Arm::held>, sample_};
+class Holding {
+ public:
+  /// `Function` is `Reason f()`: what would move if the component stopped now, and what the
+  /// operator can do; empty if nothing would. Never asked unless the component runs.
+  /// @param kept_by  the event without which nothing is held any more: whoever raises it is not
+  ///   stopped either
+  template <auto Function>
+  Holding(Component* owner, Serve<Function> function, const EventHandlerBase& kept_by)
+      : Holding(owner, function) {
+    kept_by_ = &kept_by;
+  }
+  template <auto Function>
+  Holding(Component* owner, Serve<Function>)
+      : owner_(*owner), held_([](Component& component) -> Reason {
+          return (static_cast<internal::OwnerOf<Function>&>(component).*Function)();
+        }) {
+    owner->declare().holdings.push_back(this);
+  }
+  Holding(const Holding&) = delete;
+  Holding& operator=(const Holding&) = delete;
+
+  /// @thread the component's own
+  Reason held() const {
+    const bool runs = owner_.state() == State::kRunning || owner_.state() == State::kRunTimeError;
+    return runs ? held_(owner_) : Reason();
+  }
+  /// Who raises that event; nullptr if nobody has to, or does.
+  const Component* kept_by() const {
+    const bool known = kept_by_ != nullptr && kept_by_->bound();
+    return known ? &kept_by_->source()->owner() : nullptr;
+  }
+
+ private:
+  Component& owner_;
+  Reason (*held_)(Component&);
+  const EventHandlerBase* kept_by_ = nullptr;
+};
+
+}  // namespace armature::component

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/library/base/guarded_bus.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace armature::library {
+
+using component::Outcome;
+using guardian::Guardian;
+
+GuardedBus::GuardedBus(component::Component* owner)
+    : wish_(owner, "guardian", "on",
+            "a process that switches the drives off when this one dies or hangs: on, off, or "
+            "required, which runs nothing without it") {}
+
+std::optional<GuardedBus::Wish> GuardedBus::wish() const {
+  if (wish_.get() == "off") return Wish::kOff;
+  if (wish_.get() == "on") return Wish::kOn;
+  if (wish_.get() == "required") return Wish::kRequired;
+  return std::nullopt;
+}
+
+Outcome GuardedBus::refuse_property() const {
+  return component::refused("guardian is '" + wish_.get() + "', expected on, off or required");
+}
+
+Outcome GuardedBus::start(const guardian::Orders& orders) {
+  guardian_.reset();
+  const std::optional<Wish> wanted = wish();
+  if (!wanted) return refuse_property();
+  said_.clear();
+  complains_ = required_ = gone_ = loss_ = false;
+  if (wanted == Wish::kOff) return component::accepted();
+  auto started = Guardian::start(orders);
+  if (!started) return go_without(*wanted, started.error());
+  guardian_ = std::move(started).value();
+  required_ = wanted == Wish::kRequired;
+  said_ = "guarded by " + guardian_->describe();
+  return component::accepted();
+}
+
+Outcome GuardedBus::do_without(std::string_view why) {
+  guardian_.reset();
+  said_.clear();
+  const std::optional<Wish> wanted = wish();
+  if (!wanted) return refuse_property();
+  if (wanted == Wish::kOff) return component::accepted();
+  const Outcome outcome = go_without(*wanted, why);
+  complains_ = false;
+  return outcome;
+}
+
+Outcome GuardedBus::go_without(Wish wish, std::string_view why) {
+  said_ = "no guardian: " + std::string(why);
+  complains_ = true;
+  return wish == Wish::kRequired ? component::refused(said_) : component::accepted();
+}
+
+std::optional<component::Reason> GuardedBus::beat(base::Time now) {
+  if (guardian_ == nullptr) return std::nullopt;
+  const Guardian::Finding finding = guardian_->beat(now);
+  if (finding == Guardian::Finding::kActed) {
+    component::Reason why("its guardian has switched the drives off: no cycle was run for ");
+    const auto silence = std::chrono::ceil<std::chrono::milliseconds>(guardian_->silence());
+    char digits[24] = "";
+    std::snprintf(digits, sizeof digits, "%lld ms", static_cast<long long>(silence.count()));
+    return why.append(digits);
+  }
+  const bool gone = finding == Guardian::Finding::kGone;
+  if (!std::exchange(gone_, gone) && gone) loss_ = true;
+  if (gone && required_) return component::Reason("its guardian has died, and is required");
+  return std::nullopt;
+}
+
+void GuardedBus::rest() {
+  if (guardian_ != nullptr) guardian_->rest();
+}
+
+}  // namespace armature::library

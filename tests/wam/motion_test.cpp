@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motions that cannot be are refused, and those that are accepted do not end in the board's fault.
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "robots/wam/tip_speed.hpp"
+#include "tests/wam/arm.hpp"
+
+namespace armature::wam {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+const Vector kThere{0.5, -1.2, 0.0, 2.0};
+
+TEST(WamMotions, OfAnArmThatIsNotArmedAreRefused) {
+  Arm arm("npid4.yaml");
+  arm.start_active();
+  const Vector before = arm.positions();
+  EXPECT_THAT(arm.move_to(kThere, 5.0), HasSubstr("the robot is not armed: arm first"));
+  arm.run_for(2s);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(arm.positions()[i], before[i], 0.01);
+  arm.arm();
+  EXPECT_EQ(arm.move_to(kThere, 5.0), "");
+}
+
+TEST(WamMotions, OfAnArmThatIsNotArmedAnyMoreAreRefused) {
+  Arm arm("npid4.yaml");
+  arm.start_armed();
+  ASSERT_EQ(arm.call("Arming", "disarm"), "");
+  arm.run_for(20ms);
+  EXPECT_THAT(arm.move_to(kThere, 5.0), HasSubstr("the robot is not armed: arm first"));
+}
+
+TEST(WamMotions, ThatWouldEndInTheBoardsVelocityFaultAreRefusedWithTheShortestTime) {
+  Arm arm("npid4.yaml");
+  arm.start_armed();
+  arm.run_for(1s);
+  const std::string refusal = arm.move_to(kThere, 0.1);
+  EXPECT_THAT(refusal, HasSubstr("the motion is faster than the limits allow: it takes "));
+  EXPECT_THAT(refusal, HasSubstr("s at least, found 0.1 s"));
+  arm.run_for(1s);
+  EXPECT_EQ(arm.state("WAM"), component::State::kRunning);
+}
+
+TEST(WamMotions, AreAtTheirFastestWithinWhatTheBoardAllows) {
+  Arm arm("npid4.yaml");
+  arm.start_armed();
+  arm.run_for(1s);
+  ASSERT_EQ(arm.move_to(kThere, 0.0), "");
+  double fastest = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    arm.cycle();
+    fastest = std::max(
+        fastest,
+        TipSpeed::of(arm.desired(), arm.value<Vector>("Generator", "nAxesDesiredVelocity")));
+  }
+  EXPECT_NEAR(fastest, 0.95, 0.02) << "[m/s]";
+  EXPECT_EQ(arm.state("WAM"), component::State::kRunning) << arm.reason("WAM");
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(arm.positions()[i], kThere[i], 0.02);
+}
+
+TEST(WamMotions, HomeIsReachedFromNearbyToo) {
+  Arm arm("npid4.yaml");
+  arm.start_armed();
+  ASSERT_EQ(arm.move_to({0.01, -1.99, 0.0, 3.12}, 2.0), "");
+  arm.run_for(3s);
+  ASSERT_EQ(arm.call("WAM", "moveHome"), "");
+  arm.run_for(3s);
+  EXPECT_NEAR(arm.desired()[0], 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace armature::wam
