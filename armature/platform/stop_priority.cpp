@@ -82,6 +82,7 @@ StopPriority::~StopPriority() {
 
 void StopPriority::watch(const StopSignal& stop, base::Time end) const {
   make_most_urgent(thread_number());
+  ::poll(nullptr, 0, 0);  // GCC 12's thread sanitizer loses signals during a thread's first wait
   take_stop_signals();
   pollfd events[] = {{.fd = stop.descriptor(), .events = POLLIN, .revents = 0},
                      {.fd = interruption_, .events = POLLIN, .revents = 0}};
