@@ -3,7 +3,9 @@
 
 // What a component says and sees when a deployment is checked, before anything runs.
 
+#include <any>
 #include <string>
+#include <typeindex>
 #include <vector>
 
 #include "armature/component/component.hpp"
@@ -40,8 +42,26 @@ class Check {
   /// The event that a handler handles; nullptr: none.
   virtual const EventBase* source_of(const EventHandlerBase& handler) const = 0;
 
+  /// Works out an answer once for all who ask while the deployment is checked: what is behind a
+  /// port is asked by each component that leads there. Who asks the same while it is worked out, as
+  /// in a wiring that goes round, is told an empty answer.
+  /// @param about  with the type of the answer, what tells questions apart
+  template <typename Answer, typename Work>
+  const Answer& once(const void* about, const Work& work) const {
+    std::any& known = answer(about, typeid(Answer));
+    if (!known.has_value()) {
+      known.emplace<Answer>();
+      std::any_cast<Answer&>(known) = work();
+    }
+    return std::any_cast<const Answer&>(known);
+  }
+
  protected:
   ~Check() = default;
+
+ private:
+  /// Empty until it is known; stays where it is.
+  virtual std::any& answer(const void* about, std::type_index type) const = 0;
 };
 
 /// Part of a component that has something to check, whatever component it is part of.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
 
@@ -70,7 +72,12 @@ class HoldingWatch {
 
   /// Once a period.
   /// @rt nonblocking, no allocation
-  Finding step(const Measured& measured) { return is_to_stand() ? judge(measured) : Finding{}; }
+  Finding step(const Measured& measured) {
+    if (!is_to_stand()) return {};
+    if (stands(measured)) [[likely]]
+      return {.verdict = Verdict::kStands};
+    return judge(measured);
+  }
   /// In place of `step` where only the effort is to be judged, since the joint may move.
   /// @rt nonblocking, no allocation
   Finding judge_effort(double effort);
@@ -88,6 +95,12 @@ class HoldingWatch {
 
   explicit HoldingWatch(const Config& config);
 
+  /// Driven, slow and at its place, as nearly always: to see that costs a few comparisons.
+  bool stands(const Measured& measured) const {
+    return state_.phase == Phase::kStanding && config_.max_alternation > 1.0 && measured.driven &&
+           state_.fast_steps == 0 && std::abs(measured.velocity) <= config_.max_velocity &&
+           std::abs(measured.position - state_.place) <= config_.max_motion;
+  }
   Finding judge(const Measured& measured);
   bool settles(const Measured& measured);
   Finding judge_motion(const Measured& measured);

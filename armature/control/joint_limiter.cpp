@@ -192,11 +192,12 @@ double JointLimiter::effort_within_motion(const Measured& measured, double effor
   const double room =
       effort > 0.0 ? config_.upper - measured.position : measured.position - config_.lower;
   const double onward = std::max(velocity, 0.0);
-  const bool too_far = onward * onward / (2.0 * config_.max_acceleration) > room;
+  const bool too_far = onward * onward > 2.0 * config_.max_acceleration * room;
   const bool too_fast = velocity > config_.max_velocity;
+  if (!too_far && !too_fast) return effort;
   counts_.position += too_far ? 1 : 0;
   counts_.velocity += too_fast ? 1 : 0;
-  return too_far || too_fast ? 0.0 : effort;
+  return 0.0;
 }
 
 }  // namespace armature::control

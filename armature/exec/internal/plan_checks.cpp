@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <any>
 #include <exception>
 #include <functional>
+#include <map>
 #include <string>
+#include <typeindex>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -72,12 +75,19 @@ class PlannedWiring {
   Links<component::EventHandlerBase, component::EventBase> sources;
 };
 
+/// What components worked out for each other.
+using Answers = std::map<std::pair<const void*, std::type_index>, std::any>;
+
 /// One component's view of it.
 class PlannedCheck final : public component::Check {
  public:
-  PlannedCheck(const ComponentEntry& entry, const PlannedWiring& wiring,
+  PlannedCheck(const ComponentEntry& entry, const PlannedWiring& wiring, Answers& answers,
                std::vector<HardwarePlan>& hardware, base::Diagnostics& diagnostics)
-      : entry_(entry), wiring_(wiring), hardware_(hardware), diagnostics_(diagnostics) {}
+      : entry_(entry),
+        wiring_(wiring),
+        answers_(answers),
+        hardware_(hardware),
+        diagnostics_(diagnostics) {}
 
   void error(std::string message, std::string hint) override {
     diagnostics_.error(entry_.where, named(message), std::move(hint));
@@ -116,12 +126,16 @@ class PlannedCheck final : public component::Check {
   }
 
  private:
+  std::any& answer(const void* about, std::type_index type) const override {
+    return answers_[{about, type}];
+  }
   std::string named(const std::string& message) const {
     return quoted(entry_.component->name()) + ": " + message;
   }
 
   const ComponentEntry& entry_;
   const PlannedWiring& wiring_;
+  Answers& answers_;
   std::vector<HardwarePlan>& hardware_;
   base::Diagnostics& diagnostics_;
 };
@@ -139,8 +153,9 @@ void check_component(const Component& component, component::Check& check) {
 
 void check_components(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
   const PlannedWiring wiring(blueprint, plan);
+  Answers answers;
   for (const ComponentEntry& entry : blueprint.components) {
-    PlannedCheck check(entry, wiring, plan.hardware, diagnostics);
+    PlannedCheck check(entry, wiring, answers, plan.hardware, diagnostics);
     check_component(*entry.component, check);
   }
 }

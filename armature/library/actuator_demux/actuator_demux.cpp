@@ -26,9 +26,9 @@ std::vector<DrivenJoint> ActuatorNDemux::joints_behind(const component::InputPor
                                                        const component::Check& check) {
   std::vector<DrivenJoint> all;
   for (std::size_t i = 0; i < voltage_.size(); ++i) {
-    std::vector<DrivenJoint> joints = library::joints_behind(voltage_[i], check);
+    const std::vector<DrivenJoint>& joints = library::joints_behind(voltage_[i], check);
     if (joints.size() != 1) return {};
-    all.push_back(std::move(joints.front()));
+    all.push_back(joints.front());
   }
   return all;
 }

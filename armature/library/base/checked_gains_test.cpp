@@ -46,6 +46,13 @@ class Notes final : public component::Check {
 
   std::string said;
   std::vector<Component*> none;
+
+ private:
+  std::any& answer(const void* /*about*/, std::type_index /*type*/) const override {
+    return answer_;
+  }
+
+  mutable std::any answer_;
 };
 
 /// Its gain is wrong above 10 times the period in milliseconds.

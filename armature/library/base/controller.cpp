@@ -167,10 +167,10 @@ std::vector<DrivenJoint> Controller::driven_joints(const component::Check& check
   return joints;
 }
 
-std::vector<DrivenJoint> Controller::acted_joints(const component::Check& check) const {
-  std::vector<DrivenJoint> joints = library::joints_behind(act_, check);
-  if (joints.size() != static_cast<std::size_t>(joints_.get())) joints.clear();
-  return joints;
+const std::vector<DrivenJoint>& Controller::acted_joints(const component::Check& check) const {
+  static const std::vector<DrivenJoint> kUnknown;
+  const std::vector<DrivenJoint>& joints = library::joints_behind(act_, check);
+  return joints.size() == static_cast<std::size_t>(joints_.get()) ? joints : kUnknown;
 }
 
 void Controller::WeightCheck::check(component::Check& check) const {

@@ -75,7 +75,7 @@ class Controller : public component::Component, public PassesSamples, public Dri
   /// @thread configuration only
   std::vector<DrivenJoint> driven_joints(const component::Check& check) const;
   /// The same as who has samples of its own knows them: not how late those of this one are.
-  std::vector<DrivenJoint> acted_joints(const component::Check& check) const;
+  const std::vector<DrivenJoint>& acted_joints(const component::Check& check) const;
 
   /// The gravity that its control signals hold the joints' weight against [m/s^2], 0 if they leave
   /// it to others; nothing: it has no model of it.

@@ -69,7 +69,7 @@ void ControllerOfPids::note_missing() {
 std::vector<DrivenJoint> ControllerOfPids::joints_behind(const component::InputPortBase* input,
                                                          const component::Check& check) {
   // Of the PID's samples, the PID itself knows how late they are.
-  const std::vector<DrivenJoint> joints = acted_joints(check);
+  const std::vector<DrivenJoint>& joints = acted_joints(check);
   for (std::size_t i = 0; i < out_.size() && i < joints.size(); ++i) {
     if (&out_[i] == input) return {joints[i]};
   }

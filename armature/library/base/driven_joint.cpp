@@ -28,22 +28,37 @@ std::string text_of(const std::array<double, 3>& vector) {
   return "[" + figure(vector[0]) + ", " + figure(vector[1]) + ", " + figure(vector[2]) + "] m/s^2";
 }
 
-/// Samples that go through more parts than that go round.
-constexpr int kMostParts = 16;
+struct CyclesLate {
+  int count = 0;
+};
 
-int cycles_late(const component::InputPortBase& input, const component::Check& check, int parts) {
+CyclesLate count_cycles_late(const component::InputPortBase& input, const component::Check& check) {
   int most = 0;
   for (const component::OutputPortBase* const writer : check.writers_of(input)) {
     int late = 0;
     const auto* const passes = dynamic_cast<const PassesSamples*>(&writer->owner());
-    if (passes != nullptr && parts > 0) {
+    if (passes != nullptr) {
       for (const component::InputPortBase* const behind : passes->samples_behind(*writer)) {
-        late = std::max(late, cycles_late(*behind, check, parts - 1));
+        late = std::max(late, cycles_late(*behind, check));
       }
     }
     most = std::max(most, late + (check.delayed(*writer, input) ? 1 : 0));
   }
-  return most;
+  return {most};
+}
+
+std::vector<DrivenJoint> find_joints_behind(const component::OutputPortBase& output,
+                                            const component::Check& check) {
+  std::vector<DrivenJoint> all;
+  for (const component::InputPortBase* const input : check.readers_of(output)) {
+    auto* const reader = dynamic_cast<DrivesJoints*>(&input->owner());
+    if (reader == nullptr) continue;
+    std::vector<DrivenJoint> joints = reader->joints_behind(input, check);
+    answer_later(joints, check.delayed(output, *input) ? 1 : 0,
+                 base::to_seconds(output.owner().period()));
+    for (DrivenJoint& joint : joints) all.push_back(std::move(joint));
+  }
+  return all;
 }
 
 std::string objection(const JointPlant& plant, const SampledController& controller,
@@ -68,7 +83,7 @@ std::string figure(double number) {
 }
 
 int cycles_late(const component::InputPortBase& input, const component::Check& check) {
-  return cycles_late(input, check, kMostParts);
+  return check.once<CyclesLate>(&input, [&] { return count_cycles_late(input, check); }).count;
 }
 
 void answer_later(std::vector<DrivenJoint>& joints, int cycles, double period_s) {
@@ -78,18 +93,10 @@ void answer_later(std::vector<DrivenJoint>& joints, int cycles, double period_s)
   }
 }
 
-std::vector<DrivenJoint> joints_behind(const component::OutputPortBase& output,
-                                       const component::Check& check) {
-  std::vector<DrivenJoint> all;
-  for (const component::InputPortBase* const input : check.readers_of(output)) {
-    auto* const reader = dynamic_cast<DrivesJoints*>(&input->owner());
-    if (reader == nullptr) continue;
-    std::vector<DrivenJoint> joints = reader->joints_behind(input, check);
-    answer_later(joints, check.delayed(output, *input) ? 1 : 0,
-                 base::to_seconds(output.owner().period()));
-    for (DrivenJoint& joint : joints) all.push_back(std::move(joint));
-  }
-  return all;
+const std::vector<DrivenJoint>& joints_behind(const component::OutputPortBase& output,
+                                              const component::Check& check) {
+  return check.once<std::vector<DrivenJoint>>(&output,
+                                              [&] { return find_joints_behind(output, check); });
 }
 
 std::string objection_to_gains(const DrivenJoint& joint, const SampledController& on_light,

@@ -110,8 +110,8 @@ void answer_later(std::vector<DrivenJoint>& joints, int cycles, double period_s)
 
 /// The joints that an output drives, through whatever reads it, also a cycle later.
 /// @thread configuration only
-std::vector<DrivenJoint> joints_behind(const component::OutputPortBase& output,
-                                       const component::Check& check);
+const std::vector<DrivenJoint>& joints_behind(const component::OutputPortBase& output,
+                                              const component::Check& check);
 
 /// What is wrong with the gains of a joint, with its figures; empty if its loop has a margin with
 /// the lightest and with the heaviest plant.

@@ -35,9 +35,9 @@ std::vector<DrivenJoint> Bridge::joints_behind(const component::InputPortBase* i
   std::vector<DrivenJoint> all;
   if (input != &desired_) return all;
   for (std::size_t i = 0; i < ref_.size(); ++i) {
-    std::vector<DrivenJoint> joints = library::joints_behind(ref_[i], check);
+    const std::vector<DrivenJoint>& joints = library::joints_behind(ref_[i], check);
     if (joints.size() != 1) return {};
-    all.push_back(std::move(joints.front()));
+    all.push_back(joints.front());
   }
   return all;
 }
