@@ -41,6 +41,8 @@ class Holding {
     const bool runs = owner_.state() == State::kRunning || owner_.state() == State::kRunTimeError;
     return runs ? held_(owner_) : Reason();
   }
+  /// The handler of the event without which nothing is held; nullptr if there is none.
+  const EventHandlerBase* keeper() const { return kept_by_; }
   /// Who raises that event; nullptr if nobody has to, or does.
   const Component* kept_by() const {
     const bool known = kept_by_ != nullptr && kept_by_->bound();

@@ -268,8 +268,6 @@ class Application final {
   std::string run_last(const CommandName& name, const platform::StopSignal* stop);
   bool holds_nothing(std::string_view component);
   std::string held_by(component::Component& component);
-  std::vector<const component::Component*> run_for_events_of(
-      const component::Component& keeper) const;
   std::optional<Held> held_by_help_of(const component::Component& component);
   void say_held(const std::vector<Held>& held);
   component::Outcome begin_way_to_stop(component::Component& component);

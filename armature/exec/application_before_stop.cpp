@@ -10,6 +10,7 @@
 #include "armature/exec/application.hpp"
 #include "armature/exec/internal/directory.hpp"
 #include "armature/exec/internal/tool_ticket.hpp"
+#include "armature/exec/internal/wiring.hpp"
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec {
@@ -127,28 +128,14 @@ std::vector<Held> Application::held() {
   return all;
 }
 
-/// Who has to run so that `keeper` raises its events: itself, and who triggers it if it has no
-/// thread of its own.
-std::vector<const Component*> Application::run_for_events_of(const Component& keeper) const {
-  std::vector<const Component*> all{&keeper};
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (entry_of(*all[i]).activity.owns_thread()) continue;
-    for (const component::EventHandlerBase* const handler : all[i]->interface().handlers) {
-      const Component* const source = handler->bound() ? &handler->source()->owner() : nullptr;
-      if (source == nullptr || std::ranges::find(all, source) != all.end()) continue;
-      all.push_back(source);
-    }
-  }
-  return all;
-}
-
 /// What another component holds only as long as `component` runs.
 std::optional<Held> Application::held_by_help_of(const Component& component) {
   if (!running_) return std::nullopt;
   const auto needs_it = [&](const component::Holding* holding) {
     if (holding->kept_by() == nullptr) return false;
-    const auto all = run_for_events_of(*holding->kept_by());
-    return std::ranges::find(all, &component) != all.end();
+    const Index keeper = index_of_.at(holding->kept_by()->name());
+    const auto all = internal::who_runs_for(blueprint_, plan_, keeper);
+    return std::ranges::find(all, index_of_.at(component.name())) != all.end();
   };
   for (const ComponentEntry& entry : blueprint_.components) {
     Component& holder = *entry.component;

@@ -45,6 +45,7 @@ Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   internal::plan_observers(blueprint, plan, diagnostics);
   internal::plan_order(blueprint, plan, diagnostics);
   internal::plan_members(blueprint, plan, diagnostics);
+  internal::check_holders(blueprint, plan, diagnostics);
   internal::plan_triggers(blueprint, plan, diagnostics);
   internal::check_priorities(blueprint, plan, diagnostics);
   internal::plan_periods(blueprint, plan);

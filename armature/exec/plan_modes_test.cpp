@@ -7,11 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/holding.hpp"
 #include "armature/exec/internal/test_components.hpp"
 #include "armature/exec/modes.hpp"
 
 namespace armature::exec {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// Passes on; its handler sets off whatever is behind it.
 class Pass : public component::Component {
@@ -160,9 +163,69 @@ TEST(PlanModes, APeerThatNeverRunsAtTheSameTimeIsAMistake) {
   turns.blueprint.add<Caller>("Caller");
   turns.blueprint.add_peer("Caller", "B");
   turns.mode("a", {"A", "Caller"}).mode("b", {"B"});
-  EXPECT_THAT(turns.problems(),
-              ::testing::HasSubstr(
-                  "error: 'Caller' uses 'scale' of 'B', but there is no mode in which both run\n"));
+  EXPECT_THAT(
+      turns.problems(),
+      HasSubstr("error: 'Caller' uses 'scale' of 'B', but there is no mode in which both run\n"));
+}
+
+/// Hands on what it hears.
+class Relay : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void pass(std::int64_t count) { beat_.raise(count); }
+
+  component::Event<std::int64_t> beat_{this, "Beat", "what it hears"};
+  component::EventHandler<std::int64_t> tick_{this, "Tick", component::serve<&Relay::pass>, ""};
+};
+
+/// Holds something as long as it hears a beat.
+class Holder : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Reason held() { return component::Reason("a load"); }
+  void count(std::int64_t) {}
+
+  component::EventHandler<std::int64_t> beat_{this, "Beat", component::serve<&Holder::count>, ""};
+  component::Holding holding_{this, component::serve<&Holder::held>, beat_};
+};
+
+/// Something is held by the beat of a relay that a clock triggers, beside what modes switch.
+struct Held : Turns {
+  Held() {
+    blueprint.add<Counter>("Clock", Activity::periodic(10ms));
+    blueprint.add<Relay>("Relay");
+    blueprint.add<Holder>("Holder");
+    blueprint.add_peer("Relay", "Clock");
+    blueprint.add_peer("Holder", "Relay");
+  }
+};
+
+TEST(PlanModes, MayLeaveOutNobodyWhoHoldsSomething) {
+  Held held;
+  held.mode("a", {"A", "Holder"}).mode("b", {"B"});
+  EXPECT_THAT(held.problems(),
+              HasSubstr("error: a switch of modes would let go: 'Holder', which holds something, "
+                        "does not run in the mode 'b' (name it in no mode: then it runs in all)"));
+}
+
+TEST(PlanModes, MayLeaveOutNobodyWhomTheHolderNeeds) {
+  for (const char* needed : {"Relay", "Clock"}) {
+    Held held;
+    held.mode("a", {"A"}).mode("b", {"B", needed});
+    EXPECT_THAT(held.problems(),
+                HasSubstr("'" + std::string(needed) +
+                          "', without which 'Holder' holds nothing, does not run in the mode 'a'"));
+  }
+}
+
+TEST(PlanModes, MayLeaveOutWhoHasNothingToDoWithWhatIsHeld) {
+  Held held;
+  held.mode("a", {"A"}).mode("b", {"B"});
+  EXPECT_EQ(held.problems(), "");
 }
 
 /// A loop of handlers through whichever of two runs.

@@ -51,6 +51,13 @@ void plan_periods(const Blueprint& blueprint, const Plan& plan);
 /// Has the components say what is wrong with what the deployment makes of them.
 void check_components(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
 
+/// Who has to run so that a component is run: itself, and who triggers it if it has no thread of
+/// its own.
+std::vector<Index> who_runs_for(const Blueprint& blueprint, const Plan& plan, Index component);
+
+/// Refuses modes that leave out what holds something, or whom it needs for that.
+void check_holders(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
+
 /// Refuses a triggered consumer that is more urgent than its producer.
 void check_priorities(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 
