@@ -16,8 +16,8 @@ constexpr double kRounding = 1e-9;
 constexpr double kStep = 1.5;
 constexpr double kFurthest = 1e4;
 constexpr double kNearest = 1e-13;
-/// A share of gains that is none.
-constexpr double kNothing = 1e-12;
+/// With so small a part of its gains nothing is controlled.
+constexpr double kUseless = 1e-3;
 
 /// Of the gains, within which a loop with a margin is stable.
 constexpr std::array<double, 9> kShares{0.5, 0.6, 0.71, 0.84, 1.0, 1.19, 1.41, 1.68, 2.0};
@@ -220,10 +220,12 @@ std::string objection_to_loop(const LoopStability& loop) {
   if (loop.has_margin()) return {};
   if (!loop.finite) return "gains or robot are no finite numbers";
   std::array<char, 256> text{};
-  if (loop.gain_margin < kNothing) {
-    std::snprintf(text.data(), text.size(),
-                  "unstable with any part of these gains (largest pole %.4g, expected below 1)",
-                  loop.largest_pole);
+  if (loop.gain_margin < kUseless) {
+    std::snprintf(
+        text.data(), text.size(),
+        "unstable with any part of these gains (largest pole %.4g, expected below 1): give "
+        "a smaller integral or a larger differential gain",
+        loop.largest_pole);
   } else if (loop.gain_margin < 1.0) {
     std::snprintf(
         text.data(), text.size(),

@@ -143,6 +143,14 @@ TEST(SampledLoop, AnIntegralThatIsTooLargeIsUnstableBelowSomeGain) {
   EXPECT_THAT(objection_to_loop(tight), HasSubstr("give a smaller integral gain"));
 }
 
+TEST(SampledLoop, WhereNoPartOfTheGainsHelpsOtherGainsAreAsked) {
+  const PositionalPid::Config gains{.kp = 1.0, .ki = 200.0, .kd = 1e-3, .period_s = 1e-4};
+  const LoopStability loop =
+      judge_loop({.inertia = 0.5}, SampledController::of(gains), gains.period_s);
+  EXPECT_THAT(objection_to_loop(loop),
+              HasSubstr("give a smaller integral or a larger differential gain"));
+}
+
 TEST(SampledLoop, OfThePositionalPidShakesWhereASimulatedOneDoes) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> decades(-1.0, 1.0), share(0.0, 1.0);

@@ -63,14 +63,28 @@ class Stalls:
         return float(self.process.communicate()[0])
 
 
+class Urgently:
+    """What is started meanwhile has a real-time priority, if that is granted: an arm waits for no computer."""
+
+    def __enter__(self):
+        try:
+            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(90))
+        except PermissionError:
+            pass
+
+    def __exit__(self, *_):
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+
+
 class Arm(Process):
     """armature-wam-emulator, with its states and its frames."""
 
     def __init__(self, options, folder):
         self.bus = "virtual:" + os.path.join(folder, "bus")
         self.state_file, self.log_file = os.path.join(folder, "states"), os.path.join(folder, "frames")
-        super().__init__([options.emulator, "--bus", self.bus, "--state", self.state_file, "--log",
-                          self.log_file], folder)
+        with Urgently():
+            super().__init__([options.emulator, "--bus", self.bus, "--state", self.state_file, "--log",
+                              self.log_file], folder)
         wait_for(lambda: os.path.exists(os.path.join(folder, "bus")), "the emulator is there")
         for key in ("home", "release", "idle"):
             self.say(key)
