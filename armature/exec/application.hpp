@@ -111,6 +111,7 @@ enum class Leave : std::uint8_t {
 struct Held {
   std::string component;
   std::string what;
+  bool answers = true;  ///< its thread does; else nobody knows, and it cannot go on holding
 };
 
 /// Why a run ended.
@@ -267,7 +268,7 @@ class Application final {
   bool cancel_all(const platform::StopSignal* stop);
   std::string run_last(const CommandName& name, const platform::StopSignal* stop);
   bool holds_nothing(std::string_view component);
-  std::string held_by(component::Component& component);
+  std::optional<Held> held_by(component::Component& component);
   std::optional<Held> held_by_help_of(const component::Component& component);
   void say_held(const std::vector<Held>& held);
   component::Outcome begin_way_to_stop(component::Component& component);

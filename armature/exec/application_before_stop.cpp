@@ -99,20 +99,20 @@ std::string Application::run_last(const CommandName& name, const platform::StopS
 
 // ---- What is held
 
-std::string Application::held_by(Component& component) {
+std::optional<Held> Application::held_by(Component& component) {
   const auto what = std::make_shared<component::Reason>();
   for (const component::Holding* holding : component.interface().holdings) {
     const bool asked = run_in_thread_of(component, [what, holding] { *what = holding->held(); });
-    if (!asked) *what = "something, but its thread does not answer";
-    if (!what->empty()) break;
+    if (!asked) return Held{component.name(), "something, but its thread does not answer", false};
+    if (!what->empty()) return Held{component.name(), std::string(what->view())};
   }
-  return std::string(what->view());
+  return std::nullopt;
 }
 
 bool Application::holds_nothing(std::string_view name) {
   Component* const component = find(name);
   return !running_ || component == nullptr || component->interface().holdings.empty() ||
-         held_by(*component).empty();
+         !held_by(*component);
 }
 
 std::vector<Held> Application::held() {
@@ -121,9 +121,7 @@ std::vector<Held> Application::held() {
   for (const ComponentEntry& entry : blueprint_.components) {
     Component& component = *entry.component;
     if (component.interface().holdings.empty()) continue;
-    if (std::string what = held_by(component); !what.empty()) {
-      all.push_back({component.name(), std::move(what)});
-    }
+    if (std::optional<Held> one = held_by(component)) all.push_back(*std::move(one));
   }
   return all;
 }
@@ -141,9 +139,7 @@ std::optional<Held> Application::held_by_help_of(const Component& component) {
     Component& holder = *entry.component;
     if (&holder == &component) continue;
     if (std::ranges::none_of(holder.interface().holdings, needs_it)) continue;
-    if (std::string what = held_by(holder); !what.empty()) {
-      return Held{holder.name(), std::move(what)};
-    }
+    if (std::optional<Held> one = held_by(holder)) return one;
   }
   return std::nullopt;
 }
@@ -160,6 +156,13 @@ base::Diagnostics Application::hold_until_told(
   base::Diagnostics diagnostics;
   if (died_) return diagnostics;
   std::vector<Held> held_now = held();
+  std::erase_if(held_now, [&diagnostics](const Held& one) {
+    if (one.answers) return false;
+    diagnostics.error({}, quoted(one.component) +
+                              " may have held something: its thread does not answer, and holds "
+                              "nothing any more");
+    return true;
+  });
   if (held_now.empty()) return diagnostics;
   leaving_ = true;
   stop = heard(stop);
@@ -193,8 +196,9 @@ base::Diagnostics Application::hold_until_told(
 Outcome Application::begin_way_to_stop(Component& component) {
   const auto way =
       std::ranges::find(options_.before_stop, component.name(), &CommandName::component);
-  std::string why =
-      quoted(component.name()) + " was not stopped, since it holds " + held_by(component);
+  const std::optional<Held> held = held_by(component);
+  std::string why = quoted(component.name()) + " was not stopped, since it holds " +
+                    (held ? held->what : "something");
   if (way == options_.before_stop.end()) return component::refused(why);
   auto begun = begin(way->component, way->command, {});
   if (!begun) {
@@ -229,8 +233,8 @@ void Application::finish_ways_to_stop() {
           std::string(name_of(done.handle.stage())) + ", " + std::string(done.handle.reason()));
       continue;
     }
-    if (const std::string what = held_by(*find(done.command.component)); !what.empty()) {
-      say(quoted(done.command.component) + " was not stopped: it still holds " + what);
+    if (const auto held = held_by(*find(done.command.component))) {
+      say(quoted(held->component) + " was not stopped: it still holds " + held->what);
       continue;
     }
     const Outcome stopped = stop_component(done.command.component);

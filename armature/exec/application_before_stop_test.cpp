@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a deployment has done before an orderly stop.
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -37,6 +38,9 @@ class Relay : public component::Component {
   component::Event<> beat_{this, "Beat", ""};
 };
 
+/// The threads of loads do not go on.
+std::atomic<bool> hangs{false};
+
 /// Lies in nobody's hand but the motor's.
 class Load : public component::Component {
  public:
@@ -53,6 +57,7 @@ class Load : public component::Component {
     return component::accepted();
   }
   void on_update() override {
+    hangs.wait(true);
     if (putting_down_ > 0 && --putting_down_ == 0) held_.assign(false);
   }
   bool lies() { return !held_(); }
@@ -250,6 +255,24 @@ TEST_P(Holding, ItEndsWithTheOperatorsWord) {
   EXPECT_EQ(application_->hold_until_told(nullptr, converse).to_text(), "");
   EXPECT_EQ(asked, 1);
   EXPECT_LT(application_->now() - begin, 300ms);
+}
+
+/// In simulated time a thread that hangs is that of the test.
+TEST(HoldingByAThreadThatHangs, IsNotWaitedForAndIsAnError) {
+  Blueprint blueprint;
+  blueprint.add<Load>("Load", Activity::periodic(1ms));
+  ApplicationOptions options = patient(false);
+  options.hook_limit = 20ms;
+  options.hold_at_stop = 24h;
+  Application application(std::move(blueprint), std::move(options));
+  ASSERT_EQ(application.start().to_text(), "");
+  hangs = true;
+  while (application.held().at(0).answers) {
+  }
+  EXPECT_THAT(application.hold_until_told().to_text(),
+              HasSubstr("error: 'Load' may have held something: its thread does not answer"));
+  hangs = false;
+  hangs.notify_all();
 }
 
 TEST_P(Holding, WhoHasItLetGoIsToldWhatItHeld) {

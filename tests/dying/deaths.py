@@ -7,8 +7,9 @@ is not as docs/promises.md has it.
 usage: deaths.py PROGRAM EMULATOR LIBRARIES FOLDER_OF_VICTIM WAM_DIR [--runs N] [--only NAME,..] [--seed S]
 
 Times on the bus are the emulator's: from the last frame of the dead controller to the guardian's first.
-A run in which the machine itself stood still for longer than a guardian may take is told apart: a process
-with a real-time priority looks how late it is woken.
+A run that the machine itself spoilt is told apart, and done again: on each CPU a process with a real-time
+priority looks how late it is woken. When somebody died, this was longer than a guardian may take; or the
+arm was out of service because a cycle or answers of its pucks were late, and it was longer than they may be.
 """
 
 import argparse
@@ -28,7 +29,8 @@ from processes import LONG, Broken, Process, states_in, wait_for
 
 GAP_MS = 10.0     # from the last frame of the controller to the guardian's first
 MOVED_RAD = 0.02  # of the joint that moves most, until its motor has braked it
-STALL_MS = 3.0    # that the machine stood still
+STALL_MS = 3.0    # that the machine stood still when somebody died
+LATE_MS = 1.0     # more than a cycle of the arm has to spare for answers that are late
 BRAKING_S = 0.05  # from then on braked joints sink by their weight alone
 IDLE_FRAME = re.compile(r"\(0*([0-9.]+)\) \S+ (401|404|402)#880000000000$")
 HOST_FRAME = re.compile(r"\(0*([0-9.]+)\) \S+ (0[0-9A-F]{2}|40[0-9A-F])#(.*)$")
@@ -37,8 +39,9 @@ FIRST, THERE = [0.0, 0.0, 0.0, 1.57, 0.0, 0.0, 0.0], [1.2, 1.0, -0.8, 0.6, -1.5,
 MOTION_S = 5.0
 
 
-def watch_stalls():
+def watch_stalls(cpu):
     """How late this process is woken at most until its input ends [ms]; it has a real-time priority."""
+    os.sched_setaffinity(0, {cpu})
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(97))
     except PermissionError:
@@ -55,25 +58,16 @@ class Stalls:
     """For how long the machine stands still while it runs."""
 
     def __init__(self):
-        self.process = subprocess.Popen([sys.executable, __file__, "--stalls"], stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, text=True)
+        self.watchers = [subprocess.Popen([sys.executable, __file__, "--stalls", str(cpu)], stdin=subprocess.PIPE,
+                                          stdout=subprocess.PIPE, text=True) for cpu in os.sched_getaffinity(0)]
+        self.longest_ms = None
         time.sleep(0.1)
 
     def end(self):
-        return float(self.process.communicate()[0])
-
-
-class Urgently:
-    """What is started meanwhile has a real-time priority, if that is granted: an arm waits for no computer."""
-
-    def __enter__(self):
-        try:
-            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(90))
-        except PermissionError:
-            pass
-
-    def __exit__(self, *_):
-        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        """The longest time [ms]."""
+        if self.longest_ms is None:
+            self.longest_ms = max(float(watcher.communicate()[0]) for watcher in self.watchers)
+        return self.longest_ms
 
 
 class Arm(Process):
@@ -82,9 +76,8 @@ class Arm(Process):
     def __init__(self, options, folder):
         self.bus = "virtual:" + os.path.join(folder, "bus")
         self.state_file, self.log_file = os.path.join(folder, "states"), os.path.join(folder, "frames")
-        with Urgently():
-            super().__init__([options.emulator, "--bus", self.bus, "--state", self.state_file, "--log",
-                              self.log_file], folder)
+        super().__init__([options.emulator, "--bus", self.bus, "--state", self.state_file, "--log",
+                          self.log_file], folder)
         wait_for(lambda: os.path.exists(os.path.join(folder, "bus")), "the emulator is there")
         for key in ("home", "release", "idle"):
             self.say(key)
@@ -162,7 +155,10 @@ components:
 
     def wait_until_moved(self, times):
         """So many motions have ended as they should."""
-        self.assert_says("(?s)" + ".*".join(["Generator.moveTo: done"] * times))
+        done = "(?s)" + ".*".join(["Generator.moveTo: done"] * times)
+        self.assert_says(done + "|WAM: fault: ")
+        if not re.search(done, self.text()):
+            raise Broken("the motion was cut short; it said:\n" + self.text())
 
     def begin_fastest_motion(self):
         self.begin_to_move(FIRST, 2.5)
@@ -200,6 +196,7 @@ class Run:
         self.gap_ms = self.moved = None
         self.stall_ms = 0.0
         self.arm = self.controller = None
+        self.stalls = Stalls()
 
     def __enter__(self):
         return self
@@ -210,7 +207,18 @@ class Run:
                 process.process.send_signal(signal.SIGCONT)
                 process.process.kill()
                 process.process.wait()
+        self.stalls.end()
         self.folder.cleanup()
+
+    def says_nothing(self):
+        """Its figures are those of a machine that stood still."""
+        return self.stall_ms > STALL_MS
+
+    def was_spoilt(self):
+        """It failed since the machine stood still, by which a puck or a cycle was late."""
+        said = self.controller.text() if self.controller else ""
+        late = "silent" in said or "no cycle was run" in said
+        return self.says_nothing() or late and self.stalls.end() > LATE_MS
 
     def begin(self, *more):
         """The arm in the middle of the motion."""
@@ -218,6 +226,8 @@ class Run:
         self.controller = Controller(self.options, self.arm, self.folder.name, *more)
         self.controller.begin_fastest_motion()
         time.sleep(self.chance.uniform(0.3, MOTION_S - 0.7))
+        if "WAM: fault: " in self.controller.text():
+            raise Broken("the motion was cut short; it said:\n" + self.controller.text())
 
     # ---- What is judged
 
@@ -235,7 +245,7 @@ class Run:
         self.moved = moved_after(self.arm.states(), last)
 
     def judge_figures(self):
-        if self.stall_ms > STALL_MS:
+        if self.says_nothing():
             return
         if self.gap_ms is not None and self.gap_ms > GAP_MS:
             raise Broken(f"{self.gap_ms:.1f} ms until the pucks were idle")
@@ -396,23 +406,26 @@ def median(numbers, form):
 
 def repeat(name, options):
     """All runs of a death; how many failed."""
-    gaps, moves, stalled, failed, skipped = [], [], 0, 0, ""
-    for number in range(options.runs):
-        with Run(options, random.Random(f"{options.seed} {name} {number}")) as run:
+    gaps, moves, done, failed, spoilt, skipped = [], [], 0, 0, 0, ""
+    while done < options.runs and spoilt < 3 * options.runs and not skipped:
+        with Run(options, random.Random(f"{options.seed} {name} {done} {spoilt}")) as run:
+            broken = None
             try:
                 skipped = DEATHS[name](run) or ""
                 run.judge_figures()
-                if run.gap_ms is not None and run.stall_ms > STALL_MS:
-                    stalled += 1
-                elif run.gap_ms is not None:
-                    gaps.append(run.gap_ms)
-                    moves.append(run.moved)
-            except (Broken, OSError, subprocess.TimeoutExpired) as broken:
+            except (Broken, OSError, subprocess.TimeoutExpired) as problem:
+                broken = problem
+            if run.was_spoilt() if broken else run.says_nothing():
+                spoilt += 1
+                continue
+            done += 1
+            if broken:
                 failed += 1
-                print(f"FAILED: {name}, run {number}: {broken}", file=sys.stderr, flush=True)
-        if skipped:
-            break
-    print(f"{name:<32} {options.runs:>5} {failed:>7} {stalled:>8} {median(gaps, '{:.1f}'):>9} "
+                print(f"FAILED: {name}, run {done}: {broken}", file=sys.stderr, flush=True)
+            elif run.gap_ms is not None:
+                gaps.append(run.gap_ms)
+                moves.append(run.moved)
+    print(f"{name:<32} {done:>5} {failed:>7} {spoilt:>7} {median(gaps, '{:.1f}'):>9} "
           f"{most(gaps, '{:.1f}'):>9} {most(moves, '{:.4f}'):>11}  {skipped}", flush=True)
     return failed
 
@@ -425,7 +438,7 @@ def main():
     parser.add_argument("--only", default=",".join(DEATHS))
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    print(f"{'death':<32} {'runs':>5} {'failed':>7} {'stalled':>8} {'idle [ms]':>9} {'most [ms]':>9} "
+    print(f"{'death':<32} {'runs':>5} {'failed':>7} {'spoilt':>7} {'idle [ms]':>9} {'most [ms]':>9} "
           f"{'moved [rad]':>11}")
     failed = sum(repeat(name, options) for name in options.only.split(","))
     if failed:
@@ -434,4 +447,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(watch_stalls() if sys.argv[1:] == ["--stalls"] else main())
+    sys.exit(watch_stalls(int(sys.argv[2])) if sys.argv[1:2] == ["--stalls"] else main())

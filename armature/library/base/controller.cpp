@@ -60,6 +60,8 @@ void Controller::take_over() {
   constexpr double kLearning = 0.05;  // of the time of the hand-over: the first few samples
   hand_over_.reset();
   lately_.reset();
+  has_successors_ = std::ranges::any_of(
+      act_.readers(), [](const auto* reader) { return reader->writers().size() > 1; });
   const std::vector<double>* const present = act_.taken_over();
   takes_over_ = present != nullptr;
   if (!takes_over_) return;
@@ -85,7 +87,7 @@ void Controller::sample_now() {
 
 const std::vector<double>* Controller::reference_now(const std::vector<double>& measured) {
   const std::vector<double>* const reference = choose_reference(measured);
-  rests_ = reference != nullptr && all_rest(*reference, measured);
+  rests_ = has_successors_ && reference != nullptr && all_rest(*reference, measured);
   return reference;
 }
 

@@ -168,8 +168,9 @@ class Controller : public component::Component, public PassesSamples, public Dri
                                  component::leads_to_nothing()};
   WeightCheck weight_check_{*this};
   control::HandOver hand_over_;
-  control::RestingMean lately_;  ///< what was written
-  bool rests_ = false;           ///< the joints, in this sampling period
+  control::RestingMean lately_;  ///< what was written, for who takes over
+  bool has_successors_ = false;  ///< others write where this one does, in their turn
+  bool rests_ = false;           ///< the joints, in this sampling period; told to successors only
   std::vector<double> handed_over_;
   std::vector<double> motion_;  ///< as measured, like a reference
   component::Attribute<int> brakings_{this, "brakings", 0,
