@@ -85,5 +85,5 @@ def states_in(file):
     """The states that a plant or an emulator has written, as JSON, a line each."""
     if not os.path.exists(file):
         return []
-    with open(file, encoding="utf-8") as lines:
-        return [json.loads(line) for line in lines if line.endswith("\n")]
+    with open(file, encoding="utf-8") as now:  # all at once: it grows meanwhile
+        return [json.loads(line) for line in now.read().splitlines(keepends=True) if line.endswith("\n")]
