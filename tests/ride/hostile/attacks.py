@@ -27,6 +27,11 @@ from wire import (COMMAND, CONTROL, COUNT, ECHO, EVENT, GOES_ON, LOAD, MESSAGES,
                   SUBSCRIBE, TICK, control, echo_of, fnv1a, message, request_of, unfinished_of, words)
 
 
+# Sent at once. The kernel hands on megabytes without a pause: to whomever they go, the 99th percentile of others on
+# this CPU is 0.4 to 5 ms then, and a machine of the attacker's own would not have them wait.
+PIECE = 1 << 16
+
+
 def truncated(a):
     whole = echo_of(1000)
     while True:
@@ -101,7 +106,7 @@ def pour(a, data, reads=True):
                     if not got:
                         raise ConnectionResetError
                 if connection in writable:
-                    left[connection] = left[connection][connection.send(left[connection]):] or memoryview(data[0])
+                    left[connection] = left[connection][connection.send(left[connection][:PIECE]):] or memoryview(data[0])
                     a.begin()
             except BlockingIOError:
                 pass
@@ -247,7 +252,7 @@ def never_reads(a):
         for connection in writable:
             a.begin()
             try:
-                left[connection] = left[connection][connection.send(left[connection]):] or data
+                left[connection] = left[connection][connection.send(left[connection][:PIECE]):] or data
             except ConnectionError:
                 a.ended += 1  # It does not complete a message while the node does not read it.
                 del left[connection]
