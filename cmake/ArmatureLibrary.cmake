@@ -187,6 +187,10 @@ function(armature_test_program)
   armature_warnings(${arg_NAME})
   # Tests are compiled far more often than a debugger sees them: this takes a third off.
   target_compile_options(${arg_NAME} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1;-g1>)
+  if(ARMATURE_SANITIZE)
+    # A sanitizer doubles what optimizing takes, and what is tested, not the test, needs the speed.
+    target_compile_options(${arg_NAME} PRIVATE -O0)
+  endif()
   set_target_properties(${arg_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 endfunction()
 
@@ -224,7 +228,7 @@ endfunction()
 # A libFuzzer target with its corpus in the folder corpus/<NAME> beside it. With ARMATURE_FUZZ the
 # test of that name fuzzes for a minute from a fixed seed (a change is not refused for what another
 # seed would have found before it; scripts/fuzz takes any), and keeps what it finds in
-# build/fuzz/fuzz/<NAME>.found; without, it replays the corpus.
+# build/asan/fuzz/<NAME>.found; without, it replays the corpus.
 function(armature_fuzz_target)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
   list(TRANSFORM arg_USES PREPEND armature::)

@@ -224,7 +224,7 @@ std::string objection_to_loop(const LoopStability& loop) {
     std::snprintf(
         text.data(), text.size(),
         "unstable with any part of these gains (largest pole %.4g, expected below 1): give "
-        "a smaller integral or a larger differential gain",
+        "a smaller proportional or integral, or a larger differential gain",
         loop.largest_pole);
   } else if (loop.gain_margin < 1.0) {
     std::snprintf(

@@ -148,7 +148,7 @@ TEST(SampledLoop, WhereNoPartOfTheGainsHelpsOtherGainsAreAsked) {
   const LoopStability loop =
       judge_loop({.inertia = 0.5}, SampledController::of(gains), gains.period_s);
   EXPECT_THAT(objection_to_loop(loop),
-              HasSubstr("give a smaller integral or a larger differential gain"));
+              HasSubstr("give a smaller proportional or integral, or a larger differential gain"));
 }
 
 TEST(SampledLoop, OfThePositionalPidShakesWhereASimulatedOneDoes) {

@@ -316,9 +316,9 @@ TEST(RealtimeFunctions, LaneAndPassage) {
 }
 
 TEST(RealtimeFunctions, WhatIsPutOff) {
+  rt::Wakeup wakeup;  // outlives the scope, whose end may notify it
   rt::Outbox outbox;
   const rt::Outbox::Scope sending(outbox);
-  rt::Wakeup wakeup;
   bool woken = true;
   expect_realtime("rt::notify_soon", [&] {
     rt::notify_soon(wakeup);
@@ -343,9 +343,9 @@ TEST(RealtimeFunctions, WhatIsGathered) {
   Destination destination;
   lane.reserve(sizeof(Numbered));
   lane.prepare();
+  rt::Wakeup wakeup;  // outlives the scope, whose end may notify it
   rt::Outbox outbox;
   const rt::Outbox::Scope sending(outbox);
-  rt::Wakeup wakeup;
   std::uint64_t written = 0;
   const auto gather = [&] {
     std::byte* const place = outbox.add(lane, wakeup, destination, sizeof(Numbered));

@@ -239,7 +239,8 @@ TEST(RobotCheck, GoesOnAfterTheCheckForWhatIsChanged) {
   application.run_for(std::chrono::milliseconds(100));
   EXPECT_THAT(
       refusal("PID1", "Kp", 1e9),
-      AllOf(HasSubstr("property 'Kp' of 'PID1' cannot be 1e+09"), HasSubstr("Joint1: shakes at ")));
+      AllOf(HasSubstr("property 'Kp' of 'PID1' cannot be 1e+09"), HasSubstr("Joint1: unstable ")));
+  EXPECT_THAT(refusal("PID1", "Kp", 2000.0), HasSubstr("Joint1: shakes at "));
   EXPECT_THAT(refusal("PID1", "Kp", 500.0), HasSubstr("gain margin 1."));
   EXPECT_EQ(refusal("PID1", "Kp", 350.0), "");
 }

@@ -171,7 +171,8 @@ TEST(ArmCheck, GoesOnAfterTheCheckForWhatIsChanged) {
   EXPECT_THAT(refusal("WAM", "MaxTorqueGrowth", Vector{0.05}),
               HasSubstr("MaxTorqueGrowth is 0.05 Nm"));
   arm.start_armed();
-  EXPECT_THAT(refusal("PID5", "Kp", 1e9), HasSubstr("joint 5 of WAM: shakes at"));
+  EXPECT_THAT(refusal("PID5", "Kp", 1e9), HasSubstr("joint 5 of WAM: unstable"));
+  EXPECT_THAT(refusal("PID5", "Kd", 2500.0), HasSubstr("joint 5 of WAM: shakes at"));
   EXPECT_THAT(refusal("PID5", "Kd", 500.0), HasSubstr("gain margin 1."));
   EXPECT_EQ(refusal("PID5", "Kp", 40.0), "");
 }

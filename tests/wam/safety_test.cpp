@@ -83,11 +83,11 @@ TEST(WamSafety, NoFileSaysThatTheArmIsAtHomeAndNoScriptWithoutAGrant) {
 }
 
 TEST(WamSafety, IdleItIsReadAndSendsTorquesOfZeroInEachCycleUntilItIsActivated) {
-  Arm arm("npid7.yaml");
-  arm.start();
-  arm.set("WAM", "emulated_operator", false);
   int torque_frames = 0;
   bool others = false;
+  Arm arm("npid7.yaml");  // whose bus tells of frames to its end
+  arm.start();
+  arm.set("WAM", "emulated_operator", false);
   arm.emulator().bus().set_tap([&](const can::WireEvent& event) {
     if (event.frame.id != 0x401 && event.frame.id != 0x402) return;
     ++torque_frames;

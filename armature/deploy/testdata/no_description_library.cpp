@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-extern "C" __attribute__((visibility("default"))) const void* armature_component_library() {
+#include "armature/component/registry.hpp"
+
+extern "C" __attribute__((visibility("default"))) const armature::component::LibraryDescription*
+armature_component_library() {
   return nullptr;
 }

@@ -12,9 +12,10 @@ struct OldDescription {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const OldDescription*
+extern "C" __attribute__((visibility("default"))) const armature::component::LibraryDescription*
 armature_component_library() {
   static const OldDescription description{ARMATURE_ABI_TAG, "old",
                                           [](armature::component::Registry&) { __builtin_trap(); }};
-  return &description;
+  // It had the same name then.
+  return reinterpret_cast<const armature::component::LibraryDescription*>(&description);
 }
