@@ -38,9 +38,15 @@ void run_watched(const std::function<void()>& body) {
   Thread(request, body).join();
 }
 
+#ifdef __arm__
+// Debian's C library for it has no tables by which a stack goes on beyond exit().
+constexpr const char* kExit0 = "Somebody: exit\\(0\\)";
+#else
+constexpr const char* kExit0 = "Somebody: exit\\(0\\), with its stack";
+#endif
+
 TEST(DeathWatchDeathTest, CallingExitIsTakenForAFailureAlsoWith0) {
-  EXPECT_EXIT(run_watched([] { std::exit(0); }), ::testing::ExitedWithCode(1),
-              "Somebody: exit\\(0\\), with its stack");
+  EXPECT_EXIT(run_watched([] { std::exit(0); }), ::testing::ExitedWithCode(1), kExit0);
   EXPECT_EXIT(run_watched([] { std::exit(7); }), ::testing::ExitedWithCode(7), "exit\\(7\\)");
   EXPECT_EXIT(run_watched([] { std::quick_exit(0); }), ::testing::ExitedWithCode(1), "exit\\(0\\)");
 }

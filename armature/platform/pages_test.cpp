@@ -31,7 +31,7 @@ TEST(Pages, ThatThereAreNotLeaveWhatIsThere) {
   auto* const at = static_cast<char*>(resize_pages(nullptr, 0, kMiB));
   ASSERT_NE(at, nullptr);
   at[5] = 3;
-  EXPECT_EQ(resize_pages(at, kMiB, std::numeric_limits<std::size_t>::max() / 2), nullptr);
+  EXPECT_EQ(resize_pages(at, kMiB, std::numeric_limits<std::size_t>::max() - kMiB + 1), nullptr);
   EXPECT_EQ(at[5], 3);
   resize_pages(at, kMiB, 0);
 }

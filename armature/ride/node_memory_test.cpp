@@ -48,7 +48,7 @@ class NodeMemory : public NodeTest {
     while (code != Code::kPong && code != Code::kNone) code = raw.receive_control().code;
     EXPECT_EQ(code, Code::kPong);
   }
-  std::size_t used() { return node_->statistics().memory_bytes; }
+  std::uint64_t used() { return node_->statistics().memory_bytes; }
 };
 
 TEST_F(NodeMemory, WhoMayNotIsToldWithTheFirstPartAndNothingIsKept) {
@@ -58,7 +58,7 @@ TEST_F(NodeMemory, WhoMayNotIsToldWithTheFirstPartAndNothingIsKept) {
   const auto refusal = raw.receive_control();
   EXPECT_EQ(refusal.code, Code::kNotAllowed) << "with no end in sight";
   EXPECT_EQ(refusal.call, 1u);
-  const std::size_t before = used();
+  const std::uint64_t before = used();
   raw.send(begun(1, kSetThreshold, 30).bytes());
   wait_for_all_of(raw);
   EXPECT_EQ(used(), before);
