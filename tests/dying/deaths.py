@@ -10,7 +10,8 @@ Times on the bus are the emulator's: from the last frame of the dead controller 
 A run that the machine itself spoilt is told apart, and done again: on each CPU a process with a real-time
 priority looks how late it is woken. When somebody died, this was longer than a guardian may take; or the
 arm was let go because a cycle or answers of its pucks were late, and it was longer than they may be. Late
-answers of the emulator have moved on since they were asked for, so that the tip looks fast.
+answers of the emulator have moved on since they were asked for, so that the tip looks fast to the
+controller and to the safety board.
 """
 
 import argparse
@@ -223,7 +224,7 @@ class Run:
     def was_spoilt(self):
         """It failed since the machine stood still, by which a puck or a cycle was late."""
         said = self.controller.text() if self.controller else ""
-        late = any(sign in said for sign in ("silent", "no cycle was run", "the tip gets faster"))
+        late = any(sign in said for sign in ("silent", "no cycle was run", "the tip gets faster", "was too fast"))
         return self.says_nothing() or late and self.stalls.end() > LATE_MS
 
     def begin(self, *more):
