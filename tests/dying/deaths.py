@@ -165,7 +165,11 @@ components:
         done = "(?s)" + ".*".join(["Generator.moveTo: done"] * times)
         self.assert_says(done + "|" + CUT_SHORT)
         if not re.search(done, self.text()):
-            raise CutShort("the motion was cut short; it said:\n" + self.text())
+            raise self.cut_short()
+
+    def cut_short(self):
+        time.sleep(0.5)  # why is told by another thread than what followed
+        return CutShort("the motion was cut short; it said:\n" + self.text())
 
     def begin_fastest_motion(self):
         self.begin_to_move(FIRST, 4.0)  # slower: it is not what is measured
@@ -234,7 +238,7 @@ class Run:
         self.controller.begin_fastest_motion()
         time.sleep(self.chance.uniform(0.3, MOTION_S - 0.7))
         if re.search(CUT_SHORT, self.controller.text()):
-            raise CutShort("the motion was cut short; it said:\n" + self.controller.text())
+            raise self.controller.cut_short()
 
     # ---- What is judged
 
