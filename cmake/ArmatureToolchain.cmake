@@ -50,7 +50,7 @@ set(ARMATURE_SANITIZE "" CACHE STRING
 option(ARMATURE_UNITY "Compile the sources of a library several at a time: half the time for all of
 them, more for one that changed; needs what each source file names for itself to be named once" OFF)
 function(armature_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ARMATURE_UNITY} UNITY_BUILD_BATCH_SIZE 10)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ARMATURE_UNITY} UNITY_BUILD_BATCH_SIZE 30)
   if(ARMATURE_UNITY)
     # A class of a source file may have members of types that only this file knows (GCC), and a
     # function variables that are called like constants of another (clang).

@@ -29,7 +29,7 @@ std::string_view name_of(base::Severity severity) {
   return "error";
 }
 
-void print_line(std::string_view text) {
+void print_error_line(std::string_view text) {
   platform::print(platform::kStandardError, std::string(text) + '\n');
 }
 
@@ -37,7 +37,7 @@ void print_line(std::string_view text) {
 void print_json(const nlohmann::ordered_json& object) {
   const std::string text =
       object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  print_line(text);
+  print_error_line(text);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void Console::log(const rt::LogRecord& record) const {
 
 void Console::say(rt::LogLevel level, std::string_view text) const {
   if (!json_) {
-    return print_line("armature: " + std::string(text));
+    return print_error_line("armature: " + std::string(text));
   }
   print_json({{"level", rt::name_of(level)}, {"component", "armature"}, {"message", text}});
 }
@@ -98,7 +98,7 @@ void Console::line(rt::LogLevel level, double seconds, std::string_view componen
   char head[64];
   std::snprintf(head, sizeof head, "%12.6f %-7.*s ", seconds, static_cast<int>(name.size()),
                 name.data());
-  print_line(head + std::string(component) + ": " + std::string(text));
+  print_error_line(head + std::string(component) + ": " + std::string(text));
 }
 
 }  // namespace armature::cli

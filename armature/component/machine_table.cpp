@@ -3,12 +3,15 @@
 
 #include <algorithm>
 
+#include "armature/base/quoted.hpp"
+
 namespace armature::component {
+
+using base::quoted;
+
 namespace {
 
 using Cause = MachineTransition::Cause;
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 int child_of(const MachineTable& table, int parent, std::string_view name) {
   for (std::size_t i = 0; i < table.states.size(); ++i) {

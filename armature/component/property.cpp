@@ -4,11 +4,15 @@
 #include <charconv>
 #include <type_traits>
 
+#include "armature/base/quoted.hpp"
 #include "armature/component/black_box.hpp"
 #include "armature/component/internal/property_tap.hpp"
 #include "armature/types/elements.hpp"
 
 namespace armature::component {
+
+using base::quoted;
+
 namespace {
 
 std::optional<double> as_number(const types::Type& type, const void* data) {
@@ -26,8 +30,6 @@ std::string number_text(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 }  // namespace
 

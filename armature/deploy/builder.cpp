@@ -96,11 +96,10 @@ void add_inlets(const Document& document, const BuildOptions& options, exec::Blu
     inputs.push_back(input);
     if (connection.policy.max_age || input->ages()) continue;
     diagnostics.error(connection.where,
-                      in_quotes(connection.to.component + "." + connection.to.port) +
+                      in_quotes(to_text(connection.to)) +
                           " is written by other processes, which may stop at any time, but its "
                           "data may be as old as it likes",
-                      "for example {to: " + connection.to.component + "." + connection.to.port +
-                          ", max_age: 100 ms}");
+                      "for example {to: " + to_text(connection.to) + ", max_age: 100 ms}");
   }
   const base::Location& where = document.network.inputs.front().where;
   if (!options.make_inlets) {

@@ -9,7 +9,7 @@
 namespace armature::deploy::internal {
 namespace {
 
-std::string path(const Endpoint& end) { return in_quotes(end.component + "." + end.port); }
+std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
 
 component::Reaction reaction_of(Reaction written, component::Reaction by_default) {
   switch (written) {

@@ -118,6 +118,9 @@ struct Endpoint {
   base::Location where;
 };
 
+/// `Component.Port`.
+std::string to_text(const Endpoint& endpoint);
+
 struct Connection {
   Endpoint from;
   Endpoint to;

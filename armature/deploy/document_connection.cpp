@@ -119,8 +119,6 @@ std::optional<NamedConnection> read_named(const Value* name, const Value& ports,
   return connection;
 }
 
-std::string text_of(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
-
 /// The other name that a mistyped one was probably meant to be.
 std::string other_name_hint(const std::string& name, const std::vector<NamedConnection>& all) {
   std::vector<std::string> others;
@@ -149,9 +147,9 @@ void check_named(NamedConnection& connection, const std::vector<NamedConnection>
   for (auto& [place, port] : by_component) connection.ports.push_back(std::move(port));
   std::unordered_map<std::string, const Endpoint*> first;
   for (const Endpoint& port : connection.ports) {
-    const auto [earlier, is_new] = first.emplace(text_of(port), &port);
+    const auto [earlier, is_new] = first.emplace(to_text(port), &port);
     if (is_new) continue;
-    reader.error(port.where, "port " + in_quotes(text_of(port)) + " is given twice",
+    reader.error(port.where, "port " + in_quotes(to_text(port)) + " is given twice",
                  "first at " + place_text(earlier->second->where));
   }
 }
@@ -161,7 +159,7 @@ void check_named(NamedConnection& connection, const std::vector<NamedConnection>
 void check_connections(Document& document, base::Diagnostics& diagnostics) {
   std::unordered_map<std::string, base::Location> first;
   std::erase_if(document.connections, [&](const Connection& one) {
-    const std::string text = text_of(one.from) + " -> " + text_of(one.to);
+    const std::string text = to_text(one.from) + " -> " + to_text(one.to);
     const auto [earlier, is_new] = first.emplace(text, one.where);
     if (is_new) return false;
     diagnostics.error(one.where, "connection " + in_quotes(text) + " is given twice",
@@ -241,7 +239,7 @@ std::optional<Connection> read_input(const Value& value, const ValueReader& read
   }
   std::optional<Endpoint> input = read_endpoint(*to, "inputs", reader);
   if (!input) return std::nullopt;
-  connection.from = {kNetworkName, text_of(*input), value.where};
+  connection.from = {kNetworkName, to_text(*input), value.where};
   connection.to = std::move(*input);
   connection.where = value.where;
   return connection;

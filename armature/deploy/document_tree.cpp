@@ -45,6 +45,8 @@ std::string_view to_text(ExportKind kind) {
   return kTexts[static_cast<std::size_t>(kind)];
 }
 
+std::string to_text(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
+
 std::string to_text(base::Duration duration) {
   constexpr std::array<std::pair<std::int64_t, const char*>, 4> kUnits = {
       {{1'000'000'000, " s"}, {1'000'000, " ms"}, {1'000, " us"}, {1, " ns"}}};
@@ -155,13 +157,11 @@ Value component_tree(const Component& component) {
   return map;
 }
 
-std::string text_of(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
-
 Value to_tree(const NamedConnection& connection) {
   Value map = make_map();
   add(map, "name", connection.name);
   add_items(map, "ports", converted(connection.ports, [](const Endpoint& port) {
-              return make_text(text_of(port));
+              return make_text(to_text(port));
             }));
   add_policy(connection.policy, map);
   return map;
@@ -252,11 +252,11 @@ Value to_tree(const Connection& connection) {
   Value map = make_map();
   add_policy(connection.policy, map);
   if (map.entries.empty()) {
-    return make_text(text_of(connection.from) + " -> " + text_of(connection.to));
+    return make_text(to_text(connection.from) + " -> " + to_text(connection.to));
   }
   Value whole = make_map();
-  add(whole, "from", text_of(connection.from));
-  add(whole, "to", text_of(connection.to));
+  add(whole, "from", to_text(connection.from));
+  add(whole, "to", to_text(connection.to));
   for (Property& entry : map.entries) whole.entries.push_back(std::move(entry));
   return whole;
 }
@@ -280,9 +280,9 @@ static Value network_tree(const Network& network) {
   add_items(map, "inputs", converted(network.inputs, [](const Connection& input) {
               Value policy = make_map();
               add_policy(input.policy, policy);
-              if (policy.entries.empty()) return make_text(text_of(input.to));
+              if (policy.entries.empty()) return make_text(to_text(input.to));
               Value whole = make_map();
-              add(whole, "to", text_of(input.to));
+              add(whole, "to", to_text(input.to));
               for (Property& entry : policy.entries) whole.entries.push_back(std::move(entry));
               return whole;
             }));

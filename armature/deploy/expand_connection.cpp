@@ -49,8 +49,8 @@ std::optional<Repetition> explicit_repetition(const std::vector<const Value*>& e
     if (!found) return std::nullopt;
     if (range && *range != found->range) {
       diagnostics.error(end->where,
-                        "connection: range " + to_text(found->range) + " does not fit " +
-                            to_text(*range) + " at its other end",
+                        "connection: range " + range_text(found->range) + " does not fit " +
+                            range_text(*range) + " at its other end",
                         "write the range once and {i} elsewhere");
       return std::nullopt;
     }
@@ -98,8 +98,8 @@ std::optional<Repetition> implied_repetition(const std::vector<const Value*>& en
     const Range shifted{own.first - pattern->offset, own.last - pattern->offset};
     if (pattern->offset == 0 && whole && whole->second != own) {
       diagnostics.error(end->where,
-                        "connection: " + pattern->name + " runs over " + to_text(own) + " but " +
-                            whole->first + " over " + to_text(whole->second),
+                        "connection: " + pattern->name + " runs over " + range_text(own) + " but " +
+                            whole->first + " over " + range_text(whole->second),
                         "write the range that is meant: {1..3} in place of {i}");
       return std::nullopt;
     }

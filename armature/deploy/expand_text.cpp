@@ -124,7 +124,7 @@ std::string replace_number(std::string_view text, int number, const base::Locati
   return result;
 }
 
-std::string to_text(const Range& range) {
+std::string range_text(const Range& range) {
   return "{" + std::to_string(range.first) + ".." + std::to_string(range.last) + "}";
 }
 

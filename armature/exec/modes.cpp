@@ -13,7 +13,7 @@ using component::State;
 
 namespace {
 
-bool is_running(const Component& component) { return component.state() >= State::kRunning; }
+bool was_started(const Component& component) { return component.state() >= State::kRunning; }
 
 }  // namespace
 
@@ -113,7 +113,7 @@ Outcome Modes::go_to(std::size_t target) {
 Outcome Modes::start_members(std::size_t target) {
   started_.clear();
   for (Component* member : modes_[target].members) {
-    if (is_running(*member)) continue;
+    if (was_started(*member)) continue;
     const Outcome outcome = member->start();
     if (outcome) {
       started_.push_back(member);

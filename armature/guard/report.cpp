@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/guard/internal/report.hpp"
 
-namespace armature::guard {
-namespace {
+#include "armature/base/quoted.hpp"
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+namespace armature::guard {
+
+using base::quoted;
+
+namespace {
 
 std::string counted(std::uint64_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");

@@ -33,7 +33,7 @@ bool wait_for_room(int descriptor) {
   return ::poll(&stream, 1, -1) > 0 || errno == EINTR;
 }
 
-void write_all(int descriptor, std::string_view text) {
+void write_or_lose(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written >= 0) {
@@ -109,7 +109,7 @@ struct Printer::State {
     for (;;) {
       const std::string_view text = next(head, room);
       if (text.empty()) return;
-      write_all(head.descriptor, text);
+      write_or_lose(head.descriptor, text);
     }
   }
 
@@ -136,7 +136,7 @@ void print(int descriptor, std::string_view text) {
   if (Printer::State* const state = active.load()) {
     if (!state->push(descriptor, text)) lose(text);
   } else {
-    write_all(descriptor, text);
+    write_or_lose(descriptor, text);
   }
 }
 

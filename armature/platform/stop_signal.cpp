@@ -22,8 +22,8 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 std::atomic<bool> signal_received{false};
 std::atomic<int> insistent_signals{0};
 std::atomic<bool> hung_up{false};
-std::atomic<int> wake_descriptor{-1};
-struct sigaction previous[std::size(kSignals)];
+std::atomic<int> woken_descriptor{-1};
+struct sigaction handlers_before[std::size(kSignals)];
 
 /// A terminal that goes away says so twice, by its shell and by itself: that is no second wish.
 void on_signal(int signal) {
@@ -31,7 +31,7 @@ void on_signal(int signal) {
   if (signal != SIGHUP && insistent_signals.fetch_add(1) > 0) _exit(130);
   signal_received = true;
   const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = ::write(wake_descriptor, &one, sizeof one);
+  [[maybe_unused]] const ssize_t written = ::write(woken_descriptor, &one, sizeof one);
 }
 
 }  // namespace
@@ -39,26 +39,26 @@ void on_signal(int signal) {
 StopSignal::StopSignal() {
   signal_received = hung_up = false;
   insistent_signals = 0;
-  wake_descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  woken_descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-    sigaction(kSignals[i], &action, &previous[i]);
-    const bool by_nohup = kSignals[i] == SIGHUP && previous[i].sa_handler == SIG_IGN;
-    if (by_nohup) sigaction(SIGHUP, &previous[i], nullptr);
+    sigaction(kSignals[i], &action, &handlers_before[i]);
+    const bool by_nohup = kSignals[i] == SIGHUP && handlers_before[i].sa_handler == SIG_IGN;
+    if (by_nohup) sigaction(SIGHUP, &handlers_before[i], nullptr);
   }
 }
 
 StopSignal::~StopSignal() {
   for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-    sigaction(kSignals[i], &previous[i], nullptr);
+    sigaction(kSignals[i], &handlers_before[i], nullptr);
   }
-  ::close(wake_descriptor);
-  wake_descriptor = -1;
+  ::close(woken_descriptor);
+  woken_descriptor = -1;
 }
 
-int StopSignal::descriptor() const { return wake_descriptor; }
+int StopSignal::descriptor() const { return woken_descriptor; }
 
 bool StopSignal::received() const { return signal_received; }
 
@@ -67,7 +67,7 @@ void StopSignal::hear_next() const {
   hung_up = true;  // what follows is an operator's answer; a terminal that goes away gives none
   insistent_signals = 0;
   std::uint64_t count = 0;
-  [[maybe_unused]] const ssize_t read = ::read(wake_descriptor, &count, sizeof count);
+  [[maybe_unused]] const ssize_t read = ::read(woken_descriptor, &count, sizeof count);
 }
 
 bool StopSignal::wait_until(base::Time deadline) const {
@@ -75,7 +75,7 @@ bool StopSignal::wait_until(base::Time deadline) const {
     const base::Duration left = deadline - monotonic_now();
     if (left <= base::Duration::zero()) return false;
     const auto ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
-    pollfd descriptor{.fd = wake_descriptor, .events = POLLIN, .revents = 0};
+    pollfd descriptor{.fd = woken_descriptor, .events = POLLIN, .revents = 0};
     ::poll(&descriptor, 1, static_cast<int>(std::min<std::int64_t>(ms, 1000)));
   }
   return true;

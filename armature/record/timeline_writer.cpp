@@ -20,7 +20,7 @@ namespace {
 using exec::TimelineSlice;
 
 /// So much is handed to the system at once, and what is older than that time in any case.
-constexpr std::size_t kBlock = 256u << 10;
+constexpr std::size_t kTimelineBlock = 256u << 10;
 constexpr base::Duration kInterval = std::chrono::seconds(1);
 
 void append_number(std::uint64_t number, std::string& to) {
@@ -95,7 +95,7 @@ void File::add(const TimelineSlice& slice) {
     add_stretch(slice);
   }
   ++events_;
-  if (text_.size() >= kBlock || slice.begin >= written_at_ + kInterval) {
+  if (text_.size() >= kTimelineBlock || slice.begin >= written_at_ + kInterval) {
     written_at_ = slice.begin;
     write_text();
   }

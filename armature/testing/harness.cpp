@@ -4,11 +4,13 @@
 #include <stdexcept>
 
 #include "armature/base/near_name.hpp"
+#include "armature/base/quoted.hpp"
 
 namespace armature::testing {
-namespace {
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+using base::quoted;
+
+namespace {
 
 template <typename Items>
 auto& find_in(const Items& items, const component::Component& component, const char* kind,

@@ -21,7 +21,7 @@ namespace {
 using Arm = EmulatedArm;
 using Command = EmulatorCommand;
 
-/// What stands behind a command's words; a row without needs none.
+/// What stands behind a command's words; a form without needs none.
 struct Number {
   const char* name = nullptr;
   double least = 0.0;
@@ -36,7 +36,7 @@ constexpr Number kVersion{"VERSION", 0, 255, true};
 
 constexpr bool kNeedsBitRate = true;
 
-struct Row {
+struct Form {
   const char* words;  ///< N stands for the number of a puck
   Number number;
   const char* meaning;
@@ -63,7 +63,7 @@ void trip(const Arm& arm, const Command& /*command*/) {
   board_of(arm).fail(Which);
 }
 
-constexpr auto kRows = std::to_array<Row>({
+constexpr auto kForms = std::to_array<Form>({
     {"estop", kNoNumber, "presses the E-stop button: the pucks lose power and positions",
      [](const Arm& arm, const Command&) { board_of(arm).estop(); }},
     {"release", kNoNumber, "pulls the E-stop button out",
@@ -155,61 +155,61 @@ std::optional<double> number_in(const std::string& word) {
   return value;
 }
 
-std::string syntax(const Row& row) {
-  return std::string(row.words) +
-         (row.number.name != nullptr ? ' ' + std::string(row.number.name) : "");
+std::string syntax(const Form& form) {
+  return std::string(form.words) +
+         (form.number.name != nullptr ? ' ' + std::string(form.number.name) : "");
 }
 
-/// Whether a line begins as the row has it, whatever the numbers are.
-bool begins_as(const Words& line, const Words& row) {
-  if (line.size() < row.size()) return false;
-  return std::equal(row.begin(), row.end(), line.begin(), [](const auto& wanted, const auto& word) {
-    return wanted == "N" || wanted == word;
-  });
+/// Whether a line begins as the form has it, whatever the numbers are.
+bool begins_as(const Words& line, const Words& form) {
+  if (line.size() < form.size()) return false;
+  return std::equal(
+      form.begin(), form.end(), line.begin(),
+      [](const auto& wanted, const auto& word) { return wanted == "N" || wanted == word; });
 }
 
 base::Error unknown(const Words& words) {
   std::string said;
   std::vector<std::string> known;
   for (const std::string& word : words) said += (said.empty() ? "" : " ") + word;
-  for (const Row& row : kRows) known.emplace_back(row.words);
+  for (const Form& form : kForms) known.emplace_back(form.words);
   const std::string hint = base::suggestion(said, known);
   return {"'" + said + "' is no command; " + (hint.empty() ? "'help' lists them all" : hint)};
 }
 
-base::Error wrong_number(const Row& row, const std::string& found) {
+base::Error wrong_number(const Form& form, const std::string& found) {
   char range[96];
   std::snprintf(range, sizeof range, "%s from %.10g to %.10g",
-                row.number.whole ? "a whole number" : "a number", row.number.least,
-                row.number.most);
-  return {"'" + syntax(row) + "': expected for " + row.number.name + " " + range + ", found '" +
+                form.number.whole ? "a whole number" : "a number", form.number.least,
+                form.number.most);
+  return {"'" + syntax(form) + "': expected for " + form.number.name + " " + range + ", found '" +
           found + "'"};
 }
 
-base::Result<EmulatorCommand> parse_as(const Row& row, const Words& words, std::size_t motors) {
-  EmulatorCommand command{.act = row.act, .needs_bit_rate = row.needs_bit_rate};
-  const Words wanted = words_in(row.words);
+base::Result<EmulatorCommand> parse_as(const Form& form, const Words& words, std::size_t motors) {
+  EmulatorCommand command{.act = form.act, .needs_bit_rate = form.needs_bit_rate};
+  const Words wanted = words_in(form.words);
   if (const auto n = std::find(wanted.begin(), wanted.end(), "N"); n != wanted.end()) {
     const std::string& word = words[static_cast<std::size_t>(n - wanted.begin())];
     const auto puck = number_in(word);
     const double last = static_cast<double>(motors);
     if (!puck || *puck < 1.0 || *puck > last || *puck != std::floor(*puck)) {
-      return base::Error{"'" + syntax(row) + "': expected for N a puck of this arm, 1 to " +
+      return base::Error{"'" + syntax(form) + "': expected for N a puck of this arm, 1 to " +
                          std::to_string(motors) + ", found '" + word + "'"};
     }
     command.motor = static_cast<std::size_t>(*puck) - 1;
   }
-  const std::size_t numbers = row.number.name != nullptr ? 1 : 0;
+  const std::size_t numbers = form.number.name != nullptr ? 1 : 0;
   if (words.size() > wanted.size() + numbers) {
-    return base::Error{"'" + syntax(row) + "': expected nothing more, found '" + words.back() +
+    return base::Error{"'" + syntax(form) + "': expected nothing more, found '" + words.back() +
                        "'"};
   }
   if (numbers == 0) return command;
-  if (words.size() == wanted.size()) return wrong_number(row, "nothing");
+  if (words.size() == wanted.size()) return wrong_number(form, "nothing");
   const auto value = number_in(words.back());
-  if (!value || *value < row.number.least || *value > row.number.most ||
-      (row.number.whole && *value != std::floor(*value))) {
-    return wrong_number(row, words.back());
+  if (!value || *value < form.number.least || *value > form.number.most ||
+      (form.number.whole && *value != std::floor(*value))) {
+    return wrong_number(form, words.back());
   }
   command.value = *value;
   return command;
@@ -219,17 +219,17 @@ base::Result<EmulatorCommand> parse_as(const Row& row, const Words& words, std::
 
 base::Result<EmulatorCommand> parse_emulator_command(std::string_view line, std::size_t motors) {
   const Words words = words_in(line);
-  for (const Row& row : kRows) {
-    if (begins_as(words, words_in(row.words))) return parse_as(row, words, motors);
+  for (const Form& form : kForms) {
+    if (begins_as(words, words_in(form.words))) return parse_as(form, words, motors);
   }
   return unknown(words);
 }
 
 std::string emulator_commands() {
   std::string all;
-  for (const Row& row : kRows) {
+  for (const Form& form : kForms) {
     char line[160];
-    std::snprintf(line, sizeof line, "  %-34s %s\n", syntax(row).c_str(), row.meaning);
+    std::snprintf(line, sizeof line, "  %-34s %s\n", syntax(form).c_str(), form.meaning);
     all += line;
   }
   return all;

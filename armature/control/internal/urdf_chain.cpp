@@ -15,13 +15,14 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "armature/base/near_name.hpp"
+#include "armature/base/quoted.hpp"
 
 namespace armature::control::internal {
+using base::quoted;
+
 namespace {
 
 using Links = std::vector<urdf::LinkConstSharedPtr>;
-
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 /// What the parser has to say goes to the diagnostics, not to the console. It also goes on after
 /// some mistakes, such as an inertial element that it cannot read, and leaves out what is wrong.

@@ -44,7 +44,7 @@ std::vector<int> number_offsets(std::string_view text);
 std::string replace_number(std::string_view text, int number, const base::Location& where,
                            base::Diagnostics& diagnostics);
 
-std::string to_text(const Range& range);
+std::string range_text(const Range& range);
 
 /// What names in braces stand for.
 struct Scope {

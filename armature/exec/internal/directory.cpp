@@ -28,8 +28,6 @@ Index place_of(std::string_view name, const std::vector<Port*>& ports, const Pla
 
 }  // namespace
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
-
 Directory::Directory(const Blueprint& blueprint, base::Diagnostics& diagnostics)
     : blueprint_(blueprint), ports_(blueprint.components.size()) {
   components_.reserve(blueprint.components.size());

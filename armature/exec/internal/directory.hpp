@@ -6,10 +6,13 @@
 #include <unordered_map>
 #include <vector>
 
+#include "armature/base/quoted.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/plan.hpp"
 
 namespace armature::exec::internal {
+
+using base::quoted;
 
 /// Finds components and their ports by name in constant time, however many there are.
 class Directory {
@@ -46,8 +49,5 @@ class Directory {
   std::vector<Ports> ports_;
   std::size_t input_count_ = 0;
 };
-
-/// `'Name'`, for messages.
-std::string quoted(std::string_view name);
 
 }  // namespace armature::exec::internal

@@ -11,7 +11,7 @@
 namespace armature::library {
 namespace {
 
-constexpr double kRounding = 1.001;
+constexpr double kRoundedUp = 1.001;
 /// Of the effort one way, the other way: with less a joint is not held.
 constexpr double kLeastShare = 0.1;
 
@@ -123,7 +123,7 @@ std::string Pid::objection(const DrivenJoint& joint, double period_s,
   if (std::string wrong = objection_to_range(gains.u_min, gains.u_max); !wrong.empty())
     return wrong;
   const double most = std::max(std::abs(gains.u_min), std::abs(gains.u_max));
-  if (most > kRounding * joint.most_effort) {
+  if (most > kRoundedUp * joint.most_effort) {
     return "UMin and UMax are up to " + figure(most) + ", " + joint.name + " takes " +
            figure(joint.most_effort);
   }
