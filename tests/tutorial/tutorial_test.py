@@ -35,7 +35,7 @@ def follow(source, build, name, least):
         # A fresh clone, as far as the commands look at it.
         os.symlink(os.path.join(source, "examples"), os.path.join(work, "examples"))
         os.mkdir(os.path.join(work, "build"))
-        os.symlink(build, os.path.join(work, "build", "dev"))
+        os.symlink(build, os.path.join(work, "build", "program"))
         for line, kind, commands in blocks(file.read()):
             if kind == "setup":
                 continue
