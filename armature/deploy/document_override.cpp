@@ -5,6 +5,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/deploy/document_files.hpp"
 #include "armature/deploy/internal/document_reader.hpp"
+#include "armature/deploy/internal/expand.hpp"
 #include "armature/deploy/internal/overrides.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
 #include "armature/deploy/internal/yaml_tree.hpp"
@@ -109,6 +110,26 @@ void set_property(Component& component, const std::string& path, const Value& va
   }
 }
 
+/// One for each number of the range that `path` may have.
+void add_each(const std::string& path, const Value& value, std::vector<Override>& overrides,
+              base::Diagnostics& diagnostics) {
+  const std::optional<RangeInText> range = find_range(path, kCommandLine, diagnostics);
+  if (!range) {
+    if (!has_range(path)) overrides.push_back({path, value});
+    return;
+  }
+  const std::string before = path.substr(0, range->begin);
+  const std::string after = path.substr(range->end);
+  if (has_range(after)) {
+    diagnostics.error(kCommandLine, in_quotes(path) + " has more than one range",
+                      "set each of one of them by itself");
+    return;
+  }
+  for (int number = range->range.first; number <= range->range.last; ++number) {
+    overrides.push_back({before + std::to_string(number) + after, value});
+  }
+}
+
 }  // namespace
 
 std::vector<Override> parse_overrides(const std::vector<std::string>& settings,
@@ -126,7 +147,7 @@ std::vector<Override> parse_overrides(const std::vector<std::string>& settings,
     value.where = kCommandLine;
     if (value.kind == Value::Kind::kNone) value = make_text("", kCommandLine);
     value.literal = true;
-    overrides.push_back({setting.substr(0, equals), std::move(value)});
+    add_each(setting.substr(0, equals), value, overrides, diagnostics);
   }
   return overrides;
 }

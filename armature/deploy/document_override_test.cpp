@@ -31,6 +31,31 @@ TEST(CommandLine, SetsParametersBeforeRangesAreExpanded) {
   EXPECT_EQ(property(loaded, "bus"), "can3");
 }
 
+TEST(CommandLine, SetsAPropertyOfEachComponentOfARange) {
+  const Loaded loaded = set({"joints=3", "Joint{2..3}.GearRatio=0.02"});
+  EXPECT_EQ(loaded.messages(), "");
+  std::string ratios;
+  for (const Component& joint : loaded.document.components) {
+    ratios += joint.properties.at(0).value.text + " ";
+  }
+  EXPECT_EQ(ratios, "0.01 0.02 0.02 ");
+}
+
+TEST(CommandLine, RefusesARangeThatLeadsBeyondWhatIsThere) {
+  EXPECT_EQ(set({"Joint{2..3}.GearRatio=0.02"}).messages(),
+            "<command line>: error: there is no component 'Joint3' to set 'Joint3.GearRatio' (did "
+            "you mean 'Joint1'?)\n");
+}
+
+TEST(CommandLine, RefusesRangesThatCannotBe) {
+  EXPECT_EQ(set({"Joint{2..1}.GearRatio=0.02"}).messages(),
+            "<command line>: error: 'Joint{2..1}.GearRatio': the range is empty, its last number is "
+            "below its first\n");
+  EXPECT_EQ(set({"Joint{1..2}.Gain{1..2}=0.02"}).messages(),
+            "<command line>: error: 'Joint{1..2}.Gain{1..2}' has more than one range (set each of "
+            "one of them by itself)\n");
+}
+
 TEST(CommandLine, SetsAPropertyOfOneComponent) {
   const Loaded loaded = set({"Joint1.GearRatio=0.02"});
   EXPECT_EQ(loaded.messages(), "");

@@ -132,7 +132,8 @@ base::Result<std::string> find_library(std::string_view name,
   std::string text =
       what + " was not found: there is no " + file_name(name) + " in " + joined(folders);
   const std::string near = base::near_name(name, available_libraries(folders));
-  if (!near.empty()) text += "; did you mean " + in_quotes(near) + "?";
+  text += near.empty() ? "; build it, or name its folder with -L or " + std::string(kPathVariable)
+                       : "; did you mean " + in_quotes(near) + "?";
   return base::Error{text};
 }
 

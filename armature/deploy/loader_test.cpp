@@ -128,6 +128,13 @@ TEST(FindLibrary, AMissingOneListsWhereItWasLookedForAndTheNearestName) {
                 ", " + TEST_LIBRARIES + "; did you mean 'good'?");
 }
 
+TEST(FindLibrary, WithoutANearNameTheHintSaysHowFoldersAreNamed) {
+  const Folder folder;
+  EXPECT_EQ(find_library("elsewhere", {folder.path()}).error(),
+            "component library 'elsewhere' was not found: there is no libelsewhere.so in " +
+                folder.path() + "; build it, or name its folder with -L or ARMATURE_LIBRARY_PATH");
+}
+
 TEST(FindLibrary, FoldersComeFromCallerEnvironmentProgramAndDocument) {
   ::setenv("ARMATURE_LIBRARY_PATH", "/a::/b", 1);
   const std::vector<std::string> folders = library_folders({"/first"}, "robots/janus.yaml");

@@ -22,7 +22,8 @@ struct Override {
 /// Where what `--set` gives stands, in place of a file.
 inline constexpr std::string_view kCommandLineName = "<command line>";
 
-/// Those of `settings` that have the form `path=value`; errors for the others.
+/// Those of `settings` that have the form `path=value`, one for each number of a range in a path
+/// (`Joint{1..3}.GearRatio=0.02`); errors for the others.
 std::vector<Override> parse_overrides(const std::vector<std::string>& settings,
                                       base::Diagnostics& diagnostics);
 
