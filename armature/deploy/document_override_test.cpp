@@ -48,9 +48,10 @@ TEST(CommandLine, RefusesARangeThatLeadsBeyondWhatIsThere) {
 }
 
 TEST(CommandLine, RefusesRangesThatCannotBe) {
-  EXPECT_EQ(set({"Joint{2..1}.GearRatio=0.02"}).messages(),
-            "<command line>: error: 'Joint{2..1}.GearRatio': the range is empty, its last number is "
-            "below its first\n");
+  EXPECT_EQ(
+      set({"Joint{2..1}.GearRatio=0.02"}).messages(),
+      "<command line>: error: 'Joint{2..1}.GearRatio': the range is empty, its last number is "
+      "below its first\n");
   EXPECT_EQ(set({"Joint{1..2}.Gain{1..2}=0.02"}).messages(),
             "<command line>: error: 'Joint{1..2}.Gain{1..2}' has more than one range (set each of "
             "one of them by itself)\n");
