@@ -37,7 +37,7 @@ class Arena {
 };
 
 constinit Arena arena;
-constinit thread_local bool searching = false;
+alignas(8) constinit thread_local bool searching = false;  // aligned: see tests/link
 
 /// Like `next`, but nullptr if this thread is already searching.
 template <typename Function>
