@@ -28,6 +28,11 @@ STILL = 2e-3  # rad; a joint at rest under friction and brake may creep so far
 OFF = {"off", "watchdog", "started"}
 
 
+def farthest(states):
+    """By how much a joint moved in these states, at the most."""
+    return max(max(position) - min(position) for position in zip(*(state["position"] for state in states)))
+
+
 class Plant:
     """armature-janus-plant, and all its states."""
 
@@ -156,8 +161,8 @@ class Processes(unittest.TestCase):
 
     def wait_for_rest(self):
         wait_for(lambda: set(self.plant.now()["state"]) <= OFF, "both are off")
-        # Joint 1 has no brake: friction stops it.
-        self.plant.after(1.0)
+        # Joint 1 has no brake: friction stops it, the later the faster it was.
+        wait_for(lambda: farthest(self.plant.after(0.5)) < STILL / 4, "friction has stopped it")
 
     def assert_moves_again_when_armed(self, controller):
         self.assertEqual(controller.ask("Arming.armed"), "false")
