@@ -47,11 +47,12 @@ set(CMAKE_INSTALL_RPATH $ORIGIN $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
 
 set(ARMATURE_SANITIZE "" CACHE STRING
     "Sanitizers as -fsanitize= takes them, such as address,undefined, thread or realtime")
-option(ARMATURE_UNITY "Compile the sources of a library several at a time: half the time for all of
-them, more for one that changed; needs what each source file names for itself to be named once" OFF)
+set(ARMATURE_UNITY 1 CACHE STRING
+    "So many sources of a library are compiled at a time: half the time for all of them, more for
+one that changed; needs what each source file names for itself to be named once")
 function(armature_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ARMATURE_UNITY} UNITY_BUILD_BATCH_SIZE 30)
-  if(ARMATURE_UNITY)
+  if(ARMATURE_UNITY GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ARMATURE_UNITY})
     # A class of a source file may have members of types that only this file knows (GCC), and a
     # function variables that are called like constants of another (clang).
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
