@@ -180,8 +180,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "99, found '100'\n"},
         Mistake{"scheduler",
                 "components: {A: {model: M, activity: {triggered: true, scheduler: rt}}}\n",
-                "robot.yaml:1:67: error: component 'A': scheduler must be realtime, deadline or "
-                "other, found 'rt'\n"},
+                "robot.yaml:1:67: error: component 'A': scheduler must be other, realtime or "
+                "deadline, found 'rt'\n"},
         Mistake{"cpu", "components: {A: {model: M, activity: {triggered: true, cpus: [0, x]}}}\n",
                 "robot.yaml:1:66: error: component 'A': cpus must be a whole number from 0 to "
                 "1023, found 'x'\n"},
