@@ -25,6 +25,7 @@ class Pid {
     double kd = 0.0;
     double u_min = 0.0;  ///< < u_max
     double u_max = 0.0;
+    friend bool operator==(const Config&, const Config&) = default;
   };
 
   struct State {
