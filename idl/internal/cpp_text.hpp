@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "idl/cpp_names.hpp"
-#include "idl/internal/layout.hpp"
+#include "idl/internal/cpp_lines.hpp"
 #include "idl/model.hpp"
 
 namespace armature::idl::internal {

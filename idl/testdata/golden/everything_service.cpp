@@ -5,9 +5,10 @@ namespace everything {
 
 EchoService::EchoService() : Service(kEcho) {}
 
-armature::ride::Executed EchoService::execute(armature::ride::Number operation,
-                                              armature::ride::Decoder& parameters,
-                                              armature::ride::Reply& reply) {
+armature::ride::Executed EchoService::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0x05f13d14: {  // echo_bool
       bool value = false;
@@ -188,9 +189,13 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       std::int32_t d = 0;
       std::int32_t delete_ = 0;
       std::int32_t a = 0;
-      if (!parameters.take(priority_) || !parameters.take(options_) ||
-          !parameters.take(operation_) || !parameters.take(d) || !parameters.take(delete_) ||
-          !parameters.take(a) || !parameters.ended()) {
+      if (!parameters.take(priority_) ||
+          !parameters.take(options_) ||
+          !parameters.take(operation_) ||
+          !parameters.take(d) ||
+          !parameters.take(delete_) ||
+          !parameters.take(a) ||
+          !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(this->delete_(priority_, options_, operation_, d, delete_, a));

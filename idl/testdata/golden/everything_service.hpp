@@ -54,12 +54,17 @@ class EchoService : public armature::ride::Service {
   virtual std::vector<Inner> echo_inners(const std::vector<Inner>& value) = 0;
 
   /// @param small  0 to 3
-  virtual std::vector<Ranges> echo_ranged(const std::vector<Ranges>& value,
-                                          const std::vector<std::uint8_t>& small) = 0;
+  virtual std::vector<Ranges> echo_ranged(
+      const std::vector<Ranges>& value,
+      const std::vector<std::uint8_t>& small) = 0;
 
-  virtual std::int32_t delete_(std::int32_t priority_, std::int32_t options_,
-                               std::int32_t operation_, std::int32_t d, std::int32_t delete_,
-                               std::int32_t a) = 0;
+  virtual std::int32_t delete_(
+      std::int32_t priority_,
+      std::int32_t options_,
+      std::int32_t operation_,
+      std::int32_t d,
+      std::int32_t delete_,
+      std::int32_t a) = 0;
 
   /// @param part  0.25 to 0.75
   virtual void request_(const std::string& name, float part) = 0;
@@ -68,12 +73,15 @@ class EchoService : public armature::ride::Service {
 
  protected:
   /// Tells all subscribers.  @thread any
-  void raise(const Everything& event) { publish(event); }
+  void raise(const Everything& event) {
+    publish(event);
+  }
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 }  // namespace everything

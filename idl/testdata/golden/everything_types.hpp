@@ -58,10 +58,19 @@ inline void encode(armature::ride::Encoder& to, const Singles& value) {
   to.put(value.inner);
 }
 inline bool decode(armature::ride::Decoder& from, Singles& value) {
-  return from.take(value.b) && from.take(value.c) && from.take(value.o) && from.take(value.s) &&
-         from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
-         from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.text) &&
-         from.take(value.inner);
+  return from.take(value.b) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.text) &&
+      from.take(value.inner);
 }
 
 struct Lists {
@@ -96,10 +105,19 @@ inline void encode(armature::ride::Encoder& to, const Lists& value) {
   to.put(value.inner);
 }
 inline bool decode(armature::ride::Decoder& from, Lists& value) {
-  return from.take_flags(value.b) && from.take(value.c) && from.take(value.o) &&
-         from.take(value.s) && from.take(value.us) && from.take(value.i) && from.take(value.ui) &&
-         from.take(value.l) && from.take(value.ul) && from.take(value.f) && from.take(value.d) &&
-         from.take(value.text) && from.take(value.inner);
+  return from.take_flags(value.b) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.text) &&
+      from.take(value.inner);
 }
 
 struct Fixed {
@@ -134,10 +152,19 @@ inline void encode(armature::ride::Encoder& to, const Fixed& value) {
   to.put(value.inner);
 }
 inline bool decode(armature::ride::Decoder& from, Fixed& value) {
-  return from.take(value.b) && from.take(value.c) && from.take(value.o) && from.take(value.s) &&
-         from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
-         from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.text) &&
-         from.take(value.inner);
+  return from.take(value.b) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.text) &&
+      from.take(value.inner);
 }
 
 struct Later {
@@ -145,11 +172,15 @@ struct Later {
   std::int32_t bit = 0;
 };
 ARMATURE_STRUCT(Later, bit);
-inline void encode(armature::ride::Encoder& to, const Later& value) { to.put(value.bit); }
+inline void encode(armature::ride::Encoder& to, const Later& value) {
+  to.put(value.bit);
+}
 inline bool decode(armature::ride::Decoder& from, Later& value) {
   return from.take(value.bit) && from.within(value.bit, 0, 1, value);
 }
-inline bool in_range(const Later& value) { return armature::ride::within(value.bit, 0, 1); }
+inline bool in_range(const Later& value) {
+  return armature::ride::within(value.bit, 0, 1);
+}
 
 struct Ranges {
   /// -128 to 127
@@ -198,30 +229,49 @@ inline void encode(armature::ride::Encoder& to, const Ranges& value) {
   to.put(value.later);
 }
 inline bool decode(armature::ride::Decoder& from, Ranges& value) {
-  return from.take(value.whole) && from.take(value.c) && from.take(value.o) && from.take(value.s) &&
-         from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
-         from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.list) &&
-         from.take(value.fixed) && from.take(value.later) &&
-         from.within(value.whole, -128, 127, value) && from.within(value.c, -5, 5, value) &&
-         from.within(value.o, 1, 255, value) && from.within(value.s, -32768, 0, value) &&
-         from.within(value.us, 0, 65535, value) && from.within(value.i, -2147483648, 7, value) &&
-         from.within(value.ui, 3, 4294967295, value) &&
-         from.within(value.l, -9223372036854775807 - 1, -1, value) &&
-         from.within(value.ul, 9223372036854775808u, 18446744073709551615u, value) &&
-         from.within(value.f, -0.1f, 1000.0f, value) && from.within(value.d, 0.5, 2.0, value) &&
-         from.within(value.list, 0, 9, value) && from.within(value.fixed, 0, 9, value);
+  return from.take(value.whole) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.list) &&
+      from.take(value.fixed) &&
+      from.take(value.later) &&
+      from.within(value.whole, -128, 127, value) &&
+      from.within(value.c, -5, 5, value) &&
+      from.within(value.o, 1, 255, value) &&
+      from.within(value.s, -32768, 0, value) &&
+      from.within(value.us, 0, 65535, value) &&
+      from.within(value.i, -2147483648, 7, value) &&
+      from.within(value.ui, 3, 4294967295, value) &&
+      from.within(value.l, -9223372036854775807 - 1, -1, value) &&
+      from.within(value.ul, 9223372036854775808u, 18446744073709551615u, value) &&
+      from.within(value.f, -0.1f, 1000.0f, value) &&
+      from.within(value.d, 0.5, 2.0, value) &&
+      from.within(value.list, 0, 9, value) &&
+      from.within(value.fixed, 0, 9, value);
 }
 inline bool in_range(const Ranges& value) {
-  return armature::ride::within(value.whole, -128, 127) && armature::ride::within(value.c, -5, 5) &&
-         armature::ride::within(value.o, 1, 255) && armature::ride::within(value.s, -32768, 0) &&
-         armature::ride::within(value.us, 0, 65535) &&
-         armature::ride::within(value.i, -2147483648, 7) &&
-         armature::ride::within(value.ui, 3, 4294967295) &&
-         armature::ride::within(value.l, -9223372036854775807 - 1, -1) &&
-         armature::ride::within(value.ul, 9223372036854775808u, 18446744073709551615u) &&
-         armature::ride::within(value.f, -0.1f, 1000.0f) &&
-         armature::ride::within(value.d, 0.5, 2.0) && armature::ride::within(value.list, 0, 9) &&
-         armature::ride::within(value.fixed, 0, 9) && armature::ride::all_in_range(value.later);
+  return armature::ride::within(value.whole, -128, 127) &&
+      armature::ride::within(value.c, -5, 5) &&
+      armature::ride::within(value.o, 1, 255) &&
+      armature::ride::within(value.s, -32768, 0) &&
+      armature::ride::within(value.us, 0, 65535) &&
+      armature::ride::within(value.i, -2147483648, 7) &&
+      armature::ride::within(value.ui, 3, 4294967295) &&
+      armature::ride::within(value.l, -9223372036854775807 - 1, -1) &&
+      armature::ride::within(value.ul, 9223372036854775808u, 18446744073709551615u) &&
+      armature::ride::within(value.f, -0.1f, 1000.0f) &&
+      armature::ride::within(value.d, 0.5, 2.0) &&
+      armature::ride::within(value.list, 0, 9) &&
+      armature::ride::within(value.fixed, 0, 9) &&
+      armature::ride::all_in_range(value.later);
 }
 
 struct Everything {
@@ -238,7 +288,9 @@ inline void encode(armature::ride::Encoder& to, const Everything& value) {
 inline bool decode(armature::ride::Decoder& from, Everything& value) {
   return from.take(value.singles) && from.take(value.lists) && from.take(value.fixed);
 }
-constexpr armature::ride::Number event_number(const Everything*) { return 0xe0accbcf; }
+constexpr armature::ride::Number event_number(const Everything*) {
+  return 0xe0accbcf;
+}
 
 /// Names that C++ has for other things.
 struct Words {
@@ -255,8 +307,10 @@ inline void encode(armature::ride::Encoder& to, const Words& value) {
   to.put(value.priority);
 }
 inline bool decode(armature::ride::Decoder& from, Words& value) {
-  return from.take(value.class_) && from.take(value.Inner_) && from.take(value.std) &&
-         from.take(value.priority);
+  return from.take(value.class_) &&
+      from.take(value.Inner_) &&
+      from.take(value.std) &&
+      from.take(value.priority);
 }
 
 /// What interface Echo has; both sides compare its digest, 0x45b1e782.
@@ -273,52 +327,62 @@ inline constexpr armature::ride::Declaration kEchoDeclarations[] = {
     {"float echo_float(float)", armature::ride::Access::kCommand},
     {"double echo_double(double)", armature::ride::Access::kCommand},
     {"String echo_string(String)", armature::ride::Access::kCommand},
-    {"struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,floa"
-     "t,double,String,struct Inner{bool,double}} echo_singles(struct Singles{bool,char,byte,short"
-     ",unsigned short,int,unsigned int,long,unsigned long,float,double,String,struct Inner{bool,d"
-     "ouble}})",
-     armature::ride::Access::kCommand},
-    {"struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,Array<unsigned short>,Array<i"
-     "nt>,Array<unsigned int>,Array<long>,Array<unsigned long>,Array<float>,Array<double>,Array<S"
-     "tring>,Array<struct Inner{bool,double}>} echo_lists(struct Lists{Array<bool>,Array<char>,Ar"
-     "ray<byte>,Array<short>,Array<unsigned short>,Array<int>,Array<unsigned int>,Array<long>,Arr"
-     "ay<unsigned long>,Array<float>,Array<double>,Array<String>,Array<struct Inner{bool,double}>"
-     "})",
-     armature::ride::Access::kCommand},
-    {"struct Fixed{Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsigned short,"
-     "3>,Array<int,3>,Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,A"
-     "rray<double,3>,Array<String,2>,Array<struct Inner{bool,double},2>} echo_fixed(struct Fixed{"
-     "Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsigned short,3>,Array<int,"
-     "3>,Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,Array<double,3"
-     ">,Array<String,2>,Array<struct Inner{bool,double},2>})",
-     armature::ride::Access::kCommand},
-    {"struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,float"
-     ",double,Array<int>,Array<int,2>,Array<struct Later{int}>} echo_ranges(struct Ranges{char,ch"
-     "ar,byte,short,unsigned short,int,unsigned int,long,unsigned long,float,double,Array<int>,Ar"
-     "ray<int,2>,Array<struct Later{int}>})",
-     armature::ride::Access::kCommand},
+    {
+        "struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,"
+        "float,double,String,struct Inner{bool,double}} echo_singles(struct Singles{bool,char,"
+        "byte,short,unsigned short,int,unsigned int,long,unsigned long,float,double,String,"
+        "struct Inner{bool,double}})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,Array<unsigned short>,"
+        "Array<int>,Array<unsigned int>,Array<long>,Array<unsigned long>,Array<float>,"
+        "Array<double>,Array<String>,Array<struct Inner{bool,"
+        "double}>} echo_lists(struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,"
+        "Array<unsigned short>,Array<int>,Array<unsigned int>,Array<long>,Array<unsigned long>,"
+        "Array<float>,Array<double>,Array<String>,Array<struct Inner{bool,double}>})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Fixed{Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,"
+        "Array<unsigned short,3>,Array<int,3>,Array<unsigned int,3>,Array<long,3>,"
+        "Array<unsigned long,3>,Array<float,3>,Array<double,3>,Array<String,2>,"
+        "Array<struct Inner{bool,double},2>} echo_fixed(struct Fixed{Array<bool,3>,Array<char,"
+        "3>,Array<byte,3>,Array<short,3>,Array<unsigned short,3>,Array<int,3>,"
+        "Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,Array<double,"
+        "3>,Array<String,2>,Array<struct Inner{bool,double},2>})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,"
+        "float,double,Array<int>,Array<int,2>,"
+        "Array<struct Later{int}>} echo_ranges(struct Ranges{char,char,byte,short,"
+        "unsigned short,int,unsigned int,long,unsigned long,float,double,Array<int>,Array<int,"
+        "2>,Array<struct Later{int}>})",
+        armature::ride::Access::kCommand},
     {"Array<bool> echo_flags(Array<bool>)", armature::ride::Access::kCommand},
     {"Array<bool,2> echo_two_flags(Array<bool,2>)", armature::ride::Access::kCommand},
     {"Array<String> echo_strings(Array<String>)", armature::ride::Access::kCommand},
-    {"Array<struct Inner{bool,double}> echo_inners(Array<struct Inner{bool,double}>)",
-     armature::ride::Access::kCommand},
-    {"Array<struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long"
-     ",float,double,Array<int>,Array<int,2>,Array<struct Later{int}>}> echo_ranged(Array<struct R"
-     "anges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,float,double,"
-     "Array<int>,Array<int,2>,Array<struct Later{int}>}>,Array<byte>)",
-     armature::ride::Access::kCommand},
+    {
+        "Array<struct Inner{bool,double}> echo_inners(Array<struct Inner{bool,double}>)",
+        armature::ride::Access::kCommand},
+    {
+        "Array<struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,"
+        "unsigned long,float,double,Array<int>,Array<int,2>,"
+        "Array<struct Later{int}>}> echo_ranged(Array<struct Ranges{char,char,byte,short,"
+        "unsigned short,int,unsigned int,long,unsigned long,float,double,Array<int>,Array<int,"
+        "2>,Array<struct Later{int}>}>,Array<byte>)",
+        armature::ride::Access::kCommand},
     {"int delete(int,int,int,int,int,int)", armature::ride::Access::kCommand},
     {"void request(String,float)", armature::ride::Access::kCommand},
     {"void nothing()", armature::ride::Access::kCommand},
-    {"event Everything{struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,long,u"
-     "nsigned long,float,double,String,struct Inner{bool,double}},struct Lists{Array<bool>,Array<"
-     "char>,Array<byte>,Array<short>,Array<unsigned short>,Array<int>,Array<unsigned int>,Array<l"
-     "ong>,Array<unsigned long>,Array<float>,Array<double>,Array<String>,Array<struct Inner{bool,"
-     "double}>},struct Fixed{Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsig"
-     "ned short,3>,Array<int,3>,Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<"
-     "float,3>,Array<double,3>,Array<String,2>,Array<struct Inner{bool,double},2>}}",
-     armature::ride::Access::kRead},
-};
+    {
+        "event Everything{struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,"
+        "long,unsigned long,float,double,String,struct Inner{bool,double}},"
+        "struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,Array<unsigned short>,"
+        "Array<int>,Array<unsigned int>,Array<long>,Array<unsigned long>,Array<float>,"
+        "Array<double>,Array<String>,Array<struct Inner{bool,double}>},struct Fixed{Array<bool,"
+        "3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsigned short,3>,Array<int,3>,"
+        "Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,Array<double,"
+        "3>,Array<String,2>,Array<struct Inner{bool,double},2>}}",
+        armature::ride::Access::kRead}};
 inline constexpr armature::ride::Interface kEcho{"Echo", kEchoDeclarations};
 
 }  // namespace everything

@@ -26,8 +26,10 @@ inline void encode(armature::ride::Encoder& to, const Service_& value) {
   to.put(value.value);
 }
 inline bool decode(armature::ride::Decoder& from, Service_& value) {
-  return from.take(value.encode) && from.take(value.to) && from.take(value.from) &&
-         from.take(value.value);
+  return from.take(value.encode) &&
+      from.take(value.to) &&
+      from.take(value.from) &&
+      from.take(value.value);
 }
 
 struct Placeholder_ {
@@ -49,15 +51,23 @@ struct armature_ {
   std::int32_t std = 0;
 };
 ARMATURE_STRUCT(armature_, std);
-inline void encode(armature::ride::Encoder& to, const armature_& value) { to.put(value.std); }
-inline bool decode(armature::ride::Decoder& from, armature_& value) { return from.take(value.std); }
+inline void encode(armature::ride::Encoder& to, const armature_& value) {
+  to.put(value.std);
+}
+inline bool decode(armature::ride::Decoder& from, armature_& value) {
+  return from.take(value.std);
+}
 
 struct std_ {
   armature_ armature;
 };
 ARMATURE_STRUCT(std_, armature);
-inline void encode(armature::ride::Encoder& to, const std_& value) { to.put(value.armature); }
-inline bool decode(armature::ride::Decoder& from, std_& value) { return from.take(value.armature); }
+inline void encode(armature::ride::Encoder& to, const std_& value) {
+  to.put(value.armature);
+}
+inline bool decode(armature::ride::Decoder& from, std_& value) {
+  return from.take(value.armature);
+}
 
 struct odd_names_ {
   std_ odd_names;
@@ -82,17 +92,23 @@ inline void encode(armature::ride::Encoder& to, const Number& value) {
 inline bool decode(armature::ride::Decoder& from, Number& value) {
   return from.take(value.Number_) && from.take(value.event_number);
 }
-constexpr armature::ride::Number event_number(const Number*) { return 0x39e48af2; }
+constexpr armature::ride::Number event_number(const Number*) {
+  return 0x39e48af2;
+}
 
 struct Failed {
   std::int32_t Failed_ = 0;
 };
 ARMATURE_STRUCT(Failed, Failed_);
-inline void encode(armature::ride::Encoder& to, const Failed& value) { to.put(value.Failed_); }
+inline void encode(armature::ride::Encoder& to, const Failed& value) {
+  to.put(value.Failed_);
+}
 inline bool decode(armature::ride::Decoder& from, Failed& value) {
   return from.take(value.Failed_);
 }
-constexpr armature::ride::Number event_number(const Failed*) { return 0xdc4d2cf9; }
+constexpr armature::ride::Number event_number(const Failed*) {
+  return 0xdc4d2cf9;
+}
 
 /// What interface Odd has; both sides compare its digest, 0xbd4b161a.
 inline constexpr armature::ride::Declaration kOddDeclarations[] = {
@@ -106,8 +122,9 @@ inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"void publish(int)", armature::ride::Access::kCommand},
     {"int call(int,int,int,int)", armature::ride::Access::kCommand},
     {"int send(int,String)", armature::ride::Access::kCommand},
-    {"int encode(struct odd_names{struct std{struct armature{int}}})",
-     armature::ride::Access::kCommand},
+    {
+        "int encode(struct odd_names{struct std{struct armature{int}}})",
+        armature::ride::Access::kCommand},
     {"int decode(int,int,int)", armature::ride::Access::kCommand},
     {"int std(int,int)", armature::ride::Access::kCommand},
     {"int armature(int,int,int)", armature::ride::Access::kCommand},
@@ -118,8 +135,7 @@ inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"struct std{struct armature{int}} name()", armature::ride::Access::kCommand},
     {"Array<struct armature{int}> on_failed()", armature::ride::Access::kCommand},
     {"event Number{int,int}", armature::ride::Access::kRead},
-    {"event Failed{int}", armature::ride::Access::kRead},
-};
+    {"event Failed{int}", armature::ride::Access::kRead}};
 inline constexpr armature::ride::Interface kOdd{"Odd", kOddDeclarations};
 
 }  // namespace odd_names
