@@ -102,7 +102,7 @@ class ServiceWriter {
     Items problems;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Type& type = operation.parameters[i].type;
-      text += declaration(6, text_.variable_type(type), names[i] + CppText::initial(type) + ";");
+      text += declaration(6, text_.variable_type(type), names[i] + text_.initial(type) + ";");
       problems.push_back("!parameters.take(" + names[i] + ")");
     }
     problems.emplace_back("!parameters.ended()");

@@ -14,6 +14,7 @@ class TypesWriter {
 
   std::string run() {
     std::string body;
+    for (const Enumeration& each : text_.main().enumerations) body += "\n" + written(each);
     for (const Structure* structure : in_order()) body += "\n" + written(*structure);
     for (const Interface& interface : text_.main().interfaces) body += "\n" + written(interface);
     return text_.head(true) + includes() + "\n" + text_.begin_name_space() + body +
@@ -29,7 +30,7 @@ class TypesWriter {
       if (done || structure.module != text_.main().name) return;
       for (const Field& member : structure.members) {
         if (member.type.basic != Basic::kStruct) continue;
-        add(*text_.program().find_struct(member.type.structure));
+        add(*text_.program().find_struct(member.type.name));
       }
       ordered.push_back(&structure);
     };
@@ -52,8 +53,12 @@ class TypesWriter {
     if (uses([](const Type& type) { return type.form == Type::Form::kCounted; })) {
       text += "#include <vector>\n";
     }
-    text += "\n#include \"armature/ride/codec.hpp\"\n#include \"armature/ride/interface.hpp\"\n";
-    text += "#include \"armature/ride/range.hpp\"\n#include \"armature/types/struct.hpp\"\n";
+    const bool has_enums = !text_.main().enumerations.empty();
+    text += "\n#include \"armature/ride/codec.hpp\"\n";
+    if (has_enums) text += "#include \"armature/ride/enumeration.hpp\"\n";
+    text += "#include \"armature/ride/interface.hpp\"\n#include \"armature/ride/range.hpp\"\n";
+    if (has_enums) text += "#include \"armature/types/enum.hpp\"\n";
+    text += "#include \"armature/types/struct.hpp\"\n";
     std::vector<std::string> imported;
     for (const Import& import : text_.main().imports) imported.push_back(import.module);
     std::sort(imported.begin(), imported.end());
@@ -79,6 +84,25 @@ class TypesWriter {
     return false;
   }
 
+  std::string written(const Enumeration& enumeration) const {
+    const std::string name = names_.type(enumeration.name);
+    const std::string stored = CppText::underlying(enumeration);
+    std::string text =
+        comment(0, enumeration.doc) + declaration(0, "enum class " + name, ": " + stored + " {");
+    Items described{name};
+    for (const Enumerator& each : enumeration.enumerators) {
+      described.push_back(names_.enumerator(each.name));
+      text += comment(2, each.doc) +
+              declaration(2, described.back() + " =", CppText::value(each) + ",");
+    }
+    return text + "};\n" + list(0, "ARMATURE_ENUM(", described, ");") +
+           defined(0, {"inline void", "encode", {"armature::ride::Encoder& to", name + " value"}},
+                   "  to.put(static_cast<" + stored + ">(value));\n") +
+           defined(0,
+                   {"inline bool", "decode", {"armature::ride::Decoder& from", name + "& value"}},
+                   "  return from.take_enumerator(value);\n");
+  }
+
   std::string written(const Structure& structure) const {
     std::string text = comment(0, structure.doc) + "struct " + type(structure) + " {\n";
     for (const Field& member : structure.members) text += line_of(member);
@@ -89,7 +113,7 @@ class TypesWriter {
   std::string line_of(const Field& member) const {
     return comment(2, CppText::described(member)) +
            declaration(2, text_.type(member.type),
-                       names_.member(member.name) + CppText::initial(member.type) + ";");
+                       names_.member(member.name) + text_.initial(member.type) + ";");
   }
 
   std::string description(const Structure& structure) const {
