@@ -46,5 +46,22 @@ TEST(RealtimeGenerated, StructsOfFixedSize) {
   EXPECT_EQ(position.x, 320);
 }
 
+TEST(RealtimeGenerated, Enumerations) {
+  Body body;
+  body.reserve(64);
+  everything::Mode taken = everything::Mode::kIdle;
+  types::type_of<everything::Mode>();  // described once
+  bool ok = false;
+  expect_realtime("generated encode and decode of an enum", [&] {
+    body.clear();
+    Encoder to(body);
+    to.put(everything::Mode::kHoldPosition);
+    Decoder from(body.bytes());
+    ok = from.take(taken) && from.ended();
+  });
+  EXPECT_TRUE(ok);
+  EXPECT_EQ(taken, everything::Mode::kHoldPosition);
+}
+
 }  // namespace
 }  // namespace armature::ride

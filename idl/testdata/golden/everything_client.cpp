@@ -143,6 +143,40 @@ armature::ride::Answer<std::vector<Ranges>> EchoPlaceholder::echo_ranged(
   return request<std::vector<Ranges>>(0xb0018182, "echo_ranged", options, value, small);
 }
 
+armature::ride::Answer<Mode> EchoPlaceholder::echo_mode(
+    Mode value,
+    armature::ride::CallOptions options) {
+  return request<Mode>(0x5f2c3fb5, "echo_mode", options, value);
+}
+
+armature::ride::Answer<geometry::Frame> EchoPlaceholder::echo_frame(
+    geometry::Frame frame,
+    armature::ride::CallOptions options) {
+  return request<geometry::Frame>(0xf685a499, "echo_frame", options, frame);
+}
+
+armature::ride::Answer<Choices> EchoPlaceholder::echo_choices(
+    const Choices& value,
+    armature::ride::CallOptions options) {
+  return request<Choices>(0x16f7c40e, "echo_choices", options, value);
+}
+
+armature::ride::Answer<std::vector<Mode>> EchoPlaceholder::echo_modes(
+    const std::vector<Mode>& value,
+    armature::ride::CallOptions options) {
+  return request<std::vector<Mode>>(0x6a3f0662, "echo_modes", options, value);
+}
+
+armature::ride::Answer<std::array<Small, 2>> EchoPlaceholder::echo_two(
+    const std::array<Small, 2>& value,
+    armature::ride::CallOptions options) {
+  return request<std::array<Small, 2>>(0x9c620f30, "echo_two", options, value);
+}
+
+armature::ride::Sent EchoPlaceholder::change_mode(Mode mode, armature::ride::Priority priority) {
+  return command(0x58635d0e, priority, mode);
+}
+
 armature::ride::Answer<std::int32_t> EchoPlaceholder::delete_(
     std::int32_t priority_,
     std::int32_t options_,

@@ -101,6 +101,26 @@ class EchoPlaceholder : public armature::ride::Placeholder {
       const std::vector<std::uint8_t>& small,
       armature::ride::CallOptions options = {});
 
+  armature::ride::Answer<Mode> echo_mode(Mode value, armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<geometry::Frame> echo_frame(
+      geometry::Frame frame,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<Choices> echo_choices(
+      const Choices& value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<std::vector<Mode>> echo_modes(
+      const std::vector<Mode>& value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<std::array<Small, 2>> echo_two(
+      const std::array<Small, 2>& value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Sent change_mode(Mode mode, armature::ride::Priority priority = {});
+
   armature::ride::Answer<std::int32_t> delete_(
       std::int32_t priority_,
       std::int32_t options_,
@@ -121,6 +141,11 @@ class EchoPlaceholder : public armature::ride::Placeholder {
   /// Calls `handler` for each Everything until the Subscription is destroyed.
   armature::ride::Subscription on_Everything(std::function<void(const Everything&)> handler) {
     return subscribe<Everything>(std::move(handler));
+  }
+
+  /// Calls `handler` for each ModeChanged until the Subscription is destroyed.
+  armature::ride::Subscription on_ModeChanged(std::function<void(const ModeChanged&)> handler) {
+    return subscribe<ModeChanged>(std::move(handler));
   }
 };
 

@@ -182,6 +182,55 @@ armature::ride::Executed EchoService::execute(
       reply.put(echo_ranged(value, small));
       return armature::ride::Executed::kDone;
     }
+    case 0x5f2c3fb5: {  // echo_mode
+      Mode value = Mode::kIdle;
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_mode(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0xf685a499: {  // echo_frame
+      geometry::Frame frame = geometry::Frame::kDock;
+      if (!parameters.take(frame) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_frame(frame));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x16f7c40e: {  // echo_choices
+      Choices value;
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_choices(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x6a3f0662: {  // echo_modes
+      std::vector<Mode> value;
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_modes(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x9c620f30: {  // echo_two
+      std::array<Small, 2> value = {};
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_two(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x58635d0e: {  // change_mode
+      Mode mode = Mode::kIdle;
+      if (!parameters.take(mode) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      change_mode(mode);
+      reply.done();
+      return armature::ride::Executed::kDone;
+    }
     case 0x023e0dfc: {  // delete
       std::int32_t priority_ = 0;
       std::int32_t options_ = 0;

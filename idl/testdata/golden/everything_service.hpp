@@ -58,6 +58,18 @@ class EchoService : public armature::ride::Service {
       const std::vector<Ranges>& value,
       const std::vector<std::uint8_t>& small) = 0;
 
+  virtual Mode echo_mode(Mode value) = 0;
+
+  virtual geometry::Frame echo_frame(geometry::Frame frame) = 0;
+
+  virtual Choices echo_choices(const Choices& value) = 0;
+
+  virtual std::vector<Mode> echo_modes(const std::vector<Mode>& value) = 0;
+
+  virtual std::array<Small, 2> echo_two(const std::array<Small, 2>& value) = 0;
+
+  virtual void change_mode(Mode mode) = 0;
+
   virtual std::int32_t delete_(
       std::int32_t priority_,
       std::int32_t options_,
@@ -74,6 +86,11 @@ class EchoService : public armature::ride::Service {
  protected:
   /// Tells all subscribers.  @thread any
   void raise(const Everything& event) {
+    publish(event);
+  }
+
+  /// Tells all subscribers.  @thread any
+  void raise(const ModeChanged& event) {
     publish(event);
   }
 

@@ -4,11 +4,26 @@
 #include <cstdint>
 
 #include "armature/ride/codec.hpp"
+#include "armature/ride/enumeration.hpp"
 #include "armature/ride/interface.hpp"
 #include "armature/ride/range.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace geometry {
+
+/// Where something is told from.
+enum class Frame : std::uint8_t {
+  kDock = 0,
+  kFloor = 1,
+};
+ARMATURE_ENUM(Frame, kDock, kFloor);
+inline void encode(armature::ride::Encoder& to, Frame value) {
+  to.put(static_cast<std::uint8_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Frame& value) {
+  return from.take_enumerator(value);
+}
 
 /// In the plane of the floor.
 struct Pose {

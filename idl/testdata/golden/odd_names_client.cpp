@@ -140,6 +140,20 @@ armature::ride::Answer<std_> OddPlaceholder::name_(armature::ride::CallOptions o
   return request<std_>(0x430889ea, "name", options);
 }
 
+armature::ride::Answer<enum_> OddPlaceholder::enum_2(
+    enum_ enum_2,
+    value_ value,
+    armature::ride::CallOptions options) {
+  return request<enum_>(0x4fdadae7, "enum", options, enum_2, value);
+}
+
+armature::ride::Answer<value_> OddPlaceholder::value(
+    const std::vector<value_>& to,
+    value_ from,
+    armature::ride::CallOptions options) {
+  return request<value_>(0xc0cbbb72, "value", options, to, from);
+}
+
 armature::ride::Answer<std::vector<armature_>> OddPlaceholder::on_failed_(
     armature::ride::CallOptions options) {
   return request<std::vector<armature_>>(0xc4bdc1cf, "on_failed", options);

@@ -104,6 +104,16 @@ class OddPlaceholder : public armature::ride::Placeholder {
 
   armature::ride::Answer<std_> name_(armature::ride::CallOptions options = {});
 
+  armature::ride::Answer<enum_> enum_2(
+      enum_ enum_2,
+      value_ value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<value_> value(
+      const std::vector<value_>& to,
+      value_ from,
+      armature::ride::CallOptions options = {});
+
   armature::ride::Answer<std::vector<armature_>> on_failed_(
       armature::ride::CallOptions options = {});
 

@@ -206,6 +206,24 @@ armature::ride::Executed OddService::execute(
       reply.put(name_());
       return armature::ride::Executed::kDone;
     }
+    case 0x4fdadae7: {  // enum
+      enum_ enum_2 = enum_::kEncode;
+      value_ value = value_::kK;
+      if (!parameters.take(enum_2) || !parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(this->enum_2(enum_2, value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0xc0cbbb72: {  // value
+      std::vector<value_> to;
+      value_ from = value_::kK;
+      if (!parameters.take(to) || !parameters.take(from) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(value(to, from));
+      return armature::ride::Executed::kDone;
+    }
     case 0xc4bdc1cf: {  // on_failed
       if (!parameters.ended()) {
         return armature::ride::Executed::kMalformed;

@@ -68,6 +68,10 @@ class OddService : public armature::ride::Service {
 
   virtual std_ name_() = 0;
 
+  virtual enum_ enum_2(enum_ enum_2, value_ value) = 0;
+
+  virtual value_ value(const std::vector<value_>& to, value_ from) = 0;
+
   virtual std::vector<armature_> on_failed_() = 0;
 
  protected:

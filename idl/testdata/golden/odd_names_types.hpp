@@ -6,11 +6,46 @@
 #include <vector>
 
 #include "armature/ride/codec.hpp"
+#include "armature/ride/enumeration.hpp"
 #include "armature/ride/interface.hpp"
 #include "armature/ride/range.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace odd_names {
+
+enum class enum_ : std::uint8_t {
+  kEncode = 0,
+  kEnum = 1,
+  kDefault = 2,
+  kEvent = 3,
+  kImport = 4,
+  kInterface = 5,
+};
+ARMATURE_ENUM(enum_, kEncode, kEnum, kDefault, kEvent, kImport, kInterface);
+inline void encode(armature::ride::Encoder& to, enum_ value) {
+  to.put(static_cast<std::uint8_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, enum_& value) {
+  return from.take_enumerator(value);
+}
+
+enum class value_ : std::int16_t {
+  kK = 0,
+  kKk = 1,
+  kAB = 2,
+  kAb = 3,
+  kA_1 = 4,
+  kA1 = 5,
+  kKK = 6,
+};
+ARMATURE_ENUM(value_, kK, kKk, kAB, kAb, kA_1, kA1, kKK);
+inline void encode(armature::ride::Encoder& to, value_ value) {
+  to.put(static_cast<std::int16_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, value_& value) {
+  return from.take_enumerator(value);
+}
 
 struct Service_ {
   std::int32_t encode = 0;
@@ -110,7 +145,7 @@ constexpr armature::ride::Number event_number(const Failed*) {
   return 0xdc4d2cf9;
 }
 
-/// What interface Odd has; both sides compare its digest, 0xbd4b161a.
+/// What interface Odd has; both sides compare its digest, 0x1ed38563.
 inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"int Service(int)", armature::ride::Access::kCommand},
     {"int Placeholder(int,int)", armature::ride::Access::kCommand},
@@ -133,6 +168,16 @@ inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"int unix(int,int,int,int)", armature::ride::Access::kCommand},
     {"int virtual(int)", armature::ride::Access::kCommand},
     {"struct std{struct armature{int}} name()", armature::ride::Access::kCommand},
+    {
+        "enum enum:byte{encode=0,enum=1,default=2,event=3,import=4,"
+        "interface=5} enum(enum enum:byte{encode=0,enum=1,default=2,event=3,import=4,"
+        "interface=5},enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,k_k=6})",
+        armature::ride::Access::kCommand},
+    {
+        "enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,"
+        "k_k=6} value(Array<enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,k_k=6}>,"
+        "enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,k_k=6})",
+        armature::ride::Access::kCommand},
     {"Array<struct armature{int}> on_failed()", armature::ride::Access::kCommand},
     {"event Number{int,int}", armature::ride::Access::kRead},
     {"event Failed{int}", armature::ride::Access::kRead}};
