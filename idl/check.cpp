@@ -113,7 +113,7 @@ class Checker {
     std::map<Whole, std::string> first;
     for (const Enumerator& each : enumeration.enumerators) {
       names.add(each.name, "enumerator", each.where);
-      check_enumerator(each, enumeration.underlying);
+      check_enumerator(each, enumeration);
       const auto [same, is_new] = first.emplace(each.value, each.name);
       if (is_new) continue;
       diagnostics_.error(each.where, "enumerators " + in_quotes(same->second) + " and " +
@@ -127,26 +127,29 @@ class Checker {
                            "has before it is set");
   }
 
-  void check_enumerator(const Enumerator& enumerator, Basic underlying) {
-    const std::string whole = "enumerator " + in_quotes(enumerator.name);
+  void check_enumerator(const Enumerator& enumerator, const Enumeration& enumeration) {
     const std::string plain = in_small_letters(enumerator.name);
     if (plain != enumerator.name) {
       const bool is_name =
-          !plain.empty() && std::isdigit(static_cast<unsigned char>(plain[0])) == 0;
+          !plain.empty() && std::isalpha(static_cast<unsigned char>(plain[0])) != 0;
       diagnostics_.error(enumerator.where,
-                         whole +
-                             " is no name as files and scripts have it; expected small letters "
-                             "and digits, in words with '_' between them",
+                         "expected the name of an enumerator in small letters and digits, with '_' "
+                         "between words, found " +
+                             in_quotes(enumerator.name),
                          is_name ? "write " + in_quotes(plain) : "");
     }
-    const WholeLimits limits = limits_of(underlying);
+    const WholeLimits limits = limits_of(enumeration.underlying);
     const bool holds = !(enumerator.value < limits.least) && !(limits.greatest < enumerator.value);
     if (holds) return;
-    diagnostics_.error(enumerator.where,
-                       whole + " is " + to_text(enumerator.value) + ", which " +
-                           in_quotes(name_of(underlying)) + " does not hold; expected " +
-                           to_text(limits.least) + " to " + to_text(limits.greatest),
-                       "choose the integers behind the name, as in 'enum Mode : int'");
+    const bool is_largest = enumeration.underlying == Basic::kLong;
+    diagnostics_.error(
+        enumerator.where,
+        "enumerator " + in_quotes(enumerator.name) + " is " + to_text(enumerator.value) +
+            "; expected a number that " + in_quotes(name_of(enumeration.underlying)) + " holds, " +
+            to_text(limits.least) + " to " + to_text(limits.greatest),
+        is_largest
+            ? ""
+            : "a larger type can stand behind the name: 'enum " + enumeration.name + " : long'");
   }
 
   void check_structure(const Structure& structure) {

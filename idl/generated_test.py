@@ -18,7 +18,8 @@ SEEDS = 12
 COMPILED = 2
 COLUMNS = 100
 TYPES = ["int", "float", "double", "String", "Array<double>", "Array<double, 3>", "unsigned long",
-         "bool", "Array<bool>", "Array<String>", "struct Abc", "Array<struct LongerName>"]
+         "bool", "Array<bool>", "Array<String>", "struct Abc", "Array<struct LongerName>", "enum Way",
+         "Array<enum Way, 2>"]
 NUMBERS = TYPES[:3]
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 FLAGS = ["-std=c++20", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wpedantic", "-Werror"]
@@ -53,6 +54,9 @@ class Chance:
         limits = self.maybe(0.3, "[range(0, 12)] ") if kind in NUMBERS else ""
         return f"{limits}{kind} p{number}{self.word(40)}"
 
+    def enumerator(self, number):
+        return f"e{number}{self.word(22).lower()}{self.maybe(0.3, f' = {number}')}"
+
     def operation(self, number):
         result = self.random.choice(TYPES + ["void"] * 5)
         parameters = [self.parameter(i) for i in range(self.random.randint(0, 9))]
@@ -60,7 +64,8 @@ class Chance:
 
     def file(self):
         lines = ["struct Abc { int q; [unit(\"m\"), range(0, 1)] double zz; };",
-                 "struct LongerName { struct Abc abcd; };"]
+                 "struct LongerName { struct Abc abcd; };", "enum Way { to, fro };",
+                 f"enum Many {{ {', '.join(self.enumerator(i) for i in range(256))} }};"]
         for i in range(4):
             lines.append(f"/// {self.text(40)}")
             lines.append(f"{self.random.choice(['struct', 'event'])} S{i}{self.word(40)} {{")
