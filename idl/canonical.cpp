@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "armature/base/hash.hpp"
+#include "idl/number.hpp"
 
 namespace armature::idl {
 namespace {
@@ -17,12 +18,26 @@ std::string types_of(const Program& program, const std::vector<Field>& fields) {
   return text;
 }
 
+std::string single(const Program& program, const Type& type) {
+  if (type.basic == Basic::kStruct) return canonical(program, *program.find_struct(type.name));
+  if (type.basic == Basic::kEnum) return canonical(*program.find_enum(type.name));
+  return std::string(name_of(type.basic));
+}
+
 }  // namespace
 
+std::string canonical(const Enumeration& enumeration) {
+  std::string text =
+      "enum " + enumeration.name + ":" + std::string(name_of(enumeration.underlying)) + "{";
+  for (const Enumerator& each : enumeration.enumerators) {
+    if (&each != &enumeration.enumerators.front()) text += ',';
+    text += each.name + "=" + to_text(each.value);
+  }
+  return text + "}";
+}
+
 std::string canonical(const Program& program, const Type& type) {
-  std::string text = type.basic == Basic::kStruct
-                         ? canonical(program, *program.find_struct(type.structure))
-                         : std::string(name_of(type.basic));
+  std::string text = single(program, type);
   if (type.form == Type::Form::kSingle) return text;
   if (type.form == Type::Form::kFixed) text += "," + std::to_string(type.count);
   return "Array<" + text + ">";

@@ -11,10 +11,12 @@
 namespace armature::idl {
 
 // Declarations in the one form that both sides of a connection hash: types and names of what is
-// called, structs written out. `program` is one that was loaded without errors.
+// called, structs and enums written out. `program` is one that was loaded without errors.
 
 /// `Array<struct Pose{double,double},3>`
 std::string canonical(const Program& program, const Type& type);
+/// `enum Mode:byte{idle=0,position=4}`, whose names count, as both sides use them
+std::string canonical(const Enumeration& enumeration);
 /// `event ObjectPosition{int,int}`, `struct Pose{double,double}`
 std::string canonical(const Program& program, const Structure& structure);
 /// `void setVelocity(float,float)`

@@ -56,6 +56,21 @@ TEST(Canonical, StructsAreWrittenOut) {
             "Array<unsigned long,4>)");
 }
 
+TEST(Canonical, EnumsAreWrittenOutWithTheirNumbers) {
+  const Loaded loaded = load_text(R"(
+    enum Mode { idle, position = 4, velocity };
+    enum Sign : unsigned short { none };
+    interface I { Array<enum Mode, 2> swap(enum Sign, Array<enum Mode>); };
+  )");
+  ASSERT_TRUE(loaded.ok()) << loaded.findings();
+  const Module& main = loaded.program.main();
+  EXPECT_EQ(canonical(main.enumerations[0]), "enum Mode:byte{idle=0,position=4,velocity=5}");
+  EXPECT_EQ(canonical(loaded.program, main.interfaces[0].operations[0]),
+            "Array<enum Mode:byte{idle=0,position=4,velocity=5},2> "
+            "swap(enum Sign:unsigned short{none=0},"
+            "Array<enum Mode:byte{idle=0,position=4,velocity=5}>)");
+}
+
 TEST(Canonical, NamesUnitsAndDocumentationDoNotCount) {
   const auto declaration = [](const std::string& text) {
     const Loaded loaded = load_text("interface I { " + text + " };");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "idl/check.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -26,6 +27,21 @@ std::string place(const base::Location& where) {
 }
 
 std::string kind_of(const Structure& structure) { return structure.is_event ? "event" : "struct"; }
+
+/// `catch_up` for `catchUp`, `CatchUp`, `CATCH_UP` and `catch__up_`; `mode_2` and `catch_up` stay.
+std::string in_small_letters(const std::string& name) {
+  std::string text;
+  bool after_small = false;
+  for (const char c : name) {
+    const bool capital = c >= 'A' && c <= 'Z';
+    const bool begins_word = c == '_' || (capital && after_small);
+    if (begins_word && !text.empty() && !text.ends_with('_')) text += '_';
+    if (c != '_') text += capital ? static_cast<char>(c - 'A' + 'a') : c;
+    after_small = !capital && c != '_';
+  }
+  if (text.ends_with('_')) text.pop_back();
+  return text;
+}
 
 /// Names of one kind, of which each may be there once.
 class Names {
@@ -54,6 +70,7 @@ class Checker {
     for (const Module& module : program_.modules()) {
       if (diagnostics_.error_count() >= kMostErrors) return;
       see(module);
+      for (const Enumeration& each : module.enumerations) check_enumeration(each);
       for (const Structure& structure : module.structures) check_structure(structure);
       for (const Interface& interface : module.interfaces) check_interface(interface);
     }
@@ -63,6 +80,7 @@ class Checker {
   void check_names() {
     Names names(diagnostics_);
     for (const Module& module : program_.modules()) {
+      for (const Enumeration& each : module.enumerations) names.add(each.name, "enum", each.where);
       for (const Structure& each : module.structures)
         names.add(each.name, kind_of(each), each.where);
       for (const Interface& each : module.interfaces) names.add(each.name, "interface", each.where);
@@ -79,14 +97,59 @@ class Checker {
       visible.insert(theirs.begin(), theirs.end());
     }
     current_ = &visible;
-    structs_.clear();
-    events_.clear();
+    names_.clear();
     for (const Module& each : program_.modules()) {
       if (visible.count(each.name) == 0) continue;
-      for (const Structure& structure : each.structures) {
-        (structure.is_event ? events_ : structs_).push_back(structure.name);
-      }
+      for (const Structure& one : each.structures) names_[kind_of(one)].push_back(one.name);
+      for (const Enumeration& one : each.enumerations) names_["enum"].push_back(one.name);
     }
+  }
+
+  void check_enumeration(const Enumeration& enumeration) {
+    const std::string whole = "enum " + in_quotes(enumeration.name);
+    refuse_more_than(kMostEnumerators, enumeration.enumerators.size(), whole, "enumerators",
+                     enumeration.where);
+    Names names(diagnostics_);
+    std::map<Whole, std::string> first;
+    for (const Enumerator& each : enumeration.enumerators) {
+      names.add(each.name, "enumerator", each.where);
+      check_enumerator(each, enumeration);
+      const auto [same, is_new] = first.emplace(each.value, each.name);
+      if (is_new) continue;
+      diagnostics_.error(each.where, "enumerators " + in_quotes(same->second) + " and " +
+                                         in_quotes(each.name) + " of " + whole + " are both " +
+                                         to_text(each.value));
+    }
+    if (first.contains(Whole{})) return;
+    diagnostics_.error(enumeration.where,
+                       whole +
+                           " has no enumerator of the value 0; expected the one that a value "
+                           "has before it is set");
+  }
+
+  void check_enumerator(const Enumerator& enumerator, const Enumeration& enumeration) {
+    const std::string plain = in_small_letters(enumerator.name);
+    if (plain != enumerator.name) {
+      const bool is_name =
+          !plain.empty() && std::isalpha(static_cast<unsigned char>(plain[0])) != 0;
+      diagnostics_.error(enumerator.where,
+                         "expected the name of an enumerator in small letters and digits, with '_' "
+                         "between words, found " +
+                             in_quotes(enumerator.name),
+                         is_name ? "write " + in_quotes(plain) : "");
+    }
+    const WholeLimits limits = limits_of(enumeration.underlying);
+    const bool holds = !(enumerator.value < limits.least) && !(limits.greatest < enumerator.value);
+    if (holds) return;
+    const bool is_largest = enumeration.underlying == Basic::kLong;
+    diagnostics_.error(
+        enumerator.where,
+        "enumerator " + in_quotes(enumerator.name) + " is " + to_text(enumerator.value) +
+            "; expected a number that " + in_quotes(name_of(enumeration.underlying)) + " holds, " +
+            to_text(limits.least) + " to " + to_text(limits.greatest),
+        is_largest
+            ? ""
+            : "a larger type can stand behind the name: 'enum " + enumeration.name + " : long'");
   }
 
   void check_structure(const Structure& structure) {
@@ -124,7 +187,7 @@ class Checker {
     Names events(diagnostics_);
     for (const EventName& event : interface.events) {
       events.add(event.name, "event", event.where);
-      check_known(event.name, true, event.where);
+      check_known(event.name, "event", event.where);
     }
     // Canonical forms exist only of what is right so far.
     if (diagnostics_.ok()) check_numbers(interface);
@@ -187,25 +250,36 @@ class Checker {
   }
 
   void check_type(const Type& type) {
-    if (type.basic == Basic::kStruct) check_known(type.structure, false, type.where);
+    if (!type.name.empty()) check_known(type.name, std::string(name_of(type.basic)), type.where);
   }
 
-  void check_known(const std::string& name, bool event, const base::Location& where) {
-    const Structure* found = event ? program_.find_event(name) : program_.find_struct(name);
-    if (found != nullptr && current_->count(found->module) > 0) return;
+  void check_known(const std::string& name, const std::string& kind, const base::Location& where) {
+    const std::string* const module = module_of(name, kind);
+    if (module != nullptr && current_->count(*module) > 0) return;
     // Behind a mistake in a definition its name is unknown, and there would be no end of it.
     if (!complete_) return;
-    const std::string kind = event ? "event" : "struct";
-    std::string hint = found != nullptr ? "import \"" + found->module + ".idl\", which defines it"
-                                        : base::suggestion(name, event ? events_ : structs_);
-    const Structure* other = event ? program_.find_struct(name) : program_.find_event(name);
-    if (found == nullptr && other != nullptr)
-      hint = in_quotes(name) + " is of the other kind: " + kind_of(*other);
+    std::string hint = module != nullptr ? "import \"" + *module + ".idl\", which defines it"
+                                         : base::suggestion(name, names_[kind]);
+    for (const std::string other : {"struct", "event", "enum"}) {
+      if (module != nullptr || module_of(name, other) == nullptr) continue;
+      hint = in_quotes(name) + " is of the other kind: " + other;
+    }
     diagnostics_.error(where,
                        "there is no " + kind + " " + in_quotes(name) +
                            "; expected one that is "
                            "defined in this file or imported",
                        std::move(hint));
+  }
+
+  /// Where a struct, event or enum is defined, or nullptr.
+  const std::string* module_of(const std::string& name, const std::string& kind) const {
+    if (kind == "enum") {
+      const Enumeration* const found = program_.find_enum(name);
+      return found == nullptr ? nullptr : &found->module;
+    }
+    const Structure* const found =
+        kind == "event" ? program_.find_event(name) : program_.find_struct(name);
+    return found == nullptr ? nullptr : &found->module;
   }
 
   void check_range(const Range& range, const Type& type, const std::string& what) {
@@ -268,9 +342,8 @@ class Checker {
   StructureSizes sizes_;
   std::map<std::string, std::set<std::string>> visible_;  ///< modules, by the one that sees them
   const std::set<std::string>* current_ = nullptr;
-  std::vector<std::string> structs_;  ///< visible now
-  std::vector<std::string> events_;
-  bool complete_ = true;  ///< no definition was lost to a mistake
+  std::map<std::string, std::vector<std::string>> names_;  ///< visible now, by their kinds
+  bool complete_ = true;                                   ///< no definition was lost to a mistake
 };
 
 }  // namespace

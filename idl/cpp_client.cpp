@@ -21,7 +21,7 @@ class ClientWriter {
     text += text_.include_flags() + "#include \"armature/ride/placeholder.hpp\"\n";
     text += "#include \"" + text_.main().name + "_types.hpp\"\n\n";
     text += text_.begin_name_space();
-    for (const Interface& interface : text_.main().interfaces) text += "\n" + declared(interface);
+    for (const Interface& interface : text_.main().interfaces) text += "\n" + class_of(interface);
     return text + text_.end_name_space();
   }
 
@@ -30,7 +30,7 @@ class ClientWriter {
     text += text_.begin_name_space();
     for (const Interface& interface : text_.main().interfaces) {
       for (const Operation& operation : interface.operations) {
-        text += "\n" + defined(interface, operation);
+        text += "\n" + definition(interface, operation);
       }
     }
     return text + text_.end_name_space();
@@ -44,67 +44,63 @@ class ClientWriter {
     return false;
   }
 
-  std::string declared(const Interface& interface) const {
+  std::string class_of(const Interface& interface) const {
     const std::string name = names_.placeholder(interface);
     std::vector<std::string> doc{"Stands for a component with the interface " + interface.name +
                                  " in another process."};
     if (!interface.doc.empty()) doc.emplace_back();
     doc.insert(doc.end(), interface.doc.begin(), interface.doc.end());
-    std::string text = comment(0, doc) + class_head(name, "armature::ride::Placeholder") +
+    std::string text = comment(0, doc) +
+                       declaration(0, "class " + name, ": public armature::ride::Placeholder {") +
                        " public:\n" + constructor(interface);
     for (const Operation& operation : interface.operations) {
-      text += "\n" + text_.documentation(operation) + function(2, head(interface, operation, true));
+      text += "\n" + text_.documentation(operation) + declared(2, head(interface, operation));
     }
     for (const EventName& event : interface.events) text += "\n" + subscription(event);
     return text + "};\n";
   }
 
   std::string constructor(const Interface& interface) const {
-    const std::string head = function(2, {"",
-                                          "",
-                                          names_.placeholder(interface),
-                                          {"armature::ride::Peer& peer", "std::string name"},
-                                          ""});
     return comment(2, {"@param peer  the process it lives in",
                        "@param name  the component's name there"}) +
-           head + "      : Placeholder(peer, std::move(name), " + names_.constant(interface) +
-           ") {}\n";
+           list(2, names_.placeholder(interface) + "(",
+                {"armature::ride::Peer& peer", "std::string name"}, ")") +
+           list(6, ": Placeholder(", {"peer", "std::move(name)", names_.constant(interface)},
+                ") {}");
   }
 
-  Function head(const Interface& interface, const Operation& operation, bool in_class) const {
+  /// All but the default of its last parameter, which stands in the class only.
+  Function head(const Interface& interface, const Operation& operation,
+                const std::string& in_front = "", const std::string& behind = " = {}") const {
     Function head;
-    head.name = names_.operation(interface, operation.name);
+    head.name = in_front + names_.operation(interface, operation.name);
     head.parameters = text_.parameters(operation);
     head.result = operation.is_command()
                       ? "armature::ride::Sent"
                       : "armature::ride::Answer<" + text_.result_type(operation) + ">";
-    const std::string last(operation.is_command() ? kPriority : kOptions);
-    head.parameters.push_back(last + (in_class ? " = {}" : ""));
-    head.tail = in_class ? ";" : " {";
+    head.parameters.push_back(std::string(operation.is_command() ? kPriority : kOptions) + behind);
     return head;
   }
 
   std::string subscription(const EventName& event) const {
     const std::string name = text_.event_type(event.name);
-    const Function head{"armature::ride::Subscription",
-                        "",
-                        names_.handler(event.name),
-                        {"std::function<void(const " + name + "&)> handler"},
-                        " {"};
     return comment(2, {"Calls `handler` for each " + event.name +
                        " until the Subscription is destroyed."}) +
-           short_function(2, head, "return subscribe<" + name + ">(std::move(handler));");
+           defined(2,
+                   {"armature::ride::Subscription",
+                    names_.handler(event.name),
+                    {"std::function<void(const " + name + "&)> handler"}},
+                   list(4, "return subscribe<" + name + ">(", {"std::move(handler)"}, ");"));
   }
 
-  std::string defined(const Interface& interface, const Operation& operation) const {
-    Function definition = head(interface, operation, false);
-    definition.owner = names_.placeholder(interface) + "::";
-    std::string text = function(0, definition);
+  std::string definition(const Interface& interface, const Operation& operation) const {
+    std::string body;
     const Items names = text_.parameter_names(operation);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      text += range_check(operation, operation.parameters[i], names[i]);
+      body += range_check(operation, operation.parameters[i], names[i]);
     }
-    return text + send(operation) + "}\n";
+    return defined(0, head(interface, operation, names_.placeholder(interface) + "::", ""),
+                   body + send(operation));
   }
 
   std::string range_check(const Operation& operation, const Field& parameter,
@@ -116,16 +112,17 @@ class ClientWriter {
       }
       const Call problem{"armature::ride::outside(",
                          {literal(name), name, literal(CppText::range_text(*parameter.range))}};
-      return call(2, "if (!armature::ride::within(", arguments, ")) {") +
+      return list(2, "if (!armature::ride::within(", arguments, ")) {") +
              refusal(operation,
                      [&](const Call& refuse) { return call_with_call(4, refuse, problem, "));"); });
     }
     if (!text_.has_range(parameter.type)) return {};
     const std::string condition =
         parameter.type.is_array() ? "armature::ride::all_in_range(" : "in_range(";
-    return "  if (!" + condition + name + ")) {\n" + refusal(operation, [&](const Call& refuse) {
+    return list(2, "if (!" + condition, {name}, ")) {") + refusal(operation, [&](Call refuse) {
              const std::string problem = "parameter " + name + " has a member outside its range";
-             return call(4, refuse.head, {refuse.arguments.front(), literal(problem)}, ");");
+             refuse.arguments.push_back(literal(problem));
+             return list(4, refuse.head, refuse.arguments, ");");
            });
   }
 
@@ -148,8 +145,8 @@ class ClientWriter {
     }
     const Items names = text_.parameter_names(operation);
     arguments.insert(arguments.end(), names.begin(), names.end());
-    if (operation.is_command()) return call(2, "return command(", arguments, ");");
-    return call(2, "return request<" + text_.result_type(operation) + ">(", arguments, ");");
+    if (operation.is_command()) return list(2, "return command(", arguments, ");");
+    return list(2, "return request<" + text_.result_type(operation) + ">(", arguments, ");");
   }
 
   const CppText& text_;

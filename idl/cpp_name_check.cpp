@@ -71,6 +71,9 @@ class NameChecker {
 
   void check_types(const Module& module) {
     Scope scope("namespace " + names_.name_space(module), diagnostics_);
+    for (const Enumeration& each : module.enumerations) {
+      scope.add(names_.type(each.name), "'" + each.name + "'", each.where);
+    }
     for (const Structure& each : module.structures) {
       scope.add(names_.type(each.name), "'" + each.name + "'", each.where);
     }

@@ -94,6 +94,7 @@ CppNames::CppNames(const Program& program, std::optional<std::string> name_space
     name_spaces_.insert(parts_of_name_space(this->name_space(module)).front());
   }
   for (const Module& module : program.modules()) {
+    for (const Enumeration& each : module.enumerations) types_.insert(type(each.name));
     for (const Structure& each : module.structures) types_.insert(type(each.name));
     for (const Interface& each : module.interfaces) {
       types_.insert({placeholder(each), service(each), constant(each)});
@@ -126,6 +127,18 @@ std::string CppNames::service(const Interface& interface) const {
 
 std::string CppNames::constant(const Interface& interface) const {
   return joined("k", interface.name);
+}
+
+std::string CppNames::enumerator(const std::string& name) const {
+  std::string result = "k";
+  bool begins_word = true;
+  for (const char c : name) {
+    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
+    if (begins_word && !letter && result != "k") result += '_';
+    if (c != '_') result += begins_word ? static_cast<char>(std::toupper(c)) : c;
+    begins_word = c == '_';
+  }
+  return result;
 }
 
 std::string CppNames::member(const std::string& name) const {

@@ -22,12 +22,14 @@ class CppNames {
   std::string name_space(const Module& module) const { return name_space(module.name); }
   std::string name_space(const std::string& module) const;
 
-  /// A struct or event, as its own module calls it.
+  /// A struct, event or enum, as its own module calls it.
   std::string type(const std::string& name) const;
   std::string placeholder(const Interface& interface) const;
   std::string service(const Interface& interface) const;
   std::string constant(const Interface& interface) const;
 
+  /// `kCatchUp`: its text is the name again, by the rules of ARMATURE_ENUM.
+  std::string enumerator(const std::string& name) const;
   std::string member(const std::string& name) const;
   std::string operation(const Interface& interface, const std::string& name) const;
   /// The placeholder's function that subscribes to an event.

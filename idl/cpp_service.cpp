@@ -8,6 +8,7 @@ namespace armature::idl::internal {
 namespace {
 
 const std::string kMalformed = "return armature::ride::Executed::kMalformed;\n";
+const std::string kUnknown = "return armature::ride::Executed::kNoSuchOperation;\n";
 
 class ServiceWriter {
  public:
@@ -17,41 +18,43 @@ class ServiceWriter {
     std::string text = text_.head(true) + text_.include_flags() +
                        "#include \"armature/ride/service.hpp\"\n" + "#include \"" +
                        text_.main().name + "_types.hpp\"\n\n" + text_.begin_name_space();
-    for (const Interface& interface : text_.main().interfaces) text += "\n" + declared(interface);
+    for (const Interface& interface : text_.main().interfaces) text += "\n" + class_of(interface);
     return text + text_.end_name_space();
   }
 
   std::string source() const {
     std::string text = text_.head(false) + "#include \"" + text_.main().name +
                        "_service.hpp\"\n\n" + text_.begin_name_space();
-    for (const Interface& interface : text_.main().interfaces) text += "\n" + defined(interface);
+    for (const Interface& interface : text_.main().interfaces) text += "\n" + definition(interface);
     return text + text_.end_name_space();
   }
 
  private:
-  std::string declared(const Interface& interface) const {
+  std::string class_of(const Interface& interface) const {
     const std::string name = names_.service(interface);
     std::vector<std::string> doc{"The frame of a component with the interface " + interface.name +
                                  ": derive, fill in the operations, give it to a Node."};
     if (!interface.doc.empty()) doc.emplace_back();
     doc.insert(doc.end(), interface.doc.begin(), interface.doc.end());
-    std::string text = comment(0, doc) + class_head(name, "armature::ride::Service") +
+    std::string text = comment(0, doc) +
+                       declaration(0, "class " + name, ": public armature::ride::Service {") +
                        " public:\n  " + name + "();\n";
     for (const Operation& operation : interface.operations) {
-      text += "\n" + text_.documentation(operation) + function(2, head(interface, operation));
+      text +=
+          "\n" + text_.documentation(operation) + declared(2, head(interface, operation), " = 0;");
     }
     text += "\n";
     if (!interface.events.empty()) text += " protected:\n";
     for (const EventName& event : interface.events) text += raise(event) + "\n";
-    return text + " private:\n" + function(2, execute_head("", !interface.operations.empty())) +
-           "};\n";
+    return text + " private:\n" +
+           declared(2, execute_head("", !interface.operations.empty()), " override;") + "};\n";
   }
 
   Function head(const Interface& interface, const Operation& operation) const {
     Items parameters = text_.parameters(operation);
     if (operation.later) parameters.push_back(reply_type(operation) + " reply");
-    return {"virtual " + (operation.later ? "void" : text_.result_type(operation)), "",
-            names_.operation(interface, operation.name), parameters, " = 0;"};
+    return {"virtual " + (operation.later ? "void" : text_.result_type(operation)),
+            names_.operation(interface, operation.name), parameters};
   }
 
   std::string reply_type(const Operation& operation) const {
@@ -61,8 +64,7 @@ class ServiceWriter {
   std::string raise(const EventName& event) const {
     const std::string type = text_.event_type(event.name);
     return comment(2, {"Tells all subscribers.  @thread any"}) +
-           short_function(2, {"void", "", "raise", {"const " + type + "& event"}, " {"},
-                          "publish(event);");
+           defined(2, {"void", "raise", {"const " + type + "& event"}}, "    publish(event);\n");
   }
 
   static Function execute_head(const std::string& owner, bool named) {
@@ -70,31 +72,26 @@ class ServiceWriter {
       return named ? type + " " + name : type;
     };
     return {"armature::ride::Executed",
-            owner,
-            "execute",
+            owner + "execute",
             {parameter("armature::ride::Number", "operation"),
              parameter("armature::ride::Decoder&", "parameters"),
-             parameter("armature::ride::Reply&", "reply")},
-            owner.empty() ? " override;" : " {"};
+             parameter("armature::ride::Reply&", "reply")}};
   }
 
-  std::string defined(const Interface& interface) const {
+  std::string definition(const Interface& interface) const {
     const std::string name = names_.service(interface);
-    const std::string constructor =
-        short_constructor(name, "Service(" + names_.constant(interface) + ")");
     const bool has_operations = !interface.operations.empty();
-    std::string text = constructor + "\n" + function(0, execute_head(name + "::", has_operations));
-    if (!has_operations) return text + "  return armature::ride::Executed::kNoSuchOperation;\n}\n";
-    text += "  switch (operation) {\n";
-    for (const Operation& operation : interface.operations) text += branch(interface, operation);
-    return text +
-           "    default:\n      return armature::ride::Executed::kNoSuchOperation;\n  }\n}\n";
-  }
-
-  static std::string short_constructor(const std::string& name, const std::string& base) {
-    const std::string line = name + "::" + name + "() : " + base + " {}\n";
-    if (line.size() <= kColumns + 1) return line;
-    return name + "::" + name + "()\n    : " + base + " {}\n";
+    std::string body;
+    if (has_operations) {
+      body = "  switch (operation) {\n";
+      for (const Operation& operation : interface.operations) body += branch(interface, operation);
+      body += "    default:\n      " + kUnknown + "  }\n";
+    } else {
+      body = "  " + kUnknown;
+    }
+    return declaration(0, name + "::" + name + "()",
+                       ": Service(" + names_.constant(interface) + ") {}") +
+           "\n" + defined(0, execute_head(name + "::", has_operations), body);
   }
 
   /// What one operation does with its message.
@@ -105,8 +102,7 @@ class ServiceWriter {
     Items problems;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Type& type = operation.parameters[i].type;
-      text +=
-          "      " + text_.variable_type(type) + " " + names[i] + CppText::initial(type) + ";\n";
+      text += declaration(6, text_.variable_type(type), names[i] + text_.initial(type) + ";");
       problems.push_back("!parameters.take(" + names[i] + ")");
     }
     problems.emplace_back("!parameters.ended()");
@@ -125,7 +121,7 @@ class ServiceWriter {
     for (const std::string& bound : text_.bounds(*parameter.range, parameter.type.basic)) {
       arguments.push_back(bound);
     }
-    return call(6, "if (!parameters.expect_within(", arguments, ")) {") + "        " + kMalformed +
+    return list(6, "if (!parameters.expect_within(", arguments, ")) {") + "        " + kMalformed +
            "      }\n";
   }
 
@@ -136,11 +132,11 @@ class ServiceWriter {
     const bool hidden = std::find(names.begin(), names.end(), name) != names.end() ||
                         name == "operation" || name == "parameters" || name == "reply";
     const std::string begin = (hidden ? "this->" : "") + name + "(";
-    if (operation.is_command()) return call(6, begin, names, ");") + "      reply.done();\n";
-    if (!operation.later) return nested_call(6, "reply.put(", begin, names, "));");
+    if (operation.is_command()) return list(6, begin, names, ");") + "      reply.done();\n";
+    if (!operation.later) return call_with_call(6, {"reply.put(", {}}, {begin, names}, "));");
     Items given = names;
     given.push_back(reply_type(operation) + "(reply)");
-    return call(6, begin, given, ");") + "      armature::ride::expect_settled(reply);\n";
+    return list(6, begin, given, ");") + "      armature::ride::expect_settled(reply);\n";
   }
 
   const CppText& text_;

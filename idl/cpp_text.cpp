@@ -39,6 +39,7 @@ std::string_view scalar(Basic basic) {
       return "double";
     case Basic::kString:
     case Basic::kStruct:
+    case Basic::kEnum:
       break;
   }
   return "std::string";
@@ -87,22 +88,27 @@ CppText::CppText(const Program& program, const CppNames& names) : program_(progr
 }
 
 bool CppText::has_range(const Type& type) const {
-  return type.basic == Basic::kStruct && has_range(*program_.find_struct(type.structure));
+  return type.basic == Basic::kStruct && has_range(*program_.find_struct(type.name));
 }
 
 std::string CppText::single(const Type& type) const {
-  if (type.basic != Basic::kStruct) return std::string(scalar(type.basic));
-  return qualified(*program_.find_struct(type.structure));
+  if (type.basic == Basic::kStruct) {
+    return qualified(type.name, program_.find_struct(type.name)->module);
+  }
+  if (type.basic == Basic::kEnum) {
+    return qualified(type.name, program_.find_enum(type.name)->module);
+  }
+  return std::string(scalar(type.basic));
 }
 
 std::string CppText::event_type(const std::string& event) const {
-  return qualified(*program_.find_event(event));
+  return qualified(event, program_.find_event(event)->module);
 }
 
-std::string CppText::qualified(const Structure& structure) const {
-  const std::string theirs = names_.name_space(structure.module);
-  const std::string name = names_.type(structure.name);
-  return theirs == names_.name_space(main()) ? name : theirs + "::" + name;
+std::string CppText::qualified(const std::string& name, const std::string& module) const {
+  const std::string theirs = names_.name_space(module);
+  const std::string ours = names_.name_space(main());
+  return (theirs == ours ? "" : theirs + "::") + names_.type(name);
 }
 
 std::string CppText::documentation(const Operation& operation) const {
@@ -156,9 +162,19 @@ Items CppText::bounds(const Range& range, Basic type) const {
   return {bound(range.low, type), bound(range.high, type)};
 }
 
-std::string CppText::initial(const Type& type) {
+std::string CppText::underlying(const Enumeration& enumeration) {
+  return std::string(scalar(enumeration.underlying));
+}
+
+std::string CppText::value(const Enumerator& enumerator) { return whole_bound(enumerator.value); }
+
+std::string CppText::initial(const Type& type) const {
   if (type.form == Type::Form::kFixed) return " = {}";
   if (type.is_array() || type.basic == Basic::kString || type.basic == Basic::kStruct) return "";
+  if (type.basic == Basic::kEnum) {
+    const Enumerator& first = program_.find_enum(type.name)->first_value();
+    return " = " + single(type) + "::" + names_.enumerator(first.name);
+  }
   if (type.basic == Basic::kBool) return " = false";
   if (type.basic == Basic::kFloat) return " = 0.0f";
   return type.basic == Basic::kDouble ? " = 0.0" : " = 0";

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "armature/base/utf8.hpp"
 #include "idl/canonical.hpp"
 #include "idl/internal/cpp_text.hpp"
 
@@ -15,6 +14,7 @@ class TypesWriter {
 
   std::string run() {
     std::string body;
+    for (const Enumeration& each : text_.main().enumerations) body += "\n" + written(each);
     for (const Structure* structure : in_order()) body += "\n" + written(*structure);
     for (const Interface& interface : text_.main().interfaces) body += "\n" + written(interface);
     return text_.head(true) + includes() + "\n" + text_.begin_name_space() + body +
@@ -30,7 +30,7 @@ class TypesWriter {
       if (done || structure.module != text_.main().name) return;
       for (const Field& member : structure.members) {
         if (member.type.basic != Basic::kStruct) continue;
-        add(*text_.program().find_struct(member.type.structure));
+        add(*text_.program().find_struct(member.type.name));
       }
       ordered.push_back(&structure);
     };
@@ -53,8 +53,12 @@ class TypesWriter {
     if (uses([](const Type& type) { return type.form == Type::Form::kCounted; })) {
       text += "#include <vector>\n";
     }
-    text += "\n#include \"armature/ride/codec.hpp\"\n#include \"armature/ride/interface.hpp\"\n";
-    text += "#include \"armature/ride/range.hpp\"\n#include \"armature/types/struct.hpp\"\n";
+    const bool has_enums = !text_.main().enumerations.empty();
+    text += "\n#include \"armature/ride/codec.hpp\"\n";
+    if (has_enums) text += "#include \"armature/ride/enumeration.hpp\"\n";
+    text += "#include \"armature/ride/interface.hpp\"\n#include \"armature/ride/range.hpp\"\n";
+    if (has_enums) text += "#include \"armature/types/enum.hpp\"\n";
+    text += "#include \"armature/types/struct.hpp\"\n";
     std::vector<std::string> imported;
     for (const Import& import : text_.main().imports) imported.push_back(import.module);
     std::sort(imported.begin(), imported.end());
@@ -80,77 +84,68 @@ class TypesWriter {
     return false;
   }
 
+  std::string written(const Enumeration& enumeration) const {
+    const std::string name = names_.type(enumeration.name);
+    const std::string stored = CppText::underlying(enumeration);
+    std::string text =
+        comment(0, enumeration.doc) + declaration(0, "enum class " + name, ": " + stored + " {");
+    Items described{name};
+    for (const Enumerator& each : enumeration.enumerators) {
+      described.push_back(names_.enumerator(each.name));
+      text += comment(2, each.doc) +
+              declaration(2, described.back() + " =", CppText::value(each) + ",");
+    }
+    return text + "};\n" + list(0, "ARMATURE_ENUM(", described, ");") +
+           defined(0, {"inline void", "encode", {"armature::ride::Encoder& to", name + " value"}},
+                   "  to.put(static_cast<" + stored + ">(value));\n") +
+           defined(0,
+                   {"inline bool", "decode", {"armature::ride::Decoder& from", name + "& value"}},
+                   "  return from.take_enumerator(value);\n");
+  }
+
   std::string written(const Structure& structure) const {
-    const std::string name = names_.type(structure.name);
-    std::string text = comment(0, structure.doc) + "struct " + name + " {\n";
-    for (const Field& member : structure.members) text += declared(member);
+    std::string text = comment(0, structure.doc) + "struct " + type(structure) + " {\n";
+    for (const Field& member : structure.members) text += line_of(member);
     return text + "};\n" + description(structure) + encoder(structure) + decoder(structure) +
            range_check(structure) + event_number(structure);
   }
 
-  std::string declared(const Field& member) const {
-    const std::string type = text_.type(member.type);
-    const std::string name = names_.member(member.name) + CppText::initial(member.type) + ";";
-    const bool fits = 3 + base::columns_of(type) + base::columns_of(name) <= kColumns;
-    return comment(2, CppText::described(member)) + "  " + type + (fits ? " " : "\n      ") + name +
-           "\n";
+  std::string line_of(const Field& member) const {
+    return comment(2, CppText::described(member)) +
+           declaration(2, text_.type(member.type),
+                       names_.member(member.name) + text_.initial(member.type) + ";");
   }
 
   std::string description(const Structure& structure) const {
     Items items{names_.type(structure.name)};
     for (const Field& member : structure.members) items.push_back(described_field(member));
-    return macro("ARMATURE_STRUCT(", items, ");");
+    return list(0, "ARMATURE_STRUCT(", items, ");");
   }
 
-  /// `x`, or `(x, "px", "column")`, of which the documentation is cut where it would not fit.
+  /// `x`, or `(x, "px", "column")`.
   std::string described_field(const Field& member) const {
     const std::string name = names_.member(member.name);
     const std::string doc = member.doc.empty() ? "" : member.doc.front();
     if (member.unit.empty() && doc.empty()) return name;
-    const std::string begin = "(" + name + ", " + literal(member.unit);
-    if (doc.empty()) return begin + ")";
-    // "ARMATURE_STRUCT(" before it; `, ` and `));` around it.
-    const std::size_t used = 16 + base::columns_of(begin) + 5;
-    return begin + ", " + fitting_literal(doc, kColumns - std::min(used, kColumns - 8)) + ")";
-  }
-
-  /// A literal of at most `columns`, which ends in `...` if `text` is longer.
-  static std::string fitting_literal(const std::string& text, std::size_t columns) {
-    if (base::columns_of(literal(text)) <= columns) return literal(text);
-    std::string_view shorter = text;
-    while (!shorter.empty()) {
-      const std::size_t blank = shorter.rfind(' ');
-      shorter = shorter.substr(0, blank == std::string_view::npos ? 0 : blank);
-      const std::string cut = literal(std::string(shorter) + " ...");
-      if (!shorter.empty() && base::columns_of(cut) <= columns) return cut;
-    }
-    return "\"...\"";
+    Items parts{name, literal(member.unit)};
+    if (!doc.empty()) parts.push_back(long_literal(8, doc, ' '));
+    return item(4, "(", parts, ")");
   }
 
   std::string encoder(const Structure& structure) const {
-    const Function head{
-        "inline void",
-        "",
-        "encode",
-        {"armature::ride::Encoder& to", "const " + names_.type(structure.name) + "& value"},
-        " {"};
-    Items statements;
+    std::string body;
     for (const Field& member : structure.members) {
       const std::string put = is_flags(member.type) ? "to.put_flags(" : "to.put(";
-      statements.push_back(put + "value." + names_.member(member.name) + ");");
+      body += "  " + put + "value." + names_.member(member.name) + ");\n";
     }
-    if (statements.size() == 1) return short_function(0, head, statements.front());
-    std::string text = function(0, head);
-    for (const std::string& statement : statements) text += "  " + statement + "\n";
-    return text + "}\n";
+    return defined(0,
+                   {"inline void",
+                    "encode",
+                    {"armature::ride::Encoder& to", "const " + type(structure) + "& value"}},
+                   body);
   }
 
   std::string decoder(const Structure& structure) const {
-    const Function head{"inline bool",
-                        "",
-                        "decode",
-                        {"armature::ride::Decoder& from", names_.type(structure.name) + "& value"},
-                        " {"};
     Items checks;
     for (const Field& member : structure.members) {
       const std::string take = is_flags(member.type) ? "from.take_flags(" : "from.take(";
@@ -159,7 +154,10 @@ class TypesWriter {
     for (const Field& member : structure.members) {
       if (member.range) checks.push_back("from.within(" + ranged(member) + ", value)");
     }
-    return returning(head, checks);
+    return defined(
+        0,
+        {"inline bool", "decode", {"armature::ride::Decoder& from", type(structure) + "& value"}},
+        all_of(checks));
   }
 
   /// A member with the bounds of its range.
@@ -178,55 +176,45 @@ class TypesWriter {
       checks.push_back((member.type.is_array() ? "armature::ride::all_in_range(" : "in_range(") +
                        value + ")");
     }
-    const Function head{
-        "inline bool", "", "in_range", {"const " + names_.type(structure.name) + "& value"}, " {"};
-    return returning(head, checks);
+    return defined(0, {"inline bool", "in_range", {"const " + type(structure) + "& value"}},
+                   all_of(checks));
   }
 
   std::string event_number(const Structure& structure) const {
     if (!structure.is_event) return {};
     const std::string number = hexadecimal(number_of(canonical(text_.program(), structure)));
-    const Function head{"constexpr armature::ride::Number",
-                        "",
-                        "event_number",
-                        {"const " + names_.type(structure.name) + "*"},
-                        " {"};
-    return short_function(0, head, "return " + number + ";");
+    return defined(
+        0, {"constexpr armature::ride::Number", "event_number", {"const " + type(structure) + "*"}},
+        "  return " + number + ";\n");
   }
 
-  /// A function that returns whether all is true.
-  static std::string returning(const Function& head, const Items& checks) {
-    const std::string statement = chain(2, "return ", checks, "&&", ";");
-    const bool one_line = statement.find('\n') + 1 == statement.size();
-    if (one_line) return short_function(0, head, statement.substr(2, statement.size() - 3));
-    return function(0, head) + statement + "}\n";
-  }
+  static std::string all_of(const Items& checks) { return chain(2, "return ", checks, "&&", ";"); }
+
+  std::string type(const Structure& structure) const { return names_.type(structure.name); }
 
   std::string written(const Interface& interface) const {
     const std::string constant = names_.constant(interface);
     const std::string number = hexadecimal(digest(text_.program(), interface));
-    std::string text = comment(0, {"What interface " + interface.name +
-                                   " has; both sides compare its digest, " + number + "."});
-    text += "inline constexpr armature::ride::Declaration " + constant + "Declarations[] = {\n";
+    Items declarations;
     for (const Operation& operation : interface.operations) {
-      text += declaration(canonical(text_.program(), operation), operation.access);
+      declarations.push_back(entry(canonical(text_.program(), operation), operation.access));
     }
     for (const EventName& event : interface.events) {
       const Structure& structure = *text_.program().find_event(event.name);
-      text += declaration(canonical(text_.program(), structure), Access::kRead);
+      declarations.push_back(entry(canonical(text_.program(), structure), Access::kRead));
     }
-    return text + "};\n" +
-           call(0, "inline constexpr armature::ride::Interface " + constant + "{",
-                {literal(interface.name), constant + "Declarations"}, "};");
+    return comment(0, {"What interface " + interface.name +
+                       " has; both sides compare its digest, " + number + "."}) +
+           list_of(0, "inline constexpr armature::ride::Declaration",
+                   constant + "Declarations[] = {", declarations, "};") +
+           list_of(0, "inline constexpr armature::ride::Interface", constant + "{",
+                   {literal(interface.name), constant + "Declarations"}, "};");
   }
 
-  static std::string declaration(const std::string& canonical, Access access) {
+  static std::string entry(const std::string& canonical, Access access) {
     std::string name(name_of(access));
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
-    const std::string behind = "armature::ride::Access::k" + name + "},\n";
-    const std::string line = "    {" + literal(canonical) + ", " + behind;
-    if (base::columns_of(line) <= kColumns + 1) return line;
-    return "    {" + long_literal(5, canonical) + ",\n     " + behind;
+    return item(4, "{", {long_literal(8, canonical, ','), "armature::ride::Access::k" + name}, "}");
   }
 
   const CppText& text_;

@@ -20,11 +20,14 @@ Json doc_of(const Doc& doc) {
   return text;
 }
 
-Json number(const std::string& text, Basic type) {
-  if (!is_whole_number(type)) return parse_real(text).value_or(0.0);
-  const Whole whole = parse_whole(text).value_or(Whole{});
+Json number(const Whole& whole) {
   if (!whole.negative) return whole.magnitude;
   return static_cast<std::int64_t>(~whole.magnitude + 1);
+}
+
+Json number(const std::string& text, Basic type) {
+  if (!is_whole_number(type)) return parse_real(text).value_or(0.0);
+  return number(parse_whole(text).value_or(Whole{}));
 }
 
 /// `type` as written; of an array also what is in it, and how many.
@@ -65,6 +68,7 @@ class Writer {
     all["namespace"] = names_.name_space(main);
     all["imports"] = Json::array();
     for (const Import& import : main.imports) all["imports"].push_back(import.path);
+    all["enums"] = enumerations();
     all["structs"] = structures(false);
     all["events"] = structures(true);
     all["interfaces"] = Json::array();
@@ -75,6 +79,7 @@ class Writer {
  private:
   void find_used() {
     const Module& main = program_.main();
+    for (const Enumeration& each : main.enumerations) used_enums_.insert(&each);
     for (const Structure& each : main.structures) use(each);
     for (const Interface& each : main.interfaces) {
       for (const EventName& event : each.events) use(*program_.find_event(event.name));
@@ -86,7 +91,8 @@ class Writer {
   }
 
   void use(const Type& type) {
-    if (type.basic == Basic::kStruct) use(*program_.find_struct(type.structure));
+    if (type.basic == Basic::kStruct) use(*program_.find_struct(type.name));
+    if (type.basic == Basic::kEnum) used_enums_.insert(program_.find_enum(type.name));
   }
 
   void use(const Structure& structure) {
@@ -95,6 +101,32 @@ class Writer {
   }
 
   /// In the order in which they are defined, imported ones first.
+  Json enumerations() {
+    Json list = Json::array();
+    for (const Module& module : program_.modules()) {
+      for (const Enumeration& each : module.enumerations) {
+        if (used_enums_.contains(&each)) list.push_back(enumeration(each));
+      }
+    }
+    return list;
+  }
+
+  static Json enumeration(const Enumeration& enumeration) {
+    Json one;
+    one["name"] = enumeration.name;
+    one["module"] = enumeration.module;
+    one["canonical"] = canonical(enumeration);
+    one["type"] = name_of(enumeration.underlying);
+    one["doc"] = doc_of(enumeration.doc);
+    one["enumerators"] = Json::array();
+    for (const Enumerator& each : enumeration.enumerators) {
+      one["enumerators"].push_back(
+          {{"name", each.name}, {"value", number(each.value)}, {"doc", doc_of(each.doc)}});
+    }
+    return one;
+  }
+
+  /// In the same order.
   Json structures(bool events) {
     Json list = Json::array();
     for (const Module& module : program_.modules()) {
@@ -144,6 +176,7 @@ class Writer {
   const Program& program_;
   const CppNames& names_;
   std::set<const Structure*> used_;
+  std::set<const Enumeration*> used_enums_;
 };
 
 }  // namespace

@@ -103,7 +103,7 @@ class Lexer {
       return take_number();
     }
     if (c == '"') return take_text();
-    if (std::string_view("{}()<>,;[]").find(c) != std::string_view::npos) {
+    if (std::string_view("{}()<>,;[]:=").find(c) != std::string_view::npos) {
       add(Token::Kind::kSign, at_, at_ + 1, text_.substr(at_, 1));
       ++at_;
       return;
@@ -160,7 +160,7 @@ class Lexer {
     } else {
       error(at_, "'" + std::string(text_.substr(at_, end - at_)) +
                      "' is no part of the language; a name, a number, a text in '\"' or one of "
-                     "{ } ( ) < > [ ] , ; was expected");
+                     "{ } ( ) < > [ ] , ; : = was expected");
     }
     at_ = end;
   }

@@ -11,6 +11,7 @@ inline constexpr std::size_t kLargestFile = 256 * 1024;        ///< bytes
 inline constexpr std::size_t kMostFiles = 64;                  ///< imported, one by the other
 inline constexpr std::size_t kLongestName = 64;                ///< letters
 inline constexpr std::size_t kMostMembers = 256;               ///< of a struct or event
+inline constexpr std::size_t kMostEnumerators = 256;           ///< of an enum
 inline constexpr std::size_t kMostParameters = 64;             ///< of an operation
 inline constexpr std::size_t kMostDeclarations = 256;          ///< of an interface
 inline constexpr std::size_t kDeepestNesting = 32;             ///< of structs in structs

@@ -54,6 +54,7 @@ class Loader {
     Module module = parse(source, loaded_.diagnostics);
     module.name = fs::path(source.file()).stem().string();
     for (Structure& structure : module.structures) structure.module = module.name;
+    for (Enumeration& each : module.enumerations) each.module = module.name;
     refuse_same_name(module, from);
     open_.push_back(source.file());
     for (Import& import : module.imports) {

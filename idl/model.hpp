@@ -14,6 +14,18 @@
 
 namespace armature::idl {
 
+/// A whole number between the least `long` and the greatest `unsigned long`.
+struct Whole {
+  bool negative = false;
+  std::uint64_t magnitude = 0;
+
+  friend bool operator==(const Whole&, const Whole&) = default;
+  friend bool operator<(const Whole& a, const Whole& b) {
+    if (a.negative != b.negative) return a.negative;
+    return a.negative ? a.magnitude > b.magnitude : a.magnitude < b.magnitude;
+  }
+};
+
 /// What a single value is.
 enum class Basic {
   kVoid,
@@ -29,10 +41,11 @@ enum class Basic {
   kFloat,
   kDouble,
   kString,
-  kStruct
+  kStruct,
+  kEnum
 };
 
-/// As the language writes it: `unsigned int`, `String`; `struct` alone.
+/// As the language writes it: `unsigned int`, `String`; `struct` and `enum` alone.
 std::string_view name_of(Basic basic);
 
 bool is_whole_number(Basic basic);  ///< char and byte too
@@ -43,7 +56,7 @@ struct Type {
   enum class Form { kSingle, kCounted, kFixed };  ///< T, Array<T>, Array<T, N>
 
   Basic basic = Basic::kVoid;
-  std::string structure;  ///< its name, of a struct
+  std::string name;  ///< of a struct or enum
   Form form = Form::kSingle;
   std::uint32_t count = 0;  ///< N of Array<T, N>
   base::Location where;
@@ -51,7 +64,7 @@ struct Type {
   bool is_void() const { return basic == Basic::kVoid; }
   bool is_array() const { return form != Form::kSingle; }
   /// One element of an array.
-  Type element() const { return {basic, structure, Form::kSingle, 0, where}; }
+  Type element() const { return {basic, name, Form::kSingle, 0, where}; }
 };
 
 /// `Array<struct Pose, 3>`: as one writes it in the language.
@@ -85,6 +98,26 @@ struct Structure {
   base::Location where;
   std::string module;    ///< the name of the one that defines it
   bool complete = true;  ///< false if a mistake has taken members away
+};
+
+/// The value is there whether it is written or not.
+struct Enumerator {
+  std::string name;
+  Whole value;
+  Doc doc;
+  base::Location where;
+};
+
+struct Enumeration {
+  std::string name;
+  Basic underlying = Basic::kByte;  ///< a whole number, as which it is sent and stored
+  std::vector<Enumerator> enumerators;
+  Doc doc;
+  base::Location where;
+  std::string module;  ///< the name of the one that defines it
+
+  /// What a value has that nobody has set: the one that is 0. Without mistakes there is one.
+  const Enumerator& first_value() const;
 };
 
 enum class Access { kRead, kCommand, kConfigure };
@@ -128,6 +161,7 @@ struct Module {
   std::string file;
   std::string name;  ///< the file's name without folder and `.idl`
   std::vector<Import> imports;
+  std::vector<Enumeration> enumerations;
   std::vector<Structure> structures;  ///< structs and events
   std::vector<Interface> interfaces;
   bool complete = true;  ///< false if a mistake may have taken definitions away
@@ -144,11 +178,13 @@ class Program {
   /// The first struct or event of that name in any module, or nullptr.
   const Structure* find_struct(std::string_view name) const { return find(structs_, name); }
   const Structure* find_event(std::string_view name) const { return find(events_, name); }
+  /// The same of enums.
+  const Enumeration* find_enum(std::string_view name) const;
 
  private:
   struct Place {
     std::size_t module;
-    std::size_t structure;
+    std::size_t index;
   };
   using Index = std::map<std::string, Place, std::less<>>;
   const Structure* find(const Index& index, std::string_view name) const;
@@ -156,6 +192,7 @@ class Program {
   std::vector<Module> modules_;
   Index structs_;
   Index events_;
+  Index enums_;
 };
 
 }  // namespace armature::idl

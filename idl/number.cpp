@@ -31,6 +31,12 @@ std::string to_text(const Whole& number) {
   return (number.negative ? "-" : "") + std::to_string(number.magnitude);
 }
 
+Whole next(const Whole& number) {
+  if (number.negative) return {number.magnitude > 1, number.magnitude - 1};
+  const bool most = number.magnitude == std::numeric_limits<std::uint64_t>::max();
+  return {false, number.magnitude + (most ? 0 : 1)};
+}
+
 std::optional<Whole> parse_whole(std::string_view text) {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);

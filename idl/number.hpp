@@ -10,19 +10,10 @@
 
 namespace armature::idl {
 
-/// A whole number between the least `long` and the greatest `unsigned long`.
-struct Whole {
-  bool negative = false;
-  std::uint64_t magnitude = 0;
-
-  friend bool operator==(const Whole&, const Whole&) = default;
-  friend bool operator<(const Whole& a, const Whole& b) {
-    if (a.negative != b.negative) return a.negative;
-    return a.negative ? a.magnitude > b.magnitude : a.magnitude < b.magnitude;
-  }
-};
-
 std::string to_text(const Whole& number);
+
+/// One more; of the greatest `unsigned long` itself, which no enum holds.
+Whole next(const Whole& number);
 
 /// Decimal digits with a sign or without; nothing if it is something else or too large.
 std::optional<Whole> parse_whole(std::string_view text);

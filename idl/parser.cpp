@@ -8,6 +8,7 @@
 #include "idl/internal/in_quotes.hpp"
 #include "idl/internal/token_reader.hpp"
 #include "idl/internal/type_parser.hpp"
+#include "idl/number.hpp"
 
 namespace armature::idl {
 namespace {
@@ -40,14 +41,15 @@ class Parser {
   void definition() {
     if (reader_.is("import")) return import();
     if (reader_.is("struct") || reader_.is("event")) return structure();
+    if (reader_.is("enum")) return enumeration();
     if (reader_.is("interface")) return interface();
     const Token& found = reader_.now();
     const std::string near =
-        base::near_name(found.text, {"struct", "event", "interface", "import"});
-    reader_.fail(
-        found,
-        "expected 'struct', 'event', 'interface' or 'import', found " + TokenReader::shown(found),
-        near.empty() ? "" : "did you mean '" + near + "'?");
+        base::near_name(found.text, {"struct", "enum", "event", "interface", "import"});
+    reader_.fail(found,
+                 "expected 'struct', 'enum', 'event', 'interface' or 'import', found " +
+                     TokenReader::shown(found),
+                 near.empty() ? "" : "did you mean '" + near + "'?");
   }
 
   void import() {
@@ -77,6 +79,61 @@ class Parser {
     result.complete = !lost_;
     module_.structures.push_back(std::move(result));
     if (!closed) throw Mistake{};
+  }
+
+  void enumeration() {
+    const std::size_t begin = reader_.position();
+    Enumeration result;
+    reader_.take();
+    const Token& name = reader_.expect_name("the enum");
+    result.name = name.text;
+    result.where = reader_.where(name);
+    const std::string whole = "enum " + in_quotes(result.name);
+    if (reader_.take_if(":")) result.underlying = types_.parse_underlying(whole);
+    reader_.expect("{", "the name of the enum");
+    result.doc = reader_.doc_between(begin, reader_.position());
+    do {
+      result.enumerators.push_back(enumerator(whole, result.enumerators));
+    } while (reader_.take_if(",") && !reader_.is("}"));
+    if (!reader_.is("}")) {
+      reader_.fail(reader_.now(), "expected ',' or '}' after enumerator " +
+                                      in_quotes(result.enumerators.back().name) + ", found " +
+                                      TokenReader::shown(reader_.now()));
+    }
+    reader_.take();
+    reader_.take_if(";");
+    module_.enumerations.push_back(std::move(result));
+  }
+
+  /// Without a number it is one more than the one before.
+  Enumerator enumerator(const std::string& whole, const std::vector<Enumerator>& before) {
+    const std::size_t begin = reader_.position();
+    Enumerator result;
+    const Token& name = reader_.expect_inner_name("an enumerator of " + whole);
+    result.name = name.text;
+    result.where = reader_.where(name);
+    if (!before.empty()) result.value = next(before.back().value);
+    if (reader_.take_if("=")) result.value = value_of(result);
+    result.doc = reader_.doc_between(begin, reader_.position());
+    add_doc_behind_comma(result.doc);
+    return result;
+  }
+
+  Whole value_of(const Enumerator& enumerator) {
+    const Token& token = reader_.now();
+    const auto number = token.kind == Token::Kind::kNumber ? parse_whole(token.text) : std::nullopt;
+    if (!number) {
+      reader_.fail(token, "expected the value of enumerator " + in_quotes(enumerator.name) +
+                              ", a whole number, found " + TokenReader::shown(token));
+    }
+    reader_.take();
+    return *number;
+  }
+
+  /// `a,  ///< of a`
+  void add_doc_behind_comma(Doc& doc) const {
+    const std::string& behind = reader_.now().doc_after;
+    if (reader_.is(",") && !behind.empty()) doc.push_back(behind);
   }
 
   void interface() {
@@ -217,9 +274,7 @@ class Parser {
       result.where = reader_.where(name);
     }
     result.doc = reader_.doc_between(begin, reader_.position());
-    if (reader_.is(",") && !reader_.now().doc_after.empty()) {
-      result.doc.push_back(reader_.now().doc_after);
-    }
+    add_doc_behind_comma(result.doc);
     return result;
   }
 
@@ -271,7 +326,9 @@ class Parser {
   /// `struct Pose {` and not only its name, which may stand within a definition.
   bool begins_definition() const {
     if (reader_.is("import")) return reader_.ahead(1).kind == Token::Kind::kText;
-    const bool word = reader_.is("struct") || reader_.is("event") || reader_.is("interface");
+    if (reader_.is("enum") && TokenReader::is(reader_.ahead(2), ":")) return true;
+    const bool word = reader_.is("struct") || reader_.is("enum") || reader_.is("event") ||
+                      reader_.is("interface");
     return word && TokenReader::is(reader_.ahead(2), "{");
   }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "idl/internal/test_program.hpp"
+#include "idl/number.hpp"
 
 namespace armature::idl {
 namespace {
@@ -47,6 +48,62 @@ TEST(Parser, TakesThePapersGrammarAsPrintedWithoutSemicolons) {
 TEST(Parser, TakesSemicolonsBehindDefinitionsAndOperations) {
   const Module module = parsed("event E { int x; }; interface I { void f(); int g(int a); };");
   EXPECT_EQ(module.interfaces.at(0).operations.size(), 2u);
+}
+
+TEST(Parser, AnEnumeratorWithoutANumberIsOneMoreThanTheOneBefore) {
+  const Module module = parsed("enum E : short { a = -2, b, c, d, e = 7, f, } enum F { g };");
+  ASSERT_EQ(module.enumerations.size(), 2u);
+  EXPECT_EQ(module.enumerations[0].underlying, Basic::kShort);
+  EXPECT_EQ(module.enumerations[1].underlying, Basic::kByte);
+  std::string all;
+  for (const Enumerator& each : module.enumerations[0].enumerators) {
+    all += each.name + "=" + to_text(each.value) + " ";
+  }
+  EXPECT_EQ(all, "a=-2 b=-1 c=0 d=1 e=7 f=8 ");
+  EXPECT_EQ(module.enumerations[0].first_value().name, "c");
+}
+
+TEST(Parser, EnumeratorsHaveTheirDocumentation) {
+  const Module module = parsed(R"(
+    /// How it moves.
+    enum Mode {  ///< always
+      idle,  ///< not at all
+      /// By itself.
+      position = 4  ///< to a point
+    };
+  )");
+  const Enumeration& mode = module.enumerations.at(0);
+  EXPECT_THAT(mode.doc, ElementsAre("How it moves.", "always"));
+  EXPECT_THAT(mode.enumerators[0].doc, ElementsAre("not at all"));
+  EXPECT_THAT(mode.enumerators[1].doc, ElementsAre("By itself.", "to a point"));
+}
+
+TEST(Parser, EnumIsANameWhereverItBeginsNoDefinitionAndNoType) {
+  const Module module = parsed(R"(
+    struct enum { int enum; };
+    interface I { struct enum enum(int enum, struct enum); enum Mode mode(enum Mode enum); };
+    enum Mode { enum };
+  )");
+  EXPECT_EQ(module.structures.at(0).name, "enum");
+  EXPECT_EQ(module.interfaces.at(0).operations[0].name, "enum");
+  EXPECT_EQ(to_text(module.interfaces[0].operations[1].result), "enum Mode");
+}
+
+TEST(Parser, AnEnumHasAtMost256Enumerators) {
+  std::string text = "enum Many : short { zero";
+  for (int i = 1; i < 256; ++i) text += ", e" + std::to_string(i);
+  EXPECT_EQ(parsed(text + "}").enumerations.at(0).enumerators.size(), 256u);
+  EXPECT_THAT(load_text(text + ", more }").findings(),
+              HasSubstr("enum 'Many' has 257 enumerators; at most 256 are possible"));
+}
+
+TEST(Parser, AnEnumCountsInWhatIsWrittenOut) {
+  std::string text = "enum Long : short { zero";
+  for (int i = 1; i < 256; ++i) {
+    text += ", e" + std::to_string(i) + "_" + std::string(58, 'x');
+  }
+  EXPECT_THAT(load_text(text + "}; interface I { void set(enum Long value); };").findings(),
+              HasSubstr("operation 'set', with its structs written out, has more than 16384"));
 }
 
 TEST(Parser, AllEventsOfAFileAreRaisedWhereNoInterfaceNamesOne) {

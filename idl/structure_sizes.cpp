@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "idl/canonical.hpp"
 #include "idl/limits.hpp"
 
 namespace armature::idl::internal {
@@ -63,8 +64,14 @@ Size StructureSizes::of(const Structure& structure) {
 Size StructureSizes::of(const Type& type) {
   Size size{name_of(type.basic).size(), wire_size(type.basic), 0};
   if (type.basic == Basic::kStruct) {
-    const Structure* structure = program_.find_struct(type.structure);
+    const Structure* structure = program_.find_struct(type.name);
     size = structure == nullptr ? Size{} : of(*structure);
+  }
+  if (type.basic == Basic::kEnum) {
+    const Enumeration* enumeration = program_.find_enum(type.name);
+    size = enumeration == nullptr
+               ? Size{}
+               : Size{canonical(*enumeration).size(), wire_size(enumeration->underlying), 0};
   }
   if (type.is_array()) size.canonical += std::string_view("Array<,16777216>").size();
   if (type.form == Type::Form::kCounted) size.wire = 4;

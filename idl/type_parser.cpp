@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "armature/base/near_name.hpp"
+#include "idl/internal/in_quotes.hpp"
 #include "idl/limits.hpp"
 
 namespace armature::idl::internal {
@@ -34,12 +35,12 @@ std::optional<Basic> basic_type(const Token& token) {
   return std::nullopt;
 }
 
-std::vector<std::string> defined_structs(const std::vector<Token>& tokens) {
+std::vector<std::string> defined(const std::vector<Token>& tokens, std::string_view kind) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
-    const bool defines =
-        TokenReader::is(tokens[i], "struct") && TokenReader::is(tokens[i + 2], "{");
-    if (defines) names.emplace_back(tokens[i + 1].text);
+    const Token& behind = tokens[i + 2];
+    const bool begins = TokenReader::is(behind, "{") || TokenReader::is(behind, ":");
+    if (begins && TokenReader::is(tokens[i], kind)) names.emplace_back(tokens[i + 1].text);
   }
   return names;
 }
@@ -47,7 +48,21 @@ std::vector<std::string> defined_structs(const std::vector<Token>& tokens) {
 }  // namespace
 
 TypeParser::TypeParser(TokenReader& reader)
-    : reader_(reader), structs_(defined_structs(reader.all())) {}
+    : reader_(reader),
+      structs_(defined(reader.all(), "struct")),
+      enums_(defined(reader.all(), "enum")) {}
+
+Basic TypeParser::parse_underlying(const std::string& of_what) {
+  const Token& first = reader_.now();
+  const Type type = parse(of_what);
+  const bool holds = is_whole_number(type.basic) && type.basic != Basic::kUnsignedLong;
+  if (holds && !type.is_array()) return type.basic;
+  reader_.error(first,
+                "expected the integers of " + of_what +
+                    ": char, byte, short, unsigned short, int, unsigned int or long; found " +
+                    in_quotes(to_text(type)));
+  return Basic::kLong;
+}
 
 Type TypeParser::parse_or_void(const std::string& of_what) {
   if (!reader_.is("void")) return parse(of_what);
@@ -100,7 +115,10 @@ Type TypeParser::single(const std::string& of_what) {
     type.basic = unsigned_type();
   } else if (reader_.take_if("struct")) {
     type.basic = Basic::kStruct;
-    type.structure = reader_.expect_name("a struct").text;
+    type.name = reader_.expect_name("a struct").text;
+  } else if (reader_.take_if("enum")) {
+    type.basic = Basic::kEnum;
+    type.name = reader_.expect_name("an enum").text;
   } else if (const auto basic = basic_type(reader_.now())) {
     type.basic = *basic;
     reader_.take();
@@ -131,12 +149,16 @@ Type TypeParser::unknown(const std::string& of_what) {
   }
   std::string hint;
   std::vector<std::string> known(structs_);
+  known.insert(known.end(), enums_.begin(), enums_.end());
   for (const Basic basic : kWords) known.emplace_back(name_of(basic));
   for (const Foreign& foreign : kForeign) {
     if (token.text == foreign.name) hint = "here it is " + std::string(foreign.ours);
   }
   for (const std::string& name : structs_) {
     if (token.text == name) hint = "write 'struct " + name + "'";
+  }
+  for (const std::string& name : enums_) {
+    if (token.text == name) hint = "write 'enum " + name + "'";
   }
   if (hint.empty()) hint = base::suggestion(token.text, known);
   reader_.error(

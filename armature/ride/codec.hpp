@@ -2,8 +2,8 @@
 #pragma once
 
 // The bodies of messages: field after field, little-endian, each aligned relative to the body's
-// start (docs/ride.md, "Body"). Structs and events have an `encode` and a `decode` in their own
-// namespace, which rcidl writes.
+// start (docs/ride.md, "Body"). Structs, events and enums have an `encode` and a `decode` in their
+// own namespace, which rcidl writes.
 
 #include <algorithm>
 #include <array>
@@ -94,10 +94,11 @@ class Encoder {
     put(static_cast<std::uint32_t>(flags.size()));
     for (const std::uint8_t flag : flags) put(flag != 0);
   }
-  /// A struct or event, by its `encode(Encoder&, const S&)`.
+  /// A struct, event or enum, by its `encode(Encoder&, const S&)`.
   template <typename S>
-  requires std::is_class_v<S>
-  void put(const S& structure) { encode(*this, structure); }
+  requires(std::is_class_v<S> || std::is_enum_v<S>) void put(const S& structure) {
+    encode(*this, structure);
+  }
 
  private:
   std::byte* aligned(std::size_t alignment, std::size_t size) {
@@ -182,10 +183,11 @@ class Decoder {
     if (!take(flags)) return false;
     return std::ranges::all_of(flags, [](std::uint8_t flag) { return flag <= 1; }) || fail();
   }
-  /// A struct or event, by its `decode(Decoder&, S&)`.
+  /// A struct, event or enum, by its `decode(Decoder&, S&)`.
   template <typename S>
-  requires std::is_class_v<S>
-  bool take(S& structure) { return decode(*this, structure) || fail(); }
+  requires(std::is_class_v<S> || std::is_enum_v<S>) bool take(S& structure) {
+    return decode(*this, structure) || fail();
+  }
 
   /// Counts what a value takes beyond its body, before it is made.
   /// @throws std::bad_alloc  its sender may not take so much
@@ -203,8 +205,12 @@ class Decoder {
   /// @param structure  a described struct (ARMATURE_STRUCT) that has it
   template <typename T, typename Low, typename High, typename S>
   bool within(const T& member, Low low, High high, const S& structure);
-  /// `parameter speed is 2, expected 0 to 1`, or `member Pose.x is ...`; empty if all that was
-  /// taken is within its range.
+  /// The same of an enumeration (ARMATURE_ENUM): false if no enumerator has the number that is
+  /// taken. Defined in armature/ride/enumeration.hpp.
+  template <typename E>
+  bool take_enumerator(E& value);
+  /// `parameter speed is 2, expected 0 to 1`, or `member Pose.x is ...`; `Mode is 7,
+  /// expected off or on`; empty if all that was taken is what it may be.
   const std::string& problem() const { return problem_; }
 
   /// Whether a value lies in the body, which has to stay there for it.

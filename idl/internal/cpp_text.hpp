@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "idl/cpp_names.hpp"
-#include "idl/internal/layout.hpp"
+#include "idl/internal/cpp_lines.hpp"
 #include "idl/model.hpp"
 
 namespace armature::idl::internal {
@@ -43,9 +43,13 @@ class CppText {
 
   /// The arguments of `within` after the value: `-1.0, 1.0`.
   Items bounds(const Range& range, Basic type) const;
+  /// The integer as which an enum is stored: `std::uint8_t`.
+  static std::string underlying(const Enumeration& enumeration);
+  /// The value of an enumerator, as a literal.
+  static std::string value(const Enumerator& enumerator);
 
   /// What stands behind a variable's name so that it has a value: ` = 0`, or nothing.
-  static std::string initial(const Type& type);
+  std::string initial(const Type& type) const;
   /// `0 to 255`
   static std::string range_text(const Range& range);
   /// Documentation of a member or parameter, with unit and range behind it.
@@ -60,7 +64,8 @@ class CppText {
 
  private:
   std::string single(const Type& type) const;
-  std::string qualified(const Structure& structure) const;
+  /// A struct, event or enum of a module.
+  std::string qualified(const std::string& name, const std::string& module) const;
   std::string bound(const std::string& text, Basic type) const;
 
   const Program& program_;

@@ -15,6 +15,8 @@ class TypeParser {
 
   Type parse(const std::string& of_what);
   Type parse_or_void(const std::string& of_what);
+  /// The integers as which an enum is sent.
+  Basic parse_underlying(const std::string& of_what);
 
  private:
   Type array();
@@ -25,6 +27,7 @@ class TypeParser {
 
   TokenReader& reader_;
   std::vector<std::string> structs_;  ///< that the file defines
+  std::vector<std::string> enums_;    ///< the same
 };
 
 }  // namespace armature::idl::internal

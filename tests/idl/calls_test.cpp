@@ -55,6 +55,19 @@ class Echo final : public everything::EchoService {
                                               const std::vector<std::uint8_t>& small) override {
     return {value.begin(), value.begin() + static_cast<std::ptrdiff_t>(small.size())};
   }
+  everything::Mode echo_mode(everything::Mode value) override { return value; }
+  geometry::Frame echo_frame(geometry::Frame frame) override {
+    return answered_frame.value_or(frame);
+  }
+  everything::Choices echo_choices(const everything::Choices& value) override { return value; }
+  std::vector<everything::Mode> echo_modes(const std::vector<everything::Mode>& value) override {
+    return value;
+  }
+  std::array<everything::Small, 2> echo_two(const std::array<everything::Small, 2>& v) override {
+    return v;
+  }
+  using EchoService::raise;
+  void change_mode(everything::Mode mode) override { raise(everything::ModeChanged{mode, {}}); }
   std::int32_t delete_(std::int32_t priority_, std::int32_t options_, std::int32_t operation_,
                        std::int32_t d, std::int32_t delete_, std::int32_t a) override {
     return ((((priority_ * 10 + options_) * 10 + operation_) * 10 + d) * 10 + delete_) * 10 + a;
@@ -62,8 +75,9 @@ class Echo final : public everything::EchoService {
   void request_(const std::string& name, float part) override {
     requested.set_value(name + " " + std::to_string(part));
   }
-  void nothing() override { raise({}); }
+  void nothing() override { raise(everything::Everything{}); }
 
+  std::optional<geometry::Frame> answered_frame;  ///< instead of the one that is asked about
   std::promise<std::string> requested;
 };
 
@@ -132,6 +146,23 @@ TEST_F(Calls, StructsAndArraysComeBack) {
   EXPECT_EQ(echo_.echo_inners({{true, 3.0}}, kPatient).value().at(0).value, 3.0);
   EXPECT_EQ(echo_.echo_two_flags({true, false}, kPatient).value(),
             (std::array<bool, 2>{true, false}));
+}
+
+TEST_F(Calls, EnumerationsComeBack) {
+  using everything::Mode;
+  EXPECT_EQ(echo_.echo_mode(Mode::kHoldPosition, kPatient).value(), Mode::kHoldPosition);
+  EXPECT_EQ(echo_.echo_frame(geometry::Frame::kFloor, kPatient).value(), geometry::Frame::kFloor);
+  const std::vector<Mode> modes{Mode::kPosition, Mode::kIdle};
+  EXPECT_EQ(echo_.echo_modes(modes, kPatient).value(), modes);
+  everything::Choices choices;
+  choices.mode = Mode::kPosition;
+  choices.l = everything::Long::kAfterLeast;
+  choices.modes = modes;
+  choices.two = {everything::Int::kClass, everything::Int::kLeast};
+  choices.frame = geometry::Frame::kFloor;
+  EXPECT_EQ(text_of(echo_.echo_choices(choices, kPatient).value()),
+            "{mode: position, c: zero, s: zero, us: zero, i: zero, ui: zero, l: after_least, "
+            "modes: [position, idle], two: [class, least], frame: floor}");
 }
 
 TEST_F(Calls, FlagsAreZeroOrOne) {
@@ -223,6 +254,39 @@ TEST_F(Calls, AnEventReachesItsSubscriber) {
   auto event = raised.get_future();
   ASSERT_EQ(event.wait_for(20s), std::future_status::ready);
   EXPECT_EQ(text_of(event.get()), text_of(everything::Everything{}));
+}
+
+constexpr auto kNoMode = static_cast<everything::Mode>(3);
+
+TEST_F(Calls, AServiceRefusesANumberThatNoEnumeratorHas) {
+  Unchecked echo(peer());
+  const std::string why = "Mode is 3, expected idle, position or hold_position";
+  EXPECT_THAT(echo.refusal(canonical_of(" echo_mode("), kNoMode), HasSubstr(why));
+  EXPECT_THAT(echo.refusal(canonical_of(" echo_modes("), std::vector{kNoMode}), HasSubstr(why));
+  everything::Choices choices;
+  choices.mode = kNoMode;
+  EXPECT_THAT(echo.refusal(canonical_of(" echo_choices("), choices), HasSubstr(why));
+}
+
+TEST_F(Calls, AnAnswerThatNoEnumeratorHasIsMalformed) {
+  service_.answered_frame = static_cast<geometry::Frame>(2);
+  const auto answer = echo_.echo_frame(geometry::Frame::kDock, kPatient);
+  EXPECT_EQ(answer.code(), ride::Code::kMalformed);
+}
+
+TEST_F(Calls, CommandsAndEventsWithANumberThatNoEnumeratorHasAreDropped) {
+  std::vector<everything::Mode> told;
+  std::promise<void> ended;
+  const auto subscription = echo_.on_ModeChanged([&](const everything::ModeChanged& event) {
+    told.push_back(event.mode);
+    if (event.mode == everything::Mode::kPosition) ended.set_value();
+  });
+  EXPECT_TRUE(echo_.echo_bool(true, kPatient).ok());  // behind the subscription
+  EXPECT_EQ(echo_.change_mode(kNoMode), ride::Sent::kYes);
+  service_.raise(everything::ModeChanged{everything::Mode::kIdle, {kNoMode}});
+  EXPECT_EQ(echo_.change_mode(everything::Mode::kPosition), ride::Sent::kYes);
+  ASSERT_EQ(ended.get_future().wait_for(20s), std::future_status::ready);
+  EXPECT_THAT(told, ::testing::ElementsAre(everything::Mode::kPosition));
 }
 
 class Wheels final : public chassis::ChassisService {

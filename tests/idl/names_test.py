@@ -4,8 +4,8 @@
 
 usage: names_test.py RCIDL SOURCE_DIR COMPILER...
 
-Each name that C++, its headers or generated code has already is a struct, an event, a member, an
-interface, an operation, a parameter and a file, one file for each role, so that none helps another.
+Each name that C++, its headers or generated code has already is a struct, an enum, an enumerator, an
+event, a member, an interface, an operation, a parameter and a file, one file for each role, so that none helps another.
 Each is compiled behind the headers of C, C++ and POSIX. The lists in idl/words are
 compared with what those headers define here.
 """
@@ -21,7 +21,7 @@ POSIX = [f"#include <{name}.h>" for name in """arpa/inet dirent dlfcn fcntl grp 
     sys/param sys/resource sys/select sys/socket sys/stat sys/statvfs sys/sysmacros sys/time sys/times
     sys/types sys/uio sys/un sys/utsname sys/wait syslog termios unistd endian byteswap""".split()]
 RUNTIME = [f'#include "armature/{name}.hpp"' for name in
-           ("ride/flags", "ride/node", "ride/placeholder", "ride/range", "ride/service", "types/struct")]
+           ("ride/flags", "ride/node", "ride/placeholder", "ride/range", "ride/service", "types/enum", "types/struct")]
 
 # What generated code and the classes behind it call their own, beside what is found in their headers.
 GENERATED = """Declaration Executed Failed Flags Interface Number Peer
@@ -76,6 +76,11 @@ def roles(names):
         structs = "".join(f"struct {n} {{ [range(0, 1)] int x; }};" for n in some)
         uses = "".join(f"struct {n} f{j}(struct {n} p, Array<struct {n}> q);" for j, n in enumerate(some))
         files[f"structs{i}"] = f"{structs} interface Uses {{ {uses} }};"
+        enums = "".join(f"enum {n} {{ off, on }};" for n in some)
+        uses = "".join(f"enum {n} f{j}(enum {n} p, Array<enum {n}> q);" for j, n in enumerate(some))
+        files[f"enums{i}"] = f"{enums} interface Uses {{ {uses} }};"
+        enumerators = "".join(f", {n}" for n in some if re.fullmatch("[a-z][a-z0-9]*(_[a-z0-9]+)*", n))
+        files[f"enumerators{i}"] = f"enum E {{ zero{enumerators} }}; interface Uses {{ enum E f(enum E e); }};"
         events = "".join(f"event {n} {{ int x; }};" for n in some)
         files[f"events{i}"] = events + "interface Raises {" + "".join(f"event {n};" for n in some) + "};"
         members = "".join(f"[range(0, 1)] int {n};" for n in some)

@@ -2,7 +2,9 @@
 // What generated structs are on the wire: golden bytes, and every type there and back.
 #include <limits>
 #include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "armature/types/type.hpp"
@@ -12,6 +14,7 @@
 #include "directory_service.hpp"
 #include "everything_client.hpp"
 #include "everything_service.hpp"
+#include "odd_names_types.hpp"
 #include "tests/idl/bytes.hpp"
 #include "vision_client.hpp"
 #include "vision_service.hpp"
@@ -67,6 +70,19 @@ everything::Fixed fixed() {
           {{{true, 1.0}, {false, 2.0}}}};
 }
 
+everything::Choices choices() {
+  return {everything::Mode::kHoldPosition,
+          everything::Small::kLeast,
+          everything::Short::kLeast,
+          everything::UnsignedShort::kMode_2,
+          everything::Int::kLeast,
+          everything::UnsignedInt::kGreatest,
+          everything::Long::kAfterLeast,
+          {everything::Mode::kPosition, everything::Mode::kIdle},
+          {everything::Int::kZero, everything::Int::kClass},
+          geometry::Frame::kFloor};
+}
+
 template <typename T>
 std::string text_of(const T& value) {
   return types::to_text(types::type_of<T>(), &value);
@@ -86,6 +102,47 @@ TEST(GeneratedTypes, EmptyListsGoThereAndBack) { expect_there_and_back(everythin
 TEST(GeneratedTypes, FixedArraysGoThereAndBack) { expect_there_and_back(fixed()); }
 TEST(GeneratedTypes, AnEventOfAllOfThemGoesThereAndBack) {
   expect_there_and_back(everything::Everything{singles(), lists(), fixed()});
+}
+
+TEST(GeneratedTypes, EnumerationsGoThereAndBack) { expect_there_and_back(choices()); }
+
+TEST(GeneratedTypes, AnEnumerationHasTheBytesOfItsInteger) {
+  EXPECT_EQ(encoded(choices()),
+            "05 80 00 80 "              // byte, char, short
+            "ff ff 00 00 "              // unsigned short, padding
+            "00 00 00 80 "              // int
+            "ff ff ff ff "              // unsigned int
+            "01 00 00 00 00 00 00 80 "  // long
+            "02 00 00 00 04 00 00 00 "  // two bytes, padding
+            "00 00 00 00 07 00 00 00 "  // two of int
+            "01");
+}
+
+TEST(GeneratedTypes, AnEnumerationTakesOnlyItsEnumerators) {
+  everything::Mode mode = everything::Mode::kPosition;
+  for (int number = 0; number < 256; ++number) {
+    const bool known = number == 0 || number == 4 || number == 5;
+    EXPECT_EQ(transfer(static_cast<std::uint8_t>(number), mode), known) << number;
+  }
+  EXPECT_EQ(mode, everything::Mode::kHoldPosition);
+  std::vector<everything::Mode> modes;
+  EXPECT_TRUE(transfer(std::vector<std::uint8_t>{4, 0}, modes));
+  EXPECT_FALSE(transfer(std::vector<std::uint8_t>{4, 1}, modes));
+}
+
+TEST(GeneratedTypes, EnumeratorsHaveTheirNamesInTexts) {
+  const auto names = [](const types::Type& type) {
+    std::vector<std::string> all;
+    for (const types::Enumerator& each : type.enumerators) all.push_back(each.name);
+    return all;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(names(types::type_of<everything::Mode>()),
+              ElementsAre("idle", "position", "hold_position"));
+  EXPECT_THAT(names(types::type_of<odd_names::value_>()),
+              ElementsAre("k", "kk", "a_b", "ab", "a_1", "a1", "k_k"));
+  EXPECT_THAT(names(types::type_of<odd_names::enum_>()),
+              ElementsAre("encode", "enum", "default", "event", "import", "interface"));
 }
 
 TEST(GeneratedTypes, ACommandHasTheGoldenBytesOfTheProtocol) {

@@ -2,9 +2,11 @@
 // What rcidl generates, and what that calls of ride.
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "armature/ride/range.hpp"
+#include "armature/types/enum.hpp"
 #include "everything_types.hpp"
 #include "geometry_types.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -44,6 +46,41 @@ TEST(RealtimeGenerated, StructsOfFixedSize) {
   EXPECT_TRUE(all);
   EXPECT_EQ(taken.heading, 0.5);
   EXPECT_EQ(position.x, 320);
+}
+
+TEST(RealtimeGenerated, Enumerations) {
+  Body body;
+  body.reserve(64);
+  everything::Mode taken = everything::Mode::kIdle;
+  types::type_of<everything::Mode>();  // described once
+  bool ok = false;
+  expect_realtime("generated encode and decode of an enum", [&] {
+    body.clear();
+    Encoder to(body);
+    to.put(everything::Mode::kHoldPosition);
+    Decoder from(body.bytes());
+    ok = from.take(taken) && from.ended();
+  });
+  EXPECT_TRUE(ok);
+  EXPECT_EQ(taken, everything::Mode::kHoldPosition);
+}
+
+TEST(RealtimeGenerated, NamesOfEnumerators) {
+  const types::Type& type = types::type_of<everything::Mode>();
+  const types::Enumerator* const hold = types::find_enumerator(type, "hold_position");
+  ASSERT_NE(hold, nullptr);
+  everything::Mode value = everything::Mode::kIdle;
+  std::string_view name;
+  expect_realtime("types::set_enumerator", [&] { types::set_enumerator(type, *hold, &value); });
+  EXPECT_EQ(value, everything::Mode::kHoldPosition);
+  expect_realtime("types::enumerator_name", [&] { name = types::enumerator_name(type, &value); });
+  EXPECT_EQ(name, "hold_position");
+  expect_realtime("types::name_of", [&] { name = types::name_of(everything::Mode::kPosition); });
+  EXPECT_EQ(name, "position");
+  const auto unknown = static_cast<everything::Mode>(3);
+  bool is_known = true;
+  expect_realtime("types::is_enumerator", [&] { is_known = types::is_enumerator(type, &unknown); });
+  EXPECT_FALSE(is_known);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 namespace chassis {
 
-armature::ride::Sent ChassisPlaceholder::setVelocity(float left, float right,
-                                                     armature::ride::Priority priority) {
+armature::ride::Sent ChassisPlaceholder::setVelocity(
+    float left,
+    float right,
+    armature::ride::Priority priority) {
   if (!armature::ride::within(left, -1.5f, 1.5f)) {
     return armature::ride::Sent::kMalformed;
   }
@@ -15,7 +17,9 @@ armature::ride::Sent ChassisPlaceholder::setVelocity(float left, float right,
 }
 
 armature::ride::Answer<std::int32_t> ChassisPlaceholder::follow(
-    const Route& route, double speed, armature::ride::CallOptions options) {
+    const Route& route,
+    double speed,
+    armature::ride::CallOptions options) {
   if (!in_range(route)) {
     return refuse<std::int32_t>("follow", "parameter route has a member outside its range");
   }
@@ -31,10 +35,12 @@ armature::ride::Answer<geometry::Pose> ChassisPlaceholder::where(
 }
 
 armature::ride::Answer<geometry::Pose> ChassisPlaceholder::whereItStands(
-    double limit, armature::ride::CallOptions options) {
+    double limit,
+    armature::ride::CallOptions options) {
   if (!armature::ride::within(limit, 0.0, 60.0)) {
-    return refuse<geometry::Pose>("whereItStands",
-                                  armature::ride::outside("limit", limit, "0 to 60"));
+    return refuse<geometry::Pose>(
+        "whereItStands",
+        armature::ride::outside("limit", limit, "0 to 60"));
   }
   return request<geometry::Pose>(0x809a053f, "whereItStands", options, limit);
 }
@@ -45,8 +51,10 @@ armature::ride::Answer<armature::ride::Flags> ChassisPlaceholder::touched(
 }
 
 armature::ride::Answer<std::int32_t> ChassisService_Placeholder::setGains(
-    const std::array<double, 3>& left, const std::array<double, 3>& right,
-    const std::vector<std::string>& names, armature::ride::CallOptions options) {
+    const std::array<double, 3>& left,
+    const std::array<double, 3>& right,
+    const std::vector<std::string>& names,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x50e84f4d, "setGains", options, left, right, names);
 }
 

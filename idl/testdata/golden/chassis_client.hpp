@@ -26,15 +26,18 @@ class ChassisPlaceholder : public armature::ride::Placeholder {
   /// Follows a route from its begin to its end, and raises Arrived at each of its points.
   /// A route that is being followed is given up.
   /// @param speed  0 to 1
-  armature::ride::Answer<std::int32_t> follow(const Route& route, double speed,
-                                              armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> follow(
+      const Route& route,
+      double speed,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<geometry::Pose> where(armature::ride::CallOptions options = {});
 
   /// Where it came to stand, once it stands.
   /// @param limit  [s], 0 to 60
-  armature::ride::Answer<geometry::Pose> whereItStands(double limit,
-                                                       armature::ride::CallOptions options = {});
+  armature::ride::Answer<geometry::Pose> whereItStands(
+      double limit,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<armature::ride::Flags> touched(armature::ride::CallOptions options = {});
 
@@ -54,10 +57,11 @@ class ChassisService_Placeholder : public armature::ride::Placeholder {
   ChassisService_Placeholder(armature::ride::Peer& peer, std::string name)
       : Placeholder(peer, std::move(name), kChassisService_) {}
 
-  armature::ride::Answer<std::int32_t> setGains(const std::array<double, 3>& left,
-                                                const std::array<double, 3>& right,
-                                                const std::vector<std::string>& names,
-                                                armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> setGains(
+      const std::array<double, 3>& left,
+      const std::array<double, 3>& right,
+      const std::vector<std::string>& names,
+      armature::ride::CallOptions options = {});
 
   /// Calls `handler` for each Bumped until the Subscription is destroyed.
   armature::ride::Subscription on_Bumped(std::function<void(const Bumped&)> handler) {

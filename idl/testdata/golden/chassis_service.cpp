@@ -5,9 +5,10 @@ namespace chassis {
 
 ChassisService::ChassisService() : Service(kChassis) {}
 
-armature::ride::Executed ChassisService::execute(armature::ride::Number operation,
-                                                 armature::ride::Decoder& parameters,
-                                                 armature::ride::Reply& reply) {
+armature::ride::Executed ChassisService::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0x66e299df: {  // setVelocity
       float left = 0.0f;
@@ -71,15 +72,18 @@ armature::ride::Executed ChassisService::execute(armature::ride::Number operatio
 
 ChassisService_Service::ChassisService_Service() : Service(kChassisService_) {}
 
-armature::ride::Executed ChassisService_Service::execute(armature::ride::Number operation,
-                                                         armature::ride::Decoder& parameters,
-                                                         armature::ride::Reply& reply) {
+armature::ride::Executed ChassisService_Service::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0x50e84f4d: {  // setGains
       std::array<double, 3> left = {};
       std::array<double, 3> right = {};
       std::vector<std::string> names;
-      if (!parameters.take(left) || !parameters.take(right) || !parameters.take(names) ||
+      if (!parameters.take(left) ||
+          !parameters.take(right) ||
+          !parameters.take(names) ||
           !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }

@@ -32,12 +32,15 @@ class ChassisService : public armature::ride::Service {
 
  protected:
   /// Tells all subscribers.  @thread any
-  void raise(const Arrived& event) { publish(event); }
+  void raise(const Arrived& event) {
+    publish(event);
+  }
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 /// The frame of a component with the interface ChassisService_: derive, fill in the operations,
@@ -48,18 +51,22 @@ class ChassisService_Service : public armature::ride::Service {
  public:
   ChassisService_Service();
 
-  virtual std::int32_t setGains(const std::array<double, 3>& left,
-                                const std::array<double, 3>& right,
-                                const std::vector<std::string>& names) = 0;
+  virtual std::int32_t setGains(
+      const std::array<double, 3>& left,
+      const std::array<double, 3>& right,
+      const std::vector<std::string>& names) = 0;
 
  protected:
   /// Tells all subscribers.  @thread any
-  void raise(const Bumped& event) { publish(event); }
+  void raise(const Bumped& event) {
+    publish(event);
+  }
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 }  // namespace chassis

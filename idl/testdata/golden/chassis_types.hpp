@@ -26,7 +26,9 @@ inline void encode(armature::ride::Encoder& to, const Route& value) {
 inline bool decode(armature::ride::Decoder& from, Route& value) {
   return from.take(value.name) && from.take(value.points);
 }
-inline bool in_range(const Route& value) { return armature::ride::all_in_range(value.points); }
+inline bool in_range(const Route& value) {
+  return armature::ride::all_in_range(value.points);
+}
 
 struct Arrived {
   geometry::Pose pose;
@@ -40,38 +42,47 @@ inline void encode(armature::ride::Encoder& to, const Arrived& value) {
 inline bool decode(armature::ride::Decoder& from, Arrived& value) {
   return from.take(value.pose) && from.take(value.at);
 }
-inline bool in_range(const Arrived& value) { return in_range(value.pose); }
-constexpr armature::ride::Number event_number(const Arrived*) { return 0x4802f2d7; }
+inline bool in_range(const Arrived& value) {
+  return in_range(value.pose);
+}
+constexpr armature::ride::Number event_number(const Arrived*) {
+  return 0x4802f2d7;
+}
 
 struct Bumped {
   std::array<bool, 4> contacts = {};
 };
 ARMATURE_STRUCT(Bumped, contacts);
-inline void encode(armature::ride::Encoder& to, const Bumped& value) { to.put(value.contacts); }
+inline void encode(armature::ride::Encoder& to, const Bumped& value) {
+  to.put(value.contacts);
+}
 inline bool decode(armature::ride::Decoder& from, Bumped& value) {
   return from.take(value.contacts);
 }
-constexpr armature::ride::Number event_number(const Bumped*) { return 0xc274a65b; }
+constexpr armature::ride::Number event_number(const Bumped*) {
+  return 0xc274a65b;
+}
 
 /// What interface Chassis has; both sides compare its digest, 0xdda0ac72.
 inline constexpr armature::ride::Declaration kChassisDeclarations[] = {
     {"void setVelocity(float,float)", armature::ride::Access::kCommand},
-    {"int follow(struct Route{String,Array<struct Pose{double,double,double}>},double)",
-     armature::ride::Access::kCommand},
+    {
+        "int follow(struct Route{String,Array<struct Pose{double,double,double}>},double)",
+        armature::ride::Access::kCommand},
     {"struct Pose{double,double,double} where()", armature::ride::Access::kRead},
     {"struct Pose{double,double,double} whereItStands(double)", armature::ride::Access::kRead},
     {"Array<bool> touched()", armature::ride::Access::kCommand},
-    {"event Arrived{struct Pose{double,double,double},long}", armature::ride::Access::kRead},
-};
+    {"event Arrived{struct Pose{double,double,double},long}", armature::ride::Access::kRead}};
 inline constexpr armature::ride::Interface kChassis{"Chassis", kChassisDeclarations};
 
 /// What interface ChassisService_ has; both sides compare its digest, 0x5ca7b1e2.
 inline constexpr armature::ride::Declaration kChassisService_Declarations[] = {
-    {"int setGains(Array<double,3>,Array<double,3>,Array<String>)",
-     armature::ride::Access::kConfigure},
-    {"event Bumped{Array<bool,4>}", armature::ride::Access::kRead},
-};
-inline constexpr armature::ride::Interface kChassisService_{"ChassisService_",
-                                                            kChassisService_Declarations};
+    {
+        "int setGains(Array<double,3>,Array<double,3>,Array<String>)",
+        armature::ride::Access::kConfigure},
+    {"event Bumped{Array<bool,4>}", armature::ride::Access::kRead}};
+inline constexpr armature::ride::Interface kChassisService_{
+    "ChassisService_",
+    kChassisService_Declarations};
 
 }  // namespace chassis

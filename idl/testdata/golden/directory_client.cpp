@@ -4,7 +4,8 @@
 namespace directory {
 
 armature::ride::Answer<ComponentEntry> DirectoryPlaceholder::find(
-    const std::string& name, armature::ride::CallOptions options) {
+    const std::string& name,
+    armature::ride::CallOptions options) {
   return request<ComponentEntry>(0x12e3685b, "find", options, name);
 }
 
@@ -14,13 +15,16 @@ armature::ride::Answer<std::vector<ComponentEntry>> DirectoryPlaceholder::list(
 }
 
 armature::ride::Answer<std::int32_t> DirectoryPlaceholder::subscribe_(
-    std::int32_t component, std::uint32_t event, std::int32_t subscription,
+    std::int32_t component,
+    std::uint32_t event,
+    std::int32_t subscription,
     armature::ride::CallOptions options) {
   return request<std::int32_t>(0x5e363bed, "subscribe", options, component, event, subscription);
 }
 
 armature::ride::Answer<std::int32_t> DirectoryPlaceholder::unsubscribe(
-    std::int32_t subscription, armature::ride::CallOptions options) {
+    std::int32_t subscription,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x61b16eb5, "unsubscribe", options, subscription);
 }
 

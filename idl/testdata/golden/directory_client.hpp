@@ -17,18 +17,22 @@ class DirectoryPlaceholder : public armature::ride::Placeholder {
   DirectoryPlaceholder(armature::ride::Peer& peer, std::string name)
       : Placeholder(peer, std::move(name), kDirectory) {}
 
-  armature::ride::Answer<ComponentEntry> find(const std::string& name,
-                                              armature::ride::CallOptions options = {});
+  armature::ride::Answer<ComponentEntry> find(
+      const std::string& name,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::vector<ComponentEntry>> list(
       armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> subscribe_(std::int32_t component, std::uint32_t event,
-                                                  std::int32_t subscription,
-                                                  armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> subscribe_(
+      std::int32_t component,
+      std::uint32_t event,
+      std::int32_t subscription,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> unsubscribe(std::int32_t subscription,
-                                                   armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> unsubscribe(
+      std::int32_t subscription,
+      armature::ride::CallOptions options = {});
 };
 
 }  // namespace directory

@@ -5,9 +5,10 @@ namespace directory {
 
 DirectoryService::DirectoryService() : Service(kDirectory) {}
 
-armature::ride::Executed DirectoryService::execute(armature::ride::Number operation,
-                                                   armature::ride::Decoder& parameters,
-                                                   armature::ride::Reply& reply) {
+armature::ride::Executed DirectoryService::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0x12e3685b: {  // find
       std::string name;
@@ -28,8 +29,10 @@ armature::ride::Executed DirectoryService::execute(armature::ride::Number operat
       std::int32_t component = 0;
       std::uint32_t event = 0;
       std::int32_t subscription = 0;
-      if (!parameters.take(component) || !parameters.take(event) ||
-          !parameters.take(subscription) || !parameters.ended()) {
+      if (!parameters.take(component) ||
+          !parameters.take(event) ||
+          !parameters.take(subscription) ||
+          !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(subscribe_(component, event, subscription));

@@ -16,15 +16,18 @@ class DirectoryService : public armature::ride::Service {
 
   virtual std::vector<ComponentEntry> list() = 0;
 
-  virtual std::int32_t subscribe_(std::int32_t component, std::uint32_t event,
-                                  std::int32_t subscription) = 0;
+  virtual std::int32_t subscribe_(
+      std::int32_t component,
+      std::uint32_t event,
+      std::int32_t subscription) = 0;
 
   virtual std::int32_t unsubscribe(std::int32_t subscription) = 0;
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 }  // namespace directory

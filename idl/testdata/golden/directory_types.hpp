@@ -26,19 +26,22 @@ inline void encode(armature::ride::Encoder& to, const ComponentEntry& value) {
   to.put(value.digest);
 }
 inline bool decode(armature::ride::Decoder& from, ComponentEntry& value) {
-  return from.take(value.identifier) && from.take(value.name) && from.take(value.interface) &&
-         from.take(value.digest);
+  return from.take(value.identifier) &&
+      from.take(value.name) &&
+      from.take(value.interface) &&
+      from.take(value.digest);
 }
 
 /// What interface Directory has; both sides compare its digest, 0x9e5754b9.
 inline constexpr armature::ride::Declaration kDirectoryDeclarations[] = {
-    {"struct ComponentEntry{int,String,String,unsigned int} find(String)",
-     armature::ride::Access::kCommand},
-    {"Array<struct ComponentEntry{int,String,String,unsigned int}> list()",
-     armature::ride::Access::kCommand},
+    {
+        "struct ComponentEntry{int,String,String,unsigned int} find(String)",
+        armature::ride::Access::kCommand},
+    {
+        "Array<struct ComponentEntry{int,String,String,unsigned int}> list()",
+        armature::ride::Access::kCommand},
     {"int subscribe(int,unsigned int,int)", armature::ride::Access::kCommand},
-    {"int unsubscribe(int)", armature::ride::Access::kCommand},
-};
+    {"int unsubscribe(int)", armature::ride::Access::kCommand}};
 inline constexpr armature::ride::Interface kDirectory{"Directory", kDirectoryDeclarations};
 
 }  // namespace directory

@@ -3,83 +3,99 @@
 
 namespace everything {
 
-armature::ride::Answer<bool> EchoPlaceholder::echo_bool(bool value,
-                                                        armature::ride::CallOptions options) {
+armature::ride::Answer<bool> EchoPlaceholder::echo_bool(
+    bool value,
+    armature::ride::CallOptions options) {
   return request<bool>(0x05f13d14, "echo_bool", options, value);
 }
 
 armature::ride::Answer<std::int8_t> EchoPlaceholder::echo_char(
-    std::int8_t value, armature::ride::CallOptions options) {
+    std::int8_t value,
+    armature::ride::CallOptions options) {
   return request<std::int8_t>(0xf0613c18, "echo_char", options, value);
 }
 
 armature::ride::Answer<std::uint8_t> EchoPlaceholder::echo_byte(
-    std::uint8_t value, armature::ride::CallOptions options) {
+    std::uint8_t value,
+    armature::ride::CallOptions options) {
   return request<std::uint8_t>(0xf6cc2816, "echo_byte", options, value);
 }
 
 armature::ride::Answer<std::int16_t> EchoPlaceholder::echo_short(
-    std::int16_t value, armature::ride::CallOptions options) {
+    std::int16_t value,
+    armature::ride::CallOptions options) {
   return request<std::int16_t>(0x8a8732a8, "echo_short", options, value);
 }
 
 armature::ride::Answer<std::uint16_t> EchoPlaceholder::echo_unsigned_short(
-    std::uint16_t value, armature::ride::CallOptions options) {
+    std::uint16_t value,
+    armature::ride::CallOptions options) {
   return request<std::uint16_t>(0x3073f5bc, "echo_unsigned_short", options, value);
 }
 
 armature::ride::Answer<std::int32_t> EchoPlaceholder::echo_int(
-    std::int32_t value, armature::ride::CallOptions options) {
+    std::int32_t value,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x0111ba03, "echo_int", options, value);
 }
 
 armature::ride::Answer<std::uint32_t> EchoPlaceholder::echo_unsigned_int(
-    std::uint32_t value, armature::ride::CallOptions options) {
+    std::uint32_t value,
+    armature::ride::CallOptions options) {
   return request<std::uint32_t>(0xe04e2251, "echo_unsigned_int", options, value);
 }
 
 armature::ride::Answer<std::int64_t> EchoPlaceholder::echo_long(
-    std::int64_t value, armature::ride::CallOptions options) {
+    std::int64_t value,
+    armature::ride::CallOptions options) {
   return request<std::int64_t>(0x1927bca2, "echo_long", options, value);
 }
 
 armature::ride::Answer<std::uint64_t> EchoPlaceholder::echo_unsigned_long(
-    std::uint64_t value, armature::ride::CallOptions options) {
+    std::uint64_t value,
+    armature::ride::CallOptions options) {
   return request<std::uint64_t>(0xecc6335e, "echo_unsigned_long", options, value);
 }
 
-armature::ride::Answer<float> EchoPlaceholder::echo_float(float value,
-                                                          armature::ride::CallOptions options) {
+armature::ride::Answer<float> EchoPlaceholder::echo_float(
+    float value,
+    armature::ride::CallOptions options) {
   return request<float>(0x0f36c344, "echo_float", options, value);
 }
 
-armature::ride::Answer<double> EchoPlaceholder::echo_double(double value,
-                                                            armature::ride::CallOptions options) {
+armature::ride::Answer<double> EchoPlaceholder::echo_double(
+    double value,
+    armature::ride::CallOptions options) {
   return request<double>(0x610b30e3, "echo_double", options, value);
 }
 
 armature::ride::Answer<std::string> EchoPlaceholder::echo_string(
-    const std::string& value, armature::ride::CallOptions options) {
+    const std::string& value,
+    armature::ride::CallOptions options) {
   return request<std::string>(0xb95f9c77, "echo_string", options, value);
 }
 
-armature::ride::Answer<Singles> EchoPlaceholder::echo_singles(const Singles& value,
-                                                              armature::ride::CallOptions options) {
+armature::ride::Answer<Singles> EchoPlaceholder::echo_singles(
+    const Singles& value,
+    armature::ride::CallOptions options) {
   return request<Singles>(0x18fd3283, "echo_singles", options, value);
 }
 
-armature::ride::Answer<Lists> EchoPlaceholder::echo_lists(const Lists& value,
-                                                          armature::ride::CallOptions options) {
+armature::ride::Answer<Lists> EchoPlaceholder::echo_lists(
+    const Lists& value,
+    armature::ride::CallOptions options) {
   return request<Lists>(0x219a97df, "echo_lists", options, value);
 }
 
-armature::ride::Answer<Fixed> EchoPlaceholder::echo_fixed(const Fixed& value,
-                                                          armature::ride::CallOptions options) {
+armature::ride::Answer<Fixed> EchoPlaceholder::echo_fixed(
+    const Fixed& value,
+    armature::ride::CallOptions options) {
   return request<Fixed>(0x23470084, "echo_fixed", options, value);
 }
 
-armature::ride::Answer<Ranges> EchoPlaceholder::echo_ranges(const Ranges& value,
-                                                            armature::ride::CallOptions options) {
+armature::ride::Answer<Ranges> EchoPlaceholder::echo_ranges(
+    const Ranges& value,
+    armature::ride::CallOptions options) {
   if (!in_range(value)) {
     return refuse<Ranges>("echo_ranges", "parameter value has a member outside its range");
   }
@@ -87,48 +103,104 @@ armature::ride::Answer<Ranges> EchoPlaceholder::echo_ranges(const Ranges& value,
 }
 
 armature::ride::Answer<armature::ride::Flags> EchoPlaceholder::echo_flags(
-    const armature::ride::Flags& value, armature::ride::CallOptions options) {
+    const armature::ride::Flags& value,
+    armature::ride::CallOptions options) {
   return request<armature::ride::Flags>(0xdcc586cd, "echo_flags", options, value);
 }
 
 armature::ride::Answer<std::array<bool, 2>> EchoPlaceholder::echo_two_flags(
-    const std::array<bool, 2>& value, armature::ride::CallOptions options) {
+    const std::array<bool, 2>& value,
+    armature::ride::CallOptions options) {
   return request<std::array<bool, 2>>(0x3db91c32, "echo_two_flags", options, value);
 }
 
 armature::ride::Answer<std::vector<std::string>> EchoPlaceholder::echo_strings(
-    const std::vector<std::string>& value, armature::ride::CallOptions options) {
+    const std::vector<std::string>& value,
+    armature::ride::CallOptions options) {
   return request<std::vector<std::string>>(0x97d4d168, "echo_strings", options, value);
 }
 
 armature::ride::Answer<std::vector<Inner>> EchoPlaceholder::echo_inners(
-    const std::vector<Inner>& value, armature::ride::CallOptions options) {
+    const std::vector<Inner>& value,
+    armature::ride::CallOptions options) {
   return request<std::vector<Inner>>(0x2a062a9f, "echo_inners", options, value);
 }
 
 armature::ride::Answer<std::vector<Ranges>> EchoPlaceholder::echo_ranged(
-    const std::vector<Ranges>& value, const std::vector<std::uint8_t>& small,
+    const std::vector<Ranges>& value,
+    const std::vector<std::uint8_t>& small,
     armature::ride::CallOptions options) {
   if (!armature::ride::all_in_range(value)) {
-    return refuse<std::vector<Ranges>>("echo_ranged",
-                                       "parameter value has a member outside its range");
+    return refuse<std::vector<Ranges>>(
+        "echo_ranged",
+        "parameter value has a member outside its range");
   }
   if (!armature::ride::within(small, 0, 3)) {
-    return refuse<std::vector<Ranges>>("echo_ranged",
-                                       armature::ride::outside("small", small, "0 to 3"));
+    return refuse<std::vector<Ranges>>(
+        "echo_ranged",
+        armature::ride::outside("small", small, "0 to 3"));
   }
   return request<std::vector<Ranges>>(0xb0018182, "echo_ranged", options, value, small);
 }
 
-armature::ride::Answer<std::int32_t> EchoPlaceholder::delete_(
-    std::int32_t priority_, std::int32_t options_, std::int32_t operation_, std::int32_t d,
-    std::int32_t delete_, std::int32_t a, armature::ride::CallOptions options) {
-  return request<std::int32_t>(0x023e0dfc, "delete", options, priority_, options_, operation_, d,
-                               delete_, a);
+armature::ride::Answer<Mode> EchoPlaceholder::echo_mode(
+    Mode value,
+    armature::ride::CallOptions options) {
+  return request<Mode>(0x5f2c3fb5, "echo_mode", options, value);
 }
 
-armature::ride::Sent EchoPlaceholder::request_(const std::string& name, float part,
-                                               armature::ride::Priority priority) {
+armature::ride::Answer<geometry::Frame> EchoPlaceholder::echo_frame(
+    geometry::Frame frame,
+    armature::ride::CallOptions options) {
+  return request<geometry::Frame>(0xf685a499, "echo_frame", options, frame);
+}
+
+armature::ride::Answer<Choices> EchoPlaceholder::echo_choices(
+    const Choices& value,
+    armature::ride::CallOptions options) {
+  return request<Choices>(0x16f7c40e, "echo_choices", options, value);
+}
+
+armature::ride::Answer<std::vector<Mode>> EchoPlaceholder::echo_modes(
+    const std::vector<Mode>& value,
+    armature::ride::CallOptions options) {
+  return request<std::vector<Mode>>(0x6a3f0662, "echo_modes", options, value);
+}
+
+armature::ride::Answer<std::array<Small, 2>> EchoPlaceholder::echo_two(
+    const std::array<Small, 2>& value,
+    armature::ride::CallOptions options) {
+  return request<std::array<Small, 2>>(0x9c620f30, "echo_two", options, value);
+}
+
+armature::ride::Sent EchoPlaceholder::change_mode(Mode mode, armature::ride::Priority priority) {
+  return command(0x58635d0e, priority, mode);
+}
+
+armature::ride::Answer<std::int32_t> EchoPlaceholder::delete_(
+    std::int32_t priority_,
+    std::int32_t options_,
+    std::int32_t operation_,
+    std::int32_t d,
+    std::int32_t delete_,
+    std::int32_t a,
+    armature::ride::CallOptions options) {
+  return request<std::int32_t>(
+      0x023e0dfc,
+      "delete",
+      options,
+      priority_,
+      options_,
+      operation_,
+      d,
+      delete_,
+      a);
+}
+
+armature::ride::Sent EchoPlaceholder::request_(
+    const std::string& name,
+    float part,
+    armature::ride::Priority priority) {
   if (!armature::ride::within(part, 0.25f, 0.75f)) {
     return armature::ride::Sent::kMalformed;
   }

@@ -21,81 +21,131 @@ class EchoPlaceholder : public armature::ride::Placeholder {
 
   armature::ride::Answer<bool> echo_bool(bool value, armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int8_t> echo_char(std::int8_t value,
-                                                armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int8_t> echo_char(
+      std::int8_t value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::uint8_t> echo_byte(std::uint8_t value,
-                                                 armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::uint8_t> echo_byte(
+      std::uint8_t value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int16_t> echo_short(std::int16_t value,
-                                                  armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int16_t> echo_short(
+      std::int16_t value,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::uint16_t> echo_unsigned_short(
-      std::uint16_t value, armature::ride::CallOptions options = {});
+      std::uint16_t value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> echo_int(std::int32_t value,
-                                                armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> echo_int(
+      std::int32_t value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::uint32_t> echo_unsigned_int(std::uint32_t value,
-                                                          armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::uint32_t> echo_unsigned_int(
+      std::uint32_t value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int64_t> echo_long(std::int64_t value,
-                                                 armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int64_t> echo_long(
+      std::int64_t value,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::uint64_t> echo_unsigned_long(
-      std::uint64_t value, armature::ride::CallOptions options = {});
+      std::uint64_t value,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<float> echo_float(float value, armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<double> echo_double(double value,
-                                             armature::ride::CallOptions options = {});
+  armature::ride::Answer<double> echo_double(
+      double value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::string> echo_string(const std::string& value,
-                                                  armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::string> echo_string(
+      const std::string& value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<Singles> echo_singles(const Singles& value,
-                                               armature::ride::CallOptions options = {});
+  armature::ride::Answer<Singles> echo_singles(
+      const Singles& value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<Lists> echo_lists(const Lists& value,
-                                           armature::ride::CallOptions options = {});
+  armature::ride::Answer<Lists> echo_lists(
+      const Lists& value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<Fixed> echo_fixed(const Fixed& value,
-                                           armature::ride::CallOptions options = {});
+  armature::ride::Answer<Fixed> echo_fixed(
+      const Fixed& value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<Ranges> echo_ranges(const Ranges& value,
-                                             armature::ride::CallOptions options = {});
+  armature::ride::Answer<Ranges> echo_ranges(
+      const Ranges& value,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<armature::ride::Flags> echo_flags(
-      const armature::ride::Flags& value, armature::ride::CallOptions options = {});
+      const armature::ride::Flags& value,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::array<bool, 2>> echo_two_flags(
-      const std::array<bool, 2>& value, armature::ride::CallOptions options = {});
+      const std::array<bool, 2>& value,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::vector<std::string>> echo_strings(
-      const std::vector<std::string>& value, armature::ride::CallOptions options = {});
+      const std::vector<std::string>& value,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::vector<Inner>> echo_inners(const std::vector<Inner>& value,
-                                                         armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::vector<Inner>> echo_inners(
+      const std::vector<Inner>& value,
+      armature::ride::CallOptions options = {});
 
   /// @param small  0 to 3
-  armature::ride::Answer<std::vector<Ranges>> echo_ranged(const std::vector<Ranges>& value,
-                                                          const std::vector<std::uint8_t>& small,
-                                                          armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::vector<Ranges>> echo_ranged(
+      const std::vector<Ranges>& value,
+      const std::vector<std::uint8_t>& small,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> delete_(std::int32_t priority_, std::int32_t options_,
-                                               std::int32_t operation_, std::int32_t d,
-                                               std::int32_t delete_, std::int32_t a,
-                                               armature::ride::CallOptions options = {});
+  armature::ride::Answer<Mode> echo_mode(Mode value, armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<geometry::Frame> echo_frame(
+      geometry::Frame frame,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<Choices> echo_choices(
+      const Choices& value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<std::vector<Mode>> echo_modes(
+      const std::vector<Mode>& value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<std::array<Small, 2>> echo_two(
+      const std::array<Small, 2>& value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Sent change_mode(Mode mode, armature::ride::Priority priority = {});
+
+  armature::ride::Answer<std::int32_t> delete_(
+      std::int32_t priority_,
+      std::int32_t options_,
+      std::int32_t operation_,
+      std::int32_t d,
+      std::int32_t delete_,
+      std::int32_t a,
+      armature::ride::CallOptions options = {});
 
   /// @param part  0.25 to 0.75
-  armature::ride::Sent request_(const std::string& name, float part,
-                                armature::ride::Priority priority = {});
+  armature::ride::Sent request_(
+      const std::string& name,
+      float part,
+      armature::ride::Priority priority = {});
 
   armature::ride::Sent nothing(armature::ride::Priority priority = {});
 
   /// Calls `handler` for each Everything until the Subscription is destroyed.
   armature::ride::Subscription on_Everything(std::function<void(const Everything&)> handler) {
     return subscribe<Everything>(std::move(handler));
+  }
+
+  /// Calls `handler` for each ModeChanged until the Subscription is destroyed.
+  armature::ride::Subscription on_ModeChanged(std::function<void(const ModeChanged&)> handler) {
+    return subscribe<ModeChanged>(std::move(handler));
   }
 };
 

@@ -5,9 +5,10 @@ namespace everything {
 
 EchoService::EchoService() : Service(kEcho) {}
 
-armature::ride::Executed EchoService::execute(armature::ride::Number operation,
-                                              armature::ride::Decoder& parameters,
-                                              armature::ride::Reply& reply) {
+armature::ride::Executed EchoService::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0x05f13d14: {  // echo_bool
       bool value = false;
@@ -181,6 +182,55 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       reply.put(echo_ranged(value, small));
       return armature::ride::Executed::kDone;
     }
+    case 0x5f2c3fb5: {  // echo_mode
+      Mode value = Mode::kIdle;
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_mode(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0xf685a499: {  // echo_frame
+      geometry::Frame frame = geometry::Frame::kDock;
+      if (!parameters.take(frame) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_frame(frame));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x16f7c40e: {  // echo_choices
+      Choices value;
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_choices(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x6a3f0662: {  // echo_modes
+      std::vector<Mode> value;
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_modes(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x9c620f30: {  // echo_two
+      std::array<Small, 2> value = {};
+      if (!parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(echo_two(value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0x58635d0e: {  // change_mode
+      Mode mode = Mode::kIdle;
+      if (!parameters.take(mode) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      change_mode(mode);
+      reply.done();
+      return armature::ride::Executed::kDone;
+    }
     case 0x023e0dfc: {  // delete
       std::int32_t priority_ = 0;
       std::int32_t options_ = 0;
@@ -188,9 +238,13 @@ armature::ride::Executed EchoService::execute(armature::ride::Number operation,
       std::int32_t d = 0;
       std::int32_t delete_ = 0;
       std::int32_t a = 0;
-      if (!parameters.take(priority_) || !parameters.take(options_) ||
-          !parameters.take(operation_) || !parameters.take(d) || !parameters.take(delete_) ||
-          !parameters.take(a) || !parameters.ended()) {
+      if (!parameters.take(priority_) ||
+          !parameters.take(options_) ||
+          !parameters.take(operation_) ||
+          !parameters.take(d) ||
+          !parameters.take(delete_) ||
+          !parameters.take(a) ||
+          !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(this->delete_(priority_, options_, operation_, d, delete_, a));

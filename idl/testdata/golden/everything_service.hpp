@@ -54,12 +54,29 @@ class EchoService : public armature::ride::Service {
   virtual std::vector<Inner> echo_inners(const std::vector<Inner>& value) = 0;
 
   /// @param small  0 to 3
-  virtual std::vector<Ranges> echo_ranged(const std::vector<Ranges>& value,
-                                          const std::vector<std::uint8_t>& small) = 0;
+  virtual std::vector<Ranges> echo_ranged(
+      const std::vector<Ranges>& value,
+      const std::vector<std::uint8_t>& small) = 0;
 
-  virtual std::int32_t delete_(std::int32_t priority_, std::int32_t options_,
-                               std::int32_t operation_, std::int32_t d, std::int32_t delete_,
-                               std::int32_t a) = 0;
+  virtual Mode echo_mode(Mode value) = 0;
+
+  virtual geometry::Frame echo_frame(geometry::Frame frame) = 0;
+
+  virtual Choices echo_choices(const Choices& value) = 0;
+
+  virtual std::vector<Mode> echo_modes(const std::vector<Mode>& value) = 0;
+
+  virtual std::array<Small, 2> echo_two(const std::array<Small, 2>& value) = 0;
+
+  virtual void change_mode(Mode mode) = 0;
+
+  virtual std::int32_t delete_(
+      std::int32_t priority_,
+      std::int32_t options_,
+      std::int32_t operation_,
+      std::int32_t d,
+      std::int32_t delete_,
+      std::int32_t a) = 0;
 
   /// @param part  0.25 to 0.75
   virtual void request_(const std::string& name, float part) = 0;
@@ -68,12 +85,20 @@ class EchoService : public armature::ride::Service {
 
  protected:
   /// Tells all subscribers.  @thread any
-  void raise(const Everything& event) { publish(event); }
+  void raise(const Everything& event) {
+    publish(event);
+  }
+
+  /// Tells all subscribers.  @thread any
+  void raise(const ModeChanged& event) {
+    publish(event);
+  }
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 }  // namespace everything

@@ -7,11 +7,146 @@
 #include <vector>
 
 #include "armature/ride/codec.hpp"
+#include "armature/ride/enumeration.hpp"
 #include "armature/ride/interface.hpp"
 #include "armature/ride/range.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
+#include "geometry_types.hpp"
 
 namespace everything {
+
+/// How a joint is led.
+enum class Mode : std::uint8_t {
+  /// without force
+  kIdle = 0,
+  /// to where it shall be
+  kPosition = 4,
+  /// where it is
+  kHoldPosition = 5,
+};
+ARMATURE_ENUM(Mode, kIdle, kPosition, kHoldPosition);
+inline void encode(armature::ride::Encoder& to, Mode value) {
+  to.put(static_cast<std::uint8_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Mode& value) {
+  return from.take_enumerator(value);
+}
+
+enum class Small : std::int8_t {
+  kLeast = -128,
+  kZero = 0,
+  kGreatest = 127,
+};
+ARMATURE_ENUM(Small, kLeast, kZero, kGreatest);
+inline void encode(armature::ride::Encoder& to, Small value) {
+  to.put(static_cast<std::int8_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Small& value) {
+  return from.take_enumerator(value);
+}
+
+enum class Short : std::int16_t {
+  kLeast = -32768,
+  kZero = 0,
+};
+ARMATURE_ENUM(Short, kLeast, kZero);
+inline void encode(armature::ride::Encoder& to, Short value) {
+  to.put(static_cast<std::int16_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Short& value) {
+  return from.take_enumerator(value);
+}
+
+enum class UnsignedShort : std::uint16_t {
+  kZero = 0,
+  kMode_2 = 65535,
+};
+ARMATURE_ENUM(UnsignedShort, kZero, kMode_2);
+inline void encode(armature::ride::Encoder& to, UnsignedShort value) {
+  to.put(static_cast<std::uint16_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, UnsignedShort& value) {
+  return from.take_enumerator(value);
+}
+
+enum class Int : std::int32_t {
+  kLeast = -2147483648,
+  kZero = 0,
+  kClass = 7,
+};
+ARMATURE_ENUM(Int, kLeast, kZero, kClass);
+inline void encode(armature::ride::Encoder& to, Int value) {
+  to.put(static_cast<std::int32_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Int& value) {
+  return from.take_enumerator(value);
+}
+
+enum class UnsignedInt : std::uint32_t {
+  kZero = 0,
+  kGreatest = 4294967295,
+};
+ARMATURE_ENUM(UnsignedInt, kZero, kGreatest);
+inline void encode(armature::ride::Encoder& to, UnsignedInt value) {
+  to.put(static_cast<std::uint32_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, UnsignedInt& value) {
+  return from.take_enumerator(value);
+}
+
+enum class Long : std::int64_t {
+  kZero = 0,
+  kLeast = -9223372036854775807 - 1,
+  kAfterLeast = -9223372036854775807,
+  kGreatest = 9223372036854775807,
+};
+ARMATURE_ENUM(Long, kZero, kLeast, kAfterLeast, kGreatest);
+inline void encode(armature::ride::Encoder& to, Long value) {
+  to.put(static_cast<std::int64_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Long& value) {
+  return from.take_enumerator(value);
+}
+
+struct Choices {
+  /// of all joints
+  Mode mode = Mode::kIdle;
+  Small c = Small::kZero;
+  Short s = Short::kZero;
+  UnsignedShort us = UnsignedShort::kZero;
+  Int i = Int::kZero;
+  UnsignedInt ui = UnsignedInt::kZero;
+  Long l = Long::kZero;
+  std::vector<Mode> modes;
+  std::array<Int, 2> two = {};
+  geometry::Frame frame = geometry::Frame::kDock;
+};
+ARMATURE_STRUCT(Choices, (mode, "", "of all joints"), c, s, us, i, ui, l, modes, two, frame);
+inline void encode(armature::ride::Encoder& to, const Choices& value) {
+  to.put(value.mode);
+  to.put(value.c);
+  to.put(value.s);
+  to.put(value.us);
+  to.put(value.i);
+  to.put(value.ui);
+  to.put(value.l);
+  to.put(value.modes);
+  to.put(value.two);
+  to.put(value.frame);
+}
+inline bool decode(armature::ride::Decoder& from, Choices& value) {
+  return from.take(value.mode) &&
+      from.take(value.c) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.modes) &&
+      from.take(value.two) &&
+      from.take(value.frame);
+}
 
 struct Inner {
   bool flag = false;
@@ -58,10 +193,19 @@ inline void encode(armature::ride::Encoder& to, const Singles& value) {
   to.put(value.inner);
 }
 inline bool decode(armature::ride::Decoder& from, Singles& value) {
-  return from.take(value.b) && from.take(value.c) && from.take(value.o) && from.take(value.s) &&
-         from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
-         from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.text) &&
-         from.take(value.inner);
+  return from.take(value.b) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.text) &&
+      from.take(value.inner);
 }
 
 struct Lists {
@@ -96,10 +240,19 @@ inline void encode(armature::ride::Encoder& to, const Lists& value) {
   to.put(value.inner);
 }
 inline bool decode(armature::ride::Decoder& from, Lists& value) {
-  return from.take_flags(value.b) && from.take(value.c) && from.take(value.o) &&
-         from.take(value.s) && from.take(value.us) && from.take(value.i) && from.take(value.ui) &&
-         from.take(value.l) && from.take(value.ul) && from.take(value.f) && from.take(value.d) &&
-         from.take(value.text) && from.take(value.inner);
+  return from.take_flags(value.b) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.text) &&
+      from.take(value.inner);
 }
 
 struct Fixed {
@@ -134,10 +287,19 @@ inline void encode(armature::ride::Encoder& to, const Fixed& value) {
   to.put(value.inner);
 }
 inline bool decode(armature::ride::Decoder& from, Fixed& value) {
-  return from.take(value.b) && from.take(value.c) && from.take(value.o) && from.take(value.s) &&
-         from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
-         from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.text) &&
-         from.take(value.inner);
+  return from.take(value.b) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.text) &&
+      from.take(value.inner);
 }
 
 struct Later {
@@ -145,11 +307,15 @@ struct Later {
   std::int32_t bit = 0;
 };
 ARMATURE_STRUCT(Later, bit);
-inline void encode(armature::ride::Encoder& to, const Later& value) { to.put(value.bit); }
+inline void encode(armature::ride::Encoder& to, const Later& value) {
+  to.put(value.bit);
+}
 inline bool decode(armature::ride::Decoder& from, Later& value) {
   return from.take(value.bit) && from.within(value.bit, 0, 1, value);
 }
-inline bool in_range(const Later& value) { return armature::ride::within(value.bit, 0, 1); }
+inline bool in_range(const Later& value) {
+  return armature::ride::within(value.bit, 0, 1);
+}
 
 struct Ranges {
   /// -128 to 127
@@ -198,30 +364,49 @@ inline void encode(armature::ride::Encoder& to, const Ranges& value) {
   to.put(value.later);
 }
 inline bool decode(armature::ride::Decoder& from, Ranges& value) {
-  return from.take(value.whole) && from.take(value.c) && from.take(value.o) && from.take(value.s) &&
-         from.take(value.us) && from.take(value.i) && from.take(value.ui) && from.take(value.l) &&
-         from.take(value.ul) && from.take(value.f) && from.take(value.d) && from.take(value.list) &&
-         from.take(value.fixed) && from.take(value.later) &&
-         from.within(value.whole, -128, 127, value) && from.within(value.c, -5, 5, value) &&
-         from.within(value.o, 1, 255, value) && from.within(value.s, -32768, 0, value) &&
-         from.within(value.us, 0, 65535, value) && from.within(value.i, -2147483648, 7, value) &&
-         from.within(value.ui, 3, 4294967295, value) &&
-         from.within(value.l, -9223372036854775807 - 1, -1, value) &&
-         from.within(value.ul, 9223372036854775808u, 18446744073709551615u, value) &&
-         from.within(value.f, -0.1f, 1000.0f, value) && from.within(value.d, 0.5, 2.0, value) &&
-         from.within(value.list, 0, 9, value) && from.within(value.fixed, 0, 9, value);
+  return from.take(value.whole) &&
+      from.take(value.c) &&
+      from.take(value.o) &&
+      from.take(value.s) &&
+      from.take(value.us) &&
+      from.take(value.i) &&
+      from.take(value.ui) &&
+      from.take(value.l) &&
+      from.take(value.ul) &&
+      from.take(value.f) &&
+      from.take(value.d) &&
+      from.take(value.list) &&
+      from.take(value.fixed) &&
+      from.take(value.later) &&
+      from.within(value.whole, -128, 127, value) &&
+      from.within(value.c, -5, 5, value) &&
+      from.within(value.o, 1, 255, value) &&
+      from.within(value.s, -32768, 0, value) &&
+      from.within(value.us, 0, 65535, value) &&
+      from.within(value.i, -2147483648, 7, value) &&
+      from.within(value.ui, 3, 4294967295, value) &&
+      from.within(value.l, -9223372036854775807 - 1, -1, value) &&
+      from.within(value.ul, 9223372036854775808u, 18446744073709551615u, value) &&
+      from.within(value.f, -0.1f, 1000.0f, value) &&
+      from.within(value.d, 0.5, 2.0, value) &&
+      from.within(value.list, 0, 9, value) &&
+      from.within(value.fixed, 0, 9, value);
 }
 inline bool in_range(const Ranges& value) {
-  return armature::ride::within(value.whole, -128, 127) && armature::ride::within(value.c, -5, 5) &&
-         armature::ride::within(value.o, 1, 255) && armature::ride::within(value.s, -32768, 0) &&
-         armature::ride::within(value.us, 0, 65535) &&
-         armature::ride::within(value.i, -2147483648, 7) &&
-         armature::ride::within(value.ui, 3, 4294967295) &&
-         armature::ride::within(value.l, -9223372036854775807 - 1, -1) &&
-         armature::ride::within(value.ul, 9223372036854775808u, 18446744073709551615u) &&
-         armature::ride::within(value.f, -0.1f, 1000.0f) &&
-         armature::ride::within(value.d, 0.5, 2.0) && armature::ride::within(value.list, 0, 9) &&
-         armature::ride::within(value.fixed, 0, 9) && armature::ride::all_in_range(value.later);
+  return armature::ride::within(value.whole, -128, 127) &&
+      armature::ride::within(value.c, -5, 5) &&
+      armature::ride::within(value.o, 1, 255) &&
+      armature::ride::within(value.s, -32768, 0) &&
+      armature::ride::within(value.us, 0, 65535) &&
+      armature::ride::within(value.i, -2147483648, 7) &&
+      armature::ride::within(value.ui, 3, 4294967295) &&
+      armature::ride::within(value.l, -9223372036854775807 - 1, -1) &&
+      armature::ride::within(value.ul, 9223372036854775808u, 18446744073709551615u) &&
+      armature::ride::within(value.f, -0.1f, 1000.0f) &&
+      armature::ride::within(value.d, 0.5, 2.0) &&
+      armature::ride::within(value.list, 0, 9) &&
+      armature::ride::within(value.fixed, 0, 9) &&
+      armature::ride::all_in_range(value.later);
 }
 
 struct Everything {
@@ -238,7 +423,25 @@ inline void encode(armature::ride::Encoder& to, const Everything& value) {
 inline bool decode(armature::ride::Decoder& from, Everything& value) {
   return from.take(value.singles) && from.take(value.lists) && from.take(value.fixed);
 }
-constexpr armature::ride::Number event_number(const Everything*) { return 0xe0accbcf; }
+constexpr armature::ride::Number event_number(const Everything*) {
+  return 0xe0accbcf;
+}
+
+struct ModeChanged {
+  Mode mode = Mode::kIdle;
+  std::vector<Mode> before;
+};
+ARMATURE_STRUCT(ModeChanged, mode, before);
+inline void encode(armature::ride::Encoder& to, const ModeChanged& value) {
+  to.put(value.mode);
+  to.put(value.before);
+}
+inline bool decode(armature::ride::Decoder& from, ModeChanged& value) {
+  return from.take(value.mode) && from.take(value.before);
+}
+constexpr armature::ride::Number event_number(const ModeChanged*) {
+  return 0xea6c7f09;
+}
 
 /// Names that C++ has for other things.
 struct Words {
@@ -255,11 +458,13 @@ inline void encode(armature::ride::Encoder& to, const Words& value) {
   to.put(value.priority);
 }
 inline bool decode(armature::ride::Decoder& from, Words& value) {
-  return from.take(value.class_) && from.take(value.Inner_) && from.take(value.std) &&
-         from.take(value.priority);
+  return from.take(value.class_) &&
+      from.take(value.Inner_) &&
+      from.take(value.std) &&
+      from.take(value.priority);
 }
 
-/// What interface Echo has; both sides compare its digest, 0x45b1e782.
+/// What interface Echo has; both sides compare its digest, 0xec53a8ab.
 inline constexpr armature::ride::Declaration kEchoDeclarations[] = {
     {"bool echo_bool(bool)", armature::ride::Access::kCommand},
     {"char echo_char(char)", armature::ride::Access::kCommand},
@@ -273,52 +478,102 @@ inline constexpr armature::ride::Declaration kEchoDeclarations[] = {
     {"float echo_float(float)", armature::ride::Access::kCommand},
     {"double echo_double(double)", armature::ride::Access::kCommand},
     {"String echo_string(String)", armature::ride::Access::kCommand},
-    {"struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,floa"
-     "t,double,String,struct Inner{bool,double}} echo_singles(struct Singles{bool,char,byte,short"
-     ",unsigned short,int,unsigned int,long,unsigned long,float,double,String,struct Inner{bool,d"
-     "ouble}})",
-     armature::ride::Access::kCommand},
-    {"struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,Array<unsigned short>,Array<i"
-     "nt>,Array<unsigned int>,Array<long>,Array<unsigned long>,Array<float>,Array<double>,Array<S"
-     "tring>,Array<struct Inner{bool,double}>} echo_lists(struct Lists{Array<bool>,Array<char>,Ar"
-     "ray<byte>,Array<short>,Array<unsigned short>,Array<int>,Array<unsigned int>,Array<long>,Arr"
-     "ay<unsigned long>,Array<float>,Array<double>,Array<String>,Array<struct Inner{bool,double}>"
-     "})",
-     armature::ride::Access::kCommand},
-    {"struct Fixed{Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsigned short,"
-     "3>,Array<int,3>,Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,A"
-     "rray<double,3>,Array<String,2>,Array<struct Inner{bool,double},2>} echo_fixed(struct Fixed{"
-     "Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsigned short,3>,Array<int,"
-     "3>,Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,Array<double,3"
-     ">,Array<String,2>,Array<struct Inner{bool,double},2>})",
-     armature::ride::Access::kCommand},
-    {"struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,float"
-     ",double,Array<int>,Array<int,2>,Array<struct Later{int}>} echo_ranges(struct Ranges{char,ch"
-     "ar,byte,short,unsigned short,int,unsigned int,long,unsigned long,float,double,Array<int>,Ar"
-     "ray<int,2>,Array<struct Later{int}>})",
-     armature::ride::Access::kCommand},
+    {
+        "struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,"
+        "float,double,String,struct Inner{bool,double}} echo_singles(struct Singles{bool,char,"
+        "byte,short,unsigned short,int,unsigned int,long,unsigned long,float,double,String,"
+        "struct Inner{bool,double}})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,Array<unsigned short>,"
+        "Array<int>,Array<unsigned int>,Array<long>,Array<unsigned long>,Array<float>,"
+        "Array<double>,Array<String>,Array<struct Inner{bool,"
+        "double}>} echo_lists(struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,"
+        "Array<unsigned short>,Array<int>,Array<unsigned int>,Array<long>,Array<unsigned long>,"
+        "Array<float>,Array<double>,Array<String>,Array<struct Inner{bool,double}>})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Fixed{Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,"
+        "Array<unsigned short,3>,Array<int,3>,Array<unsigned int,3>,Array<long,3>,"
+        "Array<unsigned long,3>,Array<float,3>,Array<double,3>,Array<String,2>,"
+        "Array<struct Inner{bool,double},2>} echo_fixed(struct Fixed{Array<bool,3>,Array<char,"
+        "3>,Array<byte,3>,Array<short,3>,Array<unsigned short,3>,Array<int,3>,"
+        "Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,Array<double,"
+        "3>,Array<String,2>,Array<struct Inner{bool,double},2>})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,"
+        "float,double,Array<int>,Array<int,2>,"
+        "Array<struct Later{int}>} echo_ranges(struct Ranges{char,char,byte,short,"
+        "unsigned short,int,unsigned int,long,unsigned long,float,double,Array<int>,Array<int,"
+        "2>,Array<struct Later{int}>})",
+        armature::ride::Access::kCommand},
     {"Array<bool> echo_flags(Array<bool>)", armature::ride::Access::kCommand},
     {"Array<bool,2> echo_two_flags(Array<bool,2>)", armature::ride::Access::kCommand},
     {"Array<String> echo_strings(Array<String>)", armature::ride::Access::kCommand},
-    {"Array<struct Inner{bool,double}> echo_inners(Array<struct Inner{bool,double}>)",
-     armature::ride::Access::kCommand},
-    {"Array<struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long"
-     ",float,double,Array<int>,Array<int,2>,Array<struct Later{int}>}> echo_ranged(Array<struct R"
-     "anges{char,char,byte,short,unsigned short,int,unsigned int,long,unsigned long,float,double,"
-     "Array<int>,Array<int,2>,Array<struct Later{int}>}>,Array<byte>)",
-     armature::ride::Access::kCommand},
+    {
+        "Array<struct Inner{bool,double}> echo_inners(Array<struct Inner{bool,double}>)",
+        armature::ride::Access::kCommand},
+    {
+        "Array<struct Ranges{char,char,byte,short,unsigned short,int,unsigned int,long,"
+        "unsigned long,float,double,Array<int>,Array<int,2>,"
+        "Array<struct Later{int}>}> echo_ranged(Array<struct Ranges{char,char,byte,short,"
+        "unsigned short,int,unsigned int,long,unsigned long,float,double,Array<int>,Array<int,"
+        "2>,Array<struct Later{int}>}>,Array<byte>)",
+        armature::ride::Access::kCommand},
+    {
+        "enum Mode:byte{idle=0,position=4,hold_position=5} echo_mode(enum Mode:byte{idle=0,"
+        "position=4,hold_position=5})",
+        armature::ride::Access::kCommand},
+    {
+        "enum Frame:byte{dock=0,floor=1} echo_frame(enum Frame:byte{dock=0,floor=1})",
+        armature::ride::Access::kCommand},
+    {
+        "struct Choices{enum Mode:byte{idle=0,position=4,hold_position=5},"
+        "enum Small:char{least=-128,zero=0,greatest=127},enum Short:short{least=-32768,zero=0},"
+        "enum UnsignedShort:unsigned short{zero=0,mode_2=65535},enum Int:int{least=-2147483648,"
+        "zero=0,class=7},enum UnsignedInt:unsigned int{zero=0,greatest=4294967295},"
+        "enum Long:long{zero=0,least=-9223372036854775808,after_least=-9223372036854775807,"
+        "greatest=9223372036854775807},Array<enum Mode:byte{idle=0,position=4,hold_position=5}>,"
+        "Array<enum Int:int{least=-2147483648,zero=0,class=7},2>,enum Frame:byte{dock=0,"
+        "floor=1}} echo_choices(struct Choices{enum Mode:byte{idle=0,position=4,"
+        "hold_position=5},enum Small:char{least=-128,zero=0,greatest=127},"
+        "enum Short:short{least=-32768,zero=0},enum UnsignedShort:unsigned short{zero=0,"
+        "mode_2=65535},enum Int:int{least=-2147483648,zero=0,class=7},"
+        "enum UnsignedInt:unsigned int{zero=0,greatest=4294967295},enum Long:long{zero=0,"
+        "least=-9223372036854775808,after_least=-9223372036854775807,"
+        "greatest=9223372036854775807},Array<enum Mode:byte{idle=0,position=4,hold_position=5}>,"
+        "Array<enum Int:int{least=-2147483648,zero=0,class=7},2>,enum Frame:byte{dock=0,"
+        "floor=1}})",
+        armature::ride::Access::kCommand},
+    {
+        "Array<enum Mode:byte{idle=0,position=4,"
+        "hold_position=5}> echo_modes(Array<enum Mode:byte{idle=0,position=4,hold_position=5}>)",
+        armature::ride::Access::kCommand},
+    {
+        "Array<enum Small:char{least=-128,zero=0,greatest=127},"
+        "2> echo_two(Array<enum Small:char{least=-128,zero=0,greatest=127},2>)",
+        armature::ride::Access::kCommand},
+    {
+        "void change_mode(enum Mode:byte{idle=0,position=4,hold_position=5})",
+        armature::ride::Access::kCommand},
     {"int delete(int,int,int,int,int,int)", armature::ride::Access::kCommand},
     {"void request(String,float)", armature::ride::Access::kCommand},
     {"void nothing()", armature::ride::Access::kCommand},
-    {"event Everything{struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,long,u"
-     "nsigned long,float,double,String,struct Inner{bool,double}},struct Lists{Array<bool>,Array<"
-     "char>,Array<byte>,Array<short>,Array<unsigned short>,Array<int>,Array<unsigned int>,Array<l"
-     "ong>,Array<unsigned long>,Array<float>,Array<double>,Array<String>,Array<struct Inner{bool,"
-     "double}>},struct Fixed{Array<bool,3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsig"
-     "ned short,3>,Array<int,3>,Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<"
-     "float,3>,Array<double,3>,Array<String,2>,Array<struct Inner{bool,double},2>}}",
-     armature::ride::Access::kRead},
-};
+    {
+        "event Everything{struct Singles{bool,char,byte,short,unsigned short,int,unsigned int,"
+        "long,unsigned long,float,double,String,struct Inner{bool,double}},"
+        "struct Lists{Array<bool>,Array<char>,Array<byte>,Array<short>,Array<unsigned short>,"
+        "Array<int>,Array<unsigned int>,Array<long>,Array<unsigned long>,Array<float>,"
+        "Array<double>,Array<String>,Array<struct Inner{bool,double}>},struct Fixed{Array<bool,"
+        "3>,Array<char,3>,Array<byte,3>,Array<short,3>,Array<unsigned short,3>,Array<int,3>,"
+        "Array<unsigned int,3>,Array<long,3>,Array<unsigned long,3>,Array<float,3>,Array<double,"
+        "3>,Array<String,2>,Array<struct Inner{bool,double},2>}}",
+        armature::ride::Access::kRead},
+    {
+        "event ModeChanged{enum Mode:byte{idle=0,position=4,hold_position=5},"
+        "Array<enum Mode:byte{idle=0,position=4,hold_position=5}>}",
+        armature::ride::Access::kRead}};
 inline constexpr armature::ride::Interface kEcho{"Echo", kEchoDeclarations};
 
 }  // namespace everything

@@ -4,11 +4,26 @@
 #include <cstdint>
 
 #include "armature/ride/codec.hpp"
+#include "armature/ride/enumeration.hpp"
 #include "armature/ride/interface.hpp"
 #include "armature/ride/range.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace geometry {
+
+/// Where something is told from.
+enum class Frame : std::uint8_t {
+  kDock = 0,
+  kFloor = 1,
+};
+ARMATURE_ENUM(Frame, kDock, kFloor);
+inline void encode(armature::ride::Encoder& to, Frame value) {
+  to.put(static_cast<std::uint8_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, Frame& value) {
+  return from.take_enumerator(value);
+}
 
 /// In the plane of the floor.
 struct Pose {
@@ -19,17 +34,24 @@ struct Pose {
   /// counter-clockwise, from the first axis [rad], -3.2 to 3.2
   double heading = 0.0;
 };
-ARMATURE_STRUCT(Pose, (x, "m"), (y, "m"),
-                (heading, "rad", "counter-clockwise, from the first axis"));
+ARMATURE_STRUCT(
+    Pose,
+    (x, "m"),
+    (y, "m"),
+    (heading, "rad", "counter-clockwise, from the first axis"));
 inline void encode(armature::ride::Encoder& to, const Pose& value) {
   to.put(value.x);
   to.put(value.y);
   to.put(value.heading);
 }
 inline bool decode(armature::ride::Decoder& from, Pose& value) {
-  return from.take(value.x) && from.take(value.y) && from.take(value.heading) &&
-         from.within(value.heading, -3.2, 3.2, value);
+  return from.take(value.x) &&
+      from.take(value.y) &&
+      from.take(value.heading) &&
+      from.within(value.heading, -3.2, 3.2, value);
 }
-inline bool in_range(const Pose& value) { return armature::ride::within(value.heading, -3.2, 3.2); }
+inline bool in_range(const Pose& value) {
+  return armature::ride::within(value.heading, -3.2, 3.2);
+}
 
 }  // namespace geometry

@@ -4,32 +4,40 @@
 namespace odd_names {
 
 armature::ride::Answer<std::int32_t> OddPlaceholder::Service_2(
-    std::int32_t Service_2, armature::ride::CallOptions options) {
+    std::int32_t Service_2,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xcc57e4f7, "Service", options, Service_2);
 }
 
 armature::ride::Answer<std::int32_t> OddPlaceholder::Placeholder_2(
-    std::int32_t Placeholder_2, std::int32_t kOdd_, armature::ride::CallOptions options) {
+    std::int32_t Placeholder_2,
+    std::int32_t kOdd_,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xbd51679a, "Placeholder", options, Placeholder_2, kOdd_);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::reply(std::int32_t operation_,
-                                                           armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::reply(
+    std::int32_t operation_,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x97fc23ce, "reply", options, operation_);
 }
 
 armature::ride::Answer<std::int32_t> OddPlaceholder::operation(
-    std::int32_t reply_, std::int32_t parameters_, armature::ride::CallOptions options) {
+    std::int32_t reply_,
+    std::int32_t parameters_,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xec4d61fa, "operation", options, reply_, parameters_);
 }
 
-armature::ride::Sent OddPlaceholder::parameters(std::int32_t priority_,
-                                                armature::ride::Priority priority) {
+armature::ride::Sent OddPlaceholder::parameters(
+    std::int32_t priority_,
+    armature::ride::Priority priority) {
   return command(0x7c157ca7, priority, priority_);
 }
 
-armature::ride::Sent OddPlaceholder::execute_(std::int32_t execute,
-                                              armature::ride::Priority priority) {
+armature::ride::Sent OddPlaceholder::execute_(
+    std::int32_t execute,
+    armature::ride::Priority priority) {
   return command(0xb1b79a90, priority, execute);
 }
 
@@ -37,33 +45,39 @@ armature::ride::Sent OddPlaceholder::raise_(std::int32_t event, armature::ride::
   return command(0x25abc819, priority, event);
 }
 
-armature::ride::Sent OddPlaceholder::publish_(std::int32_t publish,
-                                              armature::ride::Priority priority) {
+armature::ride::Sent OddPlaceholder::publish_(
+    std::int32_t publish,
+    armature::ride::Priority priority) {
   return command(0xf25485e0, priority, publish);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::call(std::int32_t call, std::int32_t name,
-                                                          std::int32_t options_,
-                                                          std::int32_t deadline,
-                                                          armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::call(
+    std::int32_t call,
+    std::int32_t name,
+    std::int32_t options_,
+    std::int32_t deadline,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xb5406ca1, "call", options, call, name, options_, deadline);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::send(std::int32_t send,
-                                                          const std::string& peer,
-                                                          armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::send(
+    std::int32_t send,
+    const std::string& peer,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x7bcc1651, "send", options, send, peer);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::encode(const odd_names_& value,
-                                                            armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::encode(
+    const odd_names_& value,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xea13f125, "encode", options, value);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::decode(std::int32_t within,
-                                                            std::int32_t outside,
-                                                            std::int32_t refuse_,
-                                                            armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::decode(
+    std::int32_t within,
+    std::int32_t outside,
+    std::int32_t refuse_,
+    armature::ride::CallOptions options) {
   if (!armature::ride::within(within, 0, 1)) {
     return refuse<std::int32_t>("decode", armature::ride::outside("within", within, "0 to 1"));
   }
@@ -73,8 +87,10 @@ armature::ride::Answer<std::int32_t> OddPlaceholder::decode(std::int32_t within,
   return request<std::int32_t>(0x6fecb7e0, "decode", options, within, outside, refuse_);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::std(std::int32_t std, std::int32_t armature,
-                                                         armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::std(
+    std::int32_t std,
+    std::int32_t armature,
+    armature::ride::CallOptions options) {
   if (!armature::ride::within(std, 0, 1)) {
     return refuse<std::int32_t>("std", armature::ride::outside("std", std, "0 to 1"));
   }
@@ -84,38 +100,58 @@ armature::ride::Answer<std::int32_t> OddPlaceholder::std(std::int32_t std, std::
   return request<std::int32_t>(0x86c35e86, "std", options, std, armature);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::armature(std::int32_t request_,
-                                                              std::int32_t command_,
-                                                              std::int32_t subscribe,
-                                                              armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::armature(
+    std::int32_t request_,
+    std::int32_t command_,
+    std::int32_t subscribe,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x59d23bd7, "armature", options, request_, command_, subscribe);
 }
 
 armature::ride::Answer<std::int32_t> OddPlaceholder::interface_(
-    const std::string& interface, armature::ride::CallOptions options) {
+    const std::string& interface,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xa95f6105, "interface", options, interface);
 }
 
 armature::ride::Answer<std::int32_t> OddPlaceholder::statistics(
-    const armature::ride::Flags& number, const armature::ride::Flags& ride,
+    const armature::ride::Flags& number,
+    const armature::ride::Flags& ride,
     armature::ride::CallOptions options) {
   return request<std::int32_t>(0x42d47298, "statistics", options, number, ride);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::unix_(std::int32_t NULL_, std::int32_t EOF_,
-                                                           std::int32_t errno_,
-                                                           std::int32_t assert_,
-                                                           armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::unix_(
+    std::int32_t NULL_,
+    std::int32_t EOF_,
+    std::int32_t errno_,
+    std::int32_t assert_,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0xb0427647, "unix", options, NULL_, EOF_, errno_, assert_);
 }
 
-armature::ride::Answer<std::int32_t> OddPlaceholder::virtual_(std::int32_t virtual_,
-                                                              armature::ride::CallOptions options) {
+armature::ride::Answer<std::int32_t> OddPlaceholder::virtual_(
+    std::int32_t virtual_,
+    armature::ride::CallOptions options) {
   return request<std::int32_t>(0x233299b7, "virtual", options, virtual_);
 }
 
 armature::ride::Answer<std_> OddPlaceholder::name_(armature::ride::CallOptions options) {
   return request<std_>(0x430889ea, "name", options);
+}
+
+armature::ride::Answer<enum_> OddPlaceholder::enum_2(
+    enum_ enum_2,
+    value_ value,
+    armature::ride::CallOptions options) {
+  return request<enum_>(0x4fdadae7, "enum", options, enum_2, value);
+}
+
+armature::ride::Answer<value_> OddPlaceholder::value(
+    const std::vector<value_>& to,
+    value_ from,
+    armature::ride::CallOptions options) {
+  return request<value_>(0xc0cbbb72, "value", options, to, from);
 }
 
 armature::ride::Answer<std::vector<armature_>> OddPlaceholder::on_failed_(

@@ -19,17 +19,23 @@ class OddPlaceholder : public armature::ride::Placeholder {
   OddPlaceholder(armature::ride::Peer& peer, std::string name)
       : Placeholder(peer, std::move(name), kOdd) {}
 
-  armature::ride::Answer<std::int32_t> Service_2(std::int32_t Service_2,
-                                                 armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> Service_2(
+      std::int32_t Service_2,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> Placeholder_2(std::int32_t Placeholder_2, std::int32_t kOdd_,
-                                                     armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> Placeholder_2(
+      std::int32_t Placeholder_2,
+      std::int32_t kOdd_,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> reply(std::int32_t operation_,
-                                             armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> reply(
+      std::int32_t operation_,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> operation(std::int32_t reply_, std::int32_t parameters_,
-                                                 armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> operation(
+      std::int32_t reply_,
+      std::int32_t parameters_,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Sent parameters(std::int32_t priority_, armature::ride::Priority priority = {});
 
@@ -39,46 +45,74 @@ class OddPlaceholder : public armature::ride::Placeholder {
 
   armature::ride::Sent publish_(std::int32_t publish, armature::ride::Priority priority = {});
 
-  armature::ride::Answer<std::int32_t> call(std::int32_t call, std::int32_t name,
-                                            std::int32_t options_, std::int32_t deadline,
-                                            armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> call(
+      std::int32_t call,
+      std::int32_t name,
+      std::int32_t options_,
+      std::int32_t deadline,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> send(std::int32_t send, const std::string& peer,
-                                            armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> send(
+      std::int32_t send,
+      const std::string& peer,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> encode(const odd_names_& value,
-                                              armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> encode(
+      const odd_names_& value,
+      armature::ride::CallOptions options = {});
 
   /// @param within  0 to 1
   /// @param outside  0 to 1
-  armature::ride::Answer<std::int32_t> decode(std::int32_t within, std::int32_t outside,
-                                              std::int32_t refuse_,
-                                              armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> decode(
+      std::int32_t within,
+      std::int32_t outside,
+      std::int32_t refuse_,
+      armature::ride::CallOptions options = {});
 
   /// @param std  0 to 1
   /// @param armature  0 to 1
-  armature::ride::Answer<std::int32_t> std(std::int32_t std, std::int32_t armature,
-                                           armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> std(
+      std::int32_t std,
+      std::int32_t armature,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> armature(std::int32_t request_, std::int32_t command_,
-                                                std::int32_t subscribe,
-                                                armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> armature(
+      std::int32_t request_,
+      std::int32_t command_,
+      std::int32_t subscribe,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> interface_(const std::string& interface,
-                                                  armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> interface_(
+      const std::string& interface,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> statistics(const armature::ride::Flags& number,
-                                                  const armature::ride::Flags& ride,
-                                                  armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> statistics(
+      const armature::ride::Flags& number,
+      const armature::ride::Flags& ride,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> unix_(std::int32_t NULL_, std::int32_t EOF_,
-                                             std::int32_t errno_, std::int32_t assert_,
-                                             armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> unix_(
+      std::int32_t NULL_,
+      std::int32_t EOF_,
+      std::int32_t errno_,
+      std::int32_t assert_,
+      armature::ride::CallOptions options = {});
 
-  armature::ride::Answer<std::int32_t> virtual_(std::int32_t virtual_,
-                                                armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> virtual_(
+      std::int32_t virtual_,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std_> name_(armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<enum_> enum_2(
+      enum_ enum_2,
+      value_ value,
+      armature::ride::CallOptions options = {});
+
+  armature::ride::Answer<value_> value(
+      const std::vector<value_>& to,
+      value_ from,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Answer<std::vector<armature_>> on_failed_(
       armature::ride::CallOptions options = {});

@@ -5,9 +5,10 @@ namespace odd_names {
 
 OddService::OddService() : Service(kOdd) {}
 
-armature::ride::Executed OddService::execute(armature::ride::Number operation,
-                                             armature::ride::Decoder& parameters,
-                                             armature::ride::Reply& reply) {
+armature::ride::Executed OddService::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0xcc57e4f7: {  // Service
       std::int32_t Service_2 = 0;
@@ -84,8 +85,11 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
       std::int32_t name = 0;
       std::int32_t options_ = 0;
       std::int32_t deadline = 0;
-      if (!parameters.take(call) || !parameters.take(name) || !parameters.take(options_) ||
-          !parameters.take(deadline) || !parameters.ended()) {
+      if (!parameters.take(call) ||
+          !parameters.take(name) ||
+          !parameters.take(options_) ||
+          !parameters.take(deadline) ||
+          !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(this->call(call, name, options_, deadline));
@@ -112,7 +116,9 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
       std::int32_t within = 0;
       std::int32_t outside = 0;
       std::int32_t refuse_ = 0;
-      if (!parameters.take(within) || !parameters.take(outside) || !parameters.take(refuse_) ||
+      if (!parameters.take(within) ||
+          !parameters.take(outside) ||
+          !parameters.take(refuse_) ||
           !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -144,7 +150,9 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
       std::int32_t request_ = 0;
       std::int32_t command_ = 0;
       std::int32_t subscribe = 0;
-      if (!parameters.take(request_) || !parameters.take(command_) || !parameters.take(subscribe) ||
+      if (!parameters.take(request_) ||
+          !parameters.take(command_) ||
+          !parameters.take(subscribe) ||
           !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
@@ -173,8 +181,11 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
       std::int32_t EOF_ = 0;
       std::int32_t errno_ = 0;
       std::int32_t assert_ = 0;
-      if (!parameters.take(NULL_) || !parameters.take(EOF_) || !parameters.take(errno_) ||
-          !parameters.take(assert_) || !parameters.ended()) {
+      if (!parameters.take(NULL_) ||
+          !parameters.take(EOF_) ||
+          !parameters.take(errno_) ||
+          !parameters.take(assert_) ||
+          !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }
       reply.put(unix_(NULL_, EOF_, errno_, assert_));
@@ -193,6 +204,24 @@ armature::ride::Executed OddService::execute(armature::ride::Number operation,
         return armature::ride::Executed::kMalformed;
       }
       reply.put(name_());
+      return armature::ride::Executed::kDone;
+    }
+    case 0x4fdadae7: {  // enum
+      enum_ enum_2 = enum_::kEncode;
+      value_ value = value_::kK;
+      if (!parameters.take(enum_2) || !parameters.take(value) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(this->enum_2(enum_2, value));
+      return armature::ride::Executed::kDone;
+    }
+    case 0xc0cbbb72: {  // value
+      std::vector<value_> to;
+      value_ from = value_::kK;
+      if (!parameters.take(to) || !parameters.take(from) || !parameters.ended()) {
+        return armature::ride::Executed::kMalformed;
+      }
+      reply.put(value(to, from));
       return armature::ride::Executed::kDone;
     }
     case 0xc4bdc1cf: {  // on_failed

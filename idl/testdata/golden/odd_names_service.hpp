@@ -29,8 +29,11 @@ class OddService : public armature::ride::Service {
 
   virtual void publish_(std::int32_t publish) = 0;
 
-  virtual std::int32_t call(std::int32_t call, std::int32_t name, std::int32_t options_,
-                            std::int32_t deadline) = 0;
+  virtual std::int32_t call(
+      std::int32_t call,
+      std::int32_t name,
+      std::int32_t options_,
+      std::int32_t deadline) = 0;
 
   virtual std::int32_t send(std::int32_t send, const std::string& peer) = 0;
 
@@ -44,34 +47,49 @@ class OddService : public armature::ride::Service {
   /// @param armature  0 to 1
   virtual std::int32_t std(std::int32_t std, std::int32_t armature) = 0;
 
-  virtual std::int32_t armature(std::int32_t request_, std::int32_t command_,
-                                std::int32_t subscribe) = 0;
+  virtual std::int32_t armature(
+      std::int32_t request_,
+      std::int32_t command_,
+      std::int32_t subscribe) = 0;
 
   virtual std::int32_t interface_(const std::string& interface) = 0;
 
-  virtual std::int32_t statistics(const armature::ride::Flags& number,
-                                  const armature::ride::Flags& ride) = 0;
+  virtual std::int32_t statistics(
+      const armature::ride::Flags& number,
+      const armature::ride::Flags& ride) = 0;
 
-  virtual std::int32_t unix_(std::int32_t NULL_, std::int32_t EOF_, std::int32_t errno_,
-                             std::int32_t assert_) = 0;
+  virtual std::int32_t unix_(
+      std::int32_t NULL_,
+      std::int32_t EOF_,
+      std::int32_t errno_,
+      std::int32_t assert_) = 0;
 
   virtual std::int32_t virtual_(std::int32_t virtual_) = 0;
 
   virtual std_ name_() = 0;
 
+  virtual enum_ enum_2(enum_ enum_2, value_ value) = 0;
+
+  virtual value_ value(const std::vector<value_>& to, value_ from) = 0;
+
   virtual std::vector<armature_> on_failed_() = 0;
 
  protected:
   /// Tells all subscribers.  @thread any
-  void raise(const Number& event) { publish(event); }
+  void raise(const Number& event) {
+    publish(event);
+  }
 
   /// Tells all subscribers.  @thread any
-  void raise(const Failed& event) { publish(event); }
+  void raise(const Failed& event) {
+    publish(event);
+  }
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 }  // namespace odd_names

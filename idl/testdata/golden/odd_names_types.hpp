@@ -6,11 +6,46 @@
 #include <vector>
 
 #include "armature/ride/codec.hpp"
+#include "armature/ride/enumeration.hpp"
 #include "armature/ride/interface.hpp"
 #include "armature/ride/range.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace odd_names {
+
+enum class enum_ : std::uint8_t {
+  kEncode = 0,
+  kEnum = 1,
+  kDefault = 2,
+  kEvent = 3,
+  kImport = 4,
+  kInterface = 5,
+};
+ARMATURE_ENUM(enum_, kEncode, kEnum, kDefault, kEvent, kImport, kInterface);
+inline void encode(armature::ride::Encoder& to, enum_ value) {
+  to.put(static_cast<std::uint8_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, enum_& value) {
+  return from.take_enumerator(value);
+}
+
+enum class value_ : std::int16_t {
+  kK = 0,
+  kKk = 1,
+  kAB = 2,
+  kAb = 3,
+  kA_1 = 4,
+  kA1 = 5,
+  kKK = 6,
+};
+ARMATURE_ENUM(value_, kK, kKk, kAB, kAb, kA_1, kA1, kKK);
+inline void encode(armature::ride::Encoder& to, value_ value) {
+  to.put(static_cast<std::int16_t>(value));
+}
+inline bool decode(armature::ride::Decoder& from, value_& value) {
+  return from.take_enumerator(value);
+}
 
 struct Service_ {
   std::int32_t encode = 0;
@@ -26,8 +61,10 @@ inline void encode(armature::ride::Encoder& to, const Service_& value) {
   to.put(value.value);
 }
 inline bool decode(armature::ride::Decoder& from, Service_& value) {
-  return from.take(value.encode) && from.take(value.to) && from.take(value.from) &&
-         from.take(value.value);
+  return from.take(value.encode) &&
+      from.take(value.to) &&
+      from.take(value.from) &&
+      from.take(value.value);
 }
 
 struct Placeholder_ {
@@ -49,15 +86,23 @@ struct armature_ {
   std::int32_t std = 0;
 };
 ARMATURE_STRUCT(armature_, std);
-inline void encode(armature::ride::Encoder& to, const armature_& value) { to.put(value.std); }
-inline bool decode(armature::ride::Decoder& from, armature_& value) { return from.take(value.std); }
+inline void encode(armature::ride::Encoder& to, const armature_& value) {
+  to.put(value.std);
+}
+inline bool decode(armature::ride::Decoder& from, armature_& value) {
+  return from.take(value.std);
+}
 
 struct std_ {
   armature_ armature;
 };
 ARMATURE_STRUCT(std_, armature);
-inline void encode(armature::ride::Encoder& to, const std_& value) { to.put(value.armature); }
-inline bool decode(armature::ride::Decoder& from, std_& value) { return from.take(value.armature); }
+inline void encode(armature::ride::Encoder& to, const std_& value) {
+  to.put(value.armature);
+}
+inline bool decode(armature::ride::Decoder& from, std_& value) {
+  return from.take(value.armature);
+}
 
 struct odd_names_ {
   std_ odd_names;
@@ -82,19 +127,25 @@ inline void encode(armature::ride::Encoder& to, const Number& value) {
 inline bool decode(armature::ride::Decoder& from, Number& value) {
   return from.take(value.Number_) && from.take(value.event_number);
 }
-constexpr armature::ride::Number event_number(const Number*) { return 0x39e48af2; }
+constexpr armature::ride::Number event_number(const Number*) {
+  return 0x39e48af2;
+}
 
 struct Failed {
   std::int32_t Failed_ = 0;
 };
 ARMATURE_STRUCT(Failed, Failed_);
-inline void encode(armature::ride::Encoder& to, const Failed& value) { to.put(value.Failed_); }
+inline void encode(armature::ride::Encoder& to, const Failed& value) {
+  to.put(value.Failed_);
+}
 inline bool decode(armature::ride::Decoder& from, Failed& value) {
   return from.take(value.Failed_);
 }
-constexpr armature::ride::Number event_number(const Failed*) { return 0xdc4d2cf9; }
+constexpr armature::ride::Number event_number(const Failed*) {
+  return 0xdc4d2cf9;
+}
 
-/// What interface Odd has; both sides compare its digest, 0xbd4b161a.
+/// What interface Odd has; both sides compare its digest, 0x1ed38563.
 inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"int Service(int)", armature::ride::Access::kCommand},
     {"int Placeholder(int,int)", armature::ride::Access::kCommand},
@@ -106,8 +157,9 @@ inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"void publish(int)", armature::ride::Access::kCommand},
     {"int call(int,int,int,int)", armature::ride::Access::kCommand},
     {"int send(int,String)", armature::ride::Access::kCommand},
-    {"int encode(struct odd_names{struct std{struct armature{int}}})",
-     armature::ride::Access::kCommand},
+    {
+        "int encode(struct odd_names{struct std{struct armature{int}}})",
+        armature::ride::Access::kCommand},
     {"int decode(int,int,int)", armature::ride::Access::kCommand},
     {"int std(int,int)", armature::ride::Access::kCommand},
     {"int armature(int,int,int)", armature::ride::Access::kCommand},
@@ -116,10 +168,19 @@ inline constexpr armature::ride::Declaration kOddDeclarations[] = {
     {"int unix(int,int,int,int)", armature::ride::Access::kCommand},
     {"int virtual(int)", armature::ride::Access::kCommand},
     {"struct std{struct armature{int}} name()", armature::ride::Access::kCommand},
+    {
+        "enum enum:byte{encode=0,enum=1,default=2,event=3,import=4,"
+        "interface=5} enum(enum enum:byte{encode=0,enum=1,default=2,event=3,import=4,"
+        "interface=5},enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,k_k=6})",
+        armature::ride::Access::kCommand},
+    {
+        "enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,"
+        "k_k=6} value(Array<enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,k_k=6}>,"
+        "enum value:short{k=0,kk=1,a_b=2,ab=3,a_1=4,a1=5,k_k=6})",
+        armature::ride::Access::kCommand},
     {"Array<struct armature{int}> on_failed()", armature::ride::Access::kCommand},
     {"event Number{int,int}", armature::ride::Access::kRead},
-    {"event Failed{int}", armature::ride::Access::kRead},
-};
+    {"event Failed{int}", armature::ride::Access::kRead}};
 inline constexpr armature::ride::Interface kOdd{"Odd", kOddDeclarations};
 
 }  // namespace odd_names

@@ -9,7 +9,10 @@ armature::ride::Answer<std::int32_t> VisionPlaceholder::initialize(
 }
 
 armature::ride::Answer<std::int32_t> VisionPlaceholder::setThreshold(
-    std::uint32_t a, std::uint32_t b, std::uint32_t c, armature::ride::CallOptions options) {
+    std::uint32_t a,
+    std::uint32_t b,
+    std::uint32_t c,
+    armature::ride::CallOptions options) {
   if (!armature::ride::within(a, 0, 255)) {
     return refuse<std::int32_t>("setThreshold", armature::ride::outside("a", a, "0 to 255"));
   }

@@ -27,9 +27,11 @@ class VisionPlaceholder : public armature::ride::Placeholder {
   /// @param a  0 to 255
   /// @param b  0 to 255
   /// @param c  0 to 255
-  armature::ride::Answer<std::int32_t> setThreshold(std::uint32_t a, std::uint32_t b,
-                                                    std::uint32_t c,
-                                                    armature::ride::CallOptions options = {});
+  armature::ride::Answer<std::int32_t> setThreshold(
+      std::uint32_t a,
+      std::uint32_t b,
+      std::uint32_t c,
+      armature::ride::CallOptions options = {});
 
   armature::ride::Sent start(armature::ride::Priority priority = {});
 

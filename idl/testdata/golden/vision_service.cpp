@@ -5,9 +5,10 @@ namespace vision {
 
 VisionService::VisionService() : Service(kVision) {}
 
-armature::ride::Executed VisionService::execute(armature::ride::Number operation,
-                                                armature::ride::Decoder& parameters,
-                                                armature::ride::Reply& reply) {
+armature::ride::Executed VisionService::execute(
+    armature::ride::Number operation,
+    armature::ride::Decoder& parameters,
+    armature::ride::Reply& reply) {
   switch (operation) {
     case 0xd836d3a3: {  // initialize
       if (!parameters.ended()) {
@@ -20,7 +21,9 @@ armature::ride::Executed VisionService::execute(armature::ride::Number operation
       std::uint32_t a = 0;
       std::uint32_t b = 0;
       std::uint32_t c = 0;
-      if (!parameters.take(a) || !parameters.take(b) || !parameters.take(c) ||
+      if (!parameters.take(a) ||
+          !parameters.take(b) ||
+          !parameters.take(c) ||
           !parameters.ended()) {
         return armature::ride::Executed::kMalformed;
       }

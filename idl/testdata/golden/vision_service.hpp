@@ -6,8 +6,8 @@
 
 namespace vision {
 
-/// The frame of a component with the interface Vision: derive, fill in the operations, give it to a
-/// Node.
+/// The frame of a component with the interface Vision: derive, fill in the operations, give it to
+/// a Node.
 ///
 /// Finds an object of one colour in the camera's picture (paper 4, Table 4).
 class VisionService : public armature::ride::Service {
@@ -29,12 +29,15 @@ class VisionService : public armature::ride::Service {
 
  protected:
   /// Tells all subscribers.  @thread any
-  void raise(const ObjectPosition& event) { publish(event); }
+  void raise(const ObjectPosition& event) {
+    publish(event);
+  }
 
  private:
-  armature::ride::Executed execute(armature::ride::Number operation,
-                                   armature::ride::Decoder& parameters,
-                                   armature::ride::Reply& reply) override;
+  armature::ride::Executed execute(
+      armature::ride::Number operation,
+      armature::ride::Decoder& parameters,
+      armature::ride::Reply& reply) override;
 };
 
 }  // namespace vision

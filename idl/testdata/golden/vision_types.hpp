@@ -25,17 +25,19 @@ inline void encode(armature::ride::Encoder& to, const ObjectPosition& value) {
 inline bool decode(armature::ride::Decoder& from, ObjectPosition& value) {
   return from.take(value.x) && from.take(value.y);
 }
-constexpr armature::ride::Number event_number(const ObjectPosition*) { return 0x714c2b59; }
+constexpr armature::ride::Number event_number(const ObjectPosition*) {
+  return 0x714c2b59;
+}
 
 /// What interface Vision has; both sides compare its digest, 0xb303dcc2.
 inline constexpr armature::ride::Declaration kVisionDeclarations[] = {
     {"int initialize()", armature::ride::Access::kCommand},
-    {"int setThreshold(unsigned int,unsigned int,unsigned int)",
-     armature::ride::Access::kConfigure},
+    {
+        "int setThreshold(unsigned int,unsigned int,unsigned int)",
+        armature::ride::Access::kConfigure},
     {"void start()", armature::ride::Access::kCommand},
     {"void stop()", armature::ride::Access::kCommand},
-    {"event ObjectPosition{int,int}", armature::ride::Access::kRead},
-};
+    {"event ObjectPosition{int,int}", armature::ride::Access::kRead}};
 inline constexpr armature::ride::Interface kVision{"Vision", kVisionDeclarations};
 
 }  // namespace vision
