@@ -27,6 +27,7 @@ class Pid {
     double u_max = 0.0;
   };
 
+  /// What is remembered between two samples.
   struct State {
     double output = 0.0;        ///< u[k-1]
     double last_error = 0.0;    ///< e[k-1]

@@ -16,6 +16,7 @@ struct Property;
 /// What a user wrote for a property: text, a list or a map. Which type and unit it must have is the
 /// model's affair.
 struct Value {
+  /// Which of its members a value uses.
   enum class Kind { kNone, kText, kList, kMap };
 
   Kind kind = Kind::kNone;
@@ -27,6 +28,7 @@ struct Value {
   base::Location where;
 };
 
+/// A property and what the user wrote for it.
 struct Property {
   std::string name;
   Value value;
@@ -40,8 +42,11 @@ struct Reference {
   base::Location where;
 };
 
+/// What makes a component run.
 enum class ActivityKind { kSequential, kPeriodic, kTriggered };
+/// Which scheduling policy a thread asks for.
 enum class Scheduler { kRealtime, kDeadline, kOther };
+/// What happens after a cycle that ran too long.
 enum class Overrun { kSkip, kCatchUp, kFault };
 
 /// How a component runs. A component without an activity is sequential; what is not given has the
@@ -81,6 +86,7 @@ struct PropertyFile {
   base::Location where;
 };
 
+/// A component of the application.
 struct Component {
   std::string name;  ///< parts of composites: `instance.part`
   std::string model;
@@ -98,7 +104,9 @@ struct Component {
   base::Location model_where;
 };
 
+/// What a reader does about data that is too old, or whose writer is lost.
 enum class Reaction { kDefault, kHold, kZero, kStop, kFault };
+/// Which value a full queue drops.
 enum class Overflow { kDropNewest, kDropOldest };
 
 /// How data travels along a connection.
@@ -112,6 +120,7 @@ struct ConnectionPolicy {
   bool fan_in = false;                    ///< the input has several writers on purpose
 };
 
+/// One end of a connection.
 struct Endpoint {
   std::string component;
   std::string port;
@@ -121,6 +130,7 @@ struct Endpoint {
 /// `Component.Port`.
 std::string to_text(const Endpoint& endpoint);
 
+/// A connection from an output port to an input port.
 struct Connection {
   Endpoint from;
   Endpoint to;
@@ -136,6 +146,7 @@ struct NamedConnection {
   base::Location where;
 };
 
+/// Which kind of member a composite shows.
 enum class ExportKind { kPort, kOperation, kEvent, kProperty };
 
 /// What a composite shows of a part as its own.
@@ -156,6 +167,7 @@ struct Composite {
   base::Location where;
 };
 
+/// A script that the document names.
 struct Script {
   std::string path;       ///< relative to the document's folder, or absolute
   std::string component;  ///< in whose engine it runs; empty: in the application's own

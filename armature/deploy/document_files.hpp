@@ -28,6 +28,7 @@ struct Limits {
   int includes = 1000;
 };
 
+/// What reading a document needs beside its file.
 struct LoadOptions {
   FileReader read;  ///< empty: from disk
   /// As on the command line: `joints=7` sets a parameter, `Joint1.GearRatio=0.02` a property,
