@@ -15,7 +15,7 @@ set(ARMATURE_LAYERS
     "guardian: base platform can"
     "ride: base platform rt types"
     "tls: base platform ride"
-    "exec: base component rt platform"
+    "exec: base component rt types platform"
     "record: base exec component types rt platform"
     "deploy: base exec component types platform"
     "report: base platform types control component exec record"
@@ -23,7 +23,7 @@ set(ARMATURE_LAYERS
     "script: base remote ride deploy exec component rt types platform"
     "library: base component can control guardian record rt types"
     "sim: base exec component can control"
-    "robots: base platform rt library component can control guardian sim"
+    "robots: base platform rt types library component can control guardian sim"
     "studio: base remote record"
     "cli: base platform types rt control component can ride tls exec record deploy report script remote library sim studio"
     "testing: base platform types rt guard control component can guardian ride tls exec record deploy report script remote library sim studio")

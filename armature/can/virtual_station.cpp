@@ -28,8 +28,8 @@ bool VirtualStation::open(const BusOptions& options, base::Diagnostics& diagnost
   }
   if (!check_options(name(), options, diagnostics)) return false;
   options_ = options;
-  outbox_.emplace(options.send_capacity, rt::WhenFull::kRefuse, Outgoing{});
-  inbox_.emplace(options.receive_capacity, rt::WhenFull::kRefuse, Arrival{});
+  outbox_.emplace(options.send_capacity, rt::WhenFull::kDropNewest, Outgoing{});
+  inbox_.emplace(options.receive_capacity, rt::WhenFull::kDropNewest, Arrival{});
   queue_.reserve(options.send_capacity);
   send_errors_ = 0;
   receive_errors_ = 0;

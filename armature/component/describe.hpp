@@ -21,6 +21,7 @@ struct PropertyDescription {
   std::string name;
   std::string doc;
   std::string type;
+  std::vector<std::string> values;  ///< of an enumeration: their names
   std::string unit;
   std::optional<Range> range;
   bool persistent = true;  ///< false: an attribute
@@ -35,6 +36,7 @@ struct PortDescription {
   std::string name;
   std::string doc;
   std::string type;
+  std::vector<std::string> values;  ///< of an enumeration: their names
   std::string unit;
   std::optional<std::size_t> size;  ///< declared number of elements of a vector
   std::vector<std::string> peers;   ///< `component.port` at the other end of each connection

@@ -25,20 +25,6 @@ std::string_view name_of(ReadStatus status) {
   return "unknown";
 }
 
-std::string_view name_of(Reaction reaction) {
-  switch (reaction) {
-    case Reaction::kHold:
-      return "hold";
-    case Reaction::kZero:
-      return "zero";
-    case Reaction::kStop:
-      return "stop";
-    case Reaction::kFault:
-      return "fault";
-  }
-  return "unknown";
-}
-
 bool LeadsTo::includes(std::string_view name) const {
   if (!declared) return true;
   for (const std::string_view each : names) {

@@ -17,9 +17,16 @@
 #include "armature/component/component.hpp"
 #include "armature/component/property.hpp"
 #include "armature/rt/ring.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/type.hpp"
 
+namespace armature::rt {
+ARMATURE_ENUM(WhenFull, kDropNewest, kDropOldest);
+}  // namespace armature::rt
+
 namespace armature::component {
+
+using types::name_of;
 
 /// What a read found. Ordered: everything from kOld on comes with a value.
 enum class ReadStatus : std::uint8_t { kNotConnected, kNone, kOld, kNew };
@@ -43,7 +50,7 @@ enum class Reaction : std::uint8_t {
   kFault,  ///< its component faults
 };
 
-std::string_view name_of(Reaction reaction);
+ARMATURE_ENUM(Reaction, kHold, kZero, kStop, kFault);
 
 /// How a connection carries values; what a deployment calls its policy.
 struct ConnectionPolicy {
@@ -51,7 +58,7 @@ struct ConnectionPolicy {
   enum class Kind : std::uint8_t { kLatest, kFifo };
   Kind kind = Kind::kLatest;
   std::size_t capacity = 1;  ///< of a FIFO
-  rt::WhenFull when_full = rt::WhenFull::kRefuse;
+  rt::WhenFull when_full = rt::WhenFull::kDropNewest;
   bool one_cycle_delay = false;  ///< read one cycle after it was written: how a loop is closed
 };
 

@@ -23,7 +23,7 @@ Timeline::Timeline(const Limits& limits)
       step_cost_(in_ticks(kStepCostNs)),
       share_(limits.share),
       budget_(burst_),
-      ring_(limits.capacity, rt::WhenFull::kRefuse, Entry{}) {}
+      ring_(limits.capacity, rt::WhenFull::kDropNewest, Entry{}) {}
 
 void Timeline::open(std::uint16_t thread, base::Time now, std::uint64_t tick) noexcept {
   if (earned_until_ == 0) earned_until_ = tick;

@@ -48,18 +48,6 @@ void check_saved_files(const Document& document, base::Diagnostics& diagnostics)
   }
 }
 
-/// What this version reads but cannot do: better refused than left out silently.
-void check_supported(const Document& document, base::Diagnostics& diagnostics) {
-  for (const Script& script : document.scripts) {
-    diagnostics.error(script.where, "scripts in a deployment are not supported by this version",
-                      "name it on the command line: --script " + in_quotes(script.path));
-  }
-  if (document.recorder.kind != Value::Kind::kNone) {
-    diagnostics.error(document.recorder.where, "a recorder is not supported by this version",
-                      "remove the section");
-  }
-}
-
 component::InputPortBase* find_input(const exec::Blueprint& blueprint, const Endpoint& end,
                                      base::Diagnostics& diagnostics) {
   std::vector<std::string> names;
@@ -202,7 +190,7 @@ void check_exports(const Document& document, const exec::Blueprint& blueprint,
       found.error(one.where,
                   "composite " + in_quotes(composite.model) + " exports " + in_quotes(one.name) +
                       ", but " + in_quotes(one.component) + " has no " +
-                      std::string(to_text(one.kind)) + " " + in_quotes(one.member),
+                      std::string(name_of(one.kind)) + " " + in_quotes(one.member),
                   base::suggestion(one.member, names));
     }
     reports.add(found);
@@ -236,7 +224,6 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
                                 const BuildOptions& options, base::Diagnostics& diagnostics) {
   exec::Blueprint blueprint;
   if (!document.application.empty()) blueprint.name = document.application;
-  check_supported(document, diagnostics);
   check_saved_files(document, diagnostics);
   // A name that still stands for a composite could not be resolved, which was reported.
   for (const Composite& composite : document.composites) blueprint.absent.insert(composite.name);
@@ -255,8 +242,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
 
 exec::ApplicationOptions application_options(const Document& document) {
   exec::ApplicationOptions options;
-  const bool stop = document.on_fault == OnFault::kStopAll;
-  options.on_fault = stop ? exec::OnFault::kStop : exec::OnFault::kContinue;
+  options.on_fault = document.on_fault;
   const BlackBox& box = document.black_box;
   if (box.history) options.black_box.history = *box.history;
   if (!box.kept) options.black_box.history = base::Duration::zero();

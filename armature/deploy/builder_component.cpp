@@ -19,61 +19,18 @@
 namespace armature::deploy::internal {
 namespace {
 
-exec::Activity::Kind kind_of(ActivityKind kind) {
-  switch (kind) {
-    case ActivityKind::kPeriodic:
-      return exec::Activity::Kind::kPeriodic;
-    case ActivityKind::kTriggered:
-      return exec::Activity::Kind::kTriggered;
-    case ActivityKind::kSequential:
-      break;
+/// A priority alone asks for real time.
+exec::Activity with_scheduler(const Activity& written) {
+  exec::Activity activity = written;
+  if (!written.scheduler_given && written.priority > 0) {
+    activity.scheduler = exec::Activity::Scheduler::kRealtime;
   }
-  return exec::Activity::Kind::kSequential;
-}
-
-exec::Activity::Scheduler scheduler_of(const Activity& activity) {
-  const Scheduler by_default = activity.priority > 0 ? Scheduler::kRealtime : Scheduler::kOther;
-  switch (activity.scheduler.value_or(by_default)) {
-    case Scheduler::kRealtime:
-      return exec::Activity::Scheduler::kRealtime;
-    case Scheduler::kDeadline:
-      return exec::Activity::Scheduler::kDeadline;
-    case Scheduler::kOther:
-      break;
-  }
-  return exec::Activity::Scheduler::kOther;
-}
-
-exec::Overrun overrun_of(Overrun overrun) {
-  switch (overrun) {
-    case Overrun::kCatchUp:
-      return exec::Overrun::kCatchUp;
-    case Overrun::kFault:
-      return exec::Overrun::kFault;
-    case Overrun::kSkip:
-      break;
-  }
-  return exec::Overrun::kSkip;
-}
-
-exec::Activity activity_of(const Activity& written) {
-  exec::Activity activity;
-  activity.kind = kind_of(written.kind);
-  activity.period = written.period;
-  activity.scheduler = scheduler_of(written);
-  activity.priority = written.priority;
-  activity.cpus = written.cpus;
-  if (written.overrun) activity.overrun = overrun_of(*written.overrun);
-  if (written.late_cycles_to_fault > 0)
-    activity.late_cycles_to_fault = written.late_cycles_to_fault;
-  if (written.budget) activity.budget = *written.budget;
-  activity.thread = written.thread;
   return activity;
 }
 
 /// What lives in another process has a thread here that waits for it, and is never real-time.
 exec::Activity activity_of(const Component& written) {
-  if (written.remote.name.empty()) return activity_of(written.activity);
+  if (written.remote.name.empty()) return with_scheduler(written.activity);
   exec::Activity activity;
   activity.kind = exec::Activity::Kind::kTriggered;
   return activity;
@@ -168,7 +125,7 @@ std::unique_ptr<component::Component> ComponentBuilder::settle(
     const Component& written, std::unique_ptr<component::Component> component) {
   if (written.remote.name.empty()) return component;
   const Activity& activity = written.activity;
-  if (activity.kind != ActivityKind::kSequential) {
+  if (activity.kind != Activity::Kind::kSequential) {
     diagnostics_.error(activity.where,
                        in_quotes(written.name) + " lives in another process: its activity is there",
                        "leave out activity");

@@ -11,33 +11,6 @@ namespace {
 
 std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
 
-component::Reaction reaction_of(Reaction written, component::Reaction by_default) {
-  switch (written) {
-    case Reaction::kHold:
-      return component::Reaction::kHold;
-    case Reaction::kZero:
-      return component::Reaction::kZero;
-    case Reaction::kStop:
-      return component::Reaction::kStop;
-    case Reaction::kFault:
-      return component::Reaction::kFault;
-    case Reaction::kDefault:
-      break;
-  }
-  return by_default;
-}
-
-component::ConnectionPolicy policy_of(const ConnectionPolicy& written) {
-  component::ConnectionPolicy policy;
-  policy.one_cycle_delay = written.one_cycle_delay;
-  if (written.fifo_size == 0) return policy;
-  policy.kind = component::ConnectionPolicy::Kind::kFifo;
-  policy.capacity = static_cast<std::size_t>(written.fifo_size);
-  const bool newest = written.overflow == Overflow::kDropNewest;
-  policy.when_full = newest ? rt::WhenFull::kRefuse : rt::WhenFull::kDropOldest;
-  return policy;
-}
-
 }  // namespace
 
 ConnectionBuilder::ConnectionBuilder(const Document& document, exec::Blueprint& blueprint,
@@ -64,12 +37,12 @@ void ConnectionBuilder::build() {
 
 void ConnectionBuilder::add(const Endpoint& from, const Endpoint& to,
                             const ConnectionPolicy& policy, const base::Location& where) {
-  exec::ConnectionEntry entry{from.component,    from.port, to.component, to.port,
-                              policy_of(policy), {},        {},           where};
+  exec::ConnectionEntry entry{from.component, from.port, to.component, to.port,
+                              policy,         {},        {},           where};
   if (policy.max_age) entry.max_age = max_age_of(to, policy);
   const bool keep_running = document_.on_fault == OnFault::kKeepRunning;
-  if (policy.on_lost != Reaction::kDefault || keep_running) {
-    entry.on_lost = component::on_lost(reaction_of(policy.on_lost, component::Reaction::kHold));
+  if (policy.on_lost || keep_running) {
+    entry.on_lost = component::on_lost(policy.on_lost.value_or(Reaction::kHold));
   }
   if (policy.fan_in) check_fan_in(to, where);
   blueprint_.connections.push_back(std::move(entry));
@@ -168,7 +141,7 @@ component::MaxAge ConnectionBuilder::max_age_of(const Endpoint& to,
   const component::InputPortBase* const port = input(to);
   const component::Reaction own =
       port != nullptr ? port->stale_reaction() : component::Reaction::kStop;
-  return component::max_age(*policy.max_age, reaction_of(policy.on_old, own));
+  return component::max_age(*policy.max_age, policy.on_old.value_or(own));
 }
 
 component::InputPortBase* ConnectionBuilder::input(const Endpoint& end) {

@@ -114,7 +114,7 @@ TEST(Builder, ConnectionsCarryTheLatestValueUnlessTheyAreAFifo) {
   EXPECT_EQ(fifo.policy.kind, Kind::kFifo);
   EXPECT_EQ(fifo.policy.capacity, 8u);
   EXPECT_EQ(fifo.policy.when_full, rt::WhenFull::kDropOldest);
-  EXPECT_EQ(connection(", policy: {fifo: 8}").policy.when_full, rt::WhenFull::kRefuse);
+  EXPECT_EQ(connection(", policy: {fifo: 8}").policy.when_full, rt::WhenFull::kDropNewest);
   EXPECT_TRUE(connection(", delay: one_cycle").policy.one_cycle_delay);
 }
 
@@ -137,9 +137,9 @@ TEST(Builder, ReadersOutliveTheirWritersOnlyIfTheDocumentSaysSo) {
 }
 
 TEST(Builder, AFaultStopsAllIfTheDocumentSaysSo) {
-  EXPECT_EQ(deploy("on_fault: stop_all").options.on_fault, exec::OnFault::kStop);
-  EXPECT_EQ(deploy("on_fault: stop_dependents").options.on_fault, exec::OnFault::kContinue);
-  EXPECT_EQ(deploy("application: x").options.on_fault, exec::OnFault::kContinue);
+  EXPECT_EQ(deploy("on_fault: stop_all").options.on_fault, exec::OnFault::kStopAll);
+  EXPECT_EQ(deploy("on_fault: stop_dependents").options.on_fault, exec::OnFault::kStopDependents);
+  EXPECT_EQ(deploy("application: x").options.on_fault, exec::OnFault::kStopDependents);
 }
 
 TEST(Builder, ADelayHoldsForAllConnectionsBetweenTwoComponents) {

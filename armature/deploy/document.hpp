@@ -8,6 +8,9 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
+#include "armature/component/port.hpp"
+#include "armature/exec/activity.hpp"
+#include "armature/exec/application.hpp"
 
 namespace armature::deploy {
 
@@ -42,25 +45,14 @@ struct Reference {
   base::Location where;
 };
 
-/// What makes a component run.
-enum class ActivityKind { kSequential, kPeriodic, kTriggered };
-/// Which scheduling policy a thread asks for.
-enum class Scheduler { kRealtime, kDeadline, kOther };
-/// What happens after a cycle that ran too long.
-enum class Overrun { kSkip, kCatchUp, kFault };
+using component::Reaction;
+using exec::OnFault;
+using exec::Overrun;
+using types::name_of;
 
-/// How a component runs. A component without an activity is sequential; what is not given has the
-/// default of the execution library.
-struct Activity {
-  ActivityKind kind = ActivityKind::kSequential;
-  base::Duration period{};  ///< > 0 if periodic, else 0
-  int priority = 0;         ///< 1..99, 99 most urgent; 0 if not given
-  std::optional<Scheduler> scheduler;
-  std::vector<int> cpus;                 ///< empty: any
-  std::optional<Overrun> overrun;        ///< what a late cycle leads to; kFault skips until then
-  int late_cycles_to_fault = 0;          ///< of kFault; 0 if not given
-  std::string thread;                    ///< periodic components that name the same thread share it
-  std::optional<base::Duration> budget;  ///< declared execution time of one cycle
+/// How a component runs. A component without an activity is sequential.
+struct Activity : exec::Activity {
+  bool scheduler_given = false;  ///< else it follows from the priority
   base::Location where;
 };
 
@@ -104,19 +96,11 @@ struct Component {
   base::Location model_where;
 };
 
-/// What a reader does about data that is too old, or whose writer is lost.
-enum class Reaction { kDefault, kHold, kZero, kStop, kFault };
-/// Which value a full queue drops.
-enum class Overflow { kDropNewest, kDropOldest };
-
 /// How data travels along a connection.
-struct ConnectionPolicy {
-  int fifo_size = 0;  ///< 0: the latest value only
-  Overflow overflow = Overflow::kDropNewest;
+struct ConnectionPolicy : component::ConnectionPolicy {
   std::optional<base::Duration> max_age;  ///< of a sample when it is read
-  Reaction on_old = Reaction::kDefault;   ///< when a sample is older than `max_age`
-  Reaction on_lost = Reaction::kDefault;  ///< when the writer has stopped or is gone
-  bool one_cycle_delay = false;           ///< the reader uses the previous cycle's sample
+  std::optional<Reaction> on_old;         ///< when a sample is older than `max_age`
+  std::optional<Reaction> on_lost;        ///< when the writer has stopped or is gone
   bool fan_in = false;                    ///< the input has several writers on purpose
 };
 
@@ -148,6 +132,7 @@ struct NamedConnection {
 
 /// Which kind of member a composite shows.
 enum class ExportKind { kPort, kOperation, kEvent, kProperty };
+ARMATURE_ENUM(ExportKind, kPort, kOperation, kEvent, kProperty);
 
 /// What a composite shows of a part as its own.
 struct Export {
@@ -164,13 +149,6 @@ struct Composite {
   std::string model;
   std::vector<Property> parameters;
   std::vector<Export> exports;
-  base::Location where;
-};
-
-/// A script that the document names.
-struct Script {
-  std::string path;       ///< relative to the document's folder, or absolute
-  std::string component;  ///< in whose engine it runs; empty: in the application's own
   base::Location where;
 };
 
@@ -204,9 +182,6 @@ struct Mode {
   base::Location where;
 };
 
-/// What follows when a component faults.
-enum class OnFault { kStopDependents, kStopAll, kKeepRunning };
-
 /// What is kept for the case of a fault; what is not given is the runtime's choice.
 struct BlackBox {
   bool kept = true;
@@ -228,7 +203,6 @@ struct Document {
   std::vector<Connection> connections;
   std::vector<NamedConnection> named_connections;
   std::vector<Composite> composites;
-  std::vector<Script> scripts;
   /// Acts of the operator that scripts, or other processes, may do in the operator's stead.
   std::vector<OperationOf> script_grants;
   std::vector<OperationOf> remote_grants;
@@ -241,7 +215,6 @@ struct Document {
   /// So many threads it may have, where it says so.
   std::optional<int> most_threads;
   Network network;
-  Value recorder;  ///< kNone if the document has none
 };
 
 /// The entry of a map or property list with that name, or nullptr.
@@ -250,15 +223,6 @@ Property* find(std::vector<Property>& properties, std::string_view name);
 
 /// Value as YAML on one line: `0.5`, `[1, 2]`, `{x: 1, y: "a b"}`.
 std::string to_text(const Value& value);
-
-/// As the files spell them.
-std::string_view to_text(ActivityKind kind);
-std::string_view to_text(Scheduler scheduler);
-std::string_view to_text(Overrun overrun);
-std::string_view to_text(Reaction reaction);
-std::string_view to_text(Overflow overflow);
-std::string_view to_text(OnFault on_fault);
-std::string_view to_text(ExportKind kind);
 
 /// `10 ms`, `1.5 s`, `250 us`: exact, in the largest unit that needs no exponent.
 std::string to_text(base::Duration duration);

@@ -17,10 +17,8 @@ constexpr int kHighestCpu = 1023;
 constexpr int kMostCyclesLate = 1'000'000;
 
 void read_overrun(const Value& value, const ValueReader& reader, Activity& activity) {
-  const Choices<Overrun> choices = {
-      {"skip", Overrun::kSkip}, {"catch_up", Overrun::kCatchUp}, {"fault", Overrun::kFault}};
   if (value.kind != Value::Kind::kMap) {
-    activity.overrun = reader.choice(value, "overrun", choices);
+    assign(reader.choice<Overrun>(value, "overrun"), activity.overrun);
     return;
   }
   Fields fields(value, reader);
@@ -64,25 +62,25 @@ void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Ac
     return;
   }
   if (periodic != nullptr) {
-    activity.kind = ActivityKind::kPeriodic;
+    activity.kind = Activity::Kind::kPeriodic;
     read_period(*periodic, reader, activity);
   }
-  const auto choose = [&](const Value* flag, ActivityKind kind) {
+  const auto choose = [&](const Value* flag, Activity::Kind kind) {
     if (flag == nullptr) return;
     activity.kind = kind;
     activity.period = {};
-    if (reader.flag(*flag, to_text(kind)) == false) {
-      reader.error(flag->where, std::string(to_text(kind)) + " can only be true");
+    if (reader.flag(*flag, name_of(kind)) == false) {
+      reader.error(flag->where, std::string(name_of(kind)) + " can only be true");
     }
   };
-  choose(triggered, ActivityKind::kTriggered);
-  choose(sequential, ActivityKind::kSequential);
+  choose(triggered, Activity::Kind::kTriggered);
+  choose(sequential, Activity::Kind::kSequential);
 }
 
 void read_activity_name(const Value& value, const ValueReader& reader, Activity& activity) {
-  const Choices<ActivityKind> choices = {{"sequential", ActivityKind::kSequential},
-                                         {"triggered", ActivityKind::kTriggered}};
-  if (value.text == to_text(ActivityKind::kPeriodic)) {
+  const Choices<Activity::Kind> choices = {{"sequential", Activity::Kind::kSequential},
+                                           {"triggered", Activity::Kind::kTriggered}};
+  if (value.text == name_of(Activity::Kind::kPeriodic)) {
     reader.error(value.where, "a periodic activity needs its period",
                  "for example {periodic: 10 ms}");
     return;
@@ -96,16 +94,16 @@ void check_activity(const Value& value, const ValueReader& reader, const Activit
   const auto refuse = [&](std::string_view key, const char* reason) {
     if (given(key)) {
       reader.error(find(value.entries, key)->where, std::string(key) + " is not for a " +
-                                                        std::string(to_text(activity.kind)) +
+                                                        std::string(name_of(activity.kind)) +
                                                         " activity, " + reason);
     }
   };
-  if (activity.kind == ActivityKind::kSequential) {
+  if (activity.kind == Activity::Kind::kSequential) {
     for (const char* key : {"priority", "scheduler", "cpus"}) {
       refuse(key, "which runs in the thread of whoever triggers it");
     }
   }
-  if (activity.kind != ActivityKind::kPeriodic) {
+  if (activity.kind != Activity::Kind::kPeriodic) {
     for (const char* key : {"overrun", "thread"}) refuse(key, "which has no period");
   }
 }
@@ -113,12 +111,12 @@ void check_activity(const Value& value, const ValueReader& reader, const Activit
 /// A priority counts in real time only. One of before gives way to a scheduler that has none.
 void check_priority(const Value& value, const ValueReader& reader, Activity& activity) {
   const bool has_none =
-      activity.scheduler == Scheduler::kOther || activity.scheduler == Scheduler::kDeadline;
+      activity.scheduler_given && activity.scheduler != Activity::Scheduler::kRealtime;
   if (!has_none || activity.priority == 0) return;
   if (const Property* priority = find(value.entries, "priority")) {
     reader.error(
         priority->where,
-        "priority has no effect with the scheduler " + std::string(to_text(*activity.scheduler)),
+        "priority has no effect with the scheduler " + std::string(name_of(activity.scheduler)),
         "remove one of the two; a priority goes with scheduler: realtime");
   }
   activity.priority = 0;
@@ -275,10 +273,9 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
            activity.priority);
   }
   if (const Value* scheduler = fields.take("scheduler")) {
-    const Choices<Scheduler> choices = {{"realtime", Scheduler::kRealtime},
-                                        {"deadline", Scheduler::kDeadline},
-                                        {"other", Scheduler::kOther}};
-    activity.scheduler = reader.choice(*scheduler, "scheduler", choices);
+    const auto chosen = reader.choice<Activity::Scheduler>(*scheduler, "scheduler");
+    activity.scheduler_given = chosen.has_value();
+    assign(chosen, activity.scheduler);
   }
   if (const Value* cpus = fields.take("cpus")) read_cpus(*cpus, reader, activity);
   if (const Value* overrun = fields.take("overrun")) read_overrun(*overrun, reader, activity);
@@ -286,7 +283,7 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
     assign(reader.name(*thread, "thread"), activity.thread);
   }
   if (const Value* budget = fields.take("budget")) {
-    if (const auto time = reader.duration(*budget, "budget")) activity.budget = time;
+    assign(reader.duration(*budget, "budget"), activity.budget);
   }
   fields.refuse_others();
   check_activity(value, reader, activity);

@@ -41,14 +41,14 @@ std::optional<Endpoint> read_endpoint(const Value& value, std::string_view what,
 void read_fifo(const Value& value, const ValueReader& reader, ConnectionPolicy& policy) {
   Fields fields(value, reader);
   if (const Value* size = fields.take("fifo")) {
-    assign(reader.whole_number(*size, "fifo", 1, kLargestFifo), policy.fifo_size);
+    policy.kind = ConnectionPolicy::Kind::kFifo;
+    const auto capacity = reader.whole_number(*size, "fifo", 1, kLargestFifo);
+    policy.capacity = static_cast<std::size_t>(capacity.value_or(1));
   } else {
     reader.error(value.where, "policy names no fifo", "for example {fifo: 8}");
   }
   if (const Value* overflow = fields.take("overflow")) {
-    const Choices<Overflow> choices = {{"drop_newest", Overflow::kDropNewest},
-                                       {"drop_oldest", Overflow::kDropOldest}};
-    assign(reader.choice(*overflow, "overflow", choices), policy.overflow);
+    assign(reader.choice<rt::WhenFull>(*overflow, "overflow"), policy.when_full);
   }
   fields.refuse_others();
 }
@@ -67,18 +67,14 @@ ConnectionPolicy read_policy(Fields& fields, const ValueReader& reader) {
   ConnectionPolicy policy;
   if (const Value* kind = fields.take("policy")) read_policy_kind(*kind, reader, policy);
   if (const Value* age = fields.take("max_age")) policy.max_age = reader.duration(*age, "max_age");
-  const Choices<Reaction> reactions = {{"hold", Reaction::kHold},
-                                       {"zero", Reaction::kZero},
-                                       {"stop", Reaction::kStop},
-                                       {"fault", Reaction::kFault}};
   if (const Value* on_old = fields.take("on_old")) {
-    assign(reader.choice(*on_old, "on_old", reactions), policy.on_old);
+    policy.on_old = reader.choice<Reaction>(*on_old, "on_old");
     if (fields.take("max_age") == nullptr) {
       reader.error(on_old->where, "on_old has no effect without max_age");
     }
   }
   if (const Value* on_lost = fields.take("on_lost")) {
-    assign(reader.choice(*on_lost, "on_lost", reactions), policy.on_lost);
+    policy.on_lost = reader.choice<Reaction>(*on_lost, "on_lost");
   }
   if (const Value* delay = fields.take("delay")) {
     policy.one_cycle_delay =

@@ -119,6 +119,13 @@ std::optional<base::Duration> ValueReader::duration(const Value& value,
   return base::from_seconds(seconds.value());
 }
 
+void ValueReader::refuse_name(const Value& value, std::string_view what,
+                              const types::Type& type) const {
+  std::vector<std::string> known;
+  for (const types::Enumerator& each : type.enumerators) known.push_back(each.name);
+  refuse_choice(value, what, value.text, known);
+}
+
 void ValueReader::refuse_choice(const Value& value, std::string_view what, const std::string& found,
                                 const std::vector<std::string>& known) const {
   std::string list;

@@ -20,35 +20,14 @@ std::string path_from(const Document& document, std::string_view path) {
 namespace internal {
 namespace {
 
-constexpr std::array<std::string_view, 14> kHeadKeys = {
-    "application", "on_fault", "black_box", "libraries", "scripts",     "grants",       "modes",
-    "mode",        "recorder", "composed",  "network",   "before_stop", "hold_at_stop", "threads"};
+constexpr std::array<std::string_view, 12> kHeadKeys = {
+    "application", "on_fault", "black_box", "libraries",   "grants",       "modes",
+    "mode",        "composed", "network",   "before_stop", "hold_at_stop", "threads"};
 
 /// The system itself has an end.
 constexpr int kMostThreads = 10'000;
 
 constexpr const char* kGiveOne = "give it one, or remove the key";
-
-std::optional<Script> read_script(const Value& value, const ValueReader& reader) {
-  Script script{{}, {}, value.where};
-  if (value.kind != Value::Kind::kMap) {
-    assign(reader.text(value, "script"), script.path);
-    return script;
-  }
-  Fields fields(value, reader);
-  const Value* file = fields.take("file");
-  const Value* component = fields.take("component");
-  fields.refuse_others();
-  if (component != nullptr) {
-    assign(reader.dotted_name(*component, "component"), script.component);
-  }
-  if (file == nullptr) {
-    reader.error(value.where, "script has no 'file'");
-    return std::nullopt;
-  }
-  assign(reader.text(*file, "file"), script.path);
-  return script;
-}
 
 std::vector<OperationOf> read_operations(const Value* list, const char* what,
                                          const ValueReader& reader) {
@@ -174,7 +153,7 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
     known.emplace_back(key);
     return fields.take(key);
   };
-  for (const char* key : {"include", "libraries", "scripts"}) take(key);
+  for (const char* key : {"include", "libraries"}) take(key);
   for (const char* key :
        {"application", "on_fault", "black_box", "mode", "hold_at_stop", "threads"}) {
     take(key);
@@ -182,8 +161,13 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
     const bool empty = entry != nullptr && entry->value.kind == Value::Kind::kNone;
     if (empty) reader.error(entry->where, in_quotes(key) + " has no value", kGiveOne);
   }
+  const auto refuse = [&](const char* key, const char* message, const char* hint) {
+    if (const Value* given = fields.take(key)) reader.error(given->where, message, hint);
+  };
+  refuse("scripts", "scripts are named when the application starts",
+         "armature run FILE --script SCRIPT");
+  refuse("recorder", "a component of the model Reporter records", "docs/recording.md");
   for (const auto& [key, kind] : kKinds) require_kind(take(key), kind, key, reader);
-  require_kind(take("recorder"), Value::Kind::kMap, "recorder", reader);
   fields.refuse_others();
   std::erase_if(tree.entries, [&](const Property& entry) {
     return std::find(known.begin(), known.end(), entry.name) == known.end();
@@ -233,10 +217,7 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     assign(reader.text(*name, "application"), document.application);
   }
   if (const Value* on_fault = fields.take("on_fault")) {
-    const Choices<OnFault> choices = {{"stop_dependents", OnFault::kStopDependents},
-                                      {"stop_all", OnFault::kStopAll},
-                                      {"keep_running", OnFault::kKeepRunning}};
-    assign(reader.choice(*on_fault, "on_fault", choices), document.on_fault);
+    assign(reader.choice<OnFault>(*on_fault, "on_fault"), document.on_fault);
   }
   if (const Value* box = fields.take("black_box")) {
     document.black_box = read_black_box(*box, reader);
@@ -248,9 +229,6 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     if (auto name = reader.text(*library, "library")) {
       document.libraries.push_back({std::move(*name), library->where});
     }
-  }
-  for (const Value* script : items_of(fields.take("scripts"))) {
-    if (auto one = read_script(*script, reader)) document.scripts.push_back(std::move(*one));
   }
   if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
   document.before_stop = read_operations(fields.take("before_stop"), "before_stop", reader);
@@ -265,7 +243,6 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     document.mode.where = mode->where;
     assign(reader.text(*mode, "mode"), document.mode.name);
   }
-  if (const Value* recorder = fields.take("recorder")) document.recorder = *recorder;
   if (const Value* composed = fields.take("composed")) {
     read_composed(*composed, document, diagnostics);
   }
@@ -275,9 +252,6 @@ void rebase_paths(Document& document) {
   for (Reference& library : document.libraries) {
     if (library.name.find('/') == std::string::npos) continue;  // found by name
     library.name = rebased(library.name, library.where.file, document.file);
-  }
-  for (Script& script : document.scripts) {
-    script.path = rebased(script.path, script.where.file, document.file);
   }
   Network& network = document.network;
   for (Reference* file :

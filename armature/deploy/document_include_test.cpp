@@ -11,13 +11,13 @@ using internal::load_files;
 using internal::Loaded;
 
 TEST(Include, TakesAllSectionsOfTheOtherFile) {
-  const Loaded loaded = load_files(
-      "a.yaml", {{"a.yaml",
-                  "include: b.yaml\nlibraries: [x, y]\ncomponents: {A: {model: M}}\n"
-                  "connections: [A.Out -> B.In]\nscripts: a.lua\n"},
-                 {"b.yaml",
-                  "application: b\nlibraries: [y, z]\ncomponents: {B: {model: N}}\n"
-                  "connections: [B.Out -> A.In]\nscripts: b.lua\nrecorder: {to: x.csv}\n"}});
+  const Loaded loaded =
+      load_files("a.yaml", {{"a.yaml",
+                             "include: b.yaml\nlibraries: [x, y]\ncomponents: {A: {model: M}}\n"
+                             "connections: [A.Out -> B.In]\n"},
+                            {"b.yaml",
+                             "application: b\nlibraries: [y, z]\ncomponents: {B: {model: N}}\n"
+                             "connections: [B.Out -> A.In]\n"}});
   EXPECT_EQ(loaded.messages(), "");
   EXPECT_EQ(loaded.yaml(),
             "application: b\n"
@@ -31,12 +31,7 @@ TEST(Include, TakesAllSectionsOfTheOtherFile) {
             "    activity: sequential\n"
             "connections:\n"
             "  - B.Out -> A.In\n"
-            "  - A.Out -> B.In\n"
-            "scripts:\n"
-            "  - b.lua\n"
-            "  - a.lua\n"
-            "recorder:\n"
-            "  to: x.csv\n");
+            "  - A.Out -> B.In\n");
 }
 
 TEST(Include, PathsAreRelativeToTheIncludingFile) {
@@ -52,17 +47,15 @@ TEST(Include, OtherPathsAreRelativeToTheFileThatNamesThem) {
   const Loaded loaded = load_files(
       "robots/head.yaml", {{"robots/head.yaml", "include: parts/eye.yaml\nlibraries: [./own.so]\n"},
                            {"robots/parts/eye.yaml",
-                            "libraries: [lens, ./eye.so]\nscripts: [eye.lua, /abs.lua]\n"
+                            "libraries: [lens, ./eye.so]\n"
                             "components: {E: {model: M, property_file: ../eye.cpf}}\n"}});
   EXPECT_EQ(loaded.messages(), "");
   const Document& document = loaded.document;
   EXPECT_EQ(document.libraries.at(0).name, "lens") << "a name is not a path";
   EXPECT_EQ(document.libraries.at(1).name, "parts/eye.so");
   EXPECT_EQ(document.libraries.at(2).name, "./own.so");
-  EXPECT_EQ(document.scripts.at(0).path, "parts/eye.lua");
-  EXPECT_EQ(document.scripts.at(1).path, "/abs.lua");
   EXPECT_EQ(document.components.at(0).property_files.at(0).path, "eye.cpf");
-  EXPECT_EQ(path_from(document, document.scripts.at(0).path), "robots/parts/eye.lua");
+  EXPECT_EQ(path_from(document, "parts/eye.cpf"), "robots/parts/eye.cpf");
 }
 
 TEST(Include, HereIsTheFolderOfTheFileInWhichItStands) {

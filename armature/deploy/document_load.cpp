@@ -117,9 +117,9 @@ class Sources {
       }
     } else if (section.name == "libraries") {
       add_libraries(before->value, section.value);
-    } else if (before->value.kind == Value::Kind::kMap && section.name != "recorder") {
+    } else if (before->value.kind == Value::Kind::kMap) {
       for (Property& one : section.value.entries) before->value.entries.push_back(std::move(one));
-    } else if (section.name == "connections" || section.name == "scripts") {
+    } else if (section.name == "connections") {
       append(before->value, section.value);
     } else {
       replace(all.entries, std::move(section), own);

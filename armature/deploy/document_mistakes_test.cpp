@@ -83,10 +83,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "keep_running, found 'stopall' (did you mean 'stop_all'?)\n"},
         Mistake{"library_as_map", "libraries: [{a: b}]\n",
                 "robot.yaml:1:13: error: document: library must be text, found a map\n"},
-        Mistake{"script_without_file", "scripts: [{component: A}]\n",
-                "robot.yaml:1:11: error: document: script has no 'file'\n"},
-        Mistake{"recorder_as_text", "recorder: x.csv\n",
-                "robot.yaml:1:11: error: document: recorder must be a map, found text\n"}),
+        Mistake{"script", "scripts: a.lua\n",
+                "robot.yaml:1:10: error: document: scripts are named when the application starts "
+                "(armature run FILE --script SCRIPT)\n"},
+        Mistake{"recorder", "recorder: {to: x.csv}\n",
+                "robot.yaml:1:11: error: document: a component of the model Reporter records "
+                "(docs/recording.md)\n"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -178,8 +180,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "99, found '100'\n"},
         Mistake{"scheduler",
                 "components: {A: {model: M, activity: {triggered: true, scheduler: rt}}}\n",
-                "robot.yaml:1:67: error: component 'A': scheduler must be realtime, deadline or "
-                "other, found 'rt'\n"},
+                "robot.yaml:1:67: error: component 'A': scheduler must be other, realtime or "
+                "deadline, found 'rt'\n"},
         Mistake{"cpu", "components: {A: {model: M, activity: {triggered: true, cpus: [0, x]}}}\n",
                 "robot.yaml:1:66: error: component 'A': cpus must be a whole number from 0 to "
                 "1023, found 'x'\n"},

@@ -89,7 +89,7 @@ TEST(CommandLine, SetsTheActivity) {
   EXPECT_EQ(activity("Joint1.activity.periodic=5 ms").period, std::chrono::milliseconds(5));
   EXPECT_EQ(activity("Joint1.activity.periodic=5 ms").priority, 80) << "the rest stays";
   EXPECT_EQ(activity("Joint1.activity.priority=7").priority, 7);
-  EXPECT_EQ(activity("Joint1.activity=triggered").kind, ActivityKind::kTriggered);
+  EXPECT_EQ(activity("Joint1.activity=triggered").kind, Activity::Kind::kTriggered);
   EXPECT_EQ(activity("Joint1.activity={periodic: 1 ms}").period, std::chrono::milliseconds(1));
 }
 

@@ -55,14 +55,12 @@ connections:
   - {from: J1.many, to: C.all, fan_in: true}
   - {from: J2.many, to: C.all, fan_in: true}
   - {name: bus, ports: [S.x, C.x, J1.x], policy: {fifo: 2}}
-scripts: [a.lua, {file: b.lua, component: S}]
 grants: {script: [S.arm, left.d.go], remote: [S.arm]}
 before_stop: [S.rest, left.d.go]
 network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, memory_kB: 32000, socket_mode: "0660", tls: {certificate: c.pem, key: k.pem, authority: a.pem},
   inputs: [S.b, {to: left.d.c, max_age: 100 ms, on_old: zero}]}
 modes: {one: ["J{1..2}", left], two: [C, J1]}
 mode: two
-recorder: {to: x.csv, ports: ["J{1..2}.Position", S.a], every: 10, nothing: }
 )";
 
 TEST(RoundTrip, YamlIsTheSameAgain) {

@@ -9,42 +9,6 @@
 
 namespace armature::deploy {
 
-std::string_view to_text(ActivityKind kind) {
-  constexpr std::array<std::string_view, 3> kTexts = {"sequential", "periodic", "triggered"};
-  return kTexts[static_cast<std::size_t>(kind)];
-}
-
-std::string_view to_text(Scheduler scheduler) {
-  constexpr std::array<std::string_view, 3> kTexts = {"realtime", "deadline", "other"};
-  return kTexts[static_cast<std::size_t>(scheduler)];
-}
-
-std::string_view to_text(Overrun overrun) {
-  constexpr std::array<std::string_view, 3> kTexts = {"skip", "catch_up", "fault"};
-  return kTexts[static_cast<std::size_t>(overrun)];
-}
-
-std::string_view to_text(Reaction reaction) {
-  constexpr std::array<std::string_view, 5> kTexts = {"default", "hold", "zero", "stop", "fault"};
-  return kTexts[static_cast<std::size_t>(reaction)];
-}
-
-std::string_view to_text(Overflow overflow) {
-  constexpr std::array<std::string_view, 2> kTexts = {"drop_newest", "drop_oldest"};
-  return kTexts[static_cast<std::size_t>(overflow)];
-}
-
-std::string_view to_text(OnFault on_fault) {
-  constexpr std::array<std::string_view, 3> kTexts = {"stop_dependents", "stop_all",
-                                                      "keep_running"};
-  return kTexts[static_cast<std::size_t>(on_fault)];
-}
-
-std::string_view to_text(ExportKind kind) {
-  constexpr std::array<std::string_view, 4> kTexts = {"port", "operation", "event", "property"};
-  return kTexts[static_cast<std::size_t>(kind)];
-}
-
 std::string to_text(const Endpoint& endpoint) { return endpoint.component + "." + endpoint.port; }
 
 std::string to_text(base::Duration duration) {
@@ -80,34 +44,33 @@ Value map_of(std::vector<Property> entries) {
   return map;
 }
 
-Value overrun_tree(Overrun overrun, int late_cycles) {
-  if (overrun != Overrun::kFault || late_cycles == 0) {
-    return make_text(std::string(to_text(overrun)));
+Value overrun_tree(const Activity& activity) {
+  const bool usual = activity.late_cycles_to_fault == exec::Activity().late_cycles_to_fault;
+  if (activity.overrun != Overrun::kFault || usual) {
+    return make_text(std::string(name_of(activity.overrun)));
   }
   Value map = make_map();
-  add(map, "fault", std::to_string(late_cycles));
+  add(map, "fault", std::to_string(activity.late_cycles_to_fault));
   return map;
 }
 
 Value activity_tree(const Activity& activity) {
   Value map = make_map();
-  if (activity.kind == ActivityKind::kPeriodic) {
+  if (activity.kind == Activity::Kind::kPeriodic) {
     add(map, "periodic", to_text(activity.period));
   } else {
-    add(map, std::string(to_text(activity.kind)), "true");
+    add(map, std::string(name_of(activity.kind)), "true");
   }
   if (activity.priority != 0) add(map, "priority", std::to_string(activity.priority));
-  if (activity.scheduler) add(map, "scheduler", to_text(*activity.scheduler));
+  if (activity.scheduler_given) add(map, "scheduler", name_of(activity.scheduler));
   std::vector<Value> cpus;
   for (const int cpu : activity.cpus) cpus.push_back(make_text(std::to_string(cpu)));
   add_items(map, "cpus", std::move(cpus));
-  if (activity.overrun) {
-    add(map, "overrun", overrun_tree(*activity.overrun, activity.late_cycles_to_fault));
-  }
+  if (activity.overrun != Overrun::kSkip) add(map, "overrun", overrun_tree(activity));
   if (!activity.thread.empty()) add(map, "thread", activity.thread);
-  if (activity.budget) add(map, "budget", to_text(*activity.budget));
-  if (map.entries.size() == 1 && activity.kind != ActivityKind::kPeriodic) {
-    return make_text(std::string(to_text(activity.kind)));
+  if (activity.budget > base::Duration::zero()) add(map, "budget", to_text(activity.budget));
+  if (map.entries.size() == 1 && activity.kind != Activity::Kind::kPeriodic) {
+    return make_text(std::string(name_of(activity.kind)));
   }
   return map;
 }
@@ -188,14 +151,6 @@ Value composite_tree(const Composite& composite) {
   return map;
 }
 
-Value script_tree(const Script& script) {
-  if (script.component.empty()) return make_text(script.path);
-  Value map = make_map();
-  add(map, "file", script.path);
-  add(map, "component", script.component);
-  return map;
-}
-
 Value operation_tree(const OperationOf& one) {
   return make_text(one.component + "." + one.operation);
 }
@@ -235,15 +190,17 @@ void add_section(Value& tree, const char* key, const List& list, Convert convert
 }  // namespace
 
 void add_policy(const ConnectionPolicy& policy, Value& map) {
-  if (policy.fifo_size > 0) {
+  if (policy.kind == ConnectionPolicy::Kind::kFifo) {
     Value fifo = make_map();
-    add(fifo, "fifo", std::to_string(policy.fifo_size));
-    if (policy.overflow != Overflow::kDropNewest) add(fifo, "overflow", to_text(policy.overflow));
+    add(fifo, "fifo", std::to_string(policy.capacity));
+    if (policy.when_full != rt::WhenFull::kDropNewest) {
+      add(fifo, "overflow", name_of(policy.when_full));
+    }
     add(map, "policy", std::move(fifo));
   }
   if (policy.max_age) add(map, "max_age", to_text(*policy.max_age));
-  if (policy.on_old != Reaction::kDefault) add(map, "on_old", to_text(policy.on_old));
-  if (policy.on_lost != Reaction::kDefault) add(map, "on_lost", to_text(policy.on_lost));
+  if (policy.on_old) add(map, "on_old", name_of(*policy.on_old));
+  if (policy.on_lost) add(map, "on_lost", name_of(*policy.on_lost));
   if (policy.one_cycle_delay) add(map, "delay", "one_cycle");
   if (policy.fan_in) add(map, "fan_in", "true");
 }
@@ -300,7 +257,7 @@ Value to_tree(const Document& document) {
   Value tree = make_map();
   if (!document.application.empty()) add(tree, "application", document.application);
   if (document.on_fault != OnFault::kStopDependents) {
-    add(tree, "on_fault", to_text(document.on_fault));
+    add(tree, "on_fault", name_of(document.on_fault));
   }
   if (!document.black_box.usual()) add(tree, "black_box", black_box_tree(document.black_box));
   if (document.most_threads) add(tree, "threads", std::to_string(*document.most_threads));
@@ -312,7 +269,6 @@ Value to_tree(const Document& document) {
   for (const NamedConnection& one : document.named_connections) connections.push_back(to_tree(one));
   add_items(tree, "connections", std::move(connections));
   add_section(tree, "composed", document.composites, composite_tree);
-  add_items(tree, "scripts", converted(document.scripts, script_tree));
   if (Value grants = grants_tree(document); !grants.entries.empty()) {
     add(tree, "grants", std::move(grants));
   }
@@ -323,7 +279,6 @@ Value to_tree(const Document& document) {
   }
   add_section(tree, "modes", document.modes, mode_tree);
   if (!document.mode.name.empty()) add(tree, "mode", document.mode.name);
-  if (document.recorder.kind != Value::Kind::kNone) add(tree, "recorder", document.recorder);
   return tree;
 }
 

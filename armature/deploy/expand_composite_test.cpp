@@ -163,7 +163,7 @@ TEST(Composite, CommandLineSetsItsParametersAndParts) {
   EXPECT_EQ(property(loaded, "a.wheel1", "limit"), "9");
   EXPECT_EQ(property(loaded, "a.wheel2", "limit"), "4");
   EXPECT_EQ(property(loaded, "a.drive", "Kp"), "3");
-  EXPECT_EQ(component(loaded, "a.drive")->activity.kind, ActivityKind::kPeriodic);
+  EXPECT_EQ(component(loaded, "a.drive")->activity.kind, Activity::Kind::kPeriodic);
 }
 
 struct Mistake {

@@ -141,7 +141,7 @@ class Resolver {
     }
     found_.error(member.where,
                  "composite " + in_quotes(owner->name) + " exports no " +
-                     std::string(to_text(*kinds.begin())) + " " + in_quotes(member.name),
+                     std::string(name_of(*kinds.begin())) + " " + in_quotes(member.name),
                  base::suggestion(member.name, known));
   }
 

@@ -160,7 +160,7 @@ TEST(Override, ChangesOneOfManyComponents) {
   EXPECT_EQ(loaded.messages(), "");
   EXPECT_EQ(names(loaded.document), "J1 J2 J3 ");
   const Component& second = loaded.document.components.at(1);
-  EXPECT_EQ(second.activity.kind, ActivityKind::kSequential);
+  EXPECT_EQ(second.activity.kind, Activity::Kind::kSequential);
   ASSERT_EQ(second.properties.size(), 3u);
   EXPECT_EQ(second.properties[0].value.text, "1");
   EXPECT_EQ(second.properties[1].value.text, "3");
@@ -195,15 +195,6 @@ TEST(Parameter, IsReplacedInNamesModelsAndConnections) {
   EXPECT_EQ(loaded.document.components.at(0).name, "left_motor");
   EXPECT_EQ(loaded.document.components.at(0).model, "Motor");
   EXPECT_EQ(wires(loaded.document), "left_motor.Out>S.left ");
-}
-
-TEST(Parameter, IsReplacedInRecorderAndScripts) {
-  const Loaded loaded = load_yaml(
-      "parameters: {run: 7}\nscripts: [\"s${run}.lua\"]\n"
-      "recorder: {to: \"r${run}.csv\", ports: [\"J{1..2}.x\"]}\n");
-  EXPECT_EQ(loaded.messages(), "");
-  EXPECT_EQ(loaded.document.scripts.at(0).path, "s7.lua");
-  EXPECT_EQ(to_text(loaded.document.recorder), "{to: r7.csv, ports: [J1.x, J2.x]}");
 }
 
 }  // namespace

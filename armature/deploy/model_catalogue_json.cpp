@@ -21,6 +21,7 @@ Json json_of(const component::PropertyDescription& property) {
                {"unit", property.unit},
                {"doc", property.doc},
                {"default", property.value}};
+  if (!property.values.empty()) json["values"] = property.values;
   if (property.range) json["range"] = {bound(property.range->low), bound(property.range->high)};
   json["persistent"] = property.persistent;
   json["mandatory"] = property.mandatory;
@@ -30,6 +31,7 @@ Json json_of(const component::PropertyDescription& property) {
 
 Json port(const component::PortDescription& port) {
   Json json = {{"name", port.name}, {"type", port.type}, {"unit", port.unit}, {"doc", port.doc}};
+  if (!port.values.empty()) json["values"] = port.values;
   if (port.size) json["size"] = *port.size;
   return json;
 }

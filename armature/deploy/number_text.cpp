@@ -11,6 +11,7 @@
 #include "armature/base/result.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::deploy::internal {
 namespace {
@@ -154,6 +155,8 @@ std::string expected_text(const types::Type& type, std::string_view unit) {
   switch (type.kind) {
     case Kind::kBool:
       return "true or false";
+    case Kind::kEnum:
+      return types::enumerator_list(type);
     case Kind::kText:
     case Kind::kFixedText:
       return "text";

@@ -12,6 +12,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/deploy/internal/number_text.hpp"
 #include "armature/deploy/internal/value_tree.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::deploy {
 namespace {
@@ -79,6 +80,7 @@ class Filler {
                                      std::string(internal::name_of(written.kind)));
     }
     if (type.kind == Kind::kBool) return fill_bool(written, at);
+    if (type.kind == Kind::kEnum) return fill_enumerator(written, type, at);
     if (type.kind == Kind::kText || type.kind == Kind::kFixedText) {
       return fill_text(written, type, at);
     }
@@ -93,6 +95,16 @@ class Filler {
       return fail(written.where, "expected true or false, found " + in_quotes(written.text));
     }
     *static_cast<bool*>(at) = *flag;
+    return true;
+  }
+
+  bool fill_enumerator(const Value& written, const Type& type, void* at) {
+    const types::Enumerator* const found = types::find_enumerator(type, written.text);
+    if (found == nullptr) {
+      return fail(written.where, types::unknown_enumerator(type, written.text),
+                  types::near_enumerator(type, written.text));
+    }
+    types::set_enumerator(type, *found, at);
     return true;
   }
 
@@ -209,6 +221,7 @@ std::string_view orocos_type(const Type& type) {
       return "float";
     case Kind::kDouble:
       return "double";
+    case Kind::kEnum:
     case Kind::kText:
     case Kind::kFixedText:
       return "string";

@@ -14,6 +14,7 @@
 #include "armature/base/fixed_text.hpp"
 #include "armature/component/property.hpp"
 #include "armature/deploy/document_files.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace armature::deploy {
@@ -24,6 +25,9 @@ struct Gains {
 };
 
 ARMATURE_STRUCT(Gains, (kp, "V/rad"), (limit, "V"));
+
+enum class Drive : std::uint8_t { kOff, kVelocity, kEffort };
+ARMATURE_ENUM(Drive, kOff, kVelocity, kEffort);
 
 namespace {
 
@@ -133,6 +137,15 @@ TEST(PropertyValue, BoolsHaveTheirUsualSpellings) {
   for (const char* text : {"true", "True", "yes", "on", "1"}) EXPECT_TRUE(read<bool>(text));
   for (const char* text : {"false", "FALSE", "no", "off", "0"}) EXPECT_FALSE(read<bool>(text));
   EXPECT_THAT(refusal<bool>("maybe"), HasSubstr("expected true or false, found 'maybe'"));
+}
+
+TEST(PropertyValue, AnEnumerationHasItsNamesAndNoOthers) {
+  EXPECT_EQ(read<Drive>("velocity"), Drive::kVelocity);
+  EXPECT_THAT(refusal<Drive>("velocty"),
+              HasSubstr("property 'P' of 'C': expected off, velocity or effort, found 'velocty' "
+                        "(did you mean 'velocity'?)"));
+  EXPECT_THAT(refusal<Drive>("1"), HasSubstr("expected off, velocity or effort, found '1'"));
+  EXPECT_THAT(refusal<Drive>("[off]"), HasSubstr("expected off, velocity or effort, found a list"));
 }
 
 TEST(PropertyValue, TextIsTakenAsItIs) {

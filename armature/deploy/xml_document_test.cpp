@@ -101,13 +101,14 @@ TEST(OrocosXml, PlacesAreThoseOfTheElements) {
 }
 
 TEST(OrocosXml, ActivityTypesAreThreeKinds) {
-  EXPECT_EQ(activity("SequentialActivity", "").kind, ActivityKind::kSequential);
+  EXPECT_EQ(activity("SequentialActivity", "").kind, Activity::Kind::kSequential);
   EXPECT_EQ(activity("NonPeriodicActivity", simple("Priority", "short", "5")).kind,
-            ActivityKind::kTriggered);
+            Activity::Kind::kTriggered);
   const std::string period = simple("Period", "double", "0.41");
   EXPECT_EQ(activity("Activity", period).period, std::chrono::milliseconds(410));
-  EXPECT_EQ(activity("Activity", simple("Period", "double", "0.0")).kind, ActivityKind::kTriggered);
-  EXPECT_EQ(activity("Activity", "").kind, ActivityKind::kTriggered);
+  EXPECT_EQ(activity("Activity", simple("Period", "double", "0.0")).kind,
+            Activity::Kind::kTriggered);
+  EXPECT_EQ(activity("Activity", "").kind, Activity::Kind::kTriggered);
 }
 
 TEST(OrocosXml, PriorityZeroIsNoPriority) {
@@ -160,12 +161,14 @@ TEST(OrocosXml, PolicyTypesAreNumbersOrNames) {
         "</struct></struct>");
     EXPECT_EQ(loaded.messages(), "");
     const ConnectionPolicy& found = loaded.document.named_connections.at(0).policy;
-    return std::to_string(found.fifo_size) + " " + std::string(to_text(found.overflow));
+    return (found.kind == ConnectionPolicy::Kind::kLatest ? "latest "
+                                                          : std::to_string(found.capacity) + " ") +
+           std::string(name_of(found.when_full));
   };
-  EXPECT_EQ(policy("short", "0"), "0 drop_newest");
+  EXPECT_EQ(policy("short", "0"), "latest drop_newest");
   EXPECT_EQ(policy("short", "1"), "4 drop_newest");
   EXPECT_EQ(policy("short", "2"), "4 drop_oldest");
-  EXPECT_EQ(policy("string", "DATA"), "0 drop_newest");
+  EXPECT_EQ(policy("string", "DATA"), "latest drop_newest");
   EXPECT_EQ(policy("string", "CIRCULAR_BUFFER"), "4 drop_oldest");
 }
 
@@ -175,7 +178,7 @@ TEST(OrocosXml, DefaultPolicyIsThatOfConnectionsWithoutOwn) {
                     simple("size", "short", "3") +
                     "</struct><struct name=\"A\" type=\"M\"><struct " + "name=\"Ports\">" +
                     simple("x", "string", "c") + simple("y", "string", "c") + "</struct></struct>");
-  EXPECT_EQ(loaded.document.named_connections.at(0).policy.fifo_size, 3);
+  EXPECT_EQ(loaded.document.named_connections.at(0).policy.capacity, 3u);
 }
 
 TEST(OrocosXml, AttributesSayWhatOrocosCannot) {

@@ -124,7 +124,7 @@ TEST(OrocosForms, ASlaveWithoutMasterIsSequentialAndTold) {
   EXPECT_EQ(loaded.messages(),
             "robot.xml:2:27: warning: component 'S': a SlaveActivity without Master is read as a "
             "SequentialActivity: it runs when data or a call arrives\n");
-  EXPECT_EQ(loaded.document.components.at(0).activity.kind, ActivityKind::kSequential);
+  EXPECT_EQ(loaded.document.components.at(0).activity.kind, Activity::Kind::kSequential);
 }
 
 TEST(OrocosForms, RealTimeHasAPriorityAndOtherThreadsHaveNone) {

@@ -84,8 +84,8 @@ class DeployerWriter {
   Attributes root_attributes() {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
     for (const char* key :
-         {"application", "on_fault", "black_box", "parameters", "composed", "scripts", "grants",
-          "before_stop", "hold_at_stop", "network", "modes", "mode", "recorder", "threads"}) {
+         {"application", "on_fault", "black_box", "parameters", "composed", "grants", "before_stop",
+          "hold_at_stop", "network", "modes", "mode", "threads"}) {
       extend(attributes, tree_, key);
     }
     return attributes;
@@ -165,12 +165,12 @@ class DeployerWriter {
     for (const char* key : {"max_age", "on_old", "on_lost", "delay", "fan_in"}) {
       extend(attributes, map, key);
     }
-    const bool circular = policy.overflow == Overflow::kDropOldest;
+    const bool circular = policy.when_full == rt::WhenFull::kDropOldest;
+    const bool fifo = policy.kind == ConnectionPolicy::Kind::kFifo;
     writer_.open("struct", attributes);
-    writer_.simple({{"name", "type"}, {"type", "short"}}, policy.fifo_size == 0 ? "0"
-                                                          : circular            ? "2"
-                                                                                : "1");
-    writer_.simple({{"name", "size"}, {"type", "short"}}, std::to_string(policy.fifo_size));
+    writer_.simple({{"name", "type"}, {"type", "short"}}, !fifo ? "0" : circular ? "2" : "1");
+    writer_.simple({{"name", "size"}, {"type", "short"}},
+                   std::to_string(fifo ? policy.capacity : 0));
     writer_.close();
   }
 
@@ -200,31 +200,32 @@ class DeployerWriter {
   }
 
   void write_activity(const Activity& activity, const Value& tree) {
-    const char* type = activity.kind == ActivityKind::kPeriodic    ? "PeriodicActivity"
-                       : activity.kind == ActivityKind::kTriggered ? "NonPeriodicActivity"
-                                                                   : "SequentialActivity";
+    const char* type = activity.kind == Activity::Kind::kPeriodic    ? "PeriodicActivity"
+                       : activity.kind == Activity::Kind::kTriggered ? "NonPeriodicActivity"
+                                                                     : "SequentialActivity";
     const bool mask = std::all_of(activity.cpus.begin(), activity.cpus.end(),
                                   [](int cpu) { return cpu < kCpusInMask; });
     Attributes attributes = {{"name", "Activity"}, {"type", type}};
     for (const char* key : {"overrun", "thread", "budget"}) extend(attributes, tree, key);
     if (!mask) extend(attributes, tree, "cpus");
-    if (activity.scheduler == Scheduler::kDeadline) extend(attributes, tree, "scheduler");
+    if (activity.scheduler == Activity::Scheduler::kDeadline) extend(attributes, tree, "scheduler");
     writer_.open("struct", attributes);
-    if (activity.kind == ActivityKind::kPeriodic) {
+    if (activity.kind == Activity::Kind::kPeriodic) {
       writer_.simple({{"name", "Period"}, {"type", "double"}}, seconds_text(activity.period));
     }
-    if (activity.kind != ActivityKind::kSequential) write_thread(activity, mask);
+    if (activity.kind != Activity::Kind::kSequential) write_thread(activity, mask);
     writer_.close();
   }
 
   void write_thread(const Activity& activity, bool mask) {
     // In real time OROCOS reads 0 as 1; what check refuses is not made possible by writing it.
-    const bool missing = activity.scheduler == Scheduler::kRealtime && activity.priority == 0;
+    const bool missing =
+        activity.scheduler == Activity::Scheduler::kRealtime && activity.priority == 0;
     if (!missing) {
       writer_.simple({{"name", "Priority"}, {"type", "short"}}, std::to_string(activity.priority));
     }
-    if (activity.scheduler) {
-      const bool other = *activity.scheduler == Scheduler::kOther;
+    if (activity.scheduler_given) {
+      const bool other = activity.scheduler == Activity::Scheduler::kOther;
       writer_.simple({{"name", "Scheduler"}, {"type", "string"}},
                      other ? "ORO_SCHED_OTHER" : "ORO_SCHED_RT");
     }

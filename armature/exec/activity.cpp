@@ -33,28 +33,4 @@ int urgency(const Activity& activity) {
   return 0;
 }
 
-std::string_view name_of(Activity::Kind kind) {
-  switch (kind) {
-    case Activity::Kind::kPeriodic:
-      return "periodic";
-    case Activity::Kind::kTriggered:
-      return "triggered";
-    case Activity::Kind::kSequential:
-      return "sequential";
-  }
-  return "unknown";
-}
-
-std::string_view name_of(Activity::Scheduler scheduler) {
-  switch (scheduler) {
-    case Activity::Scheduler::kOther:
-      return "other";
-    case Activity::Scheduler::kRealtime:
-      return "realtime";
-    case Activity::Scheduler::kDeadline:
-      return "deadline";
-  }
-  return "unknown";
-}
-
 }  // namespace armature::exec

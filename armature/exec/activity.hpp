@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "armature/base/time.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::exec {
+
+using types::name_of;
 
 /// What a periodic thread does with cycles whose time has passed.
 enum class Overrun : std::uint8_t {
@@ -16,6 +18,7 @@ enum class Overrun : std::uint8_t {
   kCatchUp,  ///< runs them at once, one after the other
   kFault,    ///< skips, and faults its components after so many late cycles in a row
 };
+ARMATURE_ENUM(Overrun, kSkip, kCatchUp, kFault);
 
 /// How a component is executed; the deployment's choice alone.
 struct Activity {
@@ -45,10 +48,10 @@ struct Activity {
   bool owns_thread() const { return kind != Kind::kSequential; }
 };
 
+ARMATURE_ENUM(Activity::Kind, kPeriodic, kTriggered, kSequential);
+ARMATURE_ENUM(Activity::Scheduler, kOther, kRealtime, kDeadline);
+
 /// Higher is more urgent: deadline threads, then real-time priorities, then all others.
 int urgency(const Activity& activity);
-
-std::string_view name_of(Activity::Kind kind);
-std::string_view name_of(Activity::Scheduler scheduler);
 
 }  // namespace armature::exec

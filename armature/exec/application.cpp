@@ -197,7 +197,7 @@ RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& 
 std::optional<RunEnd> Application::end_by_fault() {
   take_leave();
   if (died_) return RunEnd::kFaulted;
-  if (options_.on_fault != OnFault::kStop || leaving_) return std::nullopt;
+  if (options_.on_fault != OnFault::kStopAll || leaving_) return std::nullopt;
   if (faults() > 0) return RunEnd::kFaulted;
   if (reactions() > 0) return RunEnd::kStoppedByReaction;
   return std::nullopt;

@@ -53,9 +53,12 @@ enum class RealtimeMode : std::uint8_t {
 
 /// What a fault of one component means for the application.
 enum class OnFault : std::uint8_t {
-  kContinue,  ///< what does not depend on the faulted component goes on
-  kStop,      ///< everything stops in order
+  kStopDependents,  ///< what depends on the faulted component stops, the rest goes on
+  kStopAll,         ///< everything stops in order
+  /// What reads from it goes on with its last values, unless the connection says otherwise.
+  kKeepRunning,
 };
+ARMATURE_ENUM(OnFault, kStopDependents, kStopAll, kKeepRunning);
 
 /// On whose behalf operations and commands are called.
 enum class Caller : std::uint8_t {
@@ -82,7 +85,7 @@ struct CommandName {
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
-  OnFault on_fault = OnFault::kContinue;
+  OnFault on_fault = OnFault::kStopDependents;
   std::vector<Grant> grants;
   std::vector<CommandName> before_stop;                        ///< for `run_before_stop`
   base::Duration hold_at_stop = std::chrono::minutes(1);       ///< while the operator is asked

@@ -190,7 +190,7 @@ TEST_P(BeforeStop, WhatDoesNotEndInTimeIsToldAndGivenUp) {
 /// What holds a load lets go of it in no silence.
 class Holding : public ::testing::TestWithParam<bool> {
  protected:
-  void start(bool goes_first, OnFault on_fault = OnFault::kContinue) {
+  void start(bool goes_first, OnFault on_fault = OnFault::kStopDependents) {
     Blueprint blueprint;
     blueprint.add<Load>("Load", Activity::periodic(1ms));
     blueprint.add<Arm>("Arm", Activity::periodic(1ms));
@@ -289,7 +289,7 @@ TEST_P(Holding, WhoHasItLetGoIsToldWhatItHeld) {
 }
 
 TEST_P(Holding, AlsoAfterAFaultOfAnotherThatEndsTheRun) {
-  start(true, OnFault::kStop);
+  start(true, OnFault::kStopAll);
   ASSERT_TRUE(application_->run_in_thread_of(
       *application_->find("Arm"), [this] { application_->find("Arm")->fault("broken"); }));
   ASSERT_EQ(application_->run_for(10ms), RunEnd::kFaulted);

@@ -83,7 +83,7 @@ TEST_P(ApplicationTime, LimitsMayBeForEver) {
   ApplicationOptions for_ever = options();
   for_ever.hook_limit = base::Duration::max();
   for_ever.stop_limit = base::Duration::max();
-  for_ever.on_fault = OnFault::kStop;
+  for_ever.on_fault = OnFault::kStopAll;
   Application application(std::move(blueprint), for_ever);
   ASSERT_EQ(application.start().to_text(), "");
   EXPECT_EQ(application.run_for(base::Duration::max()), RunEnd::kFaulted);
@@ -174,14 +174,14 @@ TEST_P(ApplicationTime, ARunEndsWhenItsTimeIsUp) {
 }
 
 TEST_P(ApplicationTime, AFaultEndsTheRunIfThatIsDeclaredAndElseNot) {
-  for (const OnFault on_fault : {OnFault::kStop, OnFault::kContinue}) {
+  for (const OnFault on_fault : {OnFault::kStopAll, OnFault::kStopDependents}) {
     Chain chain;
     chain.c->throw_in("update");
     ApplicationOptions declared = options();
     declared.on_fault = on_fault;
     Application application(std::move(chain.blueprint), declared);
     ASSERT_TRUE(application.start().ok());
-    if (on_fault == OnFault::kStop) {
+    if (on_fault == OnFault::kStopAll) {
       EXPECT_EQ(application.run_for(60s), RunEnd::kFaulted);
     } else {
       EXPECT_TRUE(run_until(application, [&] { return application.faults() > 0; }));
@@ -198,7 +198,7 @@ TEST_P(ApplicationTime, ADeclaredReactionEndsTheRunLikeAFault) {
   blueprint.connections[0].max_age = component::max_age(3ms);
   writer.actions["start"] = [&] { writer.out.write(1.0); };
   ApplicationOptions declared = options();
-  declared.on_fault = OnFault::kStop;
+  declared.on_fault = OnFault::kStopAll;
   Application application(std::move(blueprint), declared);
   ASSERT_TRUE(application.start().ok());
   EXPECT_EQ(application.run_for(60s), RunEnd::kStoppedByReaction);

@@ -125,7 +125,7 @@ TEST(BlackBoxOfAnApplication, HasWhatToolsDid) {
 TEST(BlackBoxOfAnApplication, IsWrittenAtTheEndIfTheFaultEndsTheRun) {
   Kept kept;
   ApplicationOptions options = kept.options(true);
-  options.on_fault = OnFault::kStop;
+  options.on_fault = OnFault::kStopAll;
   Application application(chain(5), std::move(options));
   ASSERT_TRUE(application.start().ok());
   EXPECT_EQ(application.run_for(1s), RunEnd::kFaulted);

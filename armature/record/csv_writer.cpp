@@ -45,20 +45,32 @@ std::string one_line(std::string text) {
 
 std::string cell(const Type& type, const void* value) {
   if (type.kind == Kind::kBool) return *static_cast<const bool*>(value) ? "1" : "0";
+  if (type.kind == Kind::kEnum) return types::to_text(*type.underlying, value);
   return types::to_text(type, value);
 }
 
 struct Leaf {
   std::string path;
   std::string text;
+  const Type* type;
 };
+
+/// `the gait (standing = 0, walking = 1)`: cells have numbers, for numpy.
+std::string with_names(std::string doc, const Type& type) {
+  for (const types::Enumerator& each : type.enumerators) {
+    doc += &each == &type.enumerators.front() ? (doc.empty() ? "(" : " (") : ", ";
+    doc += each.name + " = " + std::to_string(each.value);
+  }
+  return type.enumerators.empty() ? doc : doc + ")";
+}
 
 /// All but texts, which numpy takes for missing numbers.
 std::vector<Leaf> number_leaves(const types::Value& value) {
   std::vector<Leaf> leaves;
   types::visit_leaves(value.type(), value.data(),
                       [&](const std::string& path, const Type& type, const void* leaf) {
-                        if (!types::is_text(type)) leaves.push_back({path, cell(type, leaf)});
+                        if (!types::is_text(type))
+                          leaves.push_back({path, cell(type, leaf), &type});
                       });
   return leaves;
 }
@@ -114,7 +126,7 @@ base::Result<ChannelId> CsvWriter::add_channel(Channel channel) {
     const Field* const field = field_at(added.shape.type(), leaf.path);
     add_column(added.name + (joined ? "" : ".") + leaf.path,
                field != nullptr ? std::string(field->unit) : added.unit,
-               field != nullptr ? std::string(field->doc) : added.doc);
+               with_names(field != nullptr ? std::string(field->doc) : added.doc, *leaf.type));
     columns.paths.push_back(leaf.path);
   }
   if (columns.paths.empty()) comments_ += "# " + one_line(added.name) + ": left out, no number\n";

@@ -47,6 +47,17 @@ class Csv : public testing::Test {
   std::unique_ptr<CsvWriter> writer_;
 };
 
+TEST_F(Csv, EnumerationsAreNumbersForNumpyAndTheCommentNamesThem) {
+  ASSERT_TRUE(writer_->add_channel(channel_of("Legs.gait", Gait::kStanding, {}, "of all legs")));
+  ASSERT_TRUE(write(*writer_, 0, 0, Gait::kWalking));
+  EXPECT_EQ(closed_content(),
+            "time_s,Legs_gait\n"
+            "# time_s: time_s [s]\n"
+            "# Legs_gait: Legs.gait, of all legs (standing = 0, walking = 300, "
+            "turning_on_the_spot = -2)\n"
+            "0.000000000,300\n");
+}
+
 TEST_F(Csv, HasARowForEachTimeAndNanForWhatIsMissing) {
   ASSERT_TRUE(writer_->add_channel(channel_of("PID1.Out", 0.0, "rad", "what\nit says")));
   ASSERT_TRUE(writer_->add_channel(channel_of("Count", 0)));
@@ -90,10 +101,11 @@ TEST_F(Csv, StructsAndVectorsBecomeColumns) {
 TEST_F(Csv, EveryKindOfNumberIsWritten) {
   ASSERT_TRUE(writer_->add_channel(channel_of("All", make_everything())));
   ASSERT_TRUE(write(*writer_, 0, 1, make_everything()));
-  EXPECT_EQ(closed_rows(),
-            "0.000000001,1,-128,255,-32768,65535,-2147483648,4294967295,-9223372036854775808,"
-            "18446744073709551615,0.1,-0.3333333333333333,1,0,1,1.5,-2.5e-30,1,-2,1,2,3,4,1e+300,"
-            "5e-324,1,2,3\n");
+  EXPECT_EQ(
+      closed_rows(),
+      "0.000000001,1,-128,255,-32768,65535,-2147483648,4294967295,-9223372036854775808,"
+      "18446744073709551615,0.1,-0.3333333333333333,-2,1,0,1,1.5,-2.5e-30,1,-2,1,2,3,4,1e+300,"
+      "5e-324,1,2,3\n");
 }
 
 TEST_F(Csv, NumbersThatAreNotFiniteAreWrittenAsNumpyReadsThem) {

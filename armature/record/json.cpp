@@ -78,6 +78,9 @@ void append_value(const Type& type, const void* value, std::string& to) {
   if (types::is_text(type)) return internal::append_json_string(type.text(value), to);
   if (types::is_list(type)) return append_list(type, value, to);
   if (type.kind == Kind::kStruct) return append_struct(type, value, to);
+  if (type.kind == Kind::kEnum) {
+    return internal::append_json_string(types::to_text(type, value), to);
+  }
   append_scalar(type, value, to);
 }
 

@@ -5,6 +5,7 @@
 
 #include "armature/record/internal/json_text.hpp"
 #include "armature/record/json.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::record {
 namespace {
@@ -33,6 +34,7 @@ class JsonReader {
     if (type.kind == Kind::kArray) return read_array(type, value);
     if (type.kind == Kind::kVector) return read_vector(type, value);
     if (type.kind == Kind::kStruct) return read_struct(type, value);
+    if (type.kind == Kind::kEnum) return read_enumerator(type, value);
     return read_scalar(type, value);
   }
 
@@ -94,6 +96,15 @@ class JsonReader {
     if (!expect("\"")) return false;
     type.set_text(value, text);
     return true;
+  }
+
+  bool read_enumerator(const Type& type, void* value) {
+    for (const types::Enumerator& each : type.enumerators) {
+      if (!take('"' + each.name + '"')) continue;
+      types::set_enumerator(type, each, value);
+      return true;
+    }
+    return fail(types::enumerator_list(type));
   }
 
   bool read_escape(std::string& to) {

@@ -21,7 +21,7 @@ std::string description(const Field& field) {
 }
 
 std::string_view json_name(const Type& type) {
-  if (types::is_text(type)) return "string";
+  if (types::is_text(type) || type.kind == Kind::kEnum) return "string";
   if (types::is_list(type)) return "array";
   if (internal::is_float(type)) return "number";
   if (type.kind == Kind::kStruct) return "object";
@@ -54,6 +54,15 @@ void append_elements(const Type& list, std::string& to) {
   to += R"(,"minItems":)" + count + R"(,"maxItems":)" + count;
 }
 
+void append_names(const Type& type, std::string& to) {
+  to += R"(,"enum":[)";
+  for (const types::Enumerator& each : type.enumerators) {
+    if (&each != &type.enumerators.front()) to += ',';
+    append_json_string(each.name, to);
+  }
+  to += ']';
+}
+
 void append_schema(const Type& type, const std::string& about, std::string& to) {
   to += R"({"type":)";
   append_json_string(json_name(type), to);
@@ -67,6 +76,7 @@ void append_schema(const Type& type, const std::string& about, std::string& to) 
   }
   if (type.kind == Kind::kStruct) append_members(type.fields, to);
   if (types::is_list(type)) append_elements(type, to);
+  if (type.kind == Kind::kEnum) append_names(type, to);
   to += '}';
 }
 

@@ -121,6 +121,19 @@ TEST(JsonSchema, DescribesFieldsWithTheirUnits) {
             R"("y":{"type":"number","description":"[m]"}},"required":["x","y"]})");
 }
 
+TEST(Json, AnEnumerationHasItsNames) {
+  EXPECT_EQ(json_of(Gait::kTurningOnTheSpot), R"({"value":"turning_on_the_spot"})");
+  EXPECT_EQ(read<Gait>(R"({"value":"walking"})"), Gait::kWalking);
+  EXPECT_THAT(problem<Gait>(R"({"value":300})"),
+              HasSubstr("expected standing, walking or turning_on_the_spot at byte 9"));
+}
+
+TEST(JsonSchema, NamesTheValuesOfAnEnumeration) {
+  EXPECT_THAT(
+      json_schema(type_of<Gait>()),
+      HasSubstr(R"({"type":"string","enum":["standing","walking","turning_on_the_spot"]})"));
+}
+
 TEST(JsonSchema, WrapsWhatIsNoStruct) {
   EXPECT_EQ(json_schema(type_of<std::array<bool, 3>>()),
             R"({"type":"object","title":"array<bool,3>","properties":{"value":)"

@@ -20,7 +20,7 @@ class EventFeed::Tap final : public component::EventTap {
     }
     event_.resize(size);
     arguments_.resize(places_.size() + 1);  // there is a place for it without arguments, too
-    ring_ = std::make_unique<rt::Ring<Bytes>>(kFeedCapacity, rt::WhenFull::kRefuse, event_);
+    ring_ = std::make_unique<rt::Ring<Bytes>>(kFeedCapacity, rt::WhenFull::kDropNewest, event_);
   }
 
   void event_raised(const void* const* arguments) noexcept override {

@@ -65,7 +65,8 @@ void add_fields(const types::Type& type, std::vector<FieldDetails>& fields) {
   if (known) return;
   for (const types::Field& field : type.fields) {
     fields.push_back({std::string(type.name), std::string(field.name), field.type->name,
-                      std::string(field.unit), std::string(field.doc)});
+                      std::string(field.unit),
+                      types::doc_with_enumerators(field.doc, *field.type)});
   }
   for (const types::Field& field : type.fields) add_fields(*field.type, fields);
 }
@@ -143,7 +144,7 @@ class Details {
   PropertyDetails property(const component::PropertyBase& from) {
     PropertyDetails to;
     to.name = from.name();
-    to.doc = from.doc();
+    to.doc = types::doc_with_enumerators(from.doc(), from.type());
     to.type = from.type().name;
     to.unit = from.unit();
     if (const auto& range = from.limits()) {
@@ -164,7 +165,7 @@ class Details {
   PortDetails port(const component::PortBase& from) {
     PortDetails to;
     to.name = from.name();
-    to.doc = from.doc();
+    to.doc = types::doc_with_enumerators(from.doc(), from.type());
     to.type = from.type().name;
     to.unit = from.unit();
     const bool sized = from.declared_size().declared();

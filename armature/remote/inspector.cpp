@@ -41,7 +41,7 @@ types::Value value_of(const types::Type& type, const std::string& text, const st
 std::string in_unit_of(const component::PropertyBase& property, const std::string& text,
                        const std::string& name) {
   const auto quantity = base::parse_quantity(text);
-  if (!quantity || quantity.value().unit.empty() || !types::is_scalar(property.type())) return text;
+  if (!quantity || quantity.value().unit.empty() || !types::is_number(property.type())) return text;
   const auto number =
       base::convert(quantity.value().value, quantity.value().unit, std::string(property.unit()));
   if (!number) throw Failure(name + ": " + number.error());

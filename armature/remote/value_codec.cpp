@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "armature/types/elements.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::remote {
 namespace {
@@ -42,6 +43,17 @@ std::string_view scalar_name(Kind kind) {
     default:
       return "";
   }
+}
+
+/// `enum Mode:byte{off=0,on=1}`.
+std::string enumeration(const Type& type) {
+  std::string text =
+      "enum " + type.name + ":" + std::string(scalar_name(type.underlying->kind)) + "{";
+  for (const types::Enumerator& each : type.enumerators) {
+    if (&each != &type.enumerators.front()) text += ",";
+    text += each.name + "=" + std::to_string(each.value);
+  }
+  return text + "}";
 }
 
 /// Bytes that a value has at least, so that a count can be believed before memory is asked for.
@@ -88,6 +100,7 @@ std::string canonical(const Type& type) {
   if (type.kind == Kind::kArray) {
     return "Array<" + canonical(*type.element) + "," + std::to_string(type.count) + ">";
   }
+  if (type.kind == Kind::kEnum) return enumeration(type);
   if (type.kind != Kind::kStruct) return std::string(scalar_name(type.kind));
   std::string text = "struct " + type.name + "{";
   for (const types::Field& field : type.fields) {
@@ -106,6 +119,7 @@ bool can_travel(const Type& type) {
 
 void encode(ride::Encoder& to, const Outgoing& value) {
   const Type& type = *value.type;
+  if (type.kind == Kind::kEnum) return encode(to, Outgoing{type.underlying, value.data});
   if (types::is_scalar(type)) {
     types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) {
       to.put(*static_cast<const T*>(value.data));
@@ -145,6 +159,10 @@ bool decode(ride::Decoder& from, Incoming& value) {
       Incoming one{field.type, types::at_offset(value.data, field.offset)};
       return decode(from, one);
     });
+  }
+  if (type.kind == Kind::kEnum) {
+    Incoming number{type.underlying, value.data};
+    return decode(from, number) && types::is_enumerator(type, value.data);
   }
   return types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) {
     return from.take(*static_cast<T*>(value.data));

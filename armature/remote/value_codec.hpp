@@ -12,7 +12,7 @@
 namespace armature::remote {
 
 /// The type as the interface language has it: `Array<double>`, `struct Pose{double,double}`. 8-bit
-/// integers are `char` and `byte`; texts of both kinds `String`.
+/// integers are `char` and `byte`; texts of both kinds `String`; `enum Mode:byte{off=0,on=1}`.
 std::string canonical(const types::Type& type);
 
 /// False if values of the type are made by its own class only, so that no peer may send one.
@@ -37,7 +37,8 @@ struct Incoming {
   const types::Type* type;
   void* data;
 };
-/// False if the body has no such value; a text is longer than there is room for. The place may hold
+/// False if the body has no such value; a text is longer than there is room for, or a number
+/// is none of the enumeration's. The place may hold
 /// a part of it then.
 bool decode(ride::Decoder& from, Incoming& value);
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/base/fixed_text.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace armature::remote {
@@ -33,6 +34,9 @@ struct Path {
   friend bool operator==(const Path&, const Path&) = default;
 };
 ARMATURE_STRUCT(Path, closed, name, label, poses, colour, words);
+
+enum class Light : std::uint8_t { kOff, kBlinking = 7 };
+ARMATURE_ENUM(Light, kOff, kBlinking);
 
 template <typename T>
 ride::Body encoded(const T& value) {
@@ -81,6 +85,16 @@ TEST(ValueCodec, SendsTheSameBytesAsGeneratedCode) {
   Path again;
   ASSERT_TRUE(decoded(body, again));
   EXPECT_EQ(again, path);
+}
+
+TEST(ValueCodec, AnEnumerationIsItsIntegerAndOtherNumbersAreRefused) {
+  EXPECT_EQ(canonical(types::type_of<Light>()), "enum Light:byte{off=0,blinking=7}");
+  const ride::Body body = encoded(Light::kBlinking);
+  EXPECT_EQ(body.bytes().size(), 1u);
+  Light light = Light::kOff;
+  ASSERT_TRUE(decoded(body, light));
+  EXPECT_EQ(light, Light::kBlinking);
+  EXPECT_FALSE(decoded(encoded(std::uint8_t{1}), light));
 }
 
 TEST(ValueCodec, RefusesWhatIsTooShortOrTooLong) {

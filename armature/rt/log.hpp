@@ -90,7 +90,7 @@ struct LogRecord {
 /// The log lines of one real-time thread on their way to whoever prints them.
 class LogQueue {
  public:
-  explicit LogQueue(std::size_t capacity) : ring_(capacity, WhenFull::kRefuse, LogRecord{}) {}
+  explicit LogQueue(std::size_t capacity) : ring_(capacity, WhenFull::kDropNewest, LogRecord{}) {}
 
   /// @rt nonblocking, no allocation; a full queue drops the record and counts it
   /// @thread the queue's own

@@ -11,7 +11,7 @@ namespace armature::rt {
 
 /// What a full queue does with a new value.
 enum class WhenFull {
-  kRefuse,      ///< the new value is not taken, the writer is told
+  kDropNewest,  ///< the new value is not taken, the writer is told
   kDropOldest,  ///< the oldest value makes room, the writer is told
 };
 
@@ -51,7 +51,7 @@ class Ring {
   PushResult push(const T& value) {
     auto& entry = entries_[write_index_].word;
     const bool full = filled(entry.load(std::memory_order_relaxed));
-    if (full && when_full_ == WhenFull::kRefuse) return PushResult::kRefused;
+    if (full && when_full_ == WhenFull::kDropNewest) return PushResult::kRefused;
     slots_[writers_slot_].value = value;
     const std::uint64_t old =
         entry.exchange(pack(writers_slot_, write_turn_, true), std::memory_order_acq_rel);

@@ -101,11 +101,12 @@ TEST_P(RingModel, TheCheckFindsMissingMemoryOrders) {
 
 INSTANTIATE_TEST_SUITE_P(
     AllPolicies, RingModel,
-    ::testing::Values(Case{1, WhenFull::kRefuse, 4, 3}, Case{2, WhenFull::kRefuse, 5, 3},
-                      Case{3, WhenFull::kRefuse, 6, 3}, Case{1, WhenFull::kDropOldest, 4, 3},
+    ::testing::Values(Case{1, WhenFull::kDropNewest, 4, 3}, Case{2, WhenFull::kDropNewest, 5, 3},
+                      Case{3, WhenFull::kDropNewest, 6, 3}, Case{1, WhenFull::kDropOldest, 4, 3},
                       Case{2, WhenFull::kDropOldest, 5, 3}, Case{3, WhenFull::kDropOldest, 7, 3}),
     [](const auto& tested) {
-      return std::string(tested.param.when_full == WhenFull::kRefuse ? "Refuse" : "DropOldest") +
+      return std::string(tested.param.when_full == WhenFull::kDropNewest ? "Refuse"
+                                                                         : "DropOldest") +
              std::to_string(tested.param.capacity);
     });
 
@@ -136,13 +137,13 @@ model::Result check_finished_push(WhenFull when_full) {
 }
 
 TEST(RingModelBothPolicies, AFinishedPushIsSeen) {
-  EXPECT_EQ(check_finished_push<model::Atomics>(WhenFull::kRefuse).failure, "");
+  EXPECT_EQ(check_finished_push<model::Atomics>(WhenFull::kDropNewest).failure, "");
   EXPECT_EQ(check_finished_push<model::Atomics>(WhenFull::kDropOldest).failure, "");
 }
 
 TEST(RingModelRefuse, OnlyAFullRingRefuses) {
   const model::Result result = model::explore([](model::Program& program) {
-    ProductionRing<model::Atomics> ring(2, WhenFull::kRefuse, 0);
+    ProductionRing<model::Atomics> ring(2, WhenFull::kDropNewest, 0);
     model::Atomic<int> popped(0);
     program.thread("writer", [&] {
       ring.push(1);

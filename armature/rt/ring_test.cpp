@@ -15,13 +15,13 @@ using BothAtomics = ::testing::Types<StdAtomics, PlainAtomics>;
 TYPED_TEST_SUITE(RingTest, BothAtomics);
 
 TYPED_TEST(RingTest, IsEmptyAtFirst) {
-  Ring<int, TypeParam> ring(3, WhenFull::kRefuse, 0);
+  Ring<int, TypeParam> ring(3, WhenFull::kDropNewest, 0);
   EXPECT_EQ(ring.capacity(), 3u);
   EXPECT_EQ(ring.pop(), nullptr);
 }
 
 TYPED_TEST(RingTest, HoldsExactlyItsCapacityAndRefusesMore) {
-  Ring<int, TypeParam> ring(2, WhenFull::kRefuse, 0);
+  Ring<int, TypeParam> ring(2, WhenFull::kDropNewest, 0);
   EXPECT_EQ(ring.push(1), PushResult::kTaken);
   EXPECT_EQ(ring.push(2), PushResult::kTaken);
   EXPECT_EQ(ring.push(3), PushResult::kRefused);
@@ -60,9 +60,9 @@ void compare_with_a_queue(std::size_t capacity, WhenFull when_full, unsigned see
   for (int i = 0; i < 2000; ++i) {
     if (random() % 3 != 0) {
       const bool full = queue.size() == capacity;
-      const PushResult expected = !full                            ? PushResult::kTaken
-                                  : when_full == WhenFull::kRefuse ? PushResult::kRefused
-                                                                   : PushResult::kDroppedOldest;
+      const PushResult expected = !full                                ? PushResult::kTaken
+                                  : when_full == WhenFull::kDropNewest ? PushResult::kRefused
+                                                                       : PushResult::kDroppedOldest;
       ASSERT_EQ(ring.push(i), expected);
       if (expected == PushResult::kDroppedOldest) queue.pop_front();
       if (expected != PushResult::kRefused) queue.push_back(i);
@@ -78,7 +78,7 @@ void compare_with_a_queue(std::size_t capacity, WhenFull when_full, unsigned see
 TYPED_TEST(RingTest, BehavesAsAQueueOfThatCapacity) {
   for (std::size_t capacity = 1; capacity <= 5; ++capacity) {
     for (unsigned seed = 0; seed < 10; ++seed) {
-      compare_with_a_queue<TypeParam>(capacity, WhenFull::kRefuse, seed);
+      compare_with_a_queue<TypeParam>(capacity, WhenFull::kDropNewest, seed);
       compare_with_a_queue<TypeParam>(capacity, WhenFull::kDropOldest, seed);
     }
   }

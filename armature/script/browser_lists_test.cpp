@@ -46,6 +46,7 @@ TEST(Listing, OfAComponentHasItsValues) {
             "property   Label    \"left\"\n"
             "property   Offsets  [0.5, -1] rad\n"
             "property   Limits   [1, 2, 3]\n"
+            "property   Stance   free\n"
             "property   Gains    {kp: 0 V/rad, steps: 1}\n"
             "attribute  Calls    0\n"
             "operations  sum, twice, fail");

@@ -97,6 +97,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"prnt(1)",
                 "there is no component and no variable 'prnt' (did you mean 'print'?)"}));
 
+TEST(Values, OfEnumerationsAreTheirNames) {
+  Bench bench;
+  EXPECT_EQ(bench.run("print(Settings.Stance)\nSettings.Stance = 'holding'\nstop()"), "");
+  EXPECT_THAT(bench.lines, ElementsAre("free"));
+  EXPECT_EQ(bench.settings().stance.get(), Stance::kHolding);
+}
+
 TEST(Values, OfAPartOfACompositeAreReachedByItsName) {
   Bench bench;
   EXPECT_EQ(bench.run("left.hand.Finger.Gain = 8\n"

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "armature/types/elements.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::types {
 namespace {
@@ -102,6 +103,7 @@ class Reader {
     const std::size_t size = count * scalar.size;
     if (!require(scalar, size)) return false;
     if (scalar.kind == Kind::kBool && !check_bools(scalar, size)) return false;
+    if (scalar.kind == Kind::kEnum && !check_enumerators(scalar, count)) return false;
     if (to != nullptr && size > 0) std::memcpy(to, from_ + used_, size);
     used_ += size;
     return true;
@@ -111,6 +113,16 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) {
       const int found = std::to_integer<int>(from_[used_ + i]);
       if (found > 1) return fail(scalar, "is 0 or 1, but " + std::to_string(found) + " was found");
+    }
+    return true;
+  }
+
+  bool check_enumerators(const Type& scalar, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::byte* const found = from_ + used_ + i * scalar.size;
+      if (is_enumerator(scalar, found)) continue;
+      return fail(scalar, "is " + enumerator_list(scalar) + ", but " +
+                              to_text(*scalar.underlying, found) + " was found");
     }
     return true;
   }

@@ -19,6 +19,11 @@ inline bool is_scalar(const Type& type) {
   return !is_list(type) && !is_text(type) && type.kind != Kind::kStruct;
 }
 
+/// Neither an enumeration nor a bool counts as one.
+inline bool is_number(const Type& type) {
+  return is_scalar(type) && type.kind != Kind::kEnum && type.kind != Kind::kBool;
+}
+
 inline std::size_t element_count(const Type& list, const void* value) {
   return list.kind == Kind::kVector ? list.vector_size(value) : list.count;
 }
@@ -41,7 +46,7 @@ inline void* at_offset(void* value, std::size_t offset) {
 }
 
 /// Calls `code` with `std::type_identity` of the C++ type of a scalar, and returns what it returns;
-/// a default value if `kind` is no scalar.
+/// a default value if `kind` is none; an enumeration is asked for its `underlying` type.
 template <typename Code>
 auto with_scalar(Kind kind, Code&& code) {
   switch (kind) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "armature/types/elements.hpp"
+#include "armature/types/enum.hpp"
 #include "armature/types/internal/text_reader.hpp"
 
 namespace armature::types {
@@ -23,6 +24,12 @@ void append_number(const void* value, std::string& to) {
 }
 
 void append_scalar(const Type& type, const void* value, std::string& to) {
+  if (type.kind == Kind::kEnum) {
+    const std::string_view name = enumerator_name(type, value);
+    if (name.empty()) return append_scalar(*type.underlying, value, to);
+    to += name;
+    return;
+  }
   with_scalar(type.kind, [&](auto of) {
     using T = typename decltype(of)::type;
     if constexpr (std::is_same_v<T, bool>) {

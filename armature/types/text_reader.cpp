@@ -7,6 +7,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/types/elements.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::types::internal {
 namespace {
@@ -41,6 +42,7 @@ bool TextReader::read(const Type& type, void* value) {
 }
 
 bool TextReader::read_scalar(const Type& type, void* value) {
+  if (type.kind == Kind::kEnum) return read_enumerator(type, value);
   return with_scalar(type.kind, [&](auto of) {
     using T = typename decltype(of)::type;
     if constexpr (std::is_same_v<T, bool>) {
@@ -49,6 +51,18 @@ bool TextReader::read_scalar(const Type& type, void* value) {
       return read_number<T>(type, value);
     }
   });
+}
+
+bool TextReader::read_enumerator(const Type& type, void* value) {
+  const std::string_view word = take_word();
+  const Enumerator* const found = find_enumerator(type, word);
+  if (found == nullptr) {
+    const std::string hint = near_enumerator(type, word);
+    return fail("expected " + enumerator_list(type) + ", found " +
+                excerpt(word.empty() ? rest_ : word) + (hint.empty() ? "" : " (" + hint + ")"));
+  }
+  if (value != nullptr) set_enumerator(type, *found, value);
+  return true;
 }
 
 bool TextReader::read_bool(void* value) {

@@ -44,10 +44,31 @@ const Type& make_text() {
   return keep(std::move(type));
 }
 
+/// `catch_up` for `kCatchUp`.
+std::string file_name_of(std::string_view enumerator) {
+  if (enumerator.starts_with('k')) enumerator.remove_prefix(1);
+  std::string name;
+  for (const char c : enumerator) {
+    const bool capital = c >= 'A' && c <= 'Z';
+    if (capital && !name.empty()) name += '_';
+    name += capital ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return name;
+}
+
 /// The name, with `inner` as the text of an element type.
 std::string name_of_list(const Type& type, const std::string& inner) {
   if (type.kind == Kind::kVector) return "vector<" + inner + ">";
   return "array<" + inner + "," + std::to_string(type.count) + ">";
+}
+
+std::string enum_layout(const Type& type) {
+  std::string text = type.name + ":" + type.underlying->name + "{";
+  for (const Enumerator& each : type.enumerators) {
+    if (text.back() != '{') text += ',';
+    text += each.name + "=" + std::to_string(each.value);
+  }
+  return text + "}";
 }
 
 }  // namespace
@@ -57,6 +78,7 @@ bool same_type(const Type& a, const Type& b) {
   if (a.hash != b.hash || a.name != b.name || a.size != b.size || a.kind != b.kind) return false;
   if (a.sealed != b.sealed) return false;
   if (a.element != nullptr) return same_type(*a.element, *b.element);
+  if (a.underlying != nullptr) return same_type(*a.underlying, *b.underlying);
   return std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(),
                     [](const Field& x, const Field& y) {
                       return x.offset == y.offset && x.name == y.name &&
@@ -66,6 +88,7 @@ bool same_type(const Type& a, const Type& b) {
 
 std::string layout_text(const Type& type) {
   if (type.element != nullptr) return name_of_list(type, layout_text(*type.element));
+  if (type.kind == Kind::kEnum) return enum_layout(type);
   if (type.kind != Kind::kStruct) return type.name;
   std::string text = type.name + "{";
   for (const Field& field : type.fields) {
@@ -142,6 +165,19 @@ const Type& make_struct(std::string_view name, Footprint footprint, Lifetime lif
                            [](const Field& field) { return field.type->grows; });
   type.sealed = std::any_of(fields.begin(), fields.end(),
                             [](const Field& field) { return field.type->sealed; });
+  return keep(std::move(type));
+}
+
+const Type& make_enum(std::string_view name, const Type& underlying, Lifetime lifetime,
+                      std::initializer_list<Enumerator> enumerators) {
+  const Footprint footprint{underlying.size, underlying.alignment};
+  // A member of a class is known by its own name.
+  name.remove_prefix(name.rfind(':') + 1);
+  Type type = blank(std::string(name), Kind::kEnum, footprint, lifetime);
+  type.underlying = &underlying;
+  for (const Enumerator& each : enumerators) {
+    type.enumerators.push_back({file_name_of(each.name), each.value});
+  }
   return keep(std::move(type));
 }
 

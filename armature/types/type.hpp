@@ -27,6 +27,7 @@ enum class Kind {
   kUint64,
   kFloat,
   kDouble,
+  kEnum,       ///< described by ARMATURE_ENUM (enum.hpp)
   kText,       ///< std::string: grows, so never on a port
   kFixedText,  ///< base::FixedText<N>
   kArray,      ///< std::array<T, N>
@@ -45,6 +46,12 @@ struct Field {
   std::string_view doc;
 };
 
+/// A value of an enumeration and its name, as files, scripts and tools have it: `catch_up`.
+struct Enumerator {
+  std::string name;
+  std::int64_t value;
+};
+
 /// Describes a C++ type to files, tools, recorder and network. It lives as long as the program. Two
 /// plug-ins may each have their own description of one type: compare with `same_type`.
 struct Type {
@@ -56,8 +63,10 @@ struct Type {
   const Type* element;        ///< of an array or vector, else nullptr
   std::size_t count;          ///< elements of an array, capacity of a fixed text, else 0
   std::vector<Field> fields;  ///< of a struct
-  bool grows;                 ///< a vector or text is inside, so copying may allocate
-  bool sealed;                ///< only its own class makes values: no property, tool or peer does
+  const Type* underlying;     ///< integer that an enumeration is stored as, else nullptr
+  std::vector<Enumerator> enumerators;  ///< of an enumeration, in the order of its declaration
+  bool grows;                           ///< a vector or text is inside, so copying may allocate
+  bool sealed;  ///< only its own class makes values: no property, tool or peer does
 
   void (*construct)(void* at);
   void (*destroy)(void* at);
@@ -73,23 +82,25 @@ struct Type {
 };
 
 /// The description of `T`. Supported: bool, integers, float, double, std::string, FixedText,
-/// std::array and std::vector (except vector<bool>) of supported types, and structs described by
-/// ARMATURE_STRUCT (struct.hpp) that do not contain themselves.
+/// std::array and std::vector (except vector<bool>) of supported types, enumerations described by
+/// ARMATURE_ENUM (enum.hpp), and structs described by ARMATURE_STRUCT (struct.hpp) that do not
+/// contain themselves.
 template <typename T>
 const Type& type_of();
 
 /// True if a value of one may be read as a value of the other: same name, fields and memory layout.
 bool same_type(const Type& a, const Type& b);
 
-/// What `hash` is computed from, such as `Pose{x:double,q:vector<float>}`.
+/// What `hash` is computed from, such as `Pose{x:double,q:vector<float>}`,
+/// `Mode:uint8{off=0,on=1}`.
 std::string layout_text(const Type& type);
 
 /// True if assigning `b` to `a` needs no allocation: equal vector sizes at every level.
 /// @rt nonblocking, no allocation, O(vectors)
 bool same_shape(const Type& type, const void* a, const void* b);
 
-/// Readable text: `0.5`, `[1, 2]`, `{x: 1, y: 2}`. A text is written as it is, and in quotes where
-/// it is inside something else.
+/// Readable text: `0.5`, `catch_up`, `[1, 2]`, `{x: 1, y: 2}`. A text is written as it is, and in
+/// quotes where it is inside something else; a value that no enumerator has, as its number.
 std::string to_text(const Type& type, const void* value);
 
 /// Reads what `to_text` writes. A struct needs each of its fields once, in any order. An error
@@ -110,7 +121,8 @@ std::size_t encoded_size(const Type& type, const void* value);
 std::size_t encode_to(const Type& type, const void* value, std::byte* to);
 
 /// Reads the binary form and returns the bytes used; what follows is the caller's. An error says at
-/// which byte and leaves `value` as it was: too few bytes, a count beyond them, a bool above 1.
+/// which byte and leaves `value` as it was: too few bytes, a count beyond them, a bool above 1, a
+/// number that no enumerator has.
 base::Result<std::size_t> decode(const Type& type, const std::byte* from, std::size_t size,
                                  void* value);
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/base/hash.hpp"
-#include "armature/types/internal/test_types.hpp"
+#include "armature/testing/described_types.hpp"
 
 namespace robot {
 
@@ -207,9 +207,10 @@ TEST(VisitLeaves, NamesEveryScalarAndTextInOrder) {
   std::string paths;
   visit_leaves(type_of<Everything>(), &value,
                [&](const std::string& path, const Type&, const void*) { paths += path + " "; });
-  EXPECT_EQ(paths,
-            "on i8 u8 i16 u16 i32 u32 i64 u64 f d text label flags[0] flags[1] flags[2] q[0] q[1] "
-            "pose.x pose.y path[0].x path[0].y names[0] ");
+  EXPECT_EQ(
+      paths,
+      "on i8 u8 i16 u16 i32 u32 i64 u64 f d gait text label flags[0] flags[1] flags[2] q[0] q[1] "
+      "pose.x pose.y path[0].x path[0].y names[0] ");
 }
 
 TEST(VisitLeaves, GivesTypeAndValueAndStartsAtThePathGiven) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/types/internal/test_types.hpp"
+#include "armature/testing/described_types.hpp"
 
 namespace armature::types {
 namespace {

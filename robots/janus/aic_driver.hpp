@@ -10,6 +10,7 @@
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
 #include "armature/can/bus.hpp"
+#include "armature/types/enum.hpp"
 #include "robots/janus/aic_protocol.hpp"
 
 namespace armature::janus {
@@ -18,6 +19,7 @@ enum class AicMode {
   kSequential,   ///< a request and its answer, card after card; a motor frame for each
   kSynchronous,  ///< one SYNC, the answers back to back; a motor frame for four cards
 };
+ARMATURE_ENUM(AicMode, kSequential, kSynchronous);
 
 /// How a reading of all sensors stands.
 enum class AicReading {

@@ -19,16 +19,15 @@ bool is(int command, AicCommand expected) { return command == static_cast<int>(e
 }  // namespace
 
 Outcome AicHost::on_configure() {
-  AicDriver::Config config;
-  if (Outcome outcome = make_config(config); !outcome) return outcome;
+  const AicDriver::Config driving = config();
   auto link = make_link();
   if (!link) return component::refused(link.error());
   link_ = std::move(link).value();
   base::Diagnostics diagnostics;
-  if (!link_->open(AicDriver::bus_options(config), diagnostics)) {
+  if (!link_->open(AicDriver::bus_options(driving), diagnostics)) {
     return component::refused(base::as_reason(diagnostics));
   }
-  auto driver = AicDriver::make(link_->bus(), config);
+  auto driver = AicDriver::make(link_->bus(), driving);
   if (!driver) return component::refused(driver.error());
   driver_.emplace(std::move(driver).value());
   accounts_.assign(driver_->cards(), {});
@@ -39,15 +38,12 @@ Outcome AicHost::on_configure() {
   return begin_to_guard();
 }
 
-Outcome AicHost::make_config(AicDriver::Config& config) const {
-  if (mode_.get() != "synchronous" && mode_.get() != "sequential") {
-    return component::refused("mode is '" + mode_.get() +
-                              "', expected 'synchronous' or 'sequential'");
-  }
+AicDriver::Config AicHost::config() const {
+  AicDriver::Config config;
   config.cards = numbers_.get();
-  config.mode = mode_.get() == "sequential" ? AicMode::kSequential : AicMode::kSynchronous;
+  config.mode = mode_;
   config.answer_timeout = base::from_seconds(answer_timeout_);
-  return component::accepted();
+  return config;
 }
 
 Outcome AicHost::on_start() {

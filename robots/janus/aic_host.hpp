@@ -66,7 +66,7 @@ class AicHost : public component::Component {
   bool energize_card(int number, int command, control::DrivePermit permit);
   bool command_card(int number, AicCommand command);
 
-  component::Outcome make_config(AicDriver::Config& config) const;
+  AicDriver::Config config() const;
   void read_all();
   void note_losses();
   AicSample take(std::size_t index);
@@ -75,9 +75,9 @@ class AicHost : public component::Component {
 
   component::Property<std::vector<int>> numbers_{
       this, "cards", {}, "numbers of the cards, 1 to 127", "", component::mandatory};
-  component::Property<std::string> mode_{this, "mode", "synchronous",
-                                         "synchronous: one SYNC, a motor frame for four cards; or "
-                                         "sequential: a request and a motor frame for each"};
+  component::Property<AicMode> mode_{this, "mode", AicMode::kSynchronous,
+                                     "synchronous: one SYNC, a motor frame for four cards; or "
+                                     "sequential: a request and a motor frame for each"};
   component::Property<double> supply_{
       this, "supply", 12.0, "voltage of the cards' supply", "V", component::range(0.1, 1000.0)};
   component::Property<double> answer_timeout_{this,  "answer_timeout",

@@ -57,7 +57,7 @@ base::Result<std::unique_ptr<Plant>> Plant::start(const Config& config) {
 Plant::Plant(std::unique_ptr<Simulation> simulation, std::unique_ptr<can::HostWire> wire)
     : simulation_(std::move(simulation)),
       wire_(std::move(wire)),
-      states_(kMostStates, rt::WhenFull::kRefuse, PlantState{}),
+      states_(kMostStates, rt::WhenFull::kDropNewest, PlantState{}),
       thread_(std::make_unique<platform::Thread>(thread_request(), [this] { run(); })) {}
 
 Plant::~Plant() {

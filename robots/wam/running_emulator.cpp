@@ -75,9 +75,9 @@ RunningEmulator::RunningEmulator(const ArmNumbers& numbers, std::unique_ptr<ArmM
       motors_(std::move(motors)),
       emulator_(std::move(emulator)),
       wire_(std::move(wire)),
-      commands_(kMostCommands, rt::WhenFull::kRefuse, EmulatorCommand{}),
-      states_(kMostStates, rt::WhenFull::kRefuse, EmulatorState{}),
-      frames_(logs_frames ? kMostFrames : 1, rt::WhenFull::kRefuse, LoggedFrame{}) {
+      commands_(kMostCommands, rt::WhenFull::kDropNewest, EmulatorCommand{}),
+      states_(kMostStates, rt::WhenFull::kDropNewest, EmulatorState{}),
+      frames_(logs_frames ? kMostFrames : 1, rt::WhenFull::kDropNewest, LoggedFrame{}) {
   if (logs_frames) {
     emulator_->bus().set_tap([this](const can::WireEvent& event) {
       if (event.outcome != can::Outcome::kGood) return;

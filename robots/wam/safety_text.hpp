@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "armature/component/outcome.hpp"
+#include "armature/types/enum.hpp"
 #include "robots/wam/pendant_word.hpp"
 #include "robots/wam/puck_protocol.hpp"
 #include "robots/wam/wam_driver.hpp"
@@ -15,6 +16,14 @@ namespace armature::wam {
 
 /// The board's mode as paper 3 names it.
 std::string_view safety_state(std::optional<BoardMode> mode);
+
+/// What the safety board said last.
+enum class SafetyState : std::int8_t { kUnknown = -1, kEstop = 0, kIdle = 1, kActivated = 2 };
+ARMATURE_ENUM(SafetyState, kUnknown, kEstop, kIdle, kActivated);
+
+inline SafetyState state_of_safety(std::optional<BoardMode> mode) {
+  return mode ? static_cast<SafetyState>(*mode) : SafetyState::kUnknown;
+}
 
 /// Why the arm is out of service, and what the operator has to do.
 /// @param node          of the puck, where the fault is one's

@@ -14,6 +14,7 @@
 #include "armature/library/base/sample_watch.hpp"
 #include "robots/wam/arm_check.hpp"
 #include "robots/wam/emulated_link.hpp"
+#include "robots/wam/safety_text.hpp"
 #include "robots/wam/torque_path.hpp"
 #include "robots/wam/wam_driver.hpp"
 #include "robots/wam/wam_motion.hpp"
@@ -195,9 +196,8 @@ class WamHardware final : public component::Component, public library::DrivesJoi
   component::OutputPort<Vector> sent_torques_{
       this, "sentTorquePort", "of the joints, as they were sent last: after all limits", "Nm",
       component::size_of(joints_)};
-  component::OutputPort<int> board_state_{
-      this, "safetyStatePort",
-      "of the board, as it said last: 0 E-STOP, 1 IDLE, 2 ACTIVATED; -1 before it did"};
+  component::OutputPort<SafetyState> board_state_{this, "safetyStatePort",
+                                                  "of the board, as it said last"};
   component::OutputPorts<bool> armed_{this, "Armed", joints_, "torques are passed"};
   component::Operation<bool()> get_joint_sensors_{
       this, "getJointSensorsOperation", component::serve<&WamHardware::get_joint_sensors>,

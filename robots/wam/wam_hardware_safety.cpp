@@ -43,7 +43,7 @@ bool WamHardware::supervise() {
 
 void WamHardware::tell_safety_state() {
   const auto mode = driver_->board_mode();
-  board_state_.write(mode ? static_cast<int>(*mode) : -1);
+  board_state_.write(state_of_safety(mode));
   const std::string_view told = safety_state(mode);
   if (mode) safety_state_age_.assign(base::to_seconds(link_->now() - driver_->board_mode_time()));
   if (safety_state_.get().view() == told) return;

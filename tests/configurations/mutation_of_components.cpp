@@ -81,12 +81,12 @@ std::optional<std::string> change_activity(Document& document, Random& random) {
       return component.name + ": no activity";
     case 1:
       component.activity = {};
-      component.activity.kind = deploy::ActivityKind::kPeriodic;
+      component.activity.kind = exec::Activity::Kind::kPeriodic;
       component.activity.period = std::chrono::milliseconds(random() % 2 == 0 ? 2 : 50);
       return component.name + ": every " + deploy::to_text(component.activity.period);
     case 2:
       component.activity = {};
-      component.activity.kind = deploy::ActivityKind::kTriggered;
+      component.activity.kind = exec::Activity::Kind::kTriggered;
       return component.name + ": triggered";
     case 3:
       component.activity.priority = static_cast<int>(1 + random() % 99);
@@ -95,7 +95,8 @@ std::optional<std::string> change_activity(Document& document, Random& random) {
       component.autostart = false;
       return component.name + ": not started by itself";
     default:
-      component.activity.scheduler = deploy::Scheduler::kOther;
+      component.activity.scheduler = exec::Activity::Scheduler::kOther;
+      component.activity.scheduler_given = true;
       return component.name + ": scheduler other";
   }
 }

@@ -164,7 +164,7 @@ std::optional<std::string> change_to_extreme(Document& document, Random& random)
 std::optional<std::string> change_period(Document& document, Random& random) {
   std::vector<deploy::Component*> periodic;
   for (deploy::Component& component : document.components) {
-    if (component.activity.kind == deploy::ActivityKind::kPeriodic) periodic.push_back(&component);
+    if (component.activity.kind == exec::Activity::Kind::kPeriodic) periodic.push_back(&component);
   }
   if (periodic.empty() || random() % 3 == 0) return scale("period")(document, random);
   constexpr std::array<double, 8> kFactors{0.01, 0.1, 0.5, 0.9, 1.5, 2, 10, 100};

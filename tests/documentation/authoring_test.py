@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-LEAST_SNIPPETS = 15
+LEAST_SNIPPETS = 16
 LEAST_UNITS = 20
 
 

@@ -40,7 +40,7 @@ struct Connection {
 
 std::vector<Connection> connections() {
   ConnectionPolicy latest;
-  ConnectionPolicy refusing{ConnectionPolicy::Kind::kFifo, 4, rt::WhenFull::kRefuse, false};
+  ConnectionPolicy refusing{ConnectionPolicy::Kind::kFifo, 4, rt::WhenFull::kDropNewest, false};
   ConnectionPolicy dropping{ConnectionPolicy::Kind::kFifo, 4, rt::WhenFull::kDropOldest, false};
   ConnectionPolicy delayed;
   delayed.one_cycle_delay = true;

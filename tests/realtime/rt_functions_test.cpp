@@ -141,7 +141,7 @@ TEST_P(RingTest, PushAndPopOfAVector) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WhenFull, RingTest,
-                         ::testing::Values(rt::WhenFull::kRefuse, rt::WhenFull::kDropOldest));
+                         ::testing::Values(rt::WhenFull::kDropNewest, rt::WhenFull::kDropOldest));
 
 struct CountedMessage final : rt::Signal {
   CountedMessage() : rt::Signal(&deliver) {}

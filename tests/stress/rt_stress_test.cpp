@@ -161,7 +161,7 @@ TEST(LaneStress, ValuesAreWholeNeverGoBackAndTheLastComes) {
 class RingStress : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(RingStress, WhatIsRefusedOrDroppedIsAllThatIsMissing) {
-  for (const WhenFull when_full : {WhenFull::kRefuse, WhenFull::kDropOldest}) {
+  for (const WhenFull when_full : {WhenFull::kDropNewest, WhenFull::kDropOldest}) {
     Ring<Block> ring(GetParam(), when_full, Block(0));
     std::uint64_t lost = 0;
     std::atomic<bool> finished{false};

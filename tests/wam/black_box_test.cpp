@@ -104,8 +104,8 @@ TEST_P(WamBlackBox, TellsTheTorquesThatWereSentAndTheStateOfTheBoard) {
   const auto data = value_of<Vector>(report, "WAM.jointsDataPort", 299);
   EXPECT_EQ(Vector(data.end() - static_cast<std::ptrdiff_t>(arm.joints()), data.end()), sent(300))
       << "a reading tells the torques under which it came about";
-  EXPECT_EQ(value_of<int>(report, "WAM.safetyStatePort", 300), 2);
-  EXPECT_EQ(value_of<int>(report, "WAM.safetyStatePort", 0), 1);
+  EXPECT_EQ(value_of<SafetyState>(report, "WAM.safetyStatePort", 300), SafetyState::kActivated);
+  EXPECT_EQ(value_of<SafetyState>(report, "WAM.safetyStatePort", 0), SafetyState::kIdle);
 }
 
 }  // namespace

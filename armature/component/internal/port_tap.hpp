@@ -26,7 +26,7 @@ template <typename T>
 class PortTap final : public PortTapBase {
  public:
   PortTap(std::size_t capacity, std::uint64_t every, const Sample<T>& shape)
-      : every_(every), ring_(capacity, rt::WhenFull::kRefuse, shape) {}
+      : every_(every), ring_(capacity, rt::WhenFull::kDropNewest, shape) {}
 
   void push(const void* written) noexcept override {
     const auto& sample = *static_cast<const Sample<T>*>(written);

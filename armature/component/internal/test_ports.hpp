@@ -54,7 +54,8 @@ class TriggeredReader : public Component {
 };
 
 inline ConnectionPolicy latest() { return {}; }
-inline ConnectionPolicy fifo(std::size_t capacity, rt::WhenFull when_full = rt::WhenFull::kRefuse) {
+inline ConnectionPolicy fifo(std::size_t capacity,
+                             rt::WhenFull when_full = rt::WhenFull::kDropNewest) {
   return {ConnectionPolicy::Kind::kFifo, capacity, when_full, false};
 }
 inline ConnectionPolicy delayed() {

@@ -20,7 +20,7 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics);
 /// The part of the tree that concerns the application as a whole.
 Value head_of(const Value& tree);
 
-/// Name, fault policy, libraries, scripts, grants, recorder and the record of composites.
+/// Name, fault policy, libraries, grants and the record of composites.
 void read_head(const Value& head, Document& document, base::Diagnostics& diagnostics);
 
 /// Paths as seen from the document's folder, whichever file they were written in.

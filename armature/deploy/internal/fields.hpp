@@ -10,6 +10,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
 #include "armature/deploy/document.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::deploy::internal {
 
@@ -57,11 +58,22 @@ class ValueReader {
     return std::nullopt;
   }
 
+  /// One of an enumeration's names.
+  template <typename Enum>
+  std::optional<Enum> choice(const Value& value, std::string_view what) const {
+    const std::optional<std::string> found = text(value, what);
+    if (!found) return std::nullopt;
+    const std::optional<Enum> named = types::value_named<Enum>(*found);
+    if (!named) refuse_name(value, what, types::type_of<Enum>());
+    return named;
+  }
+
   void error(const base::Location& where, std::string_view message, std::string hint = {}) const;
   base::Diagnostics& diagnostics() const { return diagnostics_; }
   const std::string& owner() const { return owner_; }
 
  private:
+  void refuse_name(const Value& value, std::string_view what, const types::Type& type) const;
   void refuse_choice(const Value& value, std::string_view what, const std::string& found,
                      const std::vector<std::string>& known) const;
 

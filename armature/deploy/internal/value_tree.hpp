@@ -26,6 +26,8 @@ Value make_list(base::Location where = {});
 Value make_map(base::Location where = {});
 
 /// `text`, a list or a map, for messages: "found a list".
+using types::name_of;
+
 std::string_view name_of(Value::Kind kind);
 
 /// Without blanks and line ends around it.

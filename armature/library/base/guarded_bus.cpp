@@ -10,32 +10,19 @@ using component::Outcome;
 using guardian::Guardian;
 
 GuardedBus::GuardedBus(component::Component* owner)
-    : wish_(owner, "guardian", "on",
-            "a process that switches the drives off when this one dies or hangs: on, off, or "
-            "required, which runs nothing without it") {}
-
-std::optional<GuardedBus::Wish> GuardedBus::wish() const {
-  if (wish_.get() == "off") return Wish::kOff;
-  if (wish_.get() == "on") return Wish::kOn;
-  if (wish_.get() == "required") return Wish::kRequired;
-  return std::nullopt;
-}
-
-Outcome GuardedBus::refuse_property() const {
-  return component::refused("guardian is '" + wish_.get() + "', expected on, off or required");
-}
+    : wanted_(owner, "guardian", Guarding::kOn,
+              "a process that switches the drives off when this one dies or hangs; required: "
+              "nothing runs without it") {}
 
 Outcome GuardedBus::start(const guardian::Orders& orders) {
   guardian_.reset();
-  const std::optional<Wish> wanted = wish();
-  if (!wanted) return refuse_property();
   said_.clear();
   complains_ = required_ = gone_ = loss_ = false;
-  if (wanted == Wish::kOff) return component::accepted();
+  if (wanted_ == Guarding::kOff) return component::accepted();
   auto started = Guardian::start(orders);
-  if (!started) return go_without(*wanted, started.error());
+  if (!started) return go_without(started.error());
   guardian_ = std::move(started).value();
-  required_ = wanted == Wish::kRequired;
+  required_ = wanted_ == Guarding::kRequired;
   said_ = "guarded by " + guardian_->describe();
   return component::accepted();
 }
@@ -43,18 +30,16 @@ Outcome GuardedBus::start(const guardian::Orders& orders) {
 Outcome GuardedBus::do_without(std::string_view why) {
   guardian_.reset();
   said_.clear();
-  const std::optional<Wish> wanted = wish();
-  if (!wanted) return refuse_property();
-  if (wanted == Wish::kOff) return component::accepted();
-  const Outcome outcome = go_without(*wanted, why);
+  if (wanted_ == Guarding::kOff) return component::accepted();
+  const Outcome outcome = go_without(why);
   complains_ = false;
   return outcome;
 }
 
-Outcome GuardedBus::go_without(Wish wish, std::string_view why) {
+Outcome GuardedBus::go_without(std::string_view why) {
   said_ = "no guardian: " + std::string(why);
   complains_ = true;
-  return wish == Wish::kRequired ? component::refused(said_) : component::accepted();
+  return wanted_ == Guarding::kRequired ? component::refused(said_) : component::accepted();
 }
 
 std::optional<component::Reason> GuardedBus::beat(base::Time now) {

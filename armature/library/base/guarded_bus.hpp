@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,8 +9,17 @@
 
 #include "armature/component/author.hpp"
 #include "armature/guardian/guardian.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::library {
+
+/// Whether a bus has a guardian.
+enum class Guarding : std::uint8_t {
+  kOff,
+  kOn,        ///< where there can be one
+  kRequired,  ///< nothing runs without it
+};
+ARMATURE_ENUM(Guarding, kOff, kOn, kRequired);
 
 /// The guardian of a component's bus, and the property that says whether it has one. Another
 /// process switches the drives off when this one dies, hangs or is stopped (docs/realtime.md).
@@ -18,7 +28,7 @@ class GuardedBus {
   explicit GuardedBus(component::Component* owner);
 
   /// To be called when the bus is there; ends the guardian that there was.
-  /// @return refused if one is required and cannot be, or the property is wrong
+  /// @return refused if one is required and cannot be
   /// @thread configuration only
   component::Outcome start(const guardian::Orders& orders);
   /// The same where there cannot be one.
@@ -41,12 +51,9 @@ class GuardedBus {
   void rest();
 
  private:
-  enum class Wish { kOff, kOn, kRequired };
-  std::optional<Wish> wish() const;
-  component::Outcome refuse_property() const;
-  component::Outcome go_without(Wish wish, std::string_view why);
+  component::Outcome go_without(std::string_view why);
 
-  component::Property<std::string> wish_;
+  component::Property<Guarding> wanted_;
   std::unique_ptr<guardian::Guardian> guardian_;
   std::string said_;
   bool complains_ = false;

@@ -30,6 +30,7 @@ const char* code_of(Ink ink) {
 }
 
 std::string scalar_text(const Type& type, const void* value) {
+  if (type.kind == types::Kind::kEnum) return types::to_text(type, value);
   return types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) -> std::string {
     T scalar{};
     std::memcpy(&scalar, value, sizeof scalar);

@@ -30,6 +30,9 @@ struct Gains {
 };
 ARMATURE_STRUCT(Gains, (kp, "V/rad", "proportional gain"), (steps, "", "in each cycle"));
 
+enum class Stance : std::uint8_t { kFree, kHolding };
+ARMATURE_ENUM(Stance, kFree, kHolding);
+
 /// Has a property of each kind, and operations with arguments.
 class Settings final : public Component {
  public:
@@ -45,6 +48,8 @@ class Settings final : public Component {
       this, "Offsets", {0.5, -1.0}, "of each joint", "rad", changeable_while_running};
   Property<std::array<int, 3>> limits{this,    "Limits", {1, 2, 3},
                                       "three", "",       changeable_while_running};
+  Property<Stance> stance{this,           "Stance", Stance::kFree,
+                          "what it does", "",       changeable_while_running};
   Property<Gains> gains{this, "Gains", {}, "a struct", "", changeable_while_running};
   Attribute<std::uint64_t> calls{this, "Calls", 0, "how often it was called"};
 

@@ -12,6 +12,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/types/elements.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::script::internal {
 namespace {
@@ -93,6 +94,21 @@ Mistake read_text(lua_State* lua, int index, const Type& type, void* to) {
   return std::nullopt;
 }
 
+Mistake read_enumerator(lua_State* lua, int index, const Type& type, void* to) {
+  if (lua_type(lua, index) != LUA_TSTRING) {
+    return must_be("the text " + types::enumerator_list(type), lua, index);
+  }
+  const std::string name = text_at(lua, index);
+  const types::Enumerator* const found = types::find_enumerator(type, name);
+  if (found == nullptr) {
+    const std::string hint = types::near_enumerator(type, name);
+    return must_be(types::enumerator_list(type), lua, index).value() +
+           (hint.empty() ? "" : " (" + hint + ")");
+  }
+  types::set_enumerator(type, *found, to);
+  return std::nullopt;
+}
+
 std::size_t entries_of(lua_State* lua, int table) {
   std::size_t count = 0;
   for (lua_pushnil(lua); lua_next(lua, table) != 0; lua_pop(lua, 1)) ++count;
@@ -156,6 +172,7 @@ Mistake read(lua_State* lua, int index, const Type& type, void* to) {
   if (types::is_text(type)) return read_text(lua, index, type, to);
   if (types::is_list(type)) return read_list(lua, index, type, to);
   if (type.kind == Kind::kStruct) return read_struct(lua, index, type, to);
+  if (type.kind == Kind::kEnum) return read_enumerator(lua, index, type, to);
   return types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) {
     return read_scalar<T>(lua, index, type, to);
   });
@@ -235,6 +252,9 @@ void push_value(lua_State* lua, const Type& type, const void* value) {
       push_value(lua, *field.type, types::at_offset(value, field.offset));
       lua_rawset(lua, -3);
     }
+  } else if (type.kind == Kind::kEnum) {
+    const std::string name = types::to_text(type, value);
+    lua_pushlstring(lua, name.data(), name.size());
   } else {
     types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) {
       T scalar{};

@@ -21,6 +21,7 @@ class TextReader {
  private:
   bool read(const Type& type, void* value);
   bool read_scalar(const Type& type, void* value);
+  bool read_enumerator(const Type& type, void* value);
   bool read_bool(void* value);
   template <typename T>
   bool read_number(const Type& type, void* value);

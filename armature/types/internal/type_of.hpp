@@ -39,6 +39,9 @@ const Type& make_fixed_text(std::size_t capacity, Footprint, Lifetime, TextAcces
 const Type& make_array(const Type& element, std::size_t count, Footprint, Lifetime);
 const Type& make_vector(const Type& element, Footprint, Lifetime, VectorAccess);
 const Type& make_struct(std::string_view name, Footprint, Lifetime, std::initializer_list<Field>);
+/// Its enumerators are named as in C++: `kCatchUp`.
+const Type& make_enum(std::string_view name, const Type& underlying, Lifetime,
+                      std::initializer_list<Enumerator>);
 /// A class of one private number, of which only the class itself makes values.
 const Type& make_sealed(std::string_view name, Footprint, Lifetime, Field only);
 
@@ -117,7 +120,7 @@ template <typename T>
 concept Number = std::is_arithmetic_v<T> && sizeof(T) <= 8 && !CharacterType<T>;
 
 template <typename T>
-concept StructWithDescription = requires(const T* none) {
+concept WithDescription = requires(const T* none) {
   armature_describe(none);
 };
 
@@ -144,13 +147,14 @@ struct Description {
   static const Type& get() {
     if constexpr (Number<T>) {
       return scalar_type(scalar_kind<T>());
-    } else if constexpr (StructWithDescription<T>) {
+    } else if constexpr (WithDescription<T>) {
       return armature_describe(static_cast<const T*>(nullptr));
     } else {
       static_assert(kNever<T>,
                     "this type has no description: use bool, an integer, float, double, "
                     "std::string, base::FixedText, std::array, std::vector, or write "
-                    "ARMATURE_STRUCT(Type, field, ...); right after the struct, in its namespace");
+                    "ARMATURE_STRUCT(Type, field, ...); right after the struct, in its namespace, "
+                    "or ARMATURE_ENUM(Type, kEnumerator, ...); right after the enumeration");
     }
   }
 };

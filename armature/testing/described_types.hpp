@@ -5,16 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
+
+// For tests: a struct with a field of every kind that types/ describes.
 
 namespace armature::types {
 
+/// A struct with units.
 struct Pose {
   double x = 0.0;
   double y = 0.0;
   friend bool operator==(const Pose&, const Pose&) = default;
 };
 ARMATURE_STRUCT(Pose, (x, "m", "ahead of the dock"), (y, "m"));
+
+/// An enumeration whose numbers have gaps.
+enum class Gait : std::int16_t { kStanding, kWalking = 300, kTurningOnTheSpot = -2 };
+ARMATURE_ENUM(Gait, kStanding, kWalking, kTurningOnTheSpot);
 
 /// Has every kind of field, and padding between them.
 struct Everything {
@@ -29,6 +37,7 @@ struct Everything {
   std::uint64_t u64 = 0;
   float f = 0.0f;
   double d = 0.0;
+  Gait gait = Gait::kStanding;
   std::string text;
   base::FixedText<5> label;
   std::array<bool, 3> flags{};
@@ -39,8 +48,8 @@ struct Everything {
   std::array<std::vector<std::uint16_t>, 2> tables;
   friend bool operator==(const Everything&, const Everything&) = default;
 };
-ARMATURE_STRUCT(Everything, on, i8, u8, i16, u16, i32, u32, i64, u64, f, d, text, label, flags, q,
-                pose, path, names, tables);
+ARMATURE_STRUCT(Everything, on, i8, u8, i16, u16, i32, u32, i64, u64, f, d, gait, text, label,
+                flags, q, pose, path, names, tables);
 
 inline Everything make_everything() {
   Everything value;
@@ -55,6 +64,7 @@ inline Everything make_everything() {
   value.u64 = 18446744073709551615u;
   value.f = 0.1f;
   value.d = -1.0 / 3.0;
+  value.gait = Gait::kTurningOnTheSpot;
   value.text = "line\n\"quoted\" \\ tab\t bell\x07 zero" + std::string(1, '\0') + "µ";
   value.label = "abcde";
   value.flags = {true, false, true};
