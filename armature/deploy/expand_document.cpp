@@ -6,15 +6,17 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
-#include "armature/deploy/internal/document_head.hpp"
-#include "armature/deploy/internal/document_reader.hpp"
 #include "armature/deploy/internal/expand_names.hpp"
-#include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/fields.hpp"
+#include "armature/document/head.hpp"
+#include "armature/document/reader.hpp"
+#include "armature/document/value_tree.hpp"
 #include "armature/exec/modes.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
 constexpr const char* kOverride = "override";
