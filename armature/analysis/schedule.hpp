@@ -41,6 +41,7 @@ ExecutionTimes parse_times(std::string_view text, const std::string& name,
 
 /// Which load a thread is.
 struct ThreadLoad {
+  /// Where the figures of its load come from.
   enum class Source : std::uint8_t { kUnknown, kDeclared, kMeasured };
 
   std::string name;
@@ -56,6 +57,7 @@ struct ThreadLoad {
   }
 };
 
+/// The load of all threads.
 struct Schedule {
   std::vector<ThreadLoad> threads;
   int cpus = 1;

@@ -11,13 +11,16 @@
 /// What a picture of an application shows, however it is drawn.
 namespace armature::analysis {
 
+/// A component in the picture.
 struct WiringNode {
   std::string name;
   std::string model;
   std::size_t thread;  ///< index into Wiring::threads
 };
 
+/// A connection, a subscription or the use of a peer.
 struct WiringEdge {
+  /// What flows along the edge.
   enum class Kind {
     kData,   ///< from output to input port
     kEvent,  ///< from who raises it to who handles it
@@ -34,12 +37,14 @@ struct WiringEdge {
   std::string type;  ///< of data: `double [rad]`
 };
 
+/// A thread and the components that run in it.
 struct WiringThread {
   std::string name;
   std::string activity;  ///< `periodic 10 ms, priority 80`
   std::vector<std::size_t> nodes;
 };
 
+/// Everything that the picture shows.
 struct Wiring {
   std::string application;
   std::vector<WiringThread> threads;

@@ -11,6 +11,7 @@
 /// Places a wiring on a plane: data flows from left to right, each thread is a lane of its own.
 namespace armature::analysis {
 
+/// A place on the plane, in pixels from the top left.
 struct Point {
   double x = 0.0;
   double y = 0.0;
@@ -32,11 +33,13 @@ struct Way {
   bool backward = false;  ///< against the flow
 };
 
+/// The strip of a thread.
 struct Lane {
   double y = 0.0;
   double height = 0.0;
 };
 
+/// Where everything of a wiring is drawn.
 struct WiringLayout {
   std::vector<Box> boxes;   ///< as the nodes of the wiring
   std::vector<Way> ways;    ///< as its edges

@@ -28,6 +28,7 @@ class Pid {
     friend bool operator==(const Config&, const Config&) = default;
   };
 
+  /// What is remembered between two samples.
   struct State {
     double output = 0.0;        ///< u[k-1]
     double last_error = 0.0;    ///< e[k-1]

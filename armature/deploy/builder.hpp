@@ -20,6 +20,7 @@ using MakePlaceholder = std::function<base::Result<std::unique_ptr<component::Co
 using MakeInlets = std::function<base::Result<std::unique_ptr<component::Component>>(
     const std::vector<component::InputPortBase*>& inputs)>;
 
+/// What a build needs beside the document.
 struct BuildOptions {
   FileReader read;              ///< of property files; empty: from disk
   bool models_missing = false;  ///< a library could not be loaded, so unknown models may be its own

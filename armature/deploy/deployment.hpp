@@ -18,6 +18,7 @@
 
 namespace armature::deploy {
 
+/// What loading a deployment needs beside its file.
 struct DeploymentOptions {
   LoadOptions document;                      ///< overrides of the command line, how files are read
   std::vector<std::string> library_folders;  ///< looked through before all others

@@ -17,6 +17,7 @@ namespace armature::deploy {
 /// The content of a file, or why it cannot be read.
 using FileReader = std::function<base::Result<std::string>(const std::string& path)>;
 
+/// What reading a document needs beside its file.
 struct LoadOptions {
   FileReader read;  ///< empty: from disk
   /// As on the command line: `joints=7` sets a parameter, `Joint1.GearRatio=0.02` a property,

@@ -19,6 +19,7 @@ struct Property;
 /// What a user wrote for a property: text, a list or a map. Which type and unit it must have is the
 /// model's affair.
 struct Value {
+  /// Which of its members a value uses.
   enum class Kind { kNone, kText, kList, kMap };
 
   Kind kind = Kind::kNone;
@@ -30,6 +31,7 @@ struct Value {
   base::Location where;
 };
 
+/// A property and what the user wrote for it.
 struct Property {
   std::string name;
   Value value;
@@ -77,6 +79,7 @@ struct PropertyFile {
   base::Location where;
 };
 
+/// A component of the application.
 struct Component {
   std::string name;  ///< parts of composites: `instance.part`
   std::string model;
@@ -102,6 +105,7 @@ struct ConnectionPolicy : component::ConnectionPolicy {
   bool fan_in = false;                    ///< the input has several writers on purpose
 };
 
+/// One end of a connection.
 struct Endpoint {
   std::string component;
   std::string port;
@@ -111,6 +115,7 @@ struct Endpoint {
 /// `Component.Port`.
 std::string to_text(const Endpoint& endpoint);
 
+/// A connection from an output port to an input port.
 struct Connection {
   Endpoint from;
   Endpoint to;
@@ -126,6 +131,7 @@ struct NamedConnection {
   base::Location where;
 };
 
+/// Which kind of member a composite shows.
 enum class ExportKind { kPort, kOperation, kEvent, kProperty };
 ARMATURE_ENUM(ExportKind, kPort, kOperation, kEvent, kProperty);
 

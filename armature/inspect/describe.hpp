@@ -16,6 +16,7 @@
 
 namespace armature::inspect {
 
+/// A property or attribute, as tools show it.
 struct PropertyDescription {
   std::string name;
   std::string doc;
@@ -30,6 +31,7 @@ struct PropertyDescription {
   std::string value;  ///< only if asked for
 };
 
+/// What input and output ports have in common, as tools show it.
 struct PortDescription {
   std::string name;
   std::string doc;
@@ -44,6 +46,7 @@ struct PortDescription {
   bool connected() const { return !peers.empty(); }
 };
 
+/// An input port, as tools show it.
 struct InputDescription : PortDescription {
   bool triggers = false;
   bool may_stay_open = false;
@@ -54,15 +57,18 @@ struct InputDescription : PortDescription {
   component::InputCounters counters;
 };
 
+/// An output port, as tools show it.
 struct OutputDescription : PortDescription {
   component::OutputCounters counters;
 };
 
+/// An array of ports whose number a property says.
 struct PortArrayDescription {
   std::string name;
   std::string count;  ///< the property that says how many ports `name1..nameN` there are
 };
 
+/// An operation or a command, as tools show it.
 struct OperationDescription {
   std::string name;
   std::string doc;
@@ -72,6 +78,7 @@ struct OperationDescription {
   bool by_operator = false;
 };
 
+/// An event, as tools show it.
 struct EventDescription {
   std::string name;
   std::string doc;
@@ -94,7 +101,9 @@ struct RequirementDescription {
   std::uint64_t not_taken = 0;  ///< calls or events that met a full queue
 };
 
+/// A state machine, as tools show it.
 struct MachineDescription {
+  /// A state; `path` names those around it.
   struct State {
     std::string path;
     std::string doc;
@@ -109,6 +118,7 @@ struct MachineDescription {
   std::string current;  ///< path of the active states; empty while the component does not run
 };
 
+/// A component: its whole interface, and how it stands now.
 struct ComponentDescription {
   std::string model;
   std::string name;

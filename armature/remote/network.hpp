@@ -15,6 +15,7 @@
 
 namespace armature::remote {
 
+/// What a process's part in the network needs beside the deployment.
 struct NetworkOptions {
   /// Makes the transport for `tls://`; what is wrong is added to the diagnostics.
   std::function<std::shared_ptr<ride::Transport>(const document::Network&, base::Diagnostics&)> tls;

@@ -12,6 +12,7 @@
 
 namespace armature::types {
 
+/// A struct with units.
 struct Pose {
   double x = 0.0;
   double y = 0.0;
@@ -19,6 +20,7 @@ struct Pose {
 };
 ARMATURE_STRUCT(Pose, (x, "m", "ahead of the dock"), (y, "m"));
 
+/// An enumeration whose numbers have gaps.
 enum class Gait : std::int16_t { kStanding, kWalking = 300, kTurningOnTheSpot = -2 };
 ARMATURE_ENUM(Gait, kStanding, kWalking, kTurningOnTheSpot);
 
