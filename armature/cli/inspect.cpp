@@ -88,13 +88,22 @@ int graph(const GraphArguments& arguments, const Console& console) {
   const deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
+  deploy::GraphOptions options{arguments.each_line, {}};
+  for (const std::string& text : arguments.only) {
+    const auto names = deploy::components_named(text, deployment.blueprint);
+    if (!names) {
+      console.say(LogLevel::kError, names.error());
+      return kWrongUse;
+    }
+    options.only.insert(options.only.end(), names.value().begin(), names.value().end());
+  }
   std::string picture;
   if (arguments.format == "dot") {
-    picture = deploy::graph_as_dot(deployment.blueprint, deployment.plan);
+    picture = deploy::graph_as_dot(deployment.blueprint, deployment.plan, options);
   } else if (arguments.format == "mermaid") {
-    picture = deploy::graph_as_mermaid(deployment.blueprint, deployment.plan);
+    picture = deploy::graph_as_mermaid(deployment.blueprint, deployment.plan, options);
   } else {
-    picture = deploy::graph_as_svg(deployment.blueprint, deployment.plan);
+    picture = deploy::graph_as_svg(deployment.blueprint, deployment.plan, options);
   }
   if (!arguments.output.empty()) {
     if (!is_no_source(arguments.output, deployment.document, console)) return kWrongUse;
