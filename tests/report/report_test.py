@@ -198,12 +198,13 @@ class Demonstration(unittest.TestCase):
         for controller in CONTROLLERS:
             run = self.report["runs"][controller]
             csv = os.path.join(self.folder, controller, "janus.csv")
+            self.assertEqual((len(run["velocities"]), len(run["efforts"])), (2, 2))
             for number, (velocity, effort) in enumerate(zip(run["velocities"], run["efforts"]), start=1):
                 self.assertEqual((velocity["joint"], velocity["limit_rad_s"]), (str(number), 3.0))
                 self.assertGreater(velocity["largest_rad_s"], 0.9)
                 self.assertLess(velocity["largest_of_limit"], 0.4)
                 self.assertEqual((effort["unit"], effort["limit"]), ("V", 12.0))
-                voltages = column_by_time(csv, f"Joint{number}_VoltageActuator").values()
+                voltages = column_by_time(csv, f"Joint{number}_VoltageActuator_value").values()
                 self.assertAlmostEqual(effort["largest"], max(map(abs, voltages)), delta=1e-9)
 
     def test_title_and_heading_are_the_applications(self):
@@ -230,21 +231,30 @@ class Demonstration(unittest.TestCase):
                 self.assertRegex(label, r"over time, armed at 0\.4\d* s, .*disarmed at 60\.4\d* s")
             self.assertEqual(probed["marked"], probed["canvases"], "curves without marks")
 
+    @unittest.skipUnless(CHROMIUM, "chromium is not installed: nobody has run the page")
+    def test_a_long_name_does_not_make_a_phone_scroll_sideways(self):
+        page = self.page.replace('"name":"pid_feedforward"', '"name":"' + "w" * 70 + '"')
+        probed = probe(page, 390, ["w" * 70 + "</td>"], self.folder)
+        self.assertEqual((probed["needs"], probed["beyond"], probed["absent"]), (390, [], []))
+
 
 PROBE = """<script>
   for (const d of document.querySelectorAll('details')) d.open = true;
-  const inked = (c, from, to, height) => c.getContext('2d')
-    .getImageData(from, 0, to - from, height).data.some((x) => x > 0);
   const all = (what) => [...document.querySelectorAll(what)];
-  setTimeout(() => parent.postMessage({
+  const inked = (data) => data.some((x) => x > 0);
+  const pixels = (c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+  setTimeout(() => {
+    const drawn = all('canvas').map((c) => [pixels(c), 4 * c.width * 8 * devicePixelRatio]);
+    parent.postMessage({
     width: innerWidth, needs: document.documentElement.scrollWidth,
     beyond: all('main *').filter((e) => !e.closest('.scroll > table') && e.getBoundingClientRect().right > innerWidth + 0.5)
       .map((e) => e.outerHTML.slice(0, 80)),
     absent: TEXTS.filter((text) => !document.body.innerHTML.includes(text)),
-    canvases: all('canvas').length,
-    inked: all('canvas').filter((c) => inked(c, 0, c.width, c.height)).length,
-    marked: all('canvas').filter((c) => inked(c, 0, c.width, 8 * devicePixelRatio)).length,
-    labels: all('.canvas').map((c) => c.getAttribute('aria-label'))}, '*'), 500);
+    canvases: drawn.length,
+    inked: drawn.filter(([data]) => inked(data)).length,
+    marked: drawn.filter(([data, strip]) => inked(data.subarray(0, strip))).length,
+    labels: all('.canvas').map((c) => c.getAttribute('aria-label'))}, '*');
+  }, 500);
 </script>"""
 
 FRAME = """<!doctype html><body style="margin: 0"><iframe src="file://PATH"
