@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/analysis/wiring_graph.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/plan.hpp"
 
@@ -13,8 +14,8 @@ namespace armature::analysis {
 
 /// A component in the picture.
 struct WiringNode {
-  std::string name;
-  std::string model;
+  std::string name;    ///< of several `Joint1..7`
+  std::string model;   ///< of several `7 x Joint`
   std::size_t thread;  ///< index into Wiring::threads
 };
 
@@ -35,6 +36,8 @@ struct WiringEdge {
   bool delayed = false;
   std::string note;  ///< `fifo 8`, `one cycle later`; may be empty
   std::string type;  ///< of data: `double [rad]`
+  /// As `text_of` has them, if it stands for several; else empty.
+  std::vector<std::string> bundled = {};
 };
 
 /// A thread and the components that run in it.
@@ -52,6 +55,21 @@ struct Wiring {
   std::vector<WiringEdge> edges;
 };
 
+/// `Joint1.Out → Mux.Position1, double [rad], triggers`.
+std::string text_of(const Wiring& wiring, const WiringEdge& edge);
+
+/// Only these components and those that something joins to one of them, with what joins them.
+Wiring selection_of(const Wiring& wiring, const std::vector<std::string>& names);
+
+/// One node for components of one model and thread whose names differ by the number at their end,
+/// and one edge for all of one kind from one node to another.
+Wiring bundled(const Wiring& wiring);
+
+/// All of it, each connection by itself.
 Wiring make_wiring(const exec::Blueprint& blueprint, const exec::Plan& plan);
+
+/// What a picture with these options shows.
+Wiring make_wiring(const exec::Blueprint& blueprint, const exec::Plan& plan,
+                   const GraphOptions& options);
 
 }  // namespace armature::analysis

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/analysis/wiring_graph.hpp"
 
+#include <algorithm>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "armature/analysis/wiring.hpp"
+#include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
 #include "armature/document/document.hpp"
+#include "armature/document/ranges.hpp"
 
 namespace armature::analysis {
 
@@ -112,6 +115,26 @@ Wiring make_wiring(const exec::Blueprint& blueprint, const exec::Plan& plan) {
   return wiring;
 }
 
+std::string text_of(const Wiring& wiring, const WiringEdge& edge) {
+  const auto end = [&](std::size_t node, const std::string& port) {
+    return wiring.nodes[node].name + (port.empty() ? "" : "." + port);
+  };
+  std::string text = end(edge.from, edge.from_port) + " → " + end(edge.to, edge.to_port);
+  if (edge.kind == WiringEdge::Kind::kPeer) text += ", peer";
+  if (edge.kind == WiringEdge::Kind::kEvent) text += ", event";
+  if (!edge.type.empty()) text += ", " + edge.type;
+  if (edge.triggers && edge.kind == WiringEdge::Kind::kData) text += ", triggers";
+  if (!edge.note.empty()) text += ", " + edge.note;
+  return text;
+}
+
+Wiring make_wiring(const exec::Blueprint& blueprint, const exec::Plan& plan,
+                   const GraphOptions& options) {
+  Wiring wiring = make_wiring(blueprint, plan);
+  if (!options.only.empty()) wiring = selection_of(wiring, options.only);
+  return options.each_line ? wiring : bundled(wiring);
+}
+
 namespace {
 
 std::string replaced(std::string_view text, const std::unordered_map<char, std::string>& by) {
@@ -136,6 +159,7 @@ std::string id(std::size_t node) { return "c" + std::to_string(node); }
 std::string label_of(const WiringEdge& edge) {
   std::string label = edge.from_port;
   if (!edge.to_port.empty() && edge.to_port != edge.from_port) label += " → " + edge.to_port;
+  if (!edge.bundled.empty()) label += " × " + std::to_string(edge.bundled.size());
   if (!edge.note.empty()) label += " (" + edge.note + ")";
   return label;
 }
@@ -146,6 +170,9 @@ std::string dot_edge(const WiringEdge& edge) {
   if (edge.kind == WiringEdge::Kind::kEvent) attributes += ", style=dotted, penwidth=2";
   if (edge.kind == WiringEdge::Kind::kData && edge.triggers) attributes += ", penwidth=2";
   if (edge.delayed) attributes += ", constraint=false";
+  std::string list;
+  for (const std::string& each : edge.bundled) list += (list.empty() ? "" : "\n") + each;
+  if (!list.empty()) attributes += ", tooltip=\"" + for_dot(list) + "\"";
   return "  " + id(edge.from) + " -> " + id(edge.to) + " [" + attributes + "];\n";
 }
 
@@ -153,14 +180,42 @@ std::string mermaid_edge(const WiringEdge& edge) {
   const bool dashed = edge.kind != WiringEdge::Kind::kData;
   const std::string arrow = dashed ? "-.->" : edge.triggers ? "==>" : "-->";
   const std::string label = for_mermaid(label_of(edge));
-  return "  " + id(edge.from) + " " + arrow + (label.empty() ? "" : "|\"" + label + "\"|") + " " +
-         id(edge.to) + "\n";
+  std::string text = "  " + id(edge.from) + " " + arrow +
+                     (label.empty() ? "" : "|\"" + label + "\"|") + " " + id(edge.to) + "\n";
+  for (const std::string& each : edge.bundled) text += "  %% " + each + "\n";
+  return text;
 }
 
 }  // namespace
 
-std::string graph_as_dot(const exec::Blueprint& blueprint, const exec::Plan& plan) {
-  const Wiring wiring = make_wiring(blueprint, plan);
+base::Result<std::vector<std::string>> components_named(const std::string& text,
+                                                        const exec::Blueprint& blueprint) {
+  base::Diagnostics diagnostics;
+  const auto range = find_range(text, {}, diagnostics);
+  if (!diagnostics.ok()) return base::Error{"--only: " + diagnostics.all().front().message};
+  std::vector<std::string> known;
+  for (const exec::ComponentEntry& entry : blueprint.components) {
+    known.push_back(entry.component->name());
+  }
+  std::vector<std::string> names;
+  const auto [first, last] = range ? range->range : Range{1, 1};
+  for (int number = first; number <= last; ++number) {
+    const std::string name =
+        range ? text.substr(0, range->begin) + std::to_string(number) + text.substr(range->end)
+              : text;
+    if (std::ranges::find(known, name) == known.end()) {
+      const std::string near = base::suggestion(name, known);
+      return base::Error{"--only: unknown component '" + name + "'" +
+                         (near.empty() ? "" : " (" + near + ")")};
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+std::string graph_as_dot(const exec::Blueprint& blueprint, const exec::Plan& plan,
+                         const GraphOptions& options) {
+  const Wiring wiring = make_wiring(blueprint, plan, options);
   std::string text = "digraph \"" + for_dot(wiring.application) +
                      "\" {\n"
                      "  rankdir=LR;\n"
@@ -182,8 +237,9 @@ std::string graph_as_dot(const exec::Blueprint& blueprint, const exec::Plan& pla
   return text + "}\n";
 }
 
-std::string graph_as_mermaid(const exec::Blueprint& blueprint, const exec::Plan& plan) {
-  const Wiring wiring = make_wiring(blueprint, plan);
+std::string graph_as_mermaid(const exec::Blueprint& blueprint, const exec::Plan& plan,
+                             const GraphOptions& options) {
+  const Wiring wiring = make_wiring(blueprint, plan, options);
   std::string text = "flowchart LR\n";
   for (std::size_t t = 0; t < wiring.threads.size(); ++t) {
     text += "  subgraph t" + std::to_string(t) + "[\"" +

@@ -11,7 +11,6 @@
 
 namespace armature::analysis {
 
-using namespace document;
 namespace {
 
 constexpr double kBend = 40.0;
@@ -119,28 +118,35 @@ std::string_view style_of(const WiringEdge& edge) {
   return edge.triggers ? "trigger" : "data";
 }
 
+/// What a pointer that rests on the line is shown.
 std::string title_of(const Wiring& wiring, const WiringEdge& edge) {
-  const auto end = [&](std::size_t node, const std::string& port) {
-    return wiring.nodes[node].name + (port.empty() ? "" : "." + port);
-  };
-  std::string title = end(edge.from, edge.from_port) + " → " + end(edge.to, edge.to_port);
-  if (edge.kind == WiringEdge::Kind::kPeer) title += ", peer";
-  if (edge.kind == WiringEdge::Kind::kEvent) title += ", event";
-  if (!edge.type.empty()) title += ", " + edge.type;
-  if (edge.triggers && edge.kind == WiringEdge::Kind::kData) title += ", triggers";
-  if (!edge.note.empty()) title += ", " + edge.note;
+  if (edge.bundled.empty()) return text_of(wiring, edge);
+  std::string title = std::to_string(edge.bundled.size()) + " connections:";
+  for (const std::string& each : edge.bundled) title += '\n' + each;
   return title;
+}
+
+/// `7 ×, fifo 8`.
+std::string note_of(const WiringEdge& edge) {
+  if (edge.bundled.empty()) return edge.note;
+  const std::string count = std::to_string(edge.bundled.size()) + " ×";
+  return edge.note.empty() ? count : count + ", " + edge.note;
 }
 
 std::string draw_edge(const Wiring& wiring, const WiringEdge& edge, const Way& way) {
   const std::string_view style = style_of(edge);
   const std::string_view marker = style == "event" ? "trigger" : style;
-  std::string text = "<path class=\"" + std::string(style) + "\" marker-end=\"url(#" +
-                     std::string(marker) + ")\" d=\"" + path_of(way) + "\"><title>" +
-                     escaped(title_of(wiring, edge)) + "</title></path>\n";
-  if (edge.note.empty()) return text;
+  return "<path class=\"" + std::string(style) + "\" marker-end=\"url(#" + std::string(marker) +
+         ")\" d=\"" + path_of(way) + "\"><title>" + escaped(title_of(wiring, edge)) +
+         "</title></path>\n";
+}
+
+/// Above the beginning of the line.
+std::string draw_note(const WiringEdge& edge, const Way& way) {
+  const std::string note = note_of(edge);
+  if (note.empty()) return {};
   const Point at = way.points.front();
-  return text + label("note", "start", {at.x + kPortText, at.y - kPortText}, edge.note);
+  return label("note", "start", {at.x + kPortText, at.y - kPortText}, note);
 }
 
 double row_y(const Box& box, std::size_t row) {
@@ -160,7 +166,7 @@ std::string draw_box(const WiringNode& node, const Box& box) {
     text += label("port", "start", {box.x + kPortText, row_y(box, i)}, box.left[i]);
   }
   for (std::size_t i = 0; i < box.right.size(); ++i) {
-    const bool use = box.right[i].ends_with("()");
+    const bool use = box.right[i].find("()") != std::string::npos;
     text += label(use ? "use" : "port", "end", {box.x + box.width - kPortText, row_y(box, i)},
                   box.right[i]);
   }
@@ -203,8 +209,9 @@ std::string draw_legend(Point at) {
 
 }  // namespace
 
-std::string graph_as_svg(const exec::Blueprint& blueprint, const exec::Plan& plan) {
-  const Wiring wiring = make_wiring(blueprint, plan);
+std::string graph_as_svg(const exec::Blueprint& blueprint, const exec::Plan& plan,
+                         const GraphOptions& options) {
+  const Wiring wiring = make_wiring(blueprint, plan, options);
   const WiringLayout layout = place(wiring);
   const double width = std::max(layout.width, kLegendWidth);
   const double height = layout.height + kLegendHeight;
@@ -219,6 +226,10 @@ std::string graph_as_svg(const exec::Blueprint& blueprint, const exec::Plan& pla
   }
   for (std::size_t i = 0; i < wiring.edges.size(); ++i) {
     svg += draw_edge(wiring, wiring.edges[i], layout.ways[i]);
+  }
+  // No line crosses what is written.
+  for (std::size_t i = 0; i < wiring.edges.size(); ++i) {
+    svg += draw_note(wiring.edges[i], layout.ways[i]);
   }
   for (std::size_t i = 0; i < wiring.nodes.size(); ++i) {
     svg += draw_box(wiring.nodes[i], layout.boxes[i]);

@@ -67,6 +67,8 @@ struct GraphArguments {
   LoadArguments load;
   std::string format = "svg";
   std::string output;
+  std::vector<std::string> only;  ///< names of components, also as Joint{1..7}
+  bool each_line = false;
 };
 
 /// What `armature models` is asked for.

@@ -90,13 +90,22 @@ int graph(const GraphArguments& arguments, const Console& console) {
   const deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
+  analysis::GraphOptions options{arguments.each_line, {}};
+  for (const std::string& text : arguments.only) {
+    const auto names = analysis::components_named(text, deployment.blueprint);
+    if (!names) {
+      console.say(LogLevel::kError, names.error());
+      return kWrongUse;
+    }
+    options.only.insert(options.only.end(), names.value().begin(), names.value().end());
+  }
   std::string picture;
   if (arguments.format == "dot") {
-    picture = analysis::graph_as_dot(deployment.blueprint, deployment.plan);
+    picture = analysis::graph_as_dot(deployment.blueprint, deployment.plan, options);
   } else if (arguments.format == "mermaid") {
-    picture = analysis::graph_as_mermaid(deployment.blueprint, deployment.plan);
+    picture = analysis::graph_as_mermaid(deployment.blueprint, deployment.plan, options);
   } else {
-    picture = analysis::graph_as_svg(deployment.blueprint, deployment.plan);
+    picture = analysis::graph_as_svg(deployment.blueprint, deployment.plan, options);
   }
   if (!arguments.output.empty()) {
     if (!is_no_source(arguments.output, deployment.document, console)) return kWrongUse;

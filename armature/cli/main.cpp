@@ -228,6 +228,13 @@ class CommandLine {
     command->add_option("--format", graph_.format, "svg (default), dot or mermaid")
         ->check(one_of({"svg", "dot", "mermaid"}));
     command->add_option("-o,--output", graph_.output, "file to write; standard output otherwise");
+    command
+        ->add_option("--only", graph_.only,
+                     "these components, as Arming,Joint{1..7}, and their neighbours")
+        ->type_name("COMPONENT[,COMPONENT]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command->add_flag("--each-line", graph_.each_line, "every connection by itself, none bundled");
     command->callback([this] { chosen_ = [this] { return graph(graph_, console_); }; });
   }
 

@@ -5,11 +5,12 @@
 #include "armature/cli/commands.hpp"
 #include "armature/cli/loaded.hpp"
 #include "armature/cli/report.hpp"
+#include "armature/report/moment_kind.hpp"
 
 namespace armature::cli {
 namespace {
 
-constexpr std::size_t kMostComplaints = 1000;
+constexpr std::size_t kMostLines = 1000;
 
 /// nullptr after an error, which was shown.
 void* function_of_report(const char* name, const Console& console) {
@@ -19,14 +20,22 @@ void* function_of_report(const char* name, const Console& console) {
   return function;
 }
 
+void keep(const rt::LogRecord& record, std::vector<rt::LogRecord>& kept, std::size_t& left_out) {
+  if (kept.size() < kMostLines) {
+    kept.push_back(record);
+  } else {
+    ++left_out;
+  }
+}
+
 }  // namespace
 
-void note_complaint(report::RunFacts& facts, const rt::LogRecord& record) {
-  if (record.level < rt::LogLevel::kWarning) return;
-  if (facts.complaints.size() < kMostComplaints) {
-    facts.complaints.push_back(record);
-  } else {
-    ++facts.complaints_left_out;
+void note_for_summary(report::RunFacts& facts, const rt::LogRecord& record) {
+  if (record.level >= rt::LogLevel::kWarning) {
+    keep(record, facts.complaints, facts.complaints_left_out);
+  }
+  if (report::moment_told_by(record.message())) {
+    keep(record, facts.moments, facts.moments_left_out);
   }
 }
 

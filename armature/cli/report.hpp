@@ -9,9 +9,10 @@
 
 namespace armature::cli {
 
-/// Warnings and errors of a run, for its summary. It has no more than the first thousand: an
-/// application that complains in every cycle is not to fill the memory.
-void note_complaint(report::RunFacts& facts, const rt::LogRecord& record);
+/// Keeps what a run's summary tells of its log: warnings, errors and moments such as `armed`. It
+/// has no more than the first thousand of each: an application that complains in every cycle is not
+/// to fill the memory.
+void note_for_summary(report::RunFacts& facts, const rt::LogRecord& record);
 
 /// Leaves run.json in the folder of the recordings.
 /// @return false after an error, which was shown

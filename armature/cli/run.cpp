@@ -172,7 +172,7 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
   options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
   options.output_folder = arguments.output_folder;
   options.log = [&](const rt::LogRecord& record) {
-    note_complaint(facts, record);
+    note_for_summary(facts, record);
     if (!companions.browser) return console.log(record);
     companions.browser->beside([&] { console.log(record); });
   };

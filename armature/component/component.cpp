@@ -143,8 +143,10 @@ Outcome Component::recover() {
 
 Outcome Component::reset() {
   if (state() != State::kException) return wrong_state("reset");
-  return run_hook(&Component::on_reset,
-                  rest_->configured ? State::kStopped : State::kPreOperational);
+  Outcome outcome =
+      run_hook(&Component::on_reset, rest_->configured ? State::kStopped : State::kPreOperational);
+  if (outcome) log_info("reset");
+  return outcome;
 }
 
 void Component::update() {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <ios>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +50,23 @@ TEST_P(ApplicationLog, LinesOfEveryHookReachTheSinkInTheirOrder) {
   EXPECT_THAT(lines_,
               ElementsAre("info A: in configure", "info A: in start", "info A: cycle 1 at 0.5",
                           "info A: in stop", "info A: in cleanup"));
+}
+
+TEST_P(ApplicationLog, AFaultAndItsResetAreTold) {
+  Blueprint blueprint;
+  Probe& probe = blueprint.add<Probe>("A", Activity::periodic(1ms));
+  probe.actions["update"] = [&] { probe.fault("broken"); };
+  Application application(std::move(blueprint), options());
+  ASSERT_TRUE(application.start().ok());
+  EXPECT_TRUE(
+      run_until(application, [&] { return probe.state() == component::State::kException; }));
+  probe.actions["reset"] = [&] { throw std::runtime_error("still broken"); };
+  EXPECT_FALSE(application.reset_component("A"));
+  probe.actions.erase("reset");
+  EXPECT_TRUE(application.reset_component("A"));
+  EXPECT_TRUE(application.stop().ok());
+  EXPECT_THAT(lines_, Contains("error A: fault: broken"));
+  EXPECT_EQ(std::ranges::count(lines_, "info A: reset"), 1) << "not of the one that failed";
 }
 
 TEST_P(ApplicationLog, LinesThatWereDroppedAreToldWhenItStops) {

@@ -3,7 +3,8 @@
 #   cmake -D PAGE=<folder> -D UPLOT=<folder> -D OUTPUT=<file.cpp> -P embed_page.cmake
 set(source "#include \"armature/report/internal/page_parts.hpp\"\n\nnamespace armature::report::internal {\n")
 foreach(part IN ITEMS "kReportHtml|${PAGE}/report.html" "kReportCss|${PAGE}/report.css"
-                      "kReportJs|${PAGE}/report.js" "kUplotCss|${UPLOT}/dist/uPlot.min.css"
+                      "kReportJs|${PAGE}/report.js" "kCurvesJs|${PAGE}/curves.js" "kElementsJs|${PAGE}/elements.js"
+                      "kUplotCss|${UPLOT}/dist/uPlot.min.css"
                       "kUplotJs|${UPLOT}/dist/uPlot.iife.min.js" "kUplotLicense|${UPLOT}/LICENSE")
   string(REPLACE "|" ";" part "${part}")
   list(GET part 0 name)

@@ -5,14 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "armature/report/internal/json.hpp"
+#include "armature/report/internal/figures_json.hpp"
 
 namespace armature::report {
-namespace {
-
-constexpr std::size_t kPointsOfACurve = 8000;
-constexpr std::size_t kPointsOfAllCurves = 250'000;
-constexpr std::size_t kPointsOfASmallCurve = 1200;
+namespace internal {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
@@ -43,6 +39,49 @@ Json figures_of(const Joint& joint) {
           {"measured", joint.measured_from}};
 }
 
+Json figures_of(const Effort& effort) {
+  const Json share = effort.limit ? Json(effort.largest / *effort.limit) : Json();
+  return {{"joint", effort.joint},     {"unit", effort.signal.unit},
+          {"largest", effort.largest}, {"limit", or_null(effort.limit)},
+          {"largest_of_limit", share}, {"signal", effort.signal.name}};
+}
+
+Json figures_of(const Velocity& velocity) {
+  const Json share = velocity.limit ? Json(velocity.largest / *velocity.limit) : Json();
+  return {{"joint", velocity.joint},
+          {"largest_rad_s", velocity.largest},
+          {"limit_rad_s", or_null(velocity.limit)},
+          {"largest_of_limit", share},
+          {"signal", velocity.measured.name}};
+}
+
+Json moments_of(const Moments& moments) {
+  Json all = Json::array();
+  for (const Moment& moment : moments.all) {
+    all.push_back(
+        {{"time_s", moment.time_s}, {"kind", name_of(moment.kind)}, {"told", moment.told}});
+  }
+  return all;
+}
+
+Json summary_of(const Run& run) {
+  return run.summary.empty() ? Json() : Json::parse(run.summary, nullptr, false);
+}
+
+Json cycle_of(const Runs& runs) {
+  return runs.cycle_json.empty() ? Json() : Json::parse(runs.cycle_json, nullptr, false);
+}
+
+}  // namespace internal
+
+namespace {
+
+using internal::cycle_of;
+using internal::figures_of;
+using internal::moments_of;
+using internal::or_null;
+using internal::summary_of;
+
 /// The worst of the joints; of all errors together the root of the mean square.
 Json figures_of_all(const std::vector<Joint>& joints) {
   double largest = 0.0;
@@ -58,122 +97,16 @@ Json figures_of_all(const std::vector<Joint>& joints) {
           {"moved_in_last_10_s_rad", or_null(moved)}};
 }
 
-Json summary_of(const Run& run) {
-  return run.summary.empty() ? Json() : Json::parse(run.summary, nullptr, false);
-}
-
-/// Enough digits for a screen; what is not finite becomes null.
-Json rounded(const std::vector<double>& values, double step) {
-  Json all = Json::array();
-  for (const double value : values) {
-    const double whole = std::round(value / step);
-    // A quotient is the number that a person would write: 0.1 and not 0.1000000001.
-    all.push_back(std::isfinite(whole) ? Json(whole / (1.0 / step)) : Json());
-  }
-  return all;
-}
-
-Json curve(const Signal& signal, std::size_t points, double step) {
-  const Signal thin = thinned(signal, points);
-  return {{"t", rounded(thin.time_s, 1e-4)}, {"v", rounded(thin.values, step)}};
-}
-
-/// So many that a page with many runs can be opened still.
-std::size_t points_of_a_curve(const Runs& runs) {
-  std::size_t curves = 0;
-  for (const Run& run : runs.runs) curves += 3 * run.joints.size() + run.efforts.size();
-  return std::min(kPointsOfACurve, kPointsOfAllCurves / std::max<std::size_t>(curves, 1));
-}
-
-Json curves_of(const Joint& joint, std::size_t points) {
-  Signal error{{}, {}, {}, joint.time_s, {}};
-  for (std::size_t i = 0; i < joint.time_s.size(); ++i) {
-    error.values.push_back(joint.desired[i] - joint.measured[i]);
-  }
-  Json figures = figures_of(joint);
-  figures["curves"] = {
-      {"desired", curve({{}, {}, {}, joint.time_s, joint.desired}, points, 1e-5)},
-      {"measured", curve({{}, {}, {}, joint.time_s, joint.measured}, points, 1e-5)},
-      {"error", curve(error, points, 1e-7)}};
-  return figures;
-}
-
-/// A step that keeps five digits of the largest value.
-double step_for(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double value : values) {
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  }
-  return largest > 0.0 ? std::pow(10.0, std::ceil(std::log10(largest)) - 5.0) : 1.0;
-}
-
-/// Everything that is more than one number, and not shown as a position already.
-Json others_of(const Run& run) {
-  Json others = Json::array();
-  for (const Signal& signal : run.signals.all) {
-    bool shown = false;
-    for (const Joint& joint : run.joints) {
-      shown = shown || signal.name == joint.desired_from || signal.name == joint.measured_from;
-    }
-    for (const Effort& effort : run.efforts) shown = shown || signal.name == effort.signal.name;
-    if (shown || signal.values.size() < 2) continue;
-    Json one = curve(signal, kPointsOfASmallCurve, step_for(signal.values));
-    one["name"] = signal.name;
-    one["unit"] = signal.unit;
-    one["doc"] = signal.doc;
-    others.push_back(std::move(one));
-  }
-  return others;
-}
-
-Json figures_of(const Effort& effort) {
-  const Json share = effort.limit ? Json(effort.largest / *effort.limit) : Json();
-  return {{"joint", effort.joint},     {"unit", effort.signal.unit},
-          {"largest", effort.largest}, {"limit", or_null(effort.limit)},
-          {"largest_of_limit", share}, {"signal", effort.signal.name}};
+Json velocities_of(const Run& run) {
+  Json velocities = Json::array();
+  for (const Velocity& velocity : run.velocities) velocities.push_back(figures_of(velocity));
+  return velocities;
 }
 
 Json efforts_of(const Run& run) {
   Json efforts = Json::array();
   for (const Effort& effort : run.efforts) efforts.push_back(figures_of(effort));
   return efforts;
-}
-
-Json timeline_of(const Timeline& timeline) {
-  Json lanes = Json::array();
-  for (const Timeline::Lane& lane : timeline.lanes) {
-    Json bars = Json::array();
-    for (const Timeline::Bar& bar : lane.bars) {
-      bars.push_back({{"begin", bar.begin_us}, {"length", bar.length_us}});
-    }
-    lanes.push_back({{"component", lane.component}, {"thread", lane.thread}, {"bars", bars}});
-  }
-  return {{"lanes", lanes},
-          {"length_us", timeline.length_us},
-          {"end_us", timeline.end_us},
-          {"cycles", timeline.cycles}};
-}
-
-Json page_of(const Run& run, std::size_t points) {
-  Json one{{"name", run.name},
-           {"recording", run.recording.substr(run.recording.find_last_of('/') + 1)},
-           {"cut_off", run.cut_off},
-           {"summary", summary_of(run)}};
-  one["joints"] = Json::array();
-  for (const Joint& joint : run.joints) one["joints"].push_back(curves_of(joint, points));
-  one["efforts"] = Json::array();
-  for (const Effort& effort : run.efforts) {
-    Json shown = figures_of(effort);
-    shown["curve"] = curve(effort.signal, points, step_for(effort.signal.values));
-    one["efforts"].push_back(std::move(shown));
-  }
-  one["others"] = others_of(run);
-  if (run.timeline) one["timeline"] = timeline_of(*run.timeline);
-  return one;
-}
-
-Json cycle_of(const Runs& runs) {
-  return runs.cycle_json.empty() ? Json() : Json::parse(runs.cycle_json, nullptr, false);
 }
 
 Json reached_of(const std::vector<Goal>& goals, const Json& report) {
@@ -189,11 +122,17 @@ Json reached_of(const std::vector<Goal>& goals, const Json& report) {
   return all;
 }
 
+}  // namespace
+
+namespace internal {
+
 Json report_of(const Runs& runs) {
   Json report{{"controllers", Json::object()}, {"runs", Json::object()}};
   for (const Run& run : runs.runs) {
     Json& one = report["runs"][run.name];
     one = {{"recording", run.recording}, {"cut_off", run.cut_off}, {"summary", summary_of(run)}};
+    if (!run.moments.all.empty()) one["moments"] = moments_of(run.moments);
+    if (!run.velocities.empty()) one["velocities"] = velocities_of(run);
     if (!run.efforts.empty()) one["efforts"] = efforts_of(run);
     if (run.joints.empty()) continue;
     Json joints = Json::array();
@@ -206,28 +145,10 @@ Json report_of(const Runs& runs) {
   return report;
 }
 
-}  // namespace
+}  // namespace internal
 
 std::string figures_json(const Runs& runs) {
-  return report_of(runs).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-std::string page_json(const Runs& runs) {
-  Json page{{"name", runs.name}, {"runs", Json::array()}, {"io", cycle_of(runs)}};
-  const std::size_t points = points_of_a_curve(runs);
-  for (const Run& run : runs.runs) page["runs"].push_back(page_of(run, points));
-  if (!runs.goals.empty()) page["to_reach"] = report_of(runs)["to_reach"];
-  const std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "\\u003c";  // nothing in a name ends the element that holds it
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
+  return internal::report_of(runs).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace armature::report

@@ -6,12 +6,13 @@
 #include "armature/platform/file.hpp"
 #include "armature/report/figures.hpp"
 #include "armature/report/internal/page_parts.hpp"
+#include "armature/report/page_data.hpp"
 #include "armature/report/run_folder.hpp"
 
 namespace armature::report {
 namespace {
 
-/// The page's title may hold what a folder's name does.
+/// The page's title may hold what the name of an application or a folder does.
 std::string escaped(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -31,12 +32,14 @@ std::string make_page(const Runs& runs) {
     std::string_view mark;
     std::string content;
   };
-  const Part parts[] = {{"{{title}}", escaped(runs.name)},
+  const Part parts[] = {{"{{title}}", escaped(title_of(runs))},
                         {"{{uplot.css}}", std::string(internal::kUplotCss)},
                         {"{{report.css}}", std::string(internal::kReportCss)},
                         {"{{data}}", page_json(runs)},
                         {"{{uplot.license}}", std::string(internal::kUplotLicense)},
                         {"{{uplot.js}}", std::string(internal::kUplotJs)},
+                        {"{{elements.js}}", std::string(internal::kElementsJs)},
+                        {"{{curves.js}}", std::string(internal::kCurvesJs)},
                         {"{{report.js}}", std::string(internal::kReportJs)}};
   std::string page;
   std::string_view rest = internal::kReportHtml;

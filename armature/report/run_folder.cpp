@@ -74,6 +74,23 @@ bool was_simulated(const Run& run) {
   return summary.is_object() && summary.value("time", "") == "simulated";
 }
 
+/// The limits that the summary knows, as if they had been recorded; what was recorded stands.
+void add_limits(const std::string& summary, Signals& signals) {
+  const auto run = nlohmann::json::parse(summary, nullptr, false);
+  if (!run.is_object() || !run.contains("limits") || !run["limits"].is_object()) return;
+  const auto add = [&](const std::string& name, const nlohmann::json& value) {
+    if (!value.is_number() || signals.find(name) != nullptr) return;
+    signals.all.push_back({name, {}, {}, {0.0}, {value.get<double>()}});
+  };
+  for (const auto& [name, value] : run["limits"].items()) {
+    add(name, value);
+    if (!value.is_array()) continue;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      add(name + '[' + std::to_string(i) + ']', value[i]);
+    }
+  }
+}
+
 void load_recording(const std::string& path, Run& run, base::Diagnostics& diagnostics) {
   run.recording = path;
   const auto loaded = record::load_mcap(path, record::Unclosed::kReadToLastChunk);
@@ -89,9 +106,12 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
                             std::to_string(loaded.value().samples.size()) + " samples");
   }
   run.signals = signals_of(loaded.value());
-  if (!was_simulated(run)) begin_at_zero(run.signals);
+  const double zero_s = was_simulated(run) ? 0.0 : begin_at_zero(run.signals);
+  add_limits(run.summary, run.signals);
   run.joints = joints_of(run.signals);
+  run.velocities = velocities_of(run.signals, run.joints);
   run.efforts = efforts_of(run.signals);
+  run.moments = moments_of(run.summary, run.signals, zero_s);
   if (run.joints.empty()) {
     diagnostics.warning(
         {path, 0, 0},

@@ -8,9 +8,11 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/report/effort.hpp"
 #include "armature/report/goals.hpp"
+#include "armature/report/moments.hpp"
 #include "armature/report/signals.hpp"
 #include "armature/report/timeline.hpp"
 #include "armature/report/tracking.hpp"
+#include "armature/report/velocity.hpp"
 
 namespace armature::report {
 
@@ -28,7 +30,9 @@ struct Run {
   bool cut_off = false;   ///< the recording has no end: what is whole of it was read
   Signals signals;
   std::vector<Joint> joints;
+  std::vector<Velocity> velocities;  ///< of the joints, as they come
   std::vector<Effort> efforts;
+  Moments moments;
   std::string summary;  ///< JSON of `write_run_summary`; empty: none
   std::optional<Timeline> timeline;
 };

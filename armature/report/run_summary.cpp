@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/report/run_summary.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
+#include <vector>
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/property.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/report/internal/json.hpp"
+#include "armature/report/moment_kind.hpp"
 
 namespace armature::report {
 namespace {
@@ -114,6 +118,38 @@ Json complaints_of(const RunFacts& facts) {
   return all;
 }
 
+Json moments_of(const RunFacts& facts) {
+  Json all = Json::array();
+  for (const rt::LogRecord& record : facts.moments) {
+    const std::string message = record.message();
+    const auto kind = moment_told_by(message);
+    if (!kind) continue;
+    all.push_back({{"time_s", base::to_seconds(record.time - facts.begin)},
+                   {"kind", name_of(*kind)},
+                   {"component", record.component.view()},
+                   {"message", message}});
+  }
+  return all;
+}
+
+/// What the page draws as lines, whether somebody recorded it or not.
+Json limits_of(const exec::Application& application) {
+  constexpr std::array<std::string_view, 3> kNames = {"MaxVelocity", "MaxTorque", "MaxVoltage"};
+  Json limits = Json::object();
+  for (const exec::ComponentEntry& entry : application.blueprint().components) {
+    for (const component::PropertyBase* item : entry.component->interface().properties) {
+      if (std::ranges::find(kNames, item->name()) == kNames.end()) continue;
+      const std::string name = entry.component->name() + '.' + std::string(item->name());
+      if (types::same_type(item->type(), types::type_of<double>())) {
+        limits[name] = *static_cast<const double*>(item->data());
+      } else if (types::same_type(item->type(), types::type_of<std::vector<double>>())) {
+        limits[name] = *static_cast<const std::vector<double>*>(item->data());
+      }
+    }
+  }
+  return limits;
+}
+
 }  // namespace
 
 base::Result<void> write_run_summary(const std::string& folder, const RunFacts& facts,
@@ -134,6 +170,10 @@ base::Result<void> write_run_summary(const std::string& folder, const RunFacts& 
                      {"verdict", verdict_of(application)},
                      {"complaints", complaints_of(facts)},
                      {"complaints_left_out", facts.complaints_left_out},
+                     {"begin_s", base::to_seconds(facts.begin.time_since_epoch())},
+                     {"moments", moments_of(facts)},
+                     {"moments_left_out", facts.moments_left_out},
+                     {"limits", limits_of(application)},
                      {"lines_lost", facts.lines_lost}};
   const std::string path = folder + '/' + kSummaryFile;
   return platform::write_file(path,

@@ -24,8 +24,10 @@ struct RunFacts {
   int exit_code = 0;
   std::vector<rt::LogRecord> complaints;  ///< warnings and errors that it logged
   std::size_t complaints_left_out = 0;
+  std::vector<rt::LogRecord> moments;  ///< those that `moment_told_by` knows
+  std::size_t moments_left_out = 0;
   std::uint64_t lines_lost = 0;  ///< of its output
-  base::Time begin{};            ///< of the times of `complaints`
+  base::Time begin{};            ///< of the times of `complaints` and `moments`
 };
 
 /// Writes `run.json` into `folder`: how an application that has stopped fared, for the report and

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <string_view>
 #include <unordered_map>
@@ -76,6 +77,23 @@ std::string_view take_number(std::string_view& text) {
   return number;
 }
 
+/// Where they are.
+struct Extremes {
+  std::size_t least;
+  std::size_t largest;
+};
+
+/// Of the values that are numbers from `begin` up to `end`; `begin` if none is.
+Extremes extremes_of(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  Extremes found{begin, begin};
+  for (std::size_t i = begin; i < end; ++i) {
+    if (std::isnan(values[i])) continue;
+    if (!(values[i] >= values[found.least])) found.least = i;
+    if (!(values[i] <= values[found.largest])) found.largest = i;
+  }
+  return found;
+}
+
 }  // namespace
 
 const Signal* Signals::find(const std::string& name) const {
@@ -97,14 +115,38 @@ Signals signals_of(const record::McapRecording& recording) {
   return signals;
 }
 
-void begin_at_zero(Signals& signals) {
+std::vector<const Signal*> elements_of_port(const Signals& signals, const std::string& port) {
+  std::vector<const Signal*> elements;
+  std::string owner;
+  for (const Signal& signal : signals.all) {
+    const std::size_t bracket = signal.name.find('[');
+    if (bracket == std::string::npos) continue;
+    const std::string name = signal.name.substr(0, bracket);
+    if (!name.ends_with(port)) continue;
+    if (owner.empty()) owner = name;
+    if (name == owner) elements.push_back(&signal);
+  }
+  return elements;
+}
+
+std::optional<double> limit_in(const Signals& signals, const std::string& name, std::size_t joint) {
+  const bool for_each = signals.find(name + "[1]") != nullptr;
+  const Signal* limit = signals.find(name + '[' + std::to_string(for_each ? joint : 0) + ']');
+  if (limit == nullptr) limit = signals.find(name);
+  if (limit == nullptr || limit->values.empty()) return std::nullopt;
+  return limit->values.back();
+}
+
+double begin_at_zero(Signals& signals) {
   double begin_s = std::numeric_limits<double>::infinity();
   for (const Signal& signal : signals.all) {
     if (!signal.time_s.empty()) begin_s = std::min(begin_s, signal.time_s.front());
   }
+  if (!std::isfinite(begin_s)) return 0.0;
   for (Signal& signal : signals.all) {
     for (double& time_s : signal.time_s) time_s -= begin_s;
   }
+  return begin_s;
 }
 
 bool before_by_number(const std::string& left, const std::string& right) {
@@ -134,15 +176,10 @@ Signal thinned(const Signal& signal, std::size_t most) {
   };
   const std::size_t stretches = std::max<std::size_t>(most / 2, 1);
   for (std::size_t stretch = 0; stretch < stretches; ++stretch) {
-    const auto begin =
-        signal.values.begin() + static_cast<std::ptrdiff_t>(stretch * size / stretches);
-    const auto end =
-        signal.values.begin() + static_cast<std::ptrdiff_t>((stretch + 1) * size / stretches);
-    const auto [least, largest] = std::minmax_element(begin, end);
-    const auto first = static_cast<std::size_t>(std::min(least, largest) - signal.values.begin());
-    const auto second = static_cast<std::size_t>(std::max(least, largest) - signal.values.begin());
-    keep(first);
-    if (second != first) keep(second);
+    const Extremes found =
+        extremes_of(signal.values, stretch * size / stretches, (stretch + 1) * size / stretches);
+    keep(std::min(found.least, found.largest));
+    if (found.least != found.largest) keep(std::max(found.least, found.largest));
   }
   return thin;
 }

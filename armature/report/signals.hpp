@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,20 @@ struct Signals {
   const Signal* find(const std::string& name) const;
 };
 
+/// The elements of the first vector whose port is called `.sensor`, or what `port` says, of
+/// whatever component: `Sensor.sensor[0]` and on.
+std::vector<const Signal*> elements_of_port(const Signals& signals, const std::string& port);
+
+/// The bound of a joint that the property `Component.MaxTorque`, or what `name` says, has: a
+/// number, or a vector with one for each joint or one for all.
+/// @param joint  counts from 0
+std::optional<double> limit_in(const Signals& signals, const std::string& name, std::size_t joint);
+
 Signals signals_of(const record::McapRecording& recording);
 
 /// A real run's times are those of the machine's clock: the first sample becomes time 0.
-void begin_at_zero(Signals& signals);
+/// @return when that was [s]; 0 without samples
+double begin_at_zero(Signals& signals);
 
 /// Sorts names as people count: PID2 before PID10.
 bool before_by_number(const std::string& left, const std::string& right);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 
@@ -80,6 +81,31 @@ TEST(Thinned, KeepsEveryPeakAndTheOrderOfTime) {
   EXPECT_NE(std::find(thin.values.begin(), thin.values.end(), -3.0), thin.values.end());
 }
 
+TEST(Thinned, KeepsPeaksBesideWhatIsNoNumber) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Signal signal;
+  for (int i = 0; i < 1000; ++i) {
+    signal.time_s.push_back(i);
+    signal.values.push_back(i % 3 == 0 ? none : i == 500 ? 7.0 : i == 502 ? -3.0 : 1.0);
+  }
+  const Signal thin = thinned(signal, 10);
+  EXPECT_NE(std::find(thin.values.begin(), thin.values.end(), 7.0), thin.values.end());
+  EXPECT_NE(std::find(thin.values.begin(), thin.values.end(), -3.0), thin.values.end());
+}
+
+TEST(Limits, AreOneNumberOrAVectorForEachOrForAll) {
+  const Signals signals{{{"A.Max", "", "", {0.0, 1.0}, {2.0, 3.0}},
+                         {"B.Max[0]", "", "", {0.0}, {4.0}},
+                         {"C.Max[0]", "", "", {0.0}, {5.0}},
+                         {"C.Max[1]", "", "", {0.0}, {6.0}}},
+                        {}};
+  EXPECT_EQ(limit_in(signals, "A.Max", 4), 3.0) << "the last one";
+  EXPECT_EQ(limit_in(signals, "B.Max", 4), 4.0);
+  EXPECT_EQ(limit_in(signals, "C.Max", 1), 6.0);
+  EXPECT_EQ(limit_in(signals, "C.Max", 2), std::nullopt);
+  EXPECT_EQ(limit_in(signals, "D.Max", 0), std::nullopt);
+}
+
 TEST(Thinned, LeavesWhatFitsAsItIs) {
   const Signal signal{"x", "", "", {0.0, 1.0}, {1.0, 2.0}};
   EXPECT_EQ(thinned(signal, 2).values, signal.values);
@@ -90,7 +116,7 @@ TEST(Signals, OfARealRunBeginAtZero) {
                    {"B", "", "", {29000.25}, {3.0}},
                    {"C", "", "", {}, {}}},
                   {}};
-  begin_at_zero(signals);
+  EXPECT_EQ(begin_at_zero(signals), 29000.25);
   EXPECT_THAT(signals.all[0].time_s, ElementsAre(0.25, 0.75));
   EXPECT_THAT(signals.all[1].time_s, ElementsAre(0.0));
 }

@@ -98,22 +98,9 @@ std::vector<Joint> joints_with_a_controller_each(const Signals& signals) {
   return joints;
 }
 
-/// `Sensor.sensor[3]` -> all signals of `Sensor.sensor`, if its port has that name.
-std::vector<const Signal*> vector_of_port(const Signals& signals, const std::string& port) {
-  std::vector<const Signal*> elements;
-  std::string owner;
-  for (const Signal& signal : signals.all) {
-    const std::size_t bracket = signal.name.find('[');
-    if (bracket == std::string::npos || !ends_in(signal.name.substr(0, bracket), port)) continue;
-    if (owner.empty()) owner = signal.name.substr(0, bracket);
-    if (signal.name.compare(0, bracket, owner) == 0) elements.push_back(&signal);
-  }
-  return elements;
-}
-
 std::vector<Joint> joints_in_vectors(const Signals& signals) {
-  const std::vector<const Signal*> measured = vector_of_port(signals, ".sensor");
-  const std::vector<const Signal*> desired = vector_of_port(signals, ".reference");
+  const std::vector<const Signal*> measured = elements_of_port(signals, ".sensor");
+  const std::vector<const Signal*> desired = elements_of_port(signals, ".reference");
   const std::size_t count = std::min(measured.size() / 2, desired.size() / 3);
   std::vector<Joint> joints;
   for (std::size_t i = 0; i < count; ++i) {

@@ -54,6 +54,8 @@ class WrongUse(unittest.TestCase):
         self.assert_wrong_use("run", WAVE, "--realtime", "maybe", says="(known: off, prefer, require)")
         self.assert_wrong_use("run", WAVE, "--realtime", "requir", says="did you mean 'require'?")
         self.assert_wrong_use("graph", WAVE, "--format", "pdf", says="svg, dot, mermaid")
+        self.assert_wrong_use("graph", WAVE, "--only", "Source,Fliter",
+                              says="--only: unknown component 'Fliter' (did you mean 'Filter'?)")
 
     def test_a_misspelt_option_has_a_suggestion(self):
         self.assert_wrong_use("run", WAVE, "--realtme", "off", says="did you mean '--realtime'?")
@@ -305,6 +307,15 @@ class Looking(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn(begins, done.stdout)
             self.assertIn("Filter", done.stdout)
+
+    def test_graph_shows_a_few_components_or_every_line(self):
+        done = armature("graph", WAVE, "--format", "dot", "--only", "Watcher,Watcher")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Filter", done.stdout)
+        self.assertNotIn('label="Source\\n', done.stdout)
+        each = armature("graph", WAVE, "--format", "dot", "--each-line")
+        self.assertEqual((each.returncode, each.stdout.count(" -> ")), (0, 2))
+        self.assertIn('label="Source\\n', each.stdout)
 
     def test_convert_there_and_back(self):
         with tempfile.TemporaryDirectory() as work:

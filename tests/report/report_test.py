@@ -8,6 +8,7 @@ Its figures are computed once more here, from the CSV files; those of Janus are 
 the head is to reach. Where chromium is installed, the page is run in it.
 """
 
+import base64
 import html.parser
 import json
 import math
@@ -185,38 +186,105 @@ class Demonstration(unittest.TestCase):
                          ["Sampler", "Joint1", "AIC1", "Controller", "PID1"])
         self.assertAlmostEqual(timeline["length_us"], 509, delta=1)
 
+    def test_moments_are_what_the_joints_said(self):
+        for controller in CONTROLLERS:
+            moments = self.report["runs"][controller]["moments"]
+            self.assertEqual([one["kind"] for one in moments], ["armed", "disarmed"])
+            self.assertAlmostEqual(moments[0]["time_s"], 0.43, delta=0.03)
+            self.assertAlmostEqual(moments[1]["time_s"], 60.43, delta=0.03)
+            self.assertEqual(sorted(moments[0]["told"]), ["Joint1: armed", "Joint2: armed"])
+
+    def test_velocities_and_efforts_have_their_limits(self):
+        for controller in CONTROLLERS:
+            run = self.report["runs"][controller]
+            csv = os.path.join(self.folder, controller, "janus.csv")
+            self.assertEqual((len(run["velocities"]), len(run["efforts"])), (2, 2))
+            for number, (velocity, effort) in enumerate(zip(run["velocities"], run["efforts"]), start=1):
+                self.assertEqual((velocity["joint"], velocity["limit_rad_s"]), (str(number), 3.0))
+                self.assertGreater(velocity["largest_rad_s"], 0.9)
+                self.assertLess(velocity["largest_of_limit"], 0.4)
+                self.assertEqual((effort["unit"], effort["limit"]), ("V", 12.0))
+                voltages = column_by_time(csv, f"Joint{number}_VoltageActuator_value").values()
+                self.assertAlmostEqual(effort["largest"], max(map(abs, voltages)), delta=1e-9)
+
+    def test_title_and_heading_are_the_applications(self):
+        self.assertIn("<title>janus-pid, janus-pid-feed-forward</title>", self.page)
+
+    def test_the_page_is_below_3_MB(self):
+        self.assertLess(os.path.getsize(os.path.join(self.folder, "report.html")), 3_000_000)
+
     @unittest.skipUnless(CHROMIUM, "chromium is not installed: nobody has run the page")
     def test_the_page_runs_at_the_width_of_a_desk_and_of_a_phone(self):
-        probe = """<script>for (const d of document.querySelectorAll('details')) d.open = true;
-            setTimeout(() => document.body.setAttribute('data-probe', JSON.stringify({
-              width: innerWidth, needs: document.documentElement.scrollWidth,
-              canvases: document.querySelectorAll('canvas').length,
-              inked: [...document.querySelectorAll('canvas')].filter((c) => c.getContext('2d')
-                .getImageData(0, 0, c.width, c.height).data.some((x) => x > 0)).length})), 300);
-            </script>"""
-        path = os.path.join(self.folder, "probed.html")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.page.replace("</body>", probe + "</body>"))
+        texts = ["10.0 <small>mrad s</small>", ">Sampler</div>", ">Controller</div>",
+                 "<h1>janus-pid, janus-pid-feed-forward</h1>", ">Velocity</h2>", ">Effort</h2>"]
         for width in (1280, 390):
-            done = run_chromium(path, width)
-            self.assertNotIn("CONSOLE", done.stderr, done.stderr)
-            found = re.search(r'data-probe="([^"]*)"', done.stdout)
-            self.assertTrue(found, done.stderr)
-            probed = json.loads(found.group(1).replace("&quot;", '"'))
-            self.assertEqual(probed["needs"], probed["width"], "the page is wider than the window")
-            self.assertGreaterEqual(probed["canvases"], 6)
+            probed = probe(self.page, width, texts, self.folder)
+            self.assertEqual(probed["width"], width)
+            self.assertEqual(probed["needs"], width, "the page is wider than the window")
+            self.assertEqual(probed["beyond"], [], "beyond the window, and not in a table")
+            self.assertEqual(probed["absent"], [], "is not on the page")
+            # Of two joints: errors, positions in each of two runs, velocities, efforts; then the others.
+            self.assertGreaterEqual(probed["canvases"], 10)
             self.assertEqual(probed["inked"], probed["canvases"], "curves that were not drawn")
-            for text in ("10.0 <small>mrad s</small>", ">Sampler</div>", ">Controller</div>"):
-                self.assertTrue(text in done.stdout, f"{text} is not on the page")
+            self.assertEqual(len(probed["labels"]), probed["canvases"])
+            for label in probed["labels"]:
+                self.assertRegex(label, r"over time, armed at 0\.4\d* s, .*disarmed at 60\.4\d* s")
+            self.assertEqual(probed["marked"], probed["canvases"], "curves without marks")
+
+    @unittest.skipUnless(CHROMIUM, "chromium is not installed: nobody has run the page")
+    def test_a_long_name_does_not_make_a_phone_scroll_sideways(self):
+        page = self.page.replace('"name":"pid_feedforward"', '"name":"' + "w" * 70 + '"')
+        probed = probe(page, 390, ["w" * 70 + "</td>"], self.folder)
+        self.assertEqual((probed["needs"], probed["beyond"], probed["absent"]), (390, [], []))
 
 
-def run_chromium(path, width):
+PROBE = """<script>
+  for (const d of document.querySelectorAll('details')) d.open = true;
+  const all = (what) => [...document.querySelectorAll(what)];
+  const inked = (data) => data.some((x) => x > 0);
+  const pixels = (c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+  setTimeout(() => {
+    const drawn = all('canvas').map((c) => [pixels(c), 4 * c.width * 8 * devicePixelRatio]);
+    parent.postMessage({
+    width: innerWidth, needs: document.documentElement.scrollWidth,
+    beyond: all('main *').filter((e) => !e.closest('.scroll > table') && e.getBoundingClientRect().right > innerWidth + 0.5)
+      .map((e) => e.outerHTML.slice(0, 80)),
+    absent: TEXTS.filter((text) => !document.body.innerHTML.includes(text)),
+    canvases: drawn.length,
+    inked: drawn.filter(([data]) => inked(data)).length,
+    marked: drawn.filter(([data, strip]) => inked(data.subarray(0, strip))).length,
+    labels: all('.canvas').map((c) => c.getAttribute('aria-label'))}, '*');
+  }, 500);
+</script>"""
+
+FRAME = """<!doctype html><body style="margin: 0"><iframe src="file://PATH"
+  style="border: 0; width: WIDTHpx; height: 2000px"></iframe><script>
+  onmessage = (told) => document.body.setAttribute('data-probe', btoa(unescape(encodeURIComponent(JSON.stringify(told.data)))));
+</script>"""
+
+
+def probe(page, width, texts, folder):
+    """What a browser makes of the page, in a frame: a window of chromium is 500 pixels wide at least."""
+    path, frame = os.path.join(folder, "probed.html"), os.path.join(folder, "frame.html")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(page.replace("</body>", PROBE.replace("TEXTS", json.dumps(texts).replace("</", "<\\/")) + "</body>"))
+    with open(frame, "w", encoding="utf-8") as file:
+        file.write(FRAME.replace("PATH", path).replace("WIDTH", str(width)))
+    done = run_chromium(frame)
+    assert "CONSOLE" not in done.stderr, done.stderr
+    found = re.search(r'data-probe="([^"]*)"', done.stdout)
+    assert found, done.stderr
+    return json.loads(base64.b64decode(found.group(1)))
+
+
+def run_chromium(path):
     with tempfile.TemporaryDirectory() as profile:
         return subprocess.run(
-            [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
-             f"--user-data-dir={profile}", f"--window-size={width},2000", "--enable-logging=stderr",
-             "--virtual-time-budget=4000", "--dump-dom", f"file://{path}"],
-            capture_output=True, text=True, timeout=120)
+            [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic",
+             "--no-first-run", "--disable-background-networking", "--disable-component-update",
+             "--disable-sync", "--hide-scrollbars", f"--user-data-dir={profile}",
+             "--window-size=1280,2000", "--enable-logging=stderr", "--virtual-time-budget=6000",
+             "--dump-dom", f"file://{path}"], capture_output=True, text=True, timeout=120)
 
 
 class Page(html.parser.HTMLParser):

@@ -8,6 +8,8 @@ namespace armature::report::internal {
 
 extern const std::string_view kReportHtml;
 extern const std::string_view kReportCss;
+extern const std::string_view kElementsJs;
+extern const std::string_view kCurvesJs;
 extern const std::string_view kReportJs;
 extern const std::string_view kUplotCss;
 extern const std::string_view kUplotJs;

@@ -3,114 +3,10 @@
 (() => {
   const data = JSON.parse(document.getElementById('data').textContent);
   const root = document.getElementById('report');
-  const style = getComputedStyle(document.documentElement);
-  const color = (name) => style.getPropertyValue(name).trim();
+  const {el, isNumber, short, mark, whole, duration, seconds} = Elements;
+  const {plot, unpacked} = Curves;
   const tracked = data.runs.filter((run) => run.joints.length > 0);
   const colorOf = new Map(tracked.map((run, i) => [run, `--run-${i % 6}`]));
-
-  function el(tag, attributes = {}, ...children) {
-    const made = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-    made.append(...children);
-    return made;
-  }
-
-  const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
-
-  /** Three digits that count, without an exponent where people read none. */
-  function short(value, digits = 3) {
-    if (!isNumber(value)) return '–';
-    if (value === 0) return '0';
-    const size = Math.abs(value);
-    if (size < 1e-4 || size >= 1e6) return times(value.toExponential(digits - 1));
-    const places = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
-    return value.toLocaleString('en', {minimumFractionDigits: places, maximumFractionDigits: places,
-      useGrouping: size >= 1e4}).replace('-', '−');
-  }
-  /** As on an axis, where 0.50 is 0.5. */
-  const mark = (value) => String(Number(value.toPrecision(6))).replace('-', '−');
-  const times = (text) => {
-    const [mantissa, power] = text.split('e');
-    const raised = String(Number(power)).replace(/[-\d]/g, (c) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[c] ?? '⁻');
-    return `${mantissa.replace('-', '−')}·10${raised}`;
-  };
-  const whole = (n) => n.toLocaleString('en');
-  const duration = (us) => (us >= 1e6 ? `${short(us / 1e6)} s` : us >= 1e4 ? `${short(us / 1e3)} ms` : `${short(us)} µs`);
-  const seconds = (s) => `${short(s, s >= 100 ? 4 : 3)} s`;
-
-  // --- curves ------------------------------------------------------------------------------------
-
-  const plots = [];  // all over the same time
-  let following = false;
-
-  /** Whoever is zoomed takes the others along. */
-  function follow(leader, key) {
-    if (key !== 'x' || following || !leader.settled) return;
-    following = true;
-    const {min, max} = leader.scales.x;
-    for (const plot of plots) if (plot !== leader) plot.setScale('x', {min, max});
-    following = false;
-  }
-
-  const padded = {min: {pad: 0.1, soft: 0, mode: 3}, max: {pad: 0.1, soft: 0, mode: 3}};
-
-  /** @param lines  [{label, stroke: CSS variable, broad, t, v}] */
-  function plot(parent, {title, unit, lines, scale = 1, digits = 4, height = 230}) {
-    const outputs = lines.map(() => el('output', {}, ''));
-    const legend = el('div', {class: 'legend'});
-    const canvas = el('div', {class: 'canvas', role: 'img', 'aria-label': `${title}, ${unit} over time`});
-    parent.append(el('div', {class: 'plot'},
-      el('div', {class: 'head'}, el('h3', {}, title, ' ', el('span', {class: 'unit'}, unit)), legend), canvas));
-    const tables = lines.map((line) => [line.t, line.v.map((v) => (v === null ? null : v * scale))]);
-    const joined = tables.length > 1 ? uPlot.join(tables) : tables[0];
-    const tall = canvas.clientHeight || height;
-    const axis = (more) => ({stroke: () => color('--faint'), font: '12px system-ui, sans-serif',
-      grid: {stroke: () => color('--grid'), width: 1}, ticks: {show: false}, ...more});
-    const made = new uPlot({
-      width: canvas.clientWidth || 400, height: tall,
-      legend: {show: false},
-      scales: {x: {time: false}, y: {range: (u, min, max) => (min === max ? [(min ?? 0) - 1, (max ?? 0) + 1] : uPlot.rangeNum(min, max, padded))}},
-      padding: [8, 22, 0, 0],
-      cursor: {sync: {key: 'time'}, points: {size: 5}, y: false, drag: {x: true, y: false, dist: 4}},
-      axes: [axis({size: 26, space: 60, values: (u, splits) => splits.map((s) => `${s} s`)}),
-             axis({size: 52, space: tall < 160 ? 26 : 34, values: (u, splits) => splits.map(mark)})],
-      series: [{}, ...lines.map((line) => ({
-        label: line.label, stroke: () => color(line.stroke), width: line.broad ? 5 : 1.5, points: {show: false},
-        // Few samples are those of a port that changes now and then, and holds its value.
-        paths: line.t.length < 200 ? uPlot.paths.stepped({align: 1}) : undefined}))],
-      hooks: {
-        setScale: [follow],
-        setCursor: [(u) => outputs.forEach((output, i) => {
-          const value = u.cursor.idx === null || u.cursor.idx === undefined ? null : nearest(u, i + 1);
-          output.textContent = value === null ? '' : value.toFixed(digits).replace('-', '−');
-        })]},
-    }, joined, canvas);
-    lines.filter((line) => line.label).forEach((line, i) => {
-      const button = el('button', {'aria-pressed': 'true', title: 'show or hide'},
-        el('i', {class: line.broad ? 'broad' : '', style: `border-color: var(${line.stroke})`}), line.label, outputs[i]);
-      button.onclick = () => {
-        const show = button.getAttribute('aria-pressed') === 'false';
-        button.setAttribute('aria-pressed', show);
-        made.setSeries(i + 1, {show});
-      };
-      legend.append(button);
-    });
-    new ResizeObserver(() => made.setSize({width: canvas.clientWidth, height: canvas.clientHeight})).observe(canvas);
-    setTimeout(() => { made.settled = true; });
-    plots.push(made);
-    return made;
-  }
-
-  /** Curves that were thinned have values at times of their own. */
-  function nearest(u, series) {
-    const values = u.data[series];
-    for (let off = 0; off < 40; ++off) {
-      for (const i of [u.cursor.idx - off, u.cursor.idx + off]) if (isNumber(values[i])) return values[i];
-    }
-    return null;
-  }
-
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => plots.forEach((p) => p.redraw(false)));
 
   // --- tables ------------------------------------------------------------------------------------
 
@@ -132,9 +28,9 @@
   // --- the page's parts --------------------------------------------------------------------------
 
   function begin() {
-    const applications = [...new Set(data.runs.map((run) => run.summary?.application).filter(Boolean))];
-    root.append(el('header', {}, el('p', {class: 'eyebrow'}, 'Armature report'), el('h1', {}, data.name),
-      el('p', {class: 'lead'}, applications.length > 0 ? applications.join(' · ') : data.runs.map((r) => r.name).join(' · '))));
+    const runs = data.runs.map((run) => run.name).filter((name) => name !== data.name);
+    root.append(el('header', {}, el('p', {class: 'eyebrow'}, 'Armature report'), el('h1', {}, data.title),
+      el('p', {class: 'lead'}, runs.length > 0 ? `${data.name}: ${runs.join(', ')}` : data.name)));
     if (tracked.length > 0) keyFigures();
   }
 
@@ -158,7 +54,7 @@
     part.append(table([['', ''], ['found', ''], ['bound', ''], ['', '', 'text']], data.to_reach.map((goal) => {
       const [unit, by] = goal.unit === 'rad' ? ['mrad', 1e3] : [goal.unit, 1];
       const bound = isNumber(goal.most) ? `at most ${mark(goal.most * by)}` : `at least ${mark(goal.least * by)}`;
-      return row([goal.name, isNumber(goal.value) ? `${short(goal.value * by)} ${unit}` : 'not measured', `${bound} ${unit}`,
+      return row([el('td', {class: 'long'}, goal.name), isNumber(goal.value) ? `${short(goal.value * by)} ${unit}` : 'not measured', `${bound} ${unit}`,
         el('td', {class: `text ${goal.reached ? 'good' : 'bad'}`}, goal.reached ? 'reached' : 'not reached')]);
     })));
   }
@@ -177,8 +73,8 @@
     const parent = grid(part, jointNames.length);
     for (const name of jointNames) {
       const lines = tracked.filter((run) => jointOf(run, name)).map((run) => ({
-        label: run.name, stroke: colorOf.get(run), ...jointOf(run, name).curves.error}));
-      plot(parent, {title: `Joint ${name}`, unit: angle, scale, digits: 3, lines});
+        label: run.name, stroke: colorOf.get(run), ...unpacked(jointOf(run, name).curves.error)}));
+      plot(parent, {title: `Joint ${name}`, unit: angle, scale, digits: 3, lines, moments: momentsOf(tracked.filter((run) => jointOf(run, name)))});
     }
   }
 
@@ -218,37 +114,69 @@
       part.append(el('p', {class: 'eyebrow', style: 'margin: 18px 0 0'}, run.name));
       const parent = grid(part, run.joints.length);
       for (const joint of run.joints) {
-        plot(parent, {title: `Joint ${joint.joint}`, unit: 'rad', lines: [
-          {label: 'desired', stroke: '--desired', broad: true, ...joint.curves.desired},
-          {label: 'measured', stroke: colorOf.get(run), ...joint.curves.measured}]});
+        plot(parent, {title: `Joint ${joint.joint}`, unit: 'rad', moments: run.moments, lines: [
+          {label: 'desired', stroke: '--desired', broad: true, ...unpacked(joint.curves.desired)},
+          {label: 'measured', stroke: colorOf.get(run), ...unpacked(joint.curves.measured)}]});
       }
     }
   }
 
+  function velocities() {
+    const desired = (run, joint) => (tracked.length > 1 ? [] :
+      [{label: 'desired', stroke: '--desired', broad: true, ...unpacked(joint.curves.desired)}]);
+    limited('Velocity', 'Measured, and the most that is allowed.', 'velocities',
+      (run, joint) => [...desired(run, joint), {label: run.name, stroke: strokeOf(run), ...unpacked(joint.curves.measured)}],
+      (joint) => ({unit: 'rad/s', largest: joint.largest_rad_s, limit: joint.limit_rad_s}));
+  }
+
   function efforts() {
-    const runs = data.runs.filter((run) => run.efforts.length > 0);
+    limited('Effort', 'What drove the joints, and the most that was allowed.', 'efforts',
+      (run, joint) => [{label: run.name, stroke: strokeOf(run), ...unpacked(joint.curve)}],
+      ({unit, largest, limit}) => ({unit, largest, limit}));
+  }
+
+  const strokeOf = (run) => colorOf.get(run) ?? '--run-0';
+
+  /** Curves of each joint between its limits, then how near they came. */
+  function limited(title, note, kind, linesOf, figuresOf) {
+    const runs = data.runs.filter((run) => run[kind].length > 0);
     if (runs.length === 0) return;
-    const part = section('Effort', 'What drove the joints, and the most that was allowed.');
-    const names = [...new Set(runs.flatMap((run) => run.efforts.map((effort) => effort.joint)))];
-    const effortOf = (run, name) => run.efforts.find((effort) => effort.joint === name);
+    const part = section(title, note);
+    const names = [...new Set(runs.flatMap((run) => run[kind].map((joint) => joint.joint)))];
+    const jointIn = (run, name) => run[kind].find((joint) => joint.joint === name);
     const parent = grid(part, names.length);
     for (const name of names) {
-      const those = runs.filter((run) => effortOf(run, name));
-      const first = effortOf(those[0], name);
-      const lines = those.map((run) => ({label: run.name, stroke: colorOf.get(run) ?? '--run-0', ...effortOf(run, name).curve}));
-      const ends = [Math.min(...lines.map((line) => line.t[0])), Math.max(...lines.map((line) => line.t.at(-1)))];
-      for (const sign of isNumber(first.limit) ? [1, -1] : []) {
-        lines.push({label: sign > 0 ? 'limit' : '', stroke: '--faint', t: ends, v: [sign * first.limit, sign * first.limit]});
-      }
-      plot(parent, {title: `Joint ${name}`, unit: first.unit, digits: 2, lines});
+      const those = runs.filter((run) => jointIn(run, name));
+      const {unit, limit} = figuresOf(jointIn(those[0], name));
+      const lines = those.flatMap((run) => linesOf(run, jointIn(run, name)));
+      plot(parent, {title: `Joint ${name}`, unit, digits: 2, moments: momentsOf(those), lines: [...lines, ...limitLines(limit, lines)]});
     }
     part.append(table([['', ''], ['', '', 'text'], ['largest', ''], ['limit', ''], ['of it', '']],
-      names.flatMap((name) => runs.filter((run) => effortOf(run, name)).map((run, i) => {
-        const effort = effortOf(run, name);
+      names.flatMap((name) => runs.filter((run) => jointIn(run, name)).map((run, i) => {
+        const {unit, largest, limit} = figuresOf(jointIn(run, name));
         return row([el('td', {}, i === 0 ? `Joint ${name}` : ''), Object.assign(named(run), {className: 'text'}),
-          `${short(effort.largest)} ${effort.unit}`, isNumber(effort.limit) ? `${mark(effort.limit)} ${effort.unit}` : '–',
-          isNumber(effort.limit) ? `${Math.round(100 * effort.largest_of_limit)} %` : '–'], i === 0 ? {class: 'first'} : {});
+          `${short(largest)} ${unit}`, isNumber(limit) ? `${mark(limit)} ${unit}` : '–',
+          isNumber(limit) ? `${Math.round(100 * largest / limit)} %` : '–'], i === 0 ? {class: 'first'} : {});
       }))));
+  }
+
+  function limitLines(limit, lines) {
+    const times = lines.flatMap((line) => (line.t.length > 0 ? [line.t[0], line.t.at(-1)] : []));
+    if (!isNumber(limit) || times.length === 0) return [];
+    const t = [Math.min(...times), Math.max(...times)];
+    return [1, -1].map((sign) => ({label: sign > 0 ? 'limit' : '', stroke: '--limit', t, v: [sign * limit, sign * limit]}));
+  }
+
+  /** Of several runs: what they have in common once, of the others whose it is. */
+  function momentsOf(runs) {
+    const all = runs.flatMap((run) => run.moments.map((moment) => ({...moment, run})));
+    all.sort((a, b) => a.time_s - b.time_s);
+    const same = (a, b) => a.kind === b.kind && Math.abs(a.time_s - b.time_s) < 0.05;
+    const first = all.filter((moment, i) => all.findIndex((other) => same(other, moment)) === i);
+    return first.map((moment) => {
+      const shared = runs.every((run) => run.moments.some((other) => same(other, moment)));
+      return shared ? moment : {...moment, stroke: strokeOf(moment.run)};
+    });
   }
 
   function timelines() {
@@ -366,7 +294,7 @@
     }
     const pace = s.time === 'simulated' ? `${seconds(s.duration_s)} in simulated time, which took ${seconds(s.wall_time_s)}` : `${seconds(s.duration_s)} in real time`;
     made.append(el('p', {class: 'note'}, `${s.application}, ${s.components} components: ${pace}. End: ${s.end}.`));
-    made.append(...troubles(s));
+    made.append(...troubles(s), ...happened(run));
     if (s.time === 'real') made.append(threads(s), ...granted(s));
     return made;
   }
@@ -389,6 +317,16 @@
     const first = lines.slice(0, 4);  // the cause comes first, and takes others along
     if (first.length > 0) verdict.append(list(first));
     return lines.length <= 4 ? [verdict] : [verdict, el('details', {}, el('summary', {}, `${whole(lines.length - 4)} more`), list(lines.slice(4)))];
+  }
+
+  /** What the marks on the curves stand for. */
+  function happened(run) {
+    if (run.moments.length === 0) return [];
+    const line = ({time_s: t, kind, told}) => el('li', {}, `${t.toFixed(3)} s, ${kind}`,
+      el('small', {class: 'told'}, told.slice(0, 6).join('; '), told.length > 6 ? ` and ${told.length - 6} more` : ''));
+    const more = run.moments_left_out > 0 ? [el('li', {}, `and ${whole(run.moments_left_out)} more, which no curve marks`)] : [];
+    return [el('details', {}, el('summary', {}, `Marked: ${[...new Set(run.moments.map((moment) => moment.kind))].join(', ')}`),
+      el('ul', {}, ...run.moments.map(line), ...more))];
   }
 
   function threads(s) {
@@ -420,7 +358,7 @@
         for (const one of run.others) {
           const holder = el('div', {class: 'small', title: one.doc});
           parent.append(holder);
-          plot(holder, {title: one.name, unit: one.unit, height: 120, lines: [{label: '', stroke: colorOf.get(run) ?? '--run-0', t: one.t, v: one.v}]});
+          plot(holder, {title: one.name, unit: one.unit, height: 120, moments: run.moments, lines: [{label: '', stroke: strokeOf(run), ...unpacked(one)}]});
         }
       };
       details.addEventListener('toggle', fill, {once: true});
@@ -432,6 +370,7 @@
   begin();
   toReach();
   if (tracked.length > 0) { errors(); figures(); positions(); }
+  velocities();
   efforts();
   timelines();
   busCycle();
