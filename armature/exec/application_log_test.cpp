@@ -58,7 +58,8 @@ TEST_P(ApplicationLog, AFaultAndItsResetAreTold) {
   probe.actions["update"] = [&] { probe.fault("broken"); };
   Application application(std::move(blueprint), options());
   ASSERT_TRUE(application.start().ok());
-  EXPECT_TRUE(run_until(application, [&] { return probe.state() == component::State::kException; }));
+  EXPECT_TRUE(
+      run_until(application, [&] { return probe.state() == component::State::kException; }));
   probe.actions["reset"] = [&] { throw std::runtime_error("still broken"); };
   EXPECT_FALSE(application.reset_component("A"));
   probe.actions.erase("reset");

@@ -126,13 +126,16 @@ const Curves = (() => {
           output.textContent = value === null ? '' : value.toFixed(digits).replace('-', '−');
         })]},
     }, joined, canvas);
-    lines.filter((line) => line.label).forEach((line, i) => {
+    lines.forEach((line, i) => {
+      if (!line.label) return;
       const button = el('button', {'aria-pressed': 'true', title: 'show or hide'},
         el('i', {class: line.broad ? 'broad' : '', style: `border-color: var(${line.stroke})`}), line.label, outputs[i]);
       button.onclick = () => {
         const show = button.getAttribute('aria-pressed') === 'false';
         button.setAttribute('aria-pressed', show);
         made.setSeries(i + 1, {show});
+        // A line without a label belongs to the one before: a limit has two.
+        for (let next = i + 1; next < lines.length && !lines[next].label; ++next) made.setSeries(next + 1, {show});
       };
       legend.append(button);
     });
