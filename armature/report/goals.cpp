@@ -9,11 +9,6 @@
 namespace armature::report {
 namespace {
 
-std::string text_in(const Json& entry, const char* key) {
-  const auto found = entry.find(key);
-  return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
 std::optional<double> number_in(const Json& entry, const char* key) {
   const auto found = entry.find(key);
   if (found == entry.end() || !found->is_number()) return std::nullopt;

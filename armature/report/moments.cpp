@@ -37,11 +37,11 @@ std::vector<Moment> told_in(const std::string& summary, double zero_s) {
   const double begin_s = run["begin_s"].get<double>() - zero_s;
   for (const Json& one : run["moments"]) {
     if (!one.is_object() || !one.contains("time_s") || !one["time_s"].is_number()) continue;
-    const auto kind = kind_named(one.value("kind", ""));
+    const auto kind = kind_named(text_in(one, "kind"));
     if (!kind) continue;
     moments.push_back({begin_s + one["time_s"].get<double>(),
                        *kind,
-                       {one.value("component", "") + ": " + one.value("message", "")}});
+                       {text_in(one, "component") + ": " + text_in(one, "message")}});
   }
   return moments;
 }

@@ -107,7 +107,7 @@ TEST(Moments, OfASummaryThatHasNoneOrOtherThingsAreNone) {
   EXPECT_THAT(moments_of("", {}, 0.0).all, IsEmpty());
   EXPECT_THAT(moments_of("{}", {}, 0.0).all, IsEmpty());
   EXPECT_THAT(moments_of(R"({"begin_s": 0, "moments": [1, {}, {"time_s": "x", "kind": "armed"},
-                             {"time_s": 1, "kind": "asleep"}]})",
+                             {"time_s": 1, "kind": "asleep"}, {"time_s": 1, "kind": 5}]})",
                          {}, 0.0)
                   .all,
               IsEmpty());

@@ -114,9 +114,11 @@ Json summary_for_page(const Run& run) {
   if (!summary.contains("complaints") || !summary["complaints"].is_array()) return summary;
   Json& complaints = summary["complaints"];
   if (complaints.size() <= kComplaints) return summary;
-  const std::size_t more = complaints.size() - kComplaints;
+  std::size_t more = complaints.size() - kComplaints;
+  const auto told = summary.find("complaints_left_out");
+  if (told != summary.end() && told->is_number_unsigned()) more += told->get<std::size_t>();
   complaints.erase(complaints.begin() + static_cast<std::ptrdiff_t>(kComplaints), complaints.end());
-  summary["complaints_left_out"] = summary.value("complaints_left_out", std::size_t{0}) + more;
+  summary["complaints_left_out"] = more;
   return summary;
 }
 
@@ -169,8 +171,7 @@ Points first_points(const Runs& runs) {
 std::string title_of(const Runs& runs) {
   std::vector<std::string> names;
   for (const Run& run : runs.runs) {
-    const Json summary = internal::summary_of(run);
-    const std::string name = summary.is_object() ? summary.value("application", "") : "";
+    const std::string name = text_in(internal::summary_of(run), "application");
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   if (names.empty()) return runs.name;

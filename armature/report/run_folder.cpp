@@ -10,6 +10,7 @@
 
 #include "armature/platform/file.hpp"
 #include "armature/record/mcap_reader.hpp"
+#include "armature/report/internal/json.hpp"
 #include "armature/report/run_summary.hpp"
 
 namespace armature::report {
@@ -70,8 +71,7 @@ std::string load_json(const fs::path& path, base::Diagnostics& diagnostics) {
 }
 
 bool was_simulated(const Run& run) {
-  const auto summary = nlohmann::json::parse(run.summary, nullptr, false);
-  return summary.is_object() && summary.value("time", "") == "simulated";
+  return text_in(Json::parse(run.summary, nullptr, false), "time") == "simulated";
 }
 
 /// The limits that the summary knows, as if they had been recorded; what was recorded stands.

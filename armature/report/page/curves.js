@@ -35,27 +35,33 @@ const Curves = (() => {
   const markRow = 13;
   const grave = {armed: '--good', fault: '--bad', 'E-stop': '--bad'};
 
-  /** In which of at most three rows each label has room; the last takes what has none. */
-  function rowsOf(labels) {
+  const mostRows = 3;
+  const measure = document.createElement('canvas').getContext('2d');
+  measure.font = markFont;
+  const widthOf = (text) => measure.measureText(text).width;
+
+  /** In which of the rows each label has room; the last takes what has none. */
+  function rowsOf(labels, rows) {
     const ends = [];
     return labels.map(({left, right}) => {
       let row = ends.findIndex((end) => end < left);
-      if (row < 0) row = Math.min(ends.length, 2);
+      if (row < 0) row = Math.min(ends.length, rows - 1);
       ends[row] = Math.max(ends[row] ?? 0, right + 6);
       return row;
     });
   }
 
   /** Where the labels of the moments in sight stand, in CSS pixels within the plot. */
-  function labelsOf(moments, width, min, max, widthOf) {
-    return moments.filter(({time_s: t}) => t >= min && t <= max).map((moment) => {
-      const x = width * (moment.time_s - min) / (max - min);
+  function labelsOf(moments, width, min, max) {
+    const slack = (max - min) / 200;  // a run ends with its disarming, just behind the last sample
+    return moments.filter(({time_s: t}) => t >= min - slack && t <= max + slack).map((moment) => {
+      const x = Math.max(0, Math.min(width, width * (moment.time_s - min) / (max - min)));
       const left = Math.max(0, Math.min(x - widthOf(moment.kind) / 2, width - widthOf(moment.kind)));
       return {moment, x, left, right: left + widthOf(moment.kind)};
     });
   }
 
-  function drawMoments(u, moments) {
+  function drawMoments(u, moments, most) {
     const {ctx, bbox: {left, top, width, height}} = u;
     const ratio = devicePixelRatio;
     ctx.save();
@@ -63,8 +69,8 @@ const Curves = (() => {
     ctx.textBaseline = 'bottom';
     ctx.textAlign = 'left';
     const {min, max} = u.scales.x;
-    const labels = labelsOf(moments, width / ratio, min, max, (text) => ctx.measureText(text).width / ratio);
-    const rows = rowsOf(labels);
+    const labels = labelsOf(moments, width / ratio, min, max);
+    const rows = rowsOf(labels, most);
     labels.forEach(({moment, x, left: from}, i) => {
       const own = color(grave[moment.kind] ?? '--soft');
       const place = Math.round(left + x * ratio);
@@ -84,8 +90,8 @@ const Curves = (() => {
   /** The rows that all labels need when everything is in sight, which is when they are closest. */
   function rowsNeeded(moments, width, lines) {
     const ends = lines.flatMap((line) => (line.t.length > 0 ? [line.t[0], line.t.at(-1)] : []));
-    const labels = labelsOf(moments, width, Math.min(...ends), Math.max(...ends), (text) => 6.2 * text.length);
-    return labels.length === 0 ? 0 : Math.max(...rowsOf(labels)) + 1;
+    const labels = labelsOf(moments, width, Math.min(...ends), Math.max(...ends));
+    return labels.length === 0 ? 0 : Math.max(...rowsOf(labels, mostRows)) + 1;
   }
 
   // --- curves ------------------------------------------------------------------------------------
@@ -106,11 +112,12 @@ const Curves = (() => {
     const tall = canvas.clientHeight || height;
     const axis = (more) => ({stroke: () => color('--faint'), font: '12px system-ui, sans-serif',
       grid: {stroke: () => color('--grid'), width: 1}, ticks: {show: false}, ...more});
+    const rows = rowsNeeded(moments, (canvas.clientWidth || 400) - 74, lines);
     const made = new uPlot({
       width: canvas.clientWidth || 400, height: tall,
       legend: {show: false},
       scales: {x: {time: false}, y: {range: (u, min, max) => (min === max ? [(min ?? 0) - 1, (max ?? 0) + 1] : uPlot.rangeNum(min, max, padded))}},
-      padding: [Math.max(8, 3 + markRow * rowsNeeded(moments, (canvas.clientWidth || 400) - 74, lines)), 22, 0, 0],
+      padding: [Math.max(8, 3 + markRow * rows), 22, 0, 0],
       cursor: {sync: {key: 'time'}, points: {size: 5}, y: false, drag: {x: true, y: false, dist: 4}},
       axes: [axis({size: 26, space: 60, values: (u, splits) => splits.map((s) => `${s} s`)}),
              axis({size: 52, space: tall < 160 ? 26 : 34, values: (u, splits) => splits.map(mark)})],
@@ -120,19 +127,22 @@ const Curves = (() => {
         paths: line.t.length < 200 ? uPlot.paths.stepped({align: 1}) : undefined}))],
       hooks: {
         setScale: [follow],
-        draw: [(u) => drawMoments(u, moments)],
+        draw: [(u) => drawMoments(u, moments, Math.max(1, rows))],
         setCursor: [(u) => outputs.forEach((output, i) => {
           const value = u.cursor.idx === null || u.cursor.idx === undefined ? null : nearest(u, i + 1);
           output.textContent = value === null ? '' : value.toFixed(digits).replace('-', '−');
         })]},
     }, joined, canvas);
-    lines.filter((line) => line.label).forEach((line, i) => {
+    lines.forEach((line, i) => {
+      if (!line.label) return;
       const button = el('button', {'aria-pressed': 'true', title: 'show or hide'},
         el('i', {class: line.broad ? 'broad' : '', style: `border-color: var(${line.stroke})`}), line.label, outputs[i]);
       button.onclick = () => {
         const show = button.getAttribute('aria-pressed') === 'false';
         button.setAttribute('aria-pressed', show);
         made.setSeries(i + 1, {show});
+        // A line without a label belongs to the one before: a limit has two.
+        for (let next = i + 1; next < lines.length && !lines[next].label; ++next) made.setSeries(next + 1, {show});
       };
       legend.append(button);
     });
