@@ -21,6 +21,14 @@ function(armature_compact target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
 endfunction()
 
+# Only the start needs this library: while an application runs, its code is not in memory
+# (cli/run.cpp). So what it instantiated of the standard library is not for others.
+function(armature_only_at_first target)
+  set(exports ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+  target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
+  set_target_properties(${target} PROPERTIES LINK_DEPENDS ${exports})
+endfunction()
+
 # Time goes on after 2038, also where a register has 32 bits.
 if(CMAKE_SIZEOF_VOID_P EQUAL 4)
   add_compile_definitions(_TIME_BITS=64 _FILE_OFFSET_BITS=64)

@@ -9,6 +9,7 @@ usage: check_layers.py SOURCE_DIR
 - one robot does not include another, and no library includes a robot;
 - the interface compiler, idl/, is a library like those of armature/, which do not include it;
 - public headers include the standard library, Eigen and Armature, nothing else;
+- what layers.cmake allows is used, and ARCHITECTURE.md says the same;
 - headers of the operating system are included only by platform/, by guard/, which stands in front
   of the C library, and by guardian/, whose process has nothing but that.
 """
@@ -25,6 +26,8 @@ OPERATING_SYSTEM = re.compile(
     r"wait|x86intrin|immintrin)\.h")
 NEXT_TO_THE_SYSTEM = ("platform", "guard", "guardian")
 TEST_ONLY = "testing"
+USES_ALL = ("cli", TEST_ONLY)
+ARROWS = re.compile(r"`(\w+) -> ([\w, \n]+)`")
 
 
 def read_layers(source_dir):
@@ -48,6 +51,7 @@ class Tree:
 
     def __init__(self, source_dir):
         self.layers = read_layers(source_dir)
+        self.map = (source_dir / "ARCHITECTURE.md").read_text()
         self.includes = {}
         for top in ("armature", "idl", "robots", "examples", "benchmarks", "tests"):
             for path in sorted((source_dir / top).rglob("*.?pp")):
@@ -73,6 +77,27 @@ class Tree:
                 reason = self.check(path, bracket, name)
                 if reason:
                     yield f"{path}:{line}: error: {path} may not include {name}: {reason}"
+
+    def unused(self):
+        """What layers.cmake allows for nothing."""
+        used = {}
+        for path, includes in self.includes.items():
+            if not is_test_code(path):
+                used.setdefault(library_of(path), set()).update(library_of(name) for _, _, name in includes)
+        for library, allowed in self.layers.items():
+            for other in sorted(allowed - used.get(library, set())):
+                if library not in USES_ALL:
+                    yield f"cmake/layers.cmake: error: {library} may use {other}, and does not: remove it there"
+
+    def untold(self):
+        """Where ARCHITECTURE.md says otherwise than layers.cmake."""
+        told = {name: set(re.findall(r"\w+", uses)) for name, uses in ARROWS.findall(self.map)}
+        for library, allowed in self.layers.items():
+            wanted = allowed - {"base"}
+            if library in USES_ALL or not wanted or told.get(library) == wanted:
+                continue
+            yield (f"ARCHITECTURE.md: error: expected `{library} -> {', '.join(sorted(wanted))}`, "
+                   f"as cmake/layers.cmake does")
 
     def check(self, path, bracket, name):
         if name.startswith(("armature/", "idl/")):
@@ -147,7 +172,8 @@ def is_public_header(path):
 
 
 def main():
-    problems = list(Tree(Path(sys.argv[1])).problems())
+    tree = Tree(Path(sys.argv[1]))
+    problems = [*tree.problems(), *tree.unused(), *tree.untold()]
     print("\n".join(problems), file=sys.stderr, end="\n" if problems else "")
     return 1 if problems else 0
 

@@ -17,6 +17,7 @@ class CheckLayers(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.root)
         (self.root / "cmake").mkdir()
         shutil.copy(LAYERS, self.root / "cmake")
+        self.write("ARCHITECTURE.md", "")
 
     def write(self, path, text):
         (self.root / path).parent.mkdir(parents=True, exist_ok=True)
@@ -118,6 +119,19 @@ class CheckLayers(unittest.TestCase):
                    'auto text = R"(\n)";\n#include "armature/testing/guard.hpp"\n')
         self.assertEqual([p.split(": ")[0] for p in Tree(self.root).problems()],
                          ["armature/cli/new.cpp:3"])
+
+    def test_what_is_allowed_is_used(self):
+        self.write("cmake/layers.cmake", 'set(ARMATURE_LAYERS "base:" "rt: base" "can: base rt")')
+        self.write("armature/can/bus.cpp", '#include "armature/rt/ring.hpp"\n')
+        self.assertEqual([problem.split("error: ")[1] for problem in Tree(self.root).unused()],
+                         ["rt may use base, and does not: remove it there",
+                          "can may use base, and does not: remove it there"])
+
+    def test_the_map_says_the_same(self):
+        self.write("cmake/layers.cmake", 'set(ARMATURE_LAYERS "base:" "rt: base" "can: base rt" "sim: base can rt")')
+        self.write("ARCHITECTURE.md", "`can -> rt`; `sim ->\ncan`")
+        self.assertEqual([problem.split("expected ")[1] for problem in Tree(self.root).untold()],
+                         ["`sim -> can, rt`, as cmake/layers.cmake does"])
 
     def test_includes_are_whole_paths(self):
         self.assert_refused("armature/rt/ring.hpp", '"latest.hpp"', "whole path")

@@ -18,6 +18,7 @@ struct Location {
   friend bool operator==(const Location&, const Location&) = default;
 };
 
+/// How grave a finding is: only an error keeps what was asked from happening.
 enum class Severity { kNote, kWarning, kError };
 
 /// Findings that differ from another one at the same place in numbers only, as `'G2'` from `'G1'`.

@@ -31,6 +31,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
+/// Success without a value, or an error.
 template <>
 class [[nodiscard]] Result<void> {
  public:

@@ -29,4 +29,7 @@ constexpr Time later(Time time, Duration by) {
   return time > Time{} && by > Time::max() - time ? Time::max() : time + by;
 }
 
+/// `10 ms`, `1.5 s`, `250 us`: exact, in the largest unit that needs no exponent.
+std::string to_text(Duration duration);
+
 }  // namespace armature::base

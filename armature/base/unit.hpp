@@ -13,6 +13,7 @@ namespace armature::base {
 /// Angle and "count" are dimensions of their own, so that rad is not confused with a plain number,
 /// nor rad/s with Hz.
 struct Unit {
+  /// Base dimensions, in the order of `powers`; kDimensions is their number.
   enum Dimension { kLength, kMass, kTime, kCurrent, kTemperature, kAngle, kCount, kDimensions };
 
   std::array<int, kDimensions> powers{};

@@ -37,6 +37,7 @@ struct BusOptions {
   std::function<void()> on_news{};
 };
 
+/// What became of a frame that was to be sent.
 enum class SendStatus {
   kSent,       ///< taken: it waits for the bus or is on it
   kQueueFull,  ///< not taken: `send_capacity` frames wait already
@@ -45,6 +46,7 @@ enum class SendStatus {
   kInvalid,    ///< not taken: no controller can send such a frame (see `can_be_sent`)
 };
 
+/// What a look for the next frame found; kDown: the bus is closed, or its interface is down.
 enum class ReceiveStatus { kReceived, kNothing, kDown };
 
 /// A frame and when its last bit came in, on the application's clock.
@@ -63,6 +65,7 @@ enum class BusState {
   kDown,     ///< the interface is down or gone
 };
 
+/// What became of a restart after bus-off.
 enum class RestartStatus {
   kRestarting,  ///< the state becomes kActive when the bus has been quiet long enough
   kNotNeeded,   ///< it is not bus-off

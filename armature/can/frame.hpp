@@ -15,6 +15,7 @@
 
 namespace armature::can {
 
+/// What a frame is for.
 enum class FrameKind : std::uint8_t {
   kData,
   kRemote,  ///< asks for the data frame of the same identifier

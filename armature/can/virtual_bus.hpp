@@ -33,6 +33,7 @@ struct WireEvent {
   const VirtualStation* sender = nullptr;
 };
 
+/// How many transmissions on the wire had each outcome.
 struct WireCounters {
   std::uint64_t good = 0;
   std::uint64_t corrupted = 0;

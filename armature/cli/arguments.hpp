@@ -30,6 +30,7 @@ struct LoadArguments {
   std::string times_file;
 };
 
+/// What `armature run` is asked for.
 struct RunArguments {
   LoadArguments load;
   bool simulated = false;
@@ -46,6 +47,7 @@ struct RunArguments {
   bool statistics = false;
 };
 
+/// What `armature browse` is asked for.
 struct BrowseArguments {
   std::string address;
   std::string certificate;  ///< files in PEM form, for `tls://`
@@ -53,18 +55,21 @@ struct BrowseArguments {
   std::string authority;
 };
 
+/// What `armature check` is asked for.
 struct CheckArguments {
   LoadArguments load;
   bool order = false;
   bool load_table = false;
 };
 
+/// What `armature graph` is asked for.
 struct GraphArguments {
   LoadArguments load;
   std::string format = "svg";
   std::string output;
 };
 
+/// What `armature models` is asked for.
 struct ModelsArguments {
   std::vector<std::string> libraries;
   std::vector<std::string> library_folders;
@@ -72,6 +77,7 @@ struct ModelsArguments {
   bool json = false;
 };
 
+/// What `armature report` is asked for.
 struct ReportArguments {
   std::string folder;
   std::string page;  ///< empty: beside the recordings

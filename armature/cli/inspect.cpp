@@ -3,16 +3,18 @@
 #include <set>
 #include <string>
 
+#include "armature/analysis/wiring_graph.hpp"
 #include "armature/base/diagnostic.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/cli/network.hpp"
+#include "armature/cli/new_component.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/loader.hpp"
-#include "armature/deploy/model_catalogue.hpp"
-#include "armature/deploy/new_component.hpp"
-#include "armature/deploy/wiring_graph.hpp"
+#include "armature/document/yaml.hpp"
 #include "armature/exec/plan.hpp"
+#include "armature/inspect/model_catalogue.hpp"
+#include "armature/orocos/deployer_file.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::cli {
@@ -30,7 +32,7 @@ int print(const base::Result<std::string>& text, const Console& console) {
 }
 
 /// False, and says so, if `path` is one of the files that `document` came from.
-bool is_no_source(const std::string& path, const deploy::Document& document,
+bool is_no_source(const std::string& path, const document::Document& document,
                   const Console& console) {
   std::set<std::string> sources{document.file};
   for (const auto& each : document.components) sources.insert(each.where.file);
@@ -90,11 +92,11 @@ int graph(const GraphArguments& arguments, const Console& console) {
   if (!deployment.ok()) return kFailed;
   std::string picture;
   if (arguments.format == "dot") {
-    picture = deploy::graph_as_dot(deployment.blueprint, deployment.plan);
+    picture = analysis::graph_as_dot(deployment.blueprint, deployment.plan);
   } else if (arguments.format == "mermaid") {
-    picture = deploy::graph_as_mermaid(deployment.blueprint, deployment.plan);
+    picture = analysis::graph_as_mermaid(deployment.blueprint, deployment.plan);
   } else {
-    picture = deploy::graph_as_svg(deployment.blueprint, deployment.plan);
+    picture = analysis::graph_as_svg(deployment.blueprint, deployment.plan);
   }
   if (!arguments.output.empty()) {
     if (!is_no_source(arguments.output, deployment.document, console)) return kWrongUse;
@@ -109,7 +111,7 @@ int models(const ModelsArguments& arguments, const Console& console) {
   const std::vector<std::string> folders = deploy::library_folders(arguments.library_folders, "./");
   std::vector<std::string> names = arguments.libraries;
   if (names.empty()) names = deploy::available_libraries(folders);
-  std::vector<deploy::Reference> libraries;
+  std::vector<document::Reference> libraries;
   for (const std::string& name : names) libraries.push_back({name, {}});
   deploy::load_libraries(libraries, folders, registry, diagnostics);
   console.show(diagnostics);
@@ -117,10 +119,10 @@ int models(const ModelsArguments& arguments, const Console& console) {
   if (arguments.json) {
     std::vector<std::string> wanted;
     if (!arguments.name.empty()) wanted.push_back(arguments.name);
-    return print(deploy::models_as_json(registry, wanted), console);
+    return print(inspect::models_as_json(registry, wanted), console);
   }
-  if (arguments.name.empty()) return print(deploy::list_models(registry), console);
-  return print(deploy::describe_model(registry, arguments.name), console);
+  if (arguments.name.empty()) return print(inspect::list_models(registry), console);
+  return print(inspect::describe_model(registry, arguments.name), console);
 }
 
 int convert(const std::string& from, const std::string& to, const Console& console) {
@@ -130,11 +132,11 @@ int convert(const std::string& from, const std::string& to, const Console& conso
     return kWrongUse;
   }
   base::Diagnostics diagnostics;
-  const deploy::Document document = deploy::load_document(from, {}, diagnostics);
+  const document::Document document = deploy::load_document(from, {}, diagnostics);
   std::string text;
   if (diagnostics.ok()) {
-    text = ends_in(to, ".xml") ? deploy::write_xml(document, diagnostics)
-                               : deploy::write_yaml(document);
+    text = ends_in(to, ".xml") ? orocos::write_xml(document, diagnostics)
+                               : document::write_yaml(document);
   }
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
@@ -143,7 +145,7 @@ int convert(const std::string& from, const std::string& to, const Console& conso
 }
 
 int new_component(const std::string& name, const Console& console) {
-  const auto made = deploy::make_component_library(name, ".");
+  const auto made = make_component_library(name, ".");
   if (!made) {
     console.say(LogLevel::kError, made.error());
     return kFailed;

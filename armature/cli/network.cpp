@@ -14,13 +14,14 @@ constexpr const char* kRemoteLibrary = "libarmature_remote.so";
 }  // namespace
 
 deploy::MakePlaceholder NetworkOnDemand::placeholders() {
-  return [this](const deploy::Component& written, std::unique_ptr<component::Component> prototype) {
-    using Made = base::Result<std::unique_ptr<component::Component>>;
-    base::Diagnostics problems;
-    remote::Network* const network = load(problems);
-    if (network == nullptr) return Made(base::Error{problems.to_text()});
-    return network->make_placeholder(written, std::move(prototype));
-  };
+  return
+      [this](const document::Component& written, std::unique_ptr<component::Component> prototype) {
+        using Made = base::Result<std::unique_ptr<component::Component>>;
+        base::Diagnostics problems;
+        remote::Network* const network = load(problems);
+        if (network == nullptr) return Made(base::Error{problems.to_text()});
+        return network->make_placeholder(written, std::move(prototype));
+      };
 }
 
 deploy::MakeInlets NetworkOnDemand::inlets() {
@@ -33,17 +34,17 @@ deploy::MakeInlets NetworkOnDemand::inlets() {
   };
 }
 
-void NetworkOnDemand::check(const deploy::Document& document, base::Diagnostics& diagnostics) {
+void NetworkOnDemand::check(const document::Document& document, base::Diagnostics& diagnostics) {
   if (!wanted(document, {})) return;
   if (remote::Network* const network = load(diagnostics)) network->check(document, diagnostics);
 }
 
-bool NetworkOnDemand::wanted(const deploy::Document& document,
+bool NetworkOnDemand::wanted(const document::Document& document,
                              const RunArguments& arguments) const {
   return network_ != nullptr || !document.network.listen.empty() || !arguments.listen.empty();
 }
 
-bool NetworkOnDemand::open(const deploy::Document& document, const RunArguments& arguments,
+bool NetworkOnDemand::open(const document::Document& document, const RunArguments& arguments,
                            exec::Application& application) {
   if (!wanted(document, arguments)) return true;
   base::Diagnostics diagnostics;
@@ -71,7 +72,7 @@ remote::Network* NetworkOnDemand::load(base::Diagnostics& diagnostics) {
       load_function(kRemoteLibrary, remote::kMakeNetwork, "a part in a network needs", diagnostics);
   if (make == nullptr) return nullptr;
   remote::NetworkOptions options;
-  options.tls = [](const deploy::Network& files, base::Diagnostics& problems) {
+  options.tls = [](const document::Network& files, base::Diagnostics& problems) {
     return load_tls({files.certificate.name, files.key.name, files.authority.name}, problems);
   };
   options.log = [this](const rt::LogRecord& record) { console_.log(record); };

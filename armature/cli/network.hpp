@@ -23,15 +23,15 @@ class NetworkOnDemand {
   deploy::MakeInlets inlets();
 
   /// Looks at what the deployment says of the network, without listening.
-  void check(const deploy::Document& document, base::Diagnostics& diagnostics);
+  void check(const document::Document& document, base::Diagnostics& diagnostics);
 
   /// Makes the node and listens for `application`, which has not started, if the deployment or the
   /// command line asks for it.
   /// @return false after an error, which was told
-  bool open(const deploy::Document& document, const RunArguments& arguments,
+  bool open(const document::Document& document, const RunArguments& arguments,
             exec::Application& application);
   /// It has a part in a network, or will have.
-  bool wanted(const deploy::Document& document, const RunArguments& arguments) const;
+  bool wanted(const document::Document& document, const RunArguments& arguments) const;
   void serve();
   void leave();
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "armature/analysis/schedule.hpp"
 #include "armature/cli/burial.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/companions.hpp"
@@ -20,7 +21,6 @@
 #include "armature/cli/run_texts.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/deploy/deployment.hpp"
-#include "armature/deploy/schedule.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/death_watch.hpp"
 #include "armature/platform/file.hpp"
@@ -42,16 +42,17 @@ constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
 /// real-time thread ever runs any of it. It comes back when the run has ended. The program itself
 /// stays: the C++ library may use functions of `std::string` that were compiled into it.
 void release_what_loads() {
-  constexpr std::string_view kLibraries[] = {"libarmature_deploy.so", "libyaml-cpp.so",
-                                             "libpugixml.so",         "liburdfdom_model.so",
-                                             "libtinyxml.so",         "libconsole_bridge.so"};
+  constexpr std::string_view kLibraries[] = {
+      "libarmature_deploy.so",   "libarmature_document.so", "libarmature_orocos.so",
+      "libarmature_analysis.so", "libyaml-cpp.so",          "libpugixml.so",
+      "liburdfdom_model.so",     "libtinyxml.so",           "libconsole_bridge.so"};
   platform::release_code(kLibraries);
 }
 
 bool write_times_file(const std::string& path, const exec::Application& application,
                       const Console& console) {
   const auto written =
-      platform::write_file(path, deploy::write_times(deploy::measured_times(application)));
+      platform::write_file(path, analysis::write_times(analysis::measured_times(application)));
   if (!written) console.say(LogLevel::kError, written.error());
   return written.ok();
 }
@@ -250,8 +251,8 @@ struct Aboard {
 
 /// Stops everything, says how it went and writes what is written at the end.
 /// @param left  what went wrong on the way to the stop
-int conclude(exec::Application& application, const deploy::Document& document, const Aboard& aboard,
-             const base::Diagnostics& left, report::RunFacts& facts) {
+int conclude(exec::Application& application, const document::Document& document,
+             const Aboard& aboard, const base::Diagnostics& left, report::RunFacts& facts) {
   const auto& [arguments, companions, network, mistakes, console] = aboard;
   console.show(mistakes);
   tell_casualties(application, console);

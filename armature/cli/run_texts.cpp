@@ -34,10 +34,10 @@ void tell_verdict(const exec::Application& application, const Console& console) 
   }
 }
 
-void tell_grants(const deploy::Document& document, const Console& console) {
-  const auto tell = [&](const char* who, const std::vector<deploy::OperationOf>& grants) {
+void tell_grants(const document::Document& document, const Console& console) {
+  const auto tell = [&](const char* who, const std::vector<document::OperationOf>& grants) {
     std::string all;
-    for (const deploy::OperationOf& grant : grants) {
+    for (const document::OperationOf& grant : grants) {
       all += (all.empty() ? "" : ", ") + grant.component + "." + grant.operation;
     }
     if (!all.empty()) console.say(LogLevel::kInfo, std::string(who) + " may do " + all);

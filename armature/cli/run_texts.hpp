@@ -2,7 +2,7 @@
 #pragma once
 
 #include "armature/cli/console.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/application.hpp"
 
 namespace armature::cli {
@@ -12,7 +12,7 @@ namespace armature::cli {
 /// Which real-time properties were asked for and granted.
 void tell_verdict(const exec::Application& application, const Console& console);
 /// What the operator need not do here.
-void tell_grants(const deploy::Document& document, const Console& console);
+void tell_grants(const document::Document& document, const Console& console);
 /// @param all  also of threads that lost nothing
 void tell_statistics(const exec::Application& application, bool all, const Console& console);
 void tell_lost_lines(const Console& console);

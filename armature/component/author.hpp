@@ -13,6 +13,7 @@
 #include "armature/component/operators_word.hpp"
 #include "armature/component/output_port.hpp"
 #include "armature/component/port_array.hpp"
+#include "armature/component/properties.hpp"
 #include "armature/component/property.hpp"
 #include "armature/component/registry.hpp"
 #include "armature/component/state_machine.hpp"

@@ -24,7 +24,9 @@ class OutputPortBase;
 /// ones take the place of the oldest.
 class BlackBox {
  public:
+  /// Something rare that happened: a transition, a fault, a command.
   struct Note {
+    /// What it was.
     enum class Kind : std::uint8_t {
       kState,  ///< the text is the new one's name
       kError,
@@ -51,6 +53,7 @@ class BlackBox {
     std::size_t offset;
     std::optional<types::Value> shape;  ///< of a port's type, if its vectors have sizes
   };
+  /// A copy of everything that is kept.
   struct Content {
     std::vector<std::byte> pictures;  ///< the oldest first, each of `picture_size` bytes
     std::vector<base::Time> times;    ///< of the pictures: the cycles after which they were made

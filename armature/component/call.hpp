@@ -16,6 +16,7 @@
 
 namespace armature::component {
 
+/// How a call of an operation stands, or how it ended.
 enum class CallStatus : std::uint8_t {
   kDone,
   kPending,       ///< sent, not finished
@@ -31,6 +32,7 @@ enum class CallStatus : std::uint8_t {
 
 std::string_view name_of(CallStatus status);
 
+/// The result of a call. `value` is meaningful if the status is kDone.
 template <typename R>
 struct [[nodiscard]] CallResult {
   CallStatus status = CallStatus::kPending;
@@ -38,6 +40,7 @@ struct [[nodiscard]] CallResult {
   explicit operator bool() const { return status == CallStatus::kDone; }
 };
 
+/// The result of a call of an operation that returns nothing.
 template <>
 struct CallResult<void> {
   CallStatus status = CallStatus::kPending;
@@ -52,6 +55,7 @@ struct CallResult<void> {
 template <typename Atomics>
 class BasicSharedRecord {
  public:
+  /// Deleter of a handle: lets go of the record.
   struct LetGo {
     void operator()(BasicSharedRecord* record) const { record->release(); }
   };

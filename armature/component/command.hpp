@@ -109,6 +109,7 @@ struct DoneWhen {};
 /// updated calls `complete` instead.
 template <auto Predicate>
 inline constexpr DoneWhen<Predicate> done_when{};
+/// Option of a command.
 template <auto Function>
 struct CancelledBy {};
 /// `void Function()`, told when the command is cancelled or its component stops.
@@ -145,6 +146,7 @@ class CommandBase : public OperationBase, public Step {
   void halt(std::string_view reason) final { cancel(reason); }
 
  protected:
+  /// How the command stands. While `kBeginning`, its function decides whether to accept it.
   enum class Phase : std::uint8_t { kIdle, kBeginning, kUnderWay };
 
   CommandBase(Component& owner, std::unique_ptr<About> about) noexcept;

@@ -28,6 +28,7 @@ namespace armature::component {
 
 class EventHandlerBase;
 
+/// What became of an event that was raised.
 enum class RaiseStatus : std::uint8_t { kDelivered, kNobodyListens, kQueueFull };
 
 /// What a component itself does at once when it raises one of its events.
@@ -141,6 +142,7 @@ class EventHandlerBase : public Requirement {
   std::uint64_t dropped() const { return about().dropped.load(std::memory_order_relaxed); }
 
  protected:
+  /// Description, counters and lists, apart from what a cycle touches.
   struct About : Requirement::About {
     About(std::string_view its_name, std::string_view its_doc, Signature its_signature);
     ~About() override;

@@ -53,6 +53,7 @@ class OutputPort;
 struct OnDataUpdate {};
 inline constexpr OnDataUpdate on_data_update{};
 
+/// What input ports of all types have in common.
 class InputPortBase : public PortBase {
  public:
   ~InputPortBase() override;
@@ -137,12 +138,14 @@ class InputPortBase : public PortBase {
  protected:
   using Arrived = void (*)(InputPortBase&, ExecutionContext&) noexcept;
 
+  /// The message that the writer has faulted.
   struct Lost final : rt::Signal {
     explicit Lost(InputPortBase& port) : rt::Signal(&Lost::deliver), self(port) {}
     static void deliver(rt::Message& message);
     InputPortBase& self;
   };
 
+  /// Description, counters and lists, apart from what a cycle touches.
   struct About : PortBase::About {
     About(InputPortBase& port, std::string_view port_name, std::string_view port_doc,
           std::string_view port_unit, const types::Type& port_type);

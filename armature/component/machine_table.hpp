@@ -30,6 +30,7 @@ struct MachineGuard {
 /// Stands for "none" wherever the index of a state is expected.
 inline constexpr int kNoState = -1;
 
+/// A state of a machine's table, with its actions.
 struct MachineState {
   std::string name;
   std::string doc;
@@ -40,7 +41,9 @@ struct MachineState {
   MachineAction exit;
 };
 
+/// A transition of a machine's table.
 struct MachineTransition {
+  /// What the transition waits for.
   enum class Cause : std::uint8_t {
     kTrigger,
     kTime,       ///< `after` has passed since the source was entered

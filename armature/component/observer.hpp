@@ -18,6 +18,7 @@ struct Surroundings {
 /// needs a period of its own; it starts before all others and stops after them.
 class Observer {
  public:
+  /// Why it cannot observe what it was told to.
   struct Objection {
     std::string message;  ///< what it was to look at and what is wrong with that
     std::string hint;

@@ -113,6 +113,8 @@ class Operation;
 template <typename Function>
 class OperationCaller;
 
+/// An operation that returns R and takes Args: a member function that peers, scripts and tools
+/// call.
 template <typename R, typename... Args>
 class Operation<R(Args...)> final : public OperationBase {
  public:
@@ -217,6 +219,7 @@ class OperationCallerBase : public Requirement {
   virtual void disconnect() = 0;
 
  protected:
+  /// Description, counters and lists, apart from what a cycle touches.
   struct About : Requirement::About {
     About(std::string_view its_name, std::string_view its_doc, Signature its_signature);
     ~About() override;
@@ -237,6 +240,7 @@ struct Outstanding {
 inline Outstanding outstanding(std::size_t count) { return {count}; }
 inline constexpr std::size_t kDefaultOutstanding = 4;
 
+/// Calls an operation of a peer that returns R and takes Args.
 template <typename R, typename... Args>
 class OperationCaller<R(Args...)> final : public OperationCallerBase {
  public:

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/component/internal/test_thread.hpp"
+#include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
 namespace {

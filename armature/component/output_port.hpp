@@ -29,6 +29,7 @@ struct OutputCounters {
   std::uint64_t wrong_size = 0;  ///< writes of a vector of another size
 };
 
+/// What output ports of all types have in common.
 class OutputPortBase : public PortBase {
  public:
   ~OutputPortBase() override;
@@ -83,6 +84,7 @@ class OutputPortBase : public PortBase {
   virtual bool fits(const InputPortBase& input) const = 0;
 
  protected:
+  /// Description, counters and lists, apart from what a cycle touches.
   struct About : PortBase::About {
     using PortBase::About::About;
     ~About() override;
@@ -109,6 +111,7 @@ class OutputPortBase : public PortBase {
 
   /// What a write has to do for its readers.
   enum class Delivery : std::uint8_t { kNothing, kHandler, kChannel, kSeveral };
+  /// The one reader's handler or channel; `Delivery` says which.
   union Only {
     InputPortBase* handler = nullptr;
     internal::ChannelBase* channel;

@@ -33,6 +33,7 @@ enum class ReadStatus : std::uint8_t { kNotConnected, kNone, kOld, kNew };
 
 std::string_view name_of(ReadStatus status);
 
+/// What became of a value that was written.
 enum class WriteStatus : std::uint8_t {
   kWritten,
   kNotConnected,  ///< nobody reads it; the value is kept for tools
@@ -53,6 +54,7 @@ ARMATURE_ENUM(Reaction, kHold, kZero, kStop, kFault);
 
 /// How a connection carries values; what a deployment calls its policy.
 struct ConnectionPolicy {
+  /// What is kept for the reader: the latest value, or a queue of values.
   enum class Kind : std::uint8_t { kLatest, kFifo };
   Kind kind = Kind::kLatest;
   std::size_t capacity = 1;  ///< of a FIFO
@@ -94,14 +96,17 @@ struct MaxAge {
 inline MaxAge max_age(base::Duration age, Reaction reaction = Reaction::kStop) {
   return {age, reaction};
 }
+/// Option of an input port.
 struct OnLost {
   Reaction reaction;
 };
 /// What happens when the component that writes this input faults; kStop unless declared.
 inline OnLost on_lost(Reaction reaction) { return {reaction}; }
+/// Option of an input port.
 struct MayStayOpen {};
 /// It is no mistake to leave the port unconnected.
 inline constexpr MayStayOpen may_stay_open{};
+/// Option of an input port.
 struct FanIn {};
 /// Several writers may be connected; every value counts, in the order of arrival per writer.
 inline constexpr FanIn fan_in{};
@@ -122,6 +127,7 @@ LeadsTo leads_to(Names... names) {
 }
 inline LeadsTo leads_to_nothing() { return {{}, true}; }
 
+/// What input and output ports have in common.
 class PortBase : public Entrance {
  public:
   virtual ~PortBase();

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/internal/test_ports.hpp"
-#include "armature/component/internal/test_thread.hpp"
+#include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
 namespace {

@@ -25,8 +25,10 @@ struct Range {
 
 /// Options of a property, given behind its unit.
 inline Range range(double low, double high) { return {low, high}; }
+/// Option of a property: it may change while its component runs.
 struct ChangeableWhileRunning {};
 inline constexpr ChangeableWhileRunning changeable_while_running{};
+/// Option of a property.
 struct Mandatory {};
 /// The property has no useful default: a deployment must give it.
 inline constexpr Mandatory mandatory{};

@@ -26,6 +26,7 @@ namespace armature::component {
 class Registry {
  public:
   using Make = std::unique_ptr<Component> (*)(std::string name);
+  /// A model of components: its name and how an instance is made.
   struct Model {
     std::string name;
     std::string doc;

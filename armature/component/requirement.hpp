@@ -18,10 +18,12 @@ struct From {
 /// The peer is the one that a property names; without this option it is the one peer that has it.
 inline From from(const Property<std::string>& peer) { return {&peer}; }
 
+/// Option of a requirement.
 struct Optional {};
 /// It is no mistake if no peer has it.
 inline constexpr Optional optional{};
 
+/// Option of a requirement.
 struct Wanted {
   const Property<bool>* property;
 };

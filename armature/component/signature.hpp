@@ -13,6 +13,7 @@ namespace armature::component {
 
 /// What an operation or event takes and gives, for checks and tools.
 struct Signature {
+  /// One argument.
   struct Argument {
     std::string_view name;  ///< with the unit in brackets: `position [rad]`; may be empty
     const types::Type* type;

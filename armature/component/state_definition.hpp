@@ -36,14 +36,17 @@ template <auto Function>
 struct Entering {};
 template <auto Function>
 inline constexpr Entering<Function> entering{};
+/// Option of a state: what it does in each cycle.
 template <auto Function>
 struct During {};
 template <auto Function>
 inline constexpr During<Function> during{};
+/// Option of a state: what it does when it is left.
 template <auto Function>
 struct Leaving {};
 template <auto Function>
 inline constexpr Leaving<Function> leaving{};
+/// Option of a state: when it is entered, the state around it is done.
 struct FinalState {};
 inline constexpr FinalState final_state{};
 

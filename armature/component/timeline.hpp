@@ -23,7 +23,9 @@ class Component;
 /// and is kept unless even that is too much.
 class Timeline {
  public:
+  /// One record: a stretch opens or closes, or a step within it ends.
   struct Entry {
+    /// What the record says.
     enum class Kind : std::uint8_t { kOpen, kStep, kClose };
     Kind kind = Kind::kOpen;
     std::uint16_t thread = 0;              ///< kOpen: whoever does it
@@ -36,6 +38,7 @@ class Timeline {
     base::Time time{};                     ///< kOpen: on the clock; kClose: the cycle time
   };
 
+  /// How much is kept, and how much time that may take.
   struct Limits {
     std::size_t capacity = 1024;  ///< entries that wait for their reader
     double share = 0.1;           ///< of the thread's time, in the long run

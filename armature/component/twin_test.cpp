@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
-#include "armature/component/internal/test_thread.hpp"
 #include "armature/component/stand_in.hpp"
 #include "armature/rt/guard.hpp"
+#include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
 namespace {

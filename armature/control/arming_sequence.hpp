@@ -24,6 +24,7 @@ class ArmingSequence {
     base::Duration watch_time{};     ///< after it was let go; > 0
   };
 
+  /// What has to be done next, or why it has failed.
   enum class Next {
     kWait,
     kLetGo,         ///< now: the effort has settled
@@ -33,6 +34,7 @@ class ArmingSequence {
     kNotHeld,       ///< fail: it moved when it was let go
   };
 
+  /// What one step needs to know of the joint.
   struct Measured {
     double position = 0.0;
     double effort = 0.0;    ///< that is sent; without a brake, that would be

@@ -18,6 +18,7 @@ namespace armature::control {
 /// the joint: viscous_friction velocity + coulomb_friction sign(velocity).
 class DcMotor {
  public:
+  /// The numbers of the motor and its gear.
   struct Config {
     double resistance_ohm = 0.0;    ///< of the winding; > 0
     double torque_constant = 0.0;   ///< [N m/A] and [V s/rad], at the motor; > 0

@@ -15,6 +15,7 @@ namespace armature::control {
 /// the first sample, t = 0, to the last, by the trapezoidal rule.
 class ErrorMetrics {
  public:
+  /// How many joints there are, and how often they are sampled.
   struct Config {
     std::size_t joints = 0;   ///< >= 1
     base::Duration period{};  ///< between two samples; > 0

@@ -22,6 +22,7 @@ struct Pose {
 /// it.
 class ForwardKinematics {
  public:
+  /// The chain from one link to another.
   struct Config {
     std::string base_link{};  ///< in whose axes poses are; empty: the root
     std::string tip_link{};   ///< whose pose it is; empty: the link of the last joint that moves

@@ -28,6 +28,7 @@ class Gathering {
  public:
   static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
+  /// How many members there are, and what each gives.
   struct Config {
     std::size_t members = 0;      ///< >= 1
     std::size_t values_each = 1;  ///< >= 1

@@ -25,6 +25,7 @@ namespace armature::control {
 /// Afterwards, and before anything was taken over, the output is the signal, to the bit.
 class HandOver {
  public:
+  /// What is remembered between two steps; one element for each signal.
   struct State {
     std::vector<double> present;  ///< not a number: this signal is not taken over
     std::vector<double> offsets;  ///< present, or the mean of those before it, - mean

@@ -31,6 +31,7 @@ class HoldingWatch {
     base::Duration settling_time{};     ///< to come to rest after stand(), at the longest; >= 0
   };
 
+  /// What a step found; from kMoved on it is an alarm.
   enum class Verdict {
     kMay,         ///< move: it is not to stand
     kSettles,     ///< it comes to rest
@@ -41,6 +42,7 @@ class HoldingWatch {
     kAlternates,  ///< the effort shakes
   };
 
+  /// A verdict with its figures.
   struct Finding {
     Verdict verdict = Verdict::kMay;
     double measured = 0.0;  ///< motion, velocity, or share
@@ -50,6 +52,7 @@ class HoldingWatch {
     bool is_alarm() const { return verdict >= Verdict::kMoved; }
   };
 
+  /// What one step needs to know of the joint.
   struct Measured {
     double position = 0.0;
     double velocity = 0.0;

@@ -21,6 +21,7 @@ namespace armature::control {
 /// One thread uses it.
 class InverseDynamics {
  public:
+  /// The chain from one link to another, and gravity.
   struct Config {
     std::string base_link{};  ///< the link that stands still; empty: the root
     std::string tip_link{};   ///< the end of the chain; empty: the only end there is

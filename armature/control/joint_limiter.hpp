@@ -71,11 +71,13 @@ class JointLimiter {
     double effort_rate = 0.0;      ///< > 0 if there is an arming time
   };
 
+  /// How the joint moves.
   struct Measured {
     double position = 0.0;
     double velocity = 0.0;
   };
 
+  /// What became of a command.
   enum class Status {
     kPassed,     ///< the value is the command
     kClipped,    ///< the value is the nearest one that is safe; counts() says why
@@ -89,6 +91,7 @@ class JointLimiter {
     Status status = Status::kPassed;
   };
 
+  /// The effort that may be sent, and what became of the command.
   struct LimitedStep {
     LimitedEffort value;
     Status status = Status::kPassed;

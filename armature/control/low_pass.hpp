@@ -10,6 +10,7 @@ namespace armature::control {
 ///     y[k] = (y[k-1] + omega T x[k]) / (1 + omega T)
 class LowPass {
  public:
+  /// The cut-off frequency and the sampling period.
   struct Config {
     double omega = 0.0;     ///< [rad/s], > 0
     double period_s = 0.0;  ///< T, > 0

@@ -25,8 +25,10 @@ class Pid {
     double kd = 0.0;
     double u_min = 0.0;  ///< < u_max
     double u_max = 0.0;
+    friend bool operator==(const Config&, const Config&) = default;
   };
 
+  /// What is remembered between two samples.
   struct State {
     double output = 0.0;        ///< u[k-1]
     double last_error = 0.0;    ///< e[k-1]

@@ -28,6 +28,7 @@ class PositionalPid {
     double period_s = 0.0;      ///< T, > 0
   };
 
+  /// What is remembered between two samples.
   struct State {
     double integral = 0.0;  ///< i[k-1]
     double last_error = 0.0;

@@ -17,6 +17,7 @@ namespace armature::control {
 /// uses it.
 class ReferenceBrake {
  public:
+  /// How hard the references may brake.
   struct Config {
     std::size_t joints = 0;                ///< >= 1
     std::vector<double> max_acceleration;  ///< > 0, one for each joint or one for all

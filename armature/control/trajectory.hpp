@@ -59,10 +59,12 @@ class Trajectory {
     double lower = -std::numeric_limits<double>::infinity();  ///< < upper
     double upper = std::numeric_limits<double>::infinity();
   };
+  /// The axes that move together.
   struct Config {
     std::vector<Axis> axes;  ///< at least one
   };
 
+  /// Whether a motion was accepted, and if not, why.
   struct [[nodiscard]] Answer {
     Refusal refusal = Refusal::kNone;
     std::size_t axis = kNoAxis;  ///< the first one it is about, if it is about one

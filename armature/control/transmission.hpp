@@ -21,6 +21,7 @@ namespace armature::control {
 /// where motors turn many times for one turn of a joint.
 class Transmission {
  public:
+  /// How the motors drive the joints.
   struct Config {
     /// Turns of each motor for one of each joint: a row for each motor; or the diagonal alone.
     std::vector<double> turns;

@@ -14,14 +14,15 @@
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
-#include "armature/deploy/property_value.hpp"
+#include "armature/document/property_value.hpp"
+#include "armature/document/value_tree.hpp"
+#include "armature/orocos/property_file.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
-namespace {
 
-using internal::in_quotes;
+using namespace document;
+namespace {
 
 using ComponentsByName = std::unordered_map<std::string_view, const component::Component*>;
 
@@ -43,7 +44,7 @@ void check_saved_files(const Document& document, base::Diagnostics& diagnostics)
     if (first) continue;
     diagnostics.error(file.where,
                       in_quotes(component.name) + " and " + in_quotes(owner->second->name) +
-                          " both save their properties to " + internal::path_in_quotes(file.path),
+                          " both save their properties to " + path_in_quotes(file.path),
                       "give each its own file");
   }
 }
@@ -269,7 +270,7 @@ void save_properties(const Document& document, const exec::Blueprint& blueprint,
     if (!saves || found == made.end()) continue;
     const PropertyFile& file = component.property_files.back();
     const base::Result<void> written = platform::write_file(
-        path_from(document, file.path), write_cpf(persistent_properties(*found->second)));
+        path_from(document, file.path), orocos::write_cpf(persistent_properties(*found->second)));
     if (written) continue;
     diagnostics.error(file.where, "the properties of " + in_quotes(component.name) +
                                       " were not saved: " + written.error());

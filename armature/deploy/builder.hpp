@@ -3,8 +3,8 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/registry.hpp"
-#include "armature/deploy/document.hpp"
-#include "armature/deploy/document_files.hpp"
+#include "armature/deploy/load.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/blueprint.hpp"
 
@@ -13,13 +13,14 @@ namespace armature::deploy {
 /// Makes what stands for a component of another process.
 /// @param prototype  a component of its model with the properties that the document gives
 using MakePlaceholder = std::function<base::Result<std::unique_ptr<component::Component>>(
-    const Component& written, std::unique_ptr<component::Component> prototype)>;
+    const document::Component& written, std::unique_ptr<component::Component> prototype)>;
 
 /// Makes the component `kNetworkName`, which writes `inputs`; each of its outputs is called
 /// `component.port`.
 using MakeInlets = std::function<base::Result<std::unique_ptr<component::Component>>(
     const std::vector<component::InputPortBase*>& inputs)>;
 
+/// What a build needs beside the document.
 struct BuildOptions {
   FileReader read;              ///< of property files; empty: from disk
   bool models_missing = false;  ///< a library could not be loaded, so unknown models may be its own
@@ -31,15 +32,16 @@ struct BuildOptions {
 /// property files first, and writes down activities, peers, bindings and connections. Mistakes are
 /// added to `diagnostics` at their places; what has one is left out in a way that lets the checks
 /// of `exec::make_plan` go on with the rest.
-exec::Blueprint build_blueprint(const Document& document, const component::Registry& registry,
-                                const BuildOptions& options, base::Diagnostics& diagnostics);
+exec::Blueprint build_blueprint(const document::Document& document,
+                                const component::Registry& registry, const BuildOptions& options,
+                                base::Diagnostics& diagnostics);
 
 /// What the document says about running the application as a whole.
-exec::ApplicationOptions application_options(const Document& document);
+exec::ApplicationOptions application_options(const document::Document& document);
 
 /// Writes the persistent properties of each component with `autosave` to its last property file.
 /// To be called after the application stopped, or before it started.
-void save_properties(const Document& document, const exec::Blueprint& blueprint,
+void save_properties(const document::Document& document, const exec::Blueprint& blueprint,
                      base::Diagnostics& diagnostics);
 
 }  // namespace armature::deploy

@@ -10,13 +10,16 @@
 #include "armature/component/author.hpp"
 #include "armature/component/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
-#include "armature/deploy/internal/model_mistakes.hpp"
 #include "armature/deploy/internal/overrides.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
-#include "armature/deploy/property_value.hpp"
+#include "armature/document/property_value.hpp"
+#include "armature/document/value_tree.hpp"
+#include "armature/inspect/model_mistakes.hpp"
+#include "armature/orocos/property_file.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
 /// A priority alone asks for real time.
@@ -178,7 +181,7 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
 void ComponentBuilder::report_units(const Component& written,
                                     const component::Registry::Model& model,
                                     const component::Component& component) {
-  for (std::string& mistake : mistakes_of_model(component, model)) {
+  for (std::string& mistake : inspect::mistakes_of_model(component, model)) {
     diagnostics_.error(written.model_where, std::move(mistake));
   }
 }
@@ -228,7 +231,7 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
     missing += (missing.empty() ? "" : ", ") + std::string(property->name());
   }
   if (!missing.empty()) {
-    diagnostics_.error(file.where, "property file " + internal::path_in_quotes(file.path) + " of " +
+    diagnostics_.error(file.where, "property file " + path_in_quotes(file.path) + " of " +
                                        in_quotes(written.name) + " must be complete, but lacks " +
                                        missing);
   }
@@ -265,8 +268,8 @@ const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bo
   std::error_code ignored;
   const bool from_disk = options_.read == nullptr;
   if (from_disk && may_be_missing && !std::filesystem::exists(path, ignored)) {
-    diagnostics_.note(file.where, "there is no " + internal::path_in_quotes(path) +
-                                      " yet; it is written at stop");
+    diagnostics_.note(file.where,
+                      "there is no " + path_in_quotes(path) + " yet; it is written at stop");
     return nullptr;
   }
   const base::Result<std::string> text =
@@ -275,7 +278,8 @@ const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bo
     diagnostics_.error(file.where, text.error());
     return nullptr;
   }
-  content = std::make_unique<std::vector<Property>>(parse_cpf(text.value(), path, diagnostics_));
+  content =
+      std::make_unique<std::vector<Property>>(orocos::parse_cpf(text.value(), path, diagnostics_));
   return content.get();
 }
 

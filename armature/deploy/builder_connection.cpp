@@ -4,9 +4,11 @@
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
 std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }

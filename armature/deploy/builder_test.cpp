@@ -11,6 +11,8 @@
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
 using ::testing::AllOf;

@@ -13,12 +13,14 @@
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
-ExecutionTimes read_times(const std::string& file, base::Diagnostics& diagnostics) {
+analysis::ExecutionTimes read_times(const std::string& file, base::Diagnostics& diagnostics) {
   if (file.empty()) return {};
   const base::Result<std::string> text = platform::read_file(file);
-  if (text) return parse_times(text.value(), file, diagnostics);
+  if (text) return analysis::parse_times(text.value(), file, diagnostics);
   diagnostics.error({}, text.error());
   return {};
 }
@@ -95,13 +97,13 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
   if (diagnostics.ok() && deployment.blueprint.components.empty()) {
     diagnostics.error({document.file, 0, 0}, "the file has no components");
   }
-  const ExecutionTimes times = read_times(options.times_file, diagnostics);
+  const analysis::ExecutionTimes times = read_times(options.times_file, diagnostics);
   refuse_grants_on_hardware(deployment);
   if (!diagnostics.ok()) return;
   warn_of_idle_components(deployment, diagnostics);
   check_threads(deployment, diagnostics);
-  deployment.schedule =
-      check_schedule(deployment.blueprint, deployment.plan, times, cpus_of(options), diagnostics);
+  deployment.schedule = analysis::check_schedule(deployment.blueprint, deployment.plan, times,
+                                                 cpus_of(options), diagnostics);
 }
 
 }  // namespace

@@ -6,18 +6,19 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/analysis/schedule.hpp"
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/registry.hpp"
 #include "armature/deploy/builder.hpp"
-#include "armature/deploy/document.hpp"
-#include "armature/deploy/document_files.hpp"
-#include "armature/deploy/schedule.hpp"
+#include "armature/deploy/load.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/plan.hpp"
 
 namespace armature::deploy {
 
+/// What loading a deployment needs beside its file.
 struct DeploymentOptions {
   LoadOptions document;                      ///< overrides of the command line, how files are read
   std::vector<std::string> library_folders;  ///< looked through before all others
@@ -32,12 +33,12 @@ struct DeploymentOptions {
 /// An application as its files describe it, loaded and checked; nothing of it has moved. Run it
 /// with `exec::Application(std::move(d.blueprint), d.options)` if it is ok.
 struct Deployment {
-  Document document;
+  document::Document document;
   component::Registry models;
   exec::Blueprint blueprint;
   exec::ApplicationOptions options;  ///< what the document says; the rest is the caller's
   exec::Plan plan;                   ///< threads and order of execution, if it is ok
-  Schedule schedule;                 ///< the load, if it is ok
+  analysis::Schedule schedule;       ///< the load, if it is ok
   base::Diagnostics diagnostics;
 
   bool ok() const { return diagnostics.ok(); }

@@ -12,6 +12,8 @@
 #include "armature/deploy/internal/test_models.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
 using namespace std::chrono_literals;

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/internal/document_in_memory.hpp"
+#include "armature/orocos/property_file.hpp"
 
 namespace armature::deploy {
+
+using namespace orocos;
+
+using namespace document;
 namespace {
 
 std::string messages(const std::string& text, const Limits& limits, const char* name = "a.yaml") {

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/internal/document_in_memory.hpp"
+#include "armature/orocos/deployer_file.hpp"
 
 namespace armature::deploy {
+
+using namespace orocos;
+
+using namespace document;
 namespace {
 
 using internal::load_xml;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 
 #include <gtest/gtest.h>
 
 #include "armature/deploy/internal/document_in_memory.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
 using internal::load_yaml;

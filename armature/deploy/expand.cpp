@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
-#include "armature/deploy/internal/xml_types.hpp"
+#include "armature/document/typed_text.hpp"
+#include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
 constexpr std::size_t kLongestText = 1u << 20;

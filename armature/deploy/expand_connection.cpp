@@ -5,10 +5,12 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/deploy/internal/expand_document.hpp"
-#include "armature/deploy/internal/fields.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/fields.hpp"
+#include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
 constexpr std::array<std::string_view, 2> kEnds = {"from", "to"};

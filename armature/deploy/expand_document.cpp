@@ -6,49 +6,21 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
-#include "armature/deploy/internal/document_head.hpp"
-#include "armature/deploy/internal/document_reader.hpp"
+#include "armature/deploy/internal/changes.hpp"
 #include "armature/deploy/internal/expand_names.hpp"
-#include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/fields.hpp"
+#include "armature/document/head.hpp"
+#include "armature/document/reader.hpp"
+#include "armature/document/value_tree.hpp"
 #include "armature/exec/modes.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
-constexpr const char* kOverride = "override";
 constexpr const char* kModesName = exec::kModesName;
-
-bool is_override(const Value& body) {
-  const Property* mark = find(body.entries, kOverride);
-  return mark != nullptr && mark->value.text == "true";
-}
-
-/// `change` over `base`: properties and bindings one by one, all other keys as a whole.
-void merge_override(Value& base, const Value& change) {
-  for (const Property& entry : change.entries) {
-    if (entry.name == kOverride) continue;
-    Property* same = find(base.entries, entry.name);
-    const bool by_name = entry.name == "properties" || entry.name == "bind";
-    const bool both_maps = same != nullptr && same->value.kind == Value::Kind::kMap &&
-                           entry.value.kind == Value::Kind::kMap;
-    if (same == nullptr) {
-      base.entries.push_back(entry);
-    } else if (by_name && both_maps) {
-      merge_override(same->value, entry.value);
-    } else {
-      same->value = entry.value;
-    }
-  }
-}
-
-/// What changes a component that is written elsewhere.
-struct Change {
-  Value body;
-  base::Location where;
-  bool exported;  ///< by a value for a property that a composite exports
-};
 
 /// One text in which components stand beside each other: the application's or a composite's.
 struct Level {
@@ -56,7 +28,7 @@ struct Level {
   const Value* connections;
   std::string instance;  ///< full name of the composite, empty for the application
   Scope scope;
-  std::map<std::string, std::vector<Change>> changes = {};  ///< by name in this text
+  ChangesByName changes = {};
 };
 
 class DocumentBuilder {
@@ -85,6 +57,7 @@ class DocumentBuilder {
     read_head(expander_.expand(head_of(tree_), level.scope, diagnostics_), document_, diagnostics_);
     add_level(level);
     if (expander_.exhausted()) return nothing_of(std::move(document_));
+    removals_.apply(document_, scopes_, diagnostics_);
     resolve_names(document_, scopes_, names_, diagnostics_);
     check_connections(document_, diagnostics_);
     rebase_paths(document_);
@@ -138,10 +111,10 @@ class DocumentBuilder {
     RangesByPattern ranges;
     if (level.components != nullptr) {
       for (const Property& entry : level.components->entries) {
-        if (is_override(entry.value)) for_each_instance(entry, level, nullptr, true);
+        if (is_change(entry.value)) for_each_instance(entry, level, nullptr, true);
       }
       for (const Property& entry : level.components->entries) {
-        if (!is_override(entry.value)) for_each_instance(entry, level, &ranges, false);
+        if (!is_change(entry.value)) for_each_instance(entry, level, &ranges, false);
       }
       refuse_unused_changes(level);
     }
@@ -192,6 +165,7 @@ class DocumentBuilder {
     const std::size_t causes = found.all().size();
     const std::string full = level.instance.empty() ? name : level.instance + "." + name;
     if (overrides) {
+      check_change(name, body, found);
       level.changes[name].push_back({std::move(body), entry.where, false});
     } else if (!is_dotted_name(name)) {
       found.error(entry.where, "component " + in_quotes(name) + ": this is not a name",
@@ -200,21 +174,24 @@ class DocumentBuilder {
       found.error(entry.where,
                   "the name " + in_quotes(full) + " is that of the component that switches modes",
                   "give the component another name");
+    } else if (take_removal(level.changes, name)) {
+      removals_.add_component(level.instance, name);
     } else if (!names_.add(full, level.instance, entry.where)) {
       found.error(entry.where, "component " + in_quotes(full) + " is given twice",
                   "first at " + place_text(names_.place_of(full)) +
-                      "; to change that one write override: true");
+                      "; to change that one write override: true, to leave it out remove: true");
     } else {
-      apply_changes(level, name, body);
+      apply_changes(level, name, body, found);
       add_named(full, entry.where, body, level, found);
     }
     reports_.add(found, causes);
   }
 
-  static void apply_changes(Level& level, const std::string& name, Value& body) {
+  static void apply_changes(Level& level, const std::string& name, Value& body,
+                            base::Diagnostics& found) {
     const auto changes = level.changes.find(name);
     if (changes == level.changes.end()) return;
-    for (const Change& change : changes->second) merge_override(body, change.body);
+    for (const Change& change : changes->second) apply_change(body, change.body, found);
     level.changes.erase(changes);
   }
 
@@ -223,7 +200,9 @@ class DocumentBuilder {
     for (const auto& [name, changes] : level.changes) {
       if (changes.front().exported) continue;  // its export is refused
       found.error(changes.front().where,
-                  "component " + in_quotes(name) + " is to be overridden but is not there");
+                  "component " + in_quotes(name) + " is to be " +
+                      (is_removal(changes.front().body) ? "removed" : "overridden") +
+                      " but is not there");
     }
     reports_.add(found);
   }
@@ -355,7 +334,8 @@ class DocumentBuilder {
     }
   }
 
-  void add_connection(const Value& map, const Level& level, base::Diagnostics& found) {
+  void add_connection(Value map, const Level& level, base::Diagnostics& found) {
+    if (is_removal(map)) return remove_connection(std::move(map), level, found);
     auto connection = read_connection(map, found);
     if (!connection) return;
     if (auto* directed = std::get_if<Connection>(&*connection)) {
@@ -364,6 +344,23 @@ class DocumentBuilder {
     } else {
       document_.named_connections.push_back(std::get<NamedConnection>(std::move(*connection)));
       scopes_.named_connections.push_back(level.instance);
+    }
+  }
+
+  /// By its two ends, or by its name.
+  void remove_connection(Value map, const Level& level, base::Diagnostics& found) {
+    std::erase_if(map.entries, [](const Property& entry) { return entry.name == "remove"; });
+    if (const Property* name = find(map.entries, "name");
+        name != nullptr && map.entries.size() == 1) {
+      removals_.add_named(level.instance, {name->value.text, map.where});
+      return;
+    }
+    auto connection = read_connection(map, found);
+    if (!connection) return;
+    if (auto* directed = std::get_if<Connection>(&*connection)) {
+      removals_.add_connection(level.instance, std::move(*directed));
+    } else {
+      found.error(map.where, "a connection that is removed needs its name alone, or from and to");
     }
   }
 
@@ -376,6 +373,7 @@ class DocumentBuilder {
   Document document_;
   NameTable names_;
   Scopes scopes_;
+  Removals removals_;
   std::unordered_map<std::string, const Property*> composites_;
   std::vector<std::string> entered_;
 };

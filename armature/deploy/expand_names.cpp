@@ -7,11 +7,13 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
-#include "armature/deploy/internal/fields.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/fields.hpp"
+#include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 namespace {
 
 std::string inside(std::string_view scope, const std::string& name) {

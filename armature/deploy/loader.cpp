@@ -10,14 +10,14 @@
 #include <system_error>
 
 #include "armature/base/near_name.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/value_tree.hpp"
 #include "armature/platform/shared_object.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
-using internal::in_quotes;
-using internal::path_in_quotes;
 namespace fs = std::filesystem;
 
 constexpr const char* kPathVariable = "ARMATURE_LIBRARY_PATH";

@@ -8,7 +8,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
 #include "armature/component/registry.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 
 namespace armature::deploy {
 
@@ -35,7 +35,7 @@ base::Result<void> load_library(const std::string& file, component::Registry& re
 /// Finds and loads libraries; each that fails is reported at its place. One that is named twice is
 /// loaded once.
 /// @return false if any failed
-bool load_libraries(const std::vector<Reference>& libraries,
+bool load_libraries(const std::vector<document::Reference>& libraries,
                     const std::vector<std::string>& folders, component::Registry& registry,
                     base::Diagnostics& diagnostics);
 

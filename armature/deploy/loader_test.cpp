@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
 using ::testing::AllOf;

@@ -8,9 +8,13 @@
 
 #include "armature/component/author.hpp"
 #include "armature/deploy/deployment.hpp"
-#include "armature/deploy/model_catalogue.hpp"
+#include "armature/inspect/model_catalogue.hpp"
 
 namespace armature::deploy {
+
+using namespace inspect;
+
+using namespace document;
 namespace {
 
 using component::Component;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/deploy/property_value.hpp"
+#include "armature/document/property_value.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,14 @@
 
 #include "armature/base/fixed_text.hpp"
 #include "armature/component/property.hpp"
-#include "armature/deploy/document_files.hpp"
+#include "armature/deploy/load.hpp"
+#include "armature/orocos/property_file.hpp"
 #include "armature/types/enum.hpp"
 #include "armature/types/struct.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 
 struct Gains {
   double kp = 0.0;
@@ -199,8 +202,8 @@ template <typename T>
 void expect_round_trip(const T& value) {
   base::Diagnostics diagnostics;
   const Value text = write_value(types::type_of<T>(), &value);
-  const std::string file = write_cpf({{"P", text, "doc", {}}});
-  const std::vector<Property> properties = parse_cpf(file, "test.cpf", diagnostics);
+  const std::string file = orocos::write_cpf({{"P", text, "doc", {}}});
+  const std::vector<Property> properties = orocos::parse_cpf(file, "test.cpf", diagnostics);
   ASSERT_EQ(properties.size(), 1u) << file;
   const auto back =
       make_value(properties[0].value, types::type_of<T>(), {}, "property 'P'", diagnostics);

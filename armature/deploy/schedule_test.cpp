@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/deploy/schedule.hpp"
+#include "armature/analysis/schedule.hpp"
 
 #include <string>
 
@@ -10,6 +10,10 @@
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
+
+using namespace analysis;
+
+using namespace document;
 namespace {
 
 using ::testing::AllOf;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/deploy/wiring_graph.hpp"
+#include "armature/analysis/wiring_graph.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,10 +8,14 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
+#include "armature/analysis/wiring_layout.hpp"
 #include "armature/deploy/internal/test_models.hpp"
-#include "armature/deploy/internal/wiring_layout.hpp"
 
 namespace armature::deploy {
+
+using namespace analysis;
+
+using namespace document;
 namespace {
 
 using test::deploy;
@@ -82,7 +86,7 @@ TEST(WiringGraph, SvgIsXmlWithATitleForEachEdge) {
                           "peer: Joint.read() → Card, peer", "peer: Sink → Source, peer"));
 }
 
-bool overlap(const internal::Box& a, const internal::Box& b) {
+bool overlap(const Box& a, const Box& b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
@@ -106,11 +110,11 @@ connections:
 
 TEST(WiringLayout, BoxesLieInTheirLanesAndNotOnEachOther) {
   const Deployment deployment = robot();
-  const internal::Wiring wiring = internal::make_wiring(deployment.blueprint, deployment.plan);
-  const internal::WiringLayout layout = internal::place(wiring);
+  const Wiring wiring = make_wiring(deployment.blueprint, deployment.plan);
+  const WiringLayout layout = place(wiring);
   for (std::size_t i = 0; i < layout.boxes.size(); ++i) {
-    const internal::Box& box = layout.boxes[i];
-    const internal::Lane& lane = layout.lanes[wiring.nodes[i].thread];
+    const Box& box = layout.boxes[i];
+    const Lane& lane = layout.lanes[wiring.nodes[i].thread];
     EXPECT_GE(box.y, lane.y) << wiring.nodes[i].name;
     EXPECT_LE(box.y + box.height, lane.y + lane.height) << wiring.nodes[i].name;
     EXPECT_LE(box.x + box.width, layout.width) << wiring.nodes[i].name;
@@ -124,10 +128,10 @@ TEST(WiringLayout, BoxesLieInTheirLanesAndNotOnEachOther) {
 
 TEST(WiringLayout, DataFlowsToTheRight) {
   const Deployment deployment = robot();
-  const internal::Wiring wiring = internal::make_wiring(deployment.blueprint, deployment.plan);
-  const internal::WiringLayout layout = internal::place(wiring);
+  const Wiring wiring = make_wiring(deployment.blueprint, deployment.plan);
+  const WiringLayout layout = place(wiring);
   for (std::size_t e = 0; e < wiring.edges.size(); ++e) {
-    const internal::Way& way = layout.ways[e];
+    const Way& way = layout.ways[e];
     EXPECT_FALSE(way.backward);
     EXPECT_LT(way.points.front().x, way.points.back().x);
     EXPECT_EQ(way.points.size() % 2, 0u);
@@ -146,8 +150,7 @@ connections:
   - {from: C.Out, to: A.In, delay: one_cycle}
 )");
   ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();
-  const internal::WiringLayout layout =
-      internal::place(internal::make_wiring(deployment.blueprint, deployment.plan));
+  const WiringLayout layout = place(make_wiring(deployment.blueprint, deployment.plan));
   EXPECT_FALSE(layout.ways[0].backward);
   EXPECT_FALSE(layout.ways[1].backward);
   ASSERT_TRUE(layout.ways[2].backward);

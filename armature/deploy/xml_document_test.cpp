@@ -4,6 +4,8 @@
 #include "armature/deploy/internal/document_in_memory.hpp"
 
 namespace armature::deploy {
+
+using namespace document;
 namespace {
 
 using internal::load_xml;

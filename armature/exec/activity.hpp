@@ -22,11 +22,13 @@ ARMATURE_ENUM(Overrun, kSkip, kCatchUp, kFault);
 
 /// How a component is executed; the deployment's choice alone.
 struct Activity {
+  /// What makes a component run.
   enum class Kind : std::uint8_t {
     kPeriodic,    ///< own thread, runs at fixed times
     kTriggered,   ///< own thread, runs when something arrives
     kSequential,  ///< no thread: runs in the thread of whoever triggers it
   };
+  /// Which scheduling policy of the system its thread asks for.
   enum class Scheduler : std::uint8_t { kOther, kRealtime, kDeadline };
 
   Kind kind = Kind::kSequential;

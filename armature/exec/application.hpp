@@ -44,12 +44,14 @@ class StartGate;
 
 class Modes;
 
+/// How much of the real-time means of the system an application asks for.
 enum class RealtimeMode : std::uint8_t {
   kOff,      ///< asks for nothing
   kPrefer,   ///< asks, and goes on with what it gets
   kRequire,  ///< refuses to start without all of it
 };
 
+/// What a fault of one component means for the application.
 enum class OnFault : std::uint8_t {
   kStopDependents,  ///< what depends on the faulted component stops, the rest goes on
   kStopAll,         ///< everything stops in order
@@ -79,6 +81,7 @@ struct CommandName {
   std::string command;
 };
 
+/// How an application runs.
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
@@ -126,6 +129,7 @@ enum class RunEnd : std::uint8_t {
   kConditionMet
 };
 
+/// What a thread did since its start.
 struct ThreadStatistics {
   std::string name;
   std::uint64_t cycles_run;

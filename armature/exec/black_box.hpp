@@ -15,17 +15,20 @@ namespace armature::exec {
 
 /// The last seconds before a fault.
 struct BlackBoxReport {
+  /// What the samples of one port or event are.
   struct Channel {
     std::string name;    ///< such as `PID1.Out`; of an event how often it was raised
     types::Value shape;  ///< of the samples' type
     std::string unit;
     std::string doc;
   };
+  /// What a port held, or how often an event was raised, after a cycle.
   struct Sample {
     std::size_t channel = 0;
     base::Time time{};             ///< of the cycle after which it was so
     std::vector<std::byte> value;  ///< as types::encode has it
   };
+  /// Something rare that happened: a transition, a fault, a command.
   struct Happening {
     base::Time time{};
     std::string component;
@@ -42,6 +45,7 @@ struct BlackBoxReport {
   std::vector<Happening> happenings;  ///< likewise
 };
 
+/// How much the black box keeps, and who writes it.
 struct BlackBoxOptions {
   /// Writes a report; called by the controlling thread soon after a fault, and says what became of
   /// it. Empty: nothing is kept.

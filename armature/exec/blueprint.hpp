@@ -15,6 +15,7 @@
 
 namespace armature::exec {
 
+/// A peer by its name.
 struct PeerEntry {
   std::string name;
   base::Location where;
@@ -28,6 +29,7 @@ struct BindingEntry {
   base::Location where;
 };
 
+/// A component and how it runs.
 struct ComponentEntry {
   std::unique_ptr<component::Component> component;
   std::string model;
@@ -39,6 +41,7 @@ struct ComponentEntry {
   bool autoconfigure = true;  ///< false: it is configured only then, too
 };
 
+/// A connection by the names of its ends.
 struct ConnectionEntry {
   std::string from_component;
   std::string from_port;
@@ -50,6 +53,7 @@ struct ConnectionEntry {
   base::Location where;
 };
 
+/// A component that belongs to a mode, by its name.
 struct ModeMember {
   std::string component;
   base::Location where;

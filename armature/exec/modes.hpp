@@ -36,6 +36,7 @@ class Modes final : public component::Component {
     std::vector<component::Component*> leaving;  ///< in the order of their stop
     std::vector<Succession> successions;
   };
+  /// A mode and how it is left.
   struct Mode {
     ModeName name;
     std::vector<component::Component*> members;  ///< that not all modes have, in the order of start

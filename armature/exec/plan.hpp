@@ -19,6 +19,7 @@ namespace armature::exec {
 using Index = std::size_t;
 inline constexpr Index kNone = static_cast<Index>(-1);
 
+/// A connection with its ends found.
 struct ConnectionPlan {
   Index from;
   Index to;
@@ -32,6 +33,7 @@ struct ConnectionPlan {
   bool reacts;    ///< the entry declares an age or what happens to the reader of a lost writer
 };
 
+/// An event and a handler of it.
 struct SubscriptionPlan {
   Index from;
   Index to;
@@ -39,6 +41,7 @@ struct SubscriptionPlan {
   component::EventHandlerBase* handler;
 };
 
+/// A caller of an operation and the operation.
 struct CallPlan {
   Index caller;
   Index callee;

@@ -13,6 +13,7 @@ namespace armature::exec {
 /// Something that a thread did, from begin to end. The slices of a thread come in the order of
 /// their time, each stretch before its steps.
 struct TimelineSlice {
+  /// What a slice is.
   enum class Kind : std::uint8_t {
     kCycle,     ///< a stretch: one cycle
     kMessages,  ///< a stretch: what was sent to the thread between two cycles

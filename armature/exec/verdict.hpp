@@ -8,6 +8,7 @@ namespace armature::exec {
 
 /// What was asked of the operating system and what was granted, before anything moves.
 struct Verdict {
+  /// What one thread, or the process as a whole, asked for and got.
   struct Line {
     std::string subject;  ///< a thread's name, or `memory`, `kernel`
     std::string requested;

@@ -45,6 +45,7 @@ std::string problem_of(const Orders& orders);
 /// It ends when this object does, and acts if the process ends without that.
 class Guardian {
  public:
+  /// How the guardian stands.
   enum class Finding {
     kGood,
     kActed,  ///< it has switched the drives off, as it saw no cycle

@@ -31,6 +31,7 @@ struct CanSocketFilter {
   std::uint32_t mask = 0;
 };
 
+/// Which interface is opened, and how.
 struct CanSocketRequest {
   std::string interface;                   ///< such as can0
   std::vector<CanSocketFilter> filters{};  ///< none: all frames pass
@@ -43,10 +44,14 @@ struct CanSocketRequest {
 /// stamps. One thread may send while another receives and a third waits.
 class CanSocket {
  public:
+  /// What became of a frame that was to be sent.
   enum class Sent { kYes, kQueueFull, kDown };
+  /// What a look for the next frame found.
   enum class Received { kYes, kNothing, kDown };
+  /// The state of the CAN controller.
   enum class Controller { kActive, kPassive, kBusOff };
 
+  /// A frame and when it came in.
   struct Arrival {
     CanSocketFrame frame;
     base::Time time{};  ///< on the monotonic clock; never before that of the frame before

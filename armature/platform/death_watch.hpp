@@ -14,6 +14,7 @@ namespace armature::platform {
 
 /// What ends the process from within one of its threads, which stands still from then on.
 struct Death {
+  /// By a signal, or by a call of `exit`.
   enum class Kind { kSignal, kExit };
   static constexpr std::size_t kMostFrames = 48;
 

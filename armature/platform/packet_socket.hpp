@@ -14,6 +14,7 @@ namespace armature::platform {
 
 /// What became of a packet that was to be sent to another process.
 enum class PacketSent { kYes, kFull, kGone };
+/// What a look for the next packet found; kGone: the other end has closed.
 enum class PacketReceived { kYes, kNothing, kGone };
 
 /// One end of a connection to a process of this machine, which keeps packets whole and in their

@@ -24,6 +24,7 @@ class Symbols {
   /// Of the process as it is now.
   Symbols();
 
+  /// A function by name and by place.
   struct Function {
     std::string name;   ///< as people write it; empty if the file does not say
     std::string place;  ///< file and offset: `libmotion.so+0x1a2b`, as addr2line takes it

@@ -11,6 +11,7 @@
 
 namespace armature::platform {
 
+/// Scheduling policies of the system: SCHED_OTHER, SCHED_FIFO, SCHED_DEADLINE.
 enum class Scheduler { kOther, kFifo, kDeadline };
 
 /// What a thread asks of the operating system.

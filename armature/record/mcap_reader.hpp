@@ -24,6 +24,7 @@ struct RecordedChannel {
   friend bool operator==(const RecordedChannel&, const RecordedChannel&) = default;
 };
 
+/// A sample as it was read, with its value as JSON.
 struct RecordedSample {
   ChannelId channel = 0;  ///< index into the channels
   base::Time time{};

@@ -23,6 +23,7 @@ namespace armature::record {
 /// compressed. Channels may be added at any time.
 class McapWriter final : public Writer {
  public:
+  /// How the file is written.
   struct Options {
     std::size_t chunk_size = 1u << 20;  ///< bytes of messages that are written at once
   };

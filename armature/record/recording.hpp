@@ -23,6 +23,7 @@ struct Channel {
 /// Counts from 0 in the order of `add_channel`.
 using ChannelId = std::uint16_t;
 
+/// One value of a channel.
 struct Sample {
   ChannelId channel = 0;
   base::Time time{};

@@ -73,6 +73,7 @@ class PortFeed final : public Feed {
   PortFeed(component::OutputPortBase& port, RunInThread run);
   ~PortFeed() override;
 
+  /// The value that the port holds now.
   struct Present {
     types::Value value;
     std::uint64_t sequence;  ///< 0: nothing was written yet

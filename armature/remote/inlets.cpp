@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 
 namespace armature::remote {
 namespace {
@@ -16,7 +16,7 @@ std::string path_of(const component::InputPortBase& input) {
 }  // namespace
 
 Inlets::Inlets(const std::vector<component::InputPortBase*>& inputs)
-    : Component(deploy::kNetworkName) {
+    : Component(document::kNetworkName) {
   for (const component::InputPortBase* const input : inputs) {
     inlets_.push_back({input, input->make_writer(*this, path_of(*input))});
   }

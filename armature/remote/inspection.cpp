@@ -12,12 +12,14 @@
 #include "armature/base/seconds.hpp"
 #include "armature/component/author.hpp"
 #include "armature/exec/modes.hpp"
+#include "armature/inspect/items.hpp"
 #include "armature/platform/clock.hpp"
-#include "armature/remote/items.hpp"
 #include "armature/types/elements.hpp"
 #include "inspection_types.hpp"
 
 namespace armature::remote {
+
+using namespace inspect;
 namespace {
 
 using component::Component;

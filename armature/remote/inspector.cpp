@@ -9,14 +9,16 @@
 
 #include "armature/base/unit.hpp"
 #include "armature/component/author.hpp"
+#include "armature/inspect/items.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/remote/inspection.hpp"
 #include "armature/remote/internal/begun_commands.hpp"
-#include "armature/remote/items.hpp"
 #include "armature/types/elements.hpp"
 #include "inspection_service.hpp"
 
 namespace armature::remote {
+
+using namespace inspect;
 namespace {
 
 using component::Component;

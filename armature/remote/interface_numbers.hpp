@@ -12,6 +12,7 @@ namespace armature::remote {
 
 /// What a number on the wire stands for.
 struct NumberedMember {
+  /// Which kind of member it is.
   enum class Kind : std::uint8_t {
     kOperation,
     kCommand,   ///< begins it; the answer to a request comes when it has ended

@@ -57,7 +57,8 @@ class RideNetwork final : public Network {
   ~RideNetwork() override { RideNetwork::leave(); }
 
   base::Result<std::unique_ptr<component::Component>> make_placeholder(
-      const deploy::Component& written, std::unique_ptr<component::Component> prototype) override {
+      const document::Component& written,
+      std::unique_ptr<component::Component> prototype) override {
     auto remote = parse_remote(written.remote.name);
     if (!remote) return base::Error{remote.error()};
     const RemoteAddress& there = remote.value();
@@ -73,11 +74,11 @@ class RideNetwork final : public Network {
     return inlets;
   }
 
-  void check(const deploy::Document& document, base::Diagnostics& diagnostics) override {
+  void check(const document::Document& document, base::Diagnostics& diagnostics) override {
     ride::NodeOptions options;
     set_transports(document, options, diagnostics);
     set_policy(document, options, diagnostics);
-    for (const deploy::Reference& each : document.network.listen) {
+    for (const document::Reference& each : document.network.listen) {
       const auto address = ride::Address::parse(each.name);
       if (!address) {
         diagnostics.error(each.where, address.error());
@@ -90,7 +91,7 @@ class RideNetwork final : public Network {
     }
   }
 
-  void open(const deploy::Document& document, const std::vector<std::string>& listen,
+  void open(const document::Document& document, const std::vector<std::string>& listen,
             exec::Application& application, base::Diagnostics& diagnostics) override {
     application_ = &application;
     ride::NodeOptions options;
@@ -106,7 +107,7 @@ class RideNetwork final : public Network {
     if (found.ok()) {
       node_ = std::make_unique<ride::Node>(std::move(options));
       if (!listen.empty() || !document.network.listen.empty()) host(application, found);
-      for (const deploy::Reference& each : document.network.listen) {
+      for (const document::Reference& each : document.network.listen) {
         listen_at(each.name, each.where, found);
       }
       for (const std::string& each : listen) listen_at(each, {}, found);
@@ -175,12 +176,12 @@ class RideNetwork final : public Network {
     return *node_;
   }
 
-  void set_transports(const deploy::Document& document, ride::NodeOptions& options,
+  void set_transports(const document::Document& document, ride::NodeOptions& options,
                       base::Diagnostics& diagnostics) {
-    deploy::Network network = document.network;
+    document::Network network = document.network;
     if (network.certificate.name.empty()) return;
-    for (deploy::Reference* file : {&network.certificate, &network.key, &network.authority}) {
-      file->name = deploy::path_from(document, file->name);
+    for (document::Reference* file : {&network.certificate, &network.key, &network.authority}) {
+      file->name = document::path_from(document, file->name);
     }
     if (auto transport = options_.tls(network, diagnostics)) {
       options.transports.push_back(std::move(transport));
@@ -188,9 +189,9 @@ class RideNetwork final : public Network {
   }
 
   /// Without a policy whoever reaches the node may look, and do nothing.
-  static void set_policy(const deploy::Document& document, ride::NodeOptions& options,
+  static void set_policy(const document::Document& document, ride::NodeOptions& options,
                          base::Diagnostics& diagnostics) {
-    const deploy::Reference& file = document.network.policy;
+    const document::Reference& file = document.network.policy;
     if (file.name.empty()) {
       options.allows = [](const ride::AccessQuestion& question) {
         return question.access == ride::Access::kRead;
@@ -198,9 +199,9 @@ class RideNetwork final : public Network {
       return;
     }
     const ride::Policy policy =
-        ride::Policy::load(deploy::path_from(document, file.name), diagnostics);
+        ride::Policy::load(document::path_from(document, file.name), diagnostics);
     std::vector<std::string> names{Inspector::kName};
-    for (const deploy::Component& each : document.components) names.push_back(each.name);
+    for (const document::Component& each : document.components) names.push_back(each.name);
     policy.check(names, diagnostics);
     options.allows = [policy](const ride::AccessQuestion& question) {
       return policy.allows(question);

@@ -8,16 +8,17 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/ride/transport.hpp"
 #include "armature/rt/log.hpp"
 
 namespace armature::remote {
 
+/// What a process's part in the network needs beside the deployment.
 struct NetworkOptions {
   /// Makes the transport for `tls://`; what is wrong is added to the diagnostics.
-  std::function<std::shared_ptr<ride::Transport>(const deploy::Network&, base::Diagnostics&)> tls;
+  std::function<std::shared_ptr<ride::Transport>(const document::Network&, base::Diagnostics&)> tls;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
 };
 
@@ -33,7 +34,7 @@ class Network {
   /// What stands for a component that a deployment says is `remote`; nothing is connected yet.
   /// @param prototype  one of its model, with its properties
   virtual base::Result<std::unique_ptr<component::Component>> make_placeholder(
-      const deploy::Component& written, std::unique_ptr<component::Component> prototype) = 0;
+      const document::Component& written, std::unique_ptr<component::Component> prototype) = 0;
 
   /// What writes the inputs that a deployment opens for others.
   virtual std::unique_ptr<component::Component> make_inlets(
@@ -41,12 +42,12 @@ class Network {
 
   /// What is wrong with addresses, policy and certificates, as far as that is known without
   /// listening.
-  virtual void check(const deploy::Document& document, base::Diagnostics& diagnostics) = 0;
+  virtual void check(const document::Document& document, base::Diagnostics& diagnostics) = 0;
 
   /// Makes the node, hosts the components of `application`, which has not started yet, and listens:
   /// so who connects finds all of them. After an error nothing listens.
   /// @param listen  addresses beside those of the document
-  virtual void open(const deploy::Document& document, const std::vector<std::string>& listen,
+  virtual void open(const document::Document& document, const std::vector<std::string>& listen,
                     exec::Application& application, base::Diagnostics& diagnostics) = 0;
   /// Where it listens, with the ports that it got.
   virtual std::vector<std::string> addresses() const = 0;

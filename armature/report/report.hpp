@@ -7,6 +7,7 @@
 
 namespace armature::report {
 
+/// What is reported, and where to.
 struct Options {
   std::string folder;  ///< of a run, or of folders of runs
   std::string page;    ///< the file to write; empty: report.html in that folder

@@ -33,6 +33,7 @@ struct Run {
   std::optional<Timeline> timeline;
 };
 
+/// Everything that a folder of runs has.
 struct Runs {
   std::string name;        ///< the folder's
   std::vector<Run> runs;   ///< of the folder itself, or of those in it, by their names

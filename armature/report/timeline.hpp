@@ -11,10 +11,12 @@ namespace armature::report {
 
 /// What happened in one cycle (paper 1, figure 20).
 struct Timeline {
+  /// A stretch of time in which a component ran.
   struct Bar {
     double begin_us = 0.0;  ///< since the cycle's begin
     double length_us = 0.0;
   };
+  /// The bars of one component in one thread.
   struct Lane {
     std::string component;
     std::string thread;

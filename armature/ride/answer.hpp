@@ -41,6 +41,7 @@ class [[nodiscard]] Answer {
   std::string error_;
 };
 
+/// The answer to a request that returns nothing.
 template <>
 class [[nodiscard]] Answer<void> {
  public:

@@ -69,6 +69,7 @@ struct AccessQuestion {
 /// `local` for one that proves nothing.
 std::string who(const AccessQuestion& question);
 
+/// How a node works, what it allows and where it reports to.
 struct NodeOptions {
   std::string name = "node";
   Limits limits;

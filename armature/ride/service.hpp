@@ -49,7 +49,7 @@ class Sender {
   /// By which connection.
   virtual Origin origin() const { return {}; }
   virtual bool allows(std::string_view component, Access access) const = 0;
-  /// Why not: `operator@tls may not command 'Vision'`.
+  /// Why not: the sender, as `operator@tls`, and what it may not do to the component.
   virtual std::string refusal(std::string_view component, Access access) const = 0;
 };
 

@@ -71,6 +71,7 @@ class Listener {
   virtual const Address& address() const = 0;
 };
 
+/// A way of carrying bytes between processes, such as TCP: listens and connects.
 class Transport {
  public:
   virtual ~Transport() = default;

@@ -21,6 +21,7 @@ using Number = std::uint32_t;
 /// `number_of("void start()")`.
 constexpr Number number_of(std::string_view canonical) { return base::fnv1a(canonical); }
 
+/// What a message is; its number on the wire.
 enum class Type : std::uint16_t { kCommand = 1, kRequest, kReply, kEvent, kControl };
 
 std::string_view name_of(Type type);
@@ -55,6 +56,7 @@ enum class Code : std::uint32_t {
 /// `NO_SUCH_COMPONENT`; for an unknown code "code".
 std::string_view name_of(Code code);
 
+/// The header of every message.
 struct Header {
   static constexpr std::size_t kSize = 16;
   static constexpr std::size_t kMostLength = 65535;

@@ -20,6 +20,7 @@ struct StdAtomics {
 struct PlainAtomics {
   template <typename T>
   using Plain = T;
+  /// An atomic variable as a plain one.
   template <typename T>
   class Atomic {
    public:

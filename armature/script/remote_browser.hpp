@@ -10,6 +10,7 @@
 
 namespace armature::script {
 
+/// Which application is browsed, and over what.
 struct RemoteBrowserOptions {
   std::string address;  ///< where the application's process listens
   /// Beside TCP and Unix-domain sockets.

@@ -14,6 +14,7 @@
 
 namespace armature::script {
 
+/// What a script may use.
 struct Options {
   std::function<void(std::string_view)> print;          ///< takes a line that the script prints
   base::Duration time_limit = std::chrono::seconds(1);  ///< on the machine's clock, between waits

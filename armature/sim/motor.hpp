@@ -10,6 +10,7 @@ namespace armature::sim {
 /// rotor and its friction belong to the plant's joint (`armature`, the URDF's friction).
 class Motor {
  public:
+  /// The motor and the voltage of its supply.
   struct Config {
     control::DcMotor::Config motor;
     double supply = 0.0;  ///< [V], > 0

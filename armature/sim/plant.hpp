@@ -17,6 +17,7 @@
 
 namespace armature::sim {
 
+/// How the simulation stands.
 enum class PlantStatus {
   kGood,
   kDiverged,  ///< a state would not be finite; it stays as it was, and no time passes any more
@@ -37,6 +38,7 @@ class Plant {
     std::string second;
     double inertia = 0.0;  ///< [kg m^2]
   };
+  /// How the plant is stepped, and what the URDF does not say.
   struct Options {
     /// Every `step` is made of whole steps of this length; > 0.
     base::Duration inner_step = std::chrono::microseconds(100);

@@ -17,12 +17,14 @@
 
 namespace armature::ride {
 
+/// A transport under test.
 struct TransportCase {
   std::string name;
   std::function<std::unique_ptr<Transport>()> make;
   std::function<Address()> address;  ///< one that nobody listens at
 };
 
+/// The contract of a `Transport`, to be instantiated for each one.
 class TransportConformance : public testing::TestWithParam<TransportCase> {
  protected:
   TransportConformance() {

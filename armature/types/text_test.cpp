@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/testing/described_types.hpp"
+#include "armature/testing/test_types.hpp"
 
 namespace armature::types {
 namespace {

@@ -14,6 +14,7 @@
 
 namespace armature::types {
 
+/// Kinds of types: scalars, texts, and what is made of them.
 enum class Kind {
   kBool,
   kInt8,
@@ -36,6 +37,7 @@ enum class Kind {
 
 struct Type;
 
+/// A field of a struct.
 struct Field {
   std::string_view name;
   std::size_t offset;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/base/hash.hpp"
-#include "armature/testing/described_types.hpp"
+#include "armature/testing/test_types.hpp"
 
 namespace robot {
 

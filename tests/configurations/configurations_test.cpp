@@ -40,11 +40,11 @@ std::optional<unsigned> number_in_environment(const char* name) {
 
 bool is_told() { return std::getenv("CONFIGURATIONS_TOLD") != nullptr; }
 
-deploy::Document document_of(const Shipped& shipped) {
+document::Document document_of(const Shipped& shipped) {
   base::Diagnostics diagnostics;
   deploy::LoadOptions options;
   options.overrides = shipped.overrides;
-  deploy::Document document = deploy::load_document(shipped.file, options, diagnostics);
+  document::Document document = deploy::load_document(shipped.file, options, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.to_text();
   return document;
 }
@@ -61,7 +61,7 @@ Verdict verdict_of(const ChildEnd& end) {
   return {static_cast<Outcome>(end.written[0] - '0'), end.written.substr(1)};
 }
 
-Verdict tried_out(const RobotUnderTest& robot, const deploy::Document& document) {
+Verdict tried_out(const RobotUnderTest& robot, const document::Document& document) {
   const std::string folder = ::testing::TempDir() + "configurations-" + std::to_string(::getpid());
   std::filesystem::create_directories(folder);
   const Verdict verdict = verdict_of(run_in_child([&] {
@@ -85,7 +85,7 @@ struct Mutant {
   }
 
   Shipped shipped;
-  deploy::Document document;
+  document::Document document;
   std::string kind;
   std::string what;
 };

@@ -46,16 +46,16 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool is_of_the_plant(const deploy::Component& component, const std::string& property) {
+bool is_of_the_plant(const document::Component& component, const std::string& property) {
   if (property.starts_with("emulated")) return true;
   if (component.model == "SimulatedJanus") return property != "cards";
   return component.model == "Servo";
 }
 
-Mutation mutate(deploy::Document& document, Random& random) {
+Mutation mutate(document::Document& document, Random& random) {
   while (true) {
     const Kind& kind = any_of(kinds(), random);
-    deploy::Document changed = document;
+    document::Document changed = document;
     if (auto what = kind.change(changed, random)) {
       document = std::move(changed);
       return {kind.name, *what};

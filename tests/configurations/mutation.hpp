@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 
 namespace armature::configurations {
 
@@ -20,6 +20,6 @@ struct Mutation {
 /// ten, a sign, a unit, a period, a gain, a limit, the size of a list, a switch, an activity, a
 /// grant, a wire, a peer, a component, a mode, what is done at a stop, who may come in, a bus. What
 /// a real robot would not have in its file is left alone: properties of the simulated plant.
-Mutation mutate(deploy::Document& document, Random& random);
+Mutation mutate(document::Document& document, Random& random);
 
 }  // namespace armature::configurations

@@ -8,30 +8,31 @@
 
 namespace armature::configurations {
 
-using deploy::Document;
-using deploy::Property;
+using document::Document;
+using document::Property;
 
 namespace {
 
 /// Its connections too: otherwise the check finds what has no end.
 void remove_component(Document& document, const std::string& name, bool with_its_connections) {
   std::erase_if(document.components, [&](const auto& each) { return each.name == name; });
-  for (deploy::Component& each : document.components) {
+  for (document::Component& each : document.components) {
     std::erase_if(each.peers, [&](const auto& peer) { return peer.component == name; });
   }
   if (!with_its_connections) return;
-  std::erase_if(document.connections, [&](const deploy::Connection& each) {
+  std::erase_if(document.connections, [&](const document::Connection& each) {
     return each.from.component == name || each.to.component == name;
   });
 }
 
-std::optional<std::string> double_component(Document& document, const deploy::Component& component,
+std::optional<std::string> double_component(Document& document,
+                                            const document::Component& component,
                                             bool with_its_connections) {
-  deploy::Component copy = component;
+  document::Component copy = component;
   const std::string name = component.name;
   copy.name += "Again";
-  std::vector<deploy::Connection> added;
-  for (deploy::Connection each : document.connections) {
+  std::vector<document::Connection> added;
+  for (document::Connection each : document.connections) {
     if (each.from.component != name && each.to.component != name) continue;
     if (each.from.component == name) each.from.component = copy.name;
     if (each.to.component == name) each.to.component = copy.name;
@@ -48,9 +49,9 @@ std::optional<std::string> double_component(Document& document, const deploy::Co
 }  // namespace
 
 std::optional<std::string> change_switch(Document& document, Random& random) {
-  std::vector<std::pair<deploy::Component*, std::size_t>> switches;
-  std::vector<std::pair<deploy::Component*, std::size_t>> all;
-  for (deploy::Component& component : document.components) {
+  std::vector<std::pair<document::Component*, std::size_t>> switches;
+  std::vector<std::pair<document::Component*, std::size_t>> all;
+  for (document::Component& component : document.components) {
     for (std::size_t i = 0; i < component.properties.size(); ++i) {
       const Property& property = component.properties[i];
       if (is_of_the_plant(component, property.name)) continue;
@@ -74,7 +75,7 @@ std::optional<std::string> change_switch(Document& document, Random& random) {
 
 std::optional<std::string> change_activity(Document& document, Random& random) {
   if (document.components.empty()) return std::nullopt;
-  deploy::Component& component = any_of(document.components, random);
+  document::Component& component = any_of(document.components, random);
   switch (random() % 6) {
     case 0:
       component.activity = {};
@@ -83,7 +84,7 @@ std::optional<std::string> change_activity(Document& document, Random& random) {
       component.activity = {};
       component.activity.kind = exec::Activity::Kind::kPeriodic;
       component.activity.period = std::chrono::milliseconds(random() % 2 == 0 ? 2 : 50);
-      return component.name + ": every " + deploy::to_text(component.activity.period);
+      return component.name + ": every " + document::to_text(component.activity.period);
     case 2:
       component.activity = {};
       component.activity.kind = exec::Activity::Kind::kTriggered;
@@ -103,7 +104,7 @@ std::optional<std::string> change_activity(Document& document, Random& random) {
 
 std::optional<std::string> change_components(Document& document, Random& random) {
   if (document.components.empty()) return std::nullopt;
-  const deploy::Component component = any_of(document.components, random);
+  const document::Component component = any_of(document.components, random);
   const bool connections = random() % 4 != 0;
   if (random() % 2 == 0) return double_component(document, component, connections);
   remove_component(document, component.name, connections);
@@ -113,8 +114,8 @@ std::optional<std::string> change_components(Document& document, Random& random)
 /// Two of one model have each other's properties, or peers.
 std::optional<std::string> swap_components(Document& document, Random& random) {
   if (document.components.empty()) return std::nullopt;
-  deploy::Component& one = any_of(document.components, random);
-  deploy::Component& other = any_of(document.components, random);
+  document::Component& one = any_of(document.components, random);
+  document::Component& other = any_of(document.components, random);
   if (one.name == other.name || one.model != other.model) return std::nullopt;
   if (random() % 2 == 0) {
     std::swap(one.properties, other.properties);

@@ -12,9 +12,9 @@
 
 namespace armature::configurations {
 
-using deploy::Document;
-using deploy::Property;
-using deploy::Value;
+using document::Document;
+using document::Property;
+using document::Value;
 
 namespace {
 
@@ -70,7 +70,7 @@ struct Place {
 
 std::vector<Place> numbers_in(Document& document) {
   std::vector<Place> places;
-  for (deploy::Component& component : document.components) {
+  for (document::Component& component : document.components) {
     for (Property& property : component.properties) {
       if (is_of_the_plant(component, property.name)) continue;
       const std::string name = component.name + "." + property.name;
@@ -162,24 +162,25 @@ std::optional<std::string> change_to_extreme(Document& document, Random& random)
 }
 
 std::optional<std::string> change_period(Document& document, Random& random) {
-  std::vector<deploy::Component*> periodic;
-  for (deploy::Component& component : document.components) {
+  std::vector<document::Component*> periodic;
+  for (document::Component& component : document.components) {
     if (component.activity.kind == exec::Activity::Kind::kPeriodic) periodic.push_back(&component);
   }
   if (periodic.empty() || random() % 3 == 0) return scale("period")(document, random);
   constexpr std::array<double, 8> kFactors{0.01, 0.1, 0.5, 0.9, 1.5, 2, 10, 100};
-  deploy::Component& component = *any_of(periodic, random);
+  document::Component& component = *any_of(periodic, random);
   base::Duration& period = component.activity.period;
   const base::Duration before = period;
   period = base::Duration(static_cast<base::Duration::rep>(static_cast<double>(before.count()) *
                                                            any_of(kFactors, random)));
-  return component.name + ": every " + deploy::to_text(before) + " -> " + deploy::to_text(period);
+  return component.name + ": every " + document::to_text(before) + " -> " +
+         document::to_text(period);
 }
 
 std::optional<std::string> change_size(Document& document, Random& random) {
   if (random() % 2 == 0) return scale("size")(document, random);
   std::vector<std::pair<std::string, Value*>> lists;
-  for (deploy::Component& component : document.components) {
+  for (document::Component& component : document.components) {
     for (Property& property : component.properties) {
       if (is_of_the_plant(component, property.name) || property.value.items.empty()) continue;
       lists.emplace_back(component.name + "." + property.name, &property.value);

@@ -9,7 +9,7 @@
 
 namespace armature::configurations {
 
-using deploy::Document;
+using document::Document;
 
 namespace {
 
@@ -19,19 +19,19 @@ std::string any_name(Document& document, Random& random) {
   return any_of(document.components, random).name;
 }
 
-std::string replace(deploy::Reference& reference, const std::string& name) {
+std::string replace(document::Reference& reference, const std::string& name) {
   std::string what = reference.name + " -> " + name;
   reference.name = name;
   return what;
 }
 
 std::optional<std::string> change_placeholder(Document& document, Random& random) {
-  std::vector<deploy::Component*> remote;
-  for (deploy::Component& each : document.components) {
+  std::vector<document::Component*> remote;
+  for (document::Component& each : document.components) {
     if (!each.remote.name.empty()) remote.push_back(&each);
   }
   if (remote.empty()) return std::nullopt;
-  deploy::Component& one = *any_of(remote, random);
+  document::Component& one = *any_of(remote, random);
   constexpr std::array<const char*, 5> kPlaces{"", "unix:nowhere.sock/Arming",
                                                "tcp://0.0.0.0:1/Generator",
                                                "tls://localhost/Arming", "unix:janus.sock"};
@@ -70,17 +70,17 @@ std::optional<std::string> change_stop(Document& document, Random& random) {
     }
     case 2:
       document.hold_at_stop = std::chrono::milliseconds(random() % 2 == 0 ? 0 : 3'600'000);
-      return "hold_at_stop: " + deploy::to_text(*document.hold_at_stop);
+      return "hold_at_stop: " + document::to_text(*document.hold_at_stop);
     default:
       document.on_fault =
-          random() % 2 == 0 ? deploy::OnFault::kKeepRunning : deploy::OnFault::kStopAll;
-      return "on_fault: " + std::string(deploy::to_text(document.on_fault));
+          random() % 2 == 0 ? document::OnFault::kKeepRunning : document::OnFault::kStopAll;
+      return "on_fault: " + std::string(document::to_text(document.on_fault));
   }
 }
 
 std::optional<std::string> change_modes(Document& document, Random& random) {
   if (document.modes.empty()) return std::nullopt;
-  deploy::Mode& mode = any_of(document.modes, random);
+  document::Mode& mode = any_of(document.modes, random);
   if (mode.components.empty()) return std::nullopt;
   switch (random() % 5) {
     case 0: {
@@ -103,7 +103,7 @@ std::optional<std::string> change_modes(Document& document, Random& random) {
       document.mode.name = mode.name;
       return "mode: begins in " + mode.name;
     default: {
-      deploy::Mode& other = any_of(document.modes, random);
+      document::Mode& other = any_of(document.modes, random);
       if (&mode == &other || other.components.empty()) return std::nullopt;
       std::swap(any_of(mode.components, random), any_of(other.components, random));
       return "modes " + mode.name + " and " + other.name + ": members swapped";
@@ -112,7 +112,7 @@ std::optional<std::string> change_modes(Document& document, Random& random) {
 }
 
 std::optional<std::string> change_network(Document& document, Random& random) {
-  deploy::Network& network = document.network;
+  document::Network& network = document.network;
   if (network.listen.empty()) return change_placeholder(document, random);
   switch (random() % 7) {
     case 0:
@@ -133,8 +133,8 @@ std::optional<std::string> change_network(Document& document, Random& random) {
       return "socket_mode: " + std::to_string(*network.socket_mode);
     case 5: {
       if (document.connections.empty()) return std::nullopt;
-      deploy::Connection input = any_of(document.connections, random);
-      input.from.component = deploy::kNetworkName;
+      document::Connection input = any_of(document.connections, random);
+      input.from.component = document::kNetworkName;
       input.from.port.clear();
       network.inputs.push_back(input);
       return "inputs: " + input.to.component + "." + input.to.port;
@@ -151,8 +151,8 @@ std::optional<std::string> change_bus(Document& document, Random& random) {
     std::string* text;
   };
   std::vector<Place> places;
-  for (deploy::Component& component : document.components) {
-    for (deploy::Property& property : component.properties) {
+  for (document::Component& component : document.components) {
+    for (document::Property& property : component.properties) {
       const bool is_of_bus = is_one_of(property.name, {"bus", "mode", "guardian", "PeerName"});
       if (is_of_bus) places.push_back({component.name + "." + property.name, &property.value.text});
     }

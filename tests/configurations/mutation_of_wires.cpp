@@ -6,11 +6,11 @@
 
 namespace armature::configurations {
 
-using deploy::Document;
+using document::Document;
 
 namespace {
 
-std::string text_of(const deploy::Connection& connection) {
+std::string text_of(const document::Connection& connection) {
   return connection.from.component + "." + connection.from.port + " -> " + connection.to.component +
          "." + connection.to.port;
 }
@@ -20,15 +20,15 @@ std::string text_of(const deploy::Connection& connection) {
 std::optional<std::string> change_wire(Document& document, Random& random) {
   auto& all = document.connections;
   if (all.empty()) return std::nullopt;
-  deploy::Connection& one = any_of(all, random);
-  deploy::Connection& other = any_of(all, random);
+  document::Connection& one = any_of(all, random);
+  document::Connection& other = any_of(all, random);
   const std::string was = text_of(one);
   switch (random() % 6) {
     case 0:
       std::swap(one.to, other.to);
       return was + " and " + text_of(other) + ": swapped";
     case 1: {  // between equal ports, which fit
-      for (deploy::Connection& like : all) {
+      for (document::Connection& like : all) {
         const bool alike = like.from.component != one.from.component && &like != &one &&
                            like.to.component.substr(0, 3) == one.to.component.substr(0, 3);
         if (!alike || random() % 2 == 0) continue;
@@ -41,7 +41,7 @@ std::optional<std::string> change_wire(Document& document, Random& random) {
       all.erase(all.begin() + (&one - all.data()));
       return was + ": removed";
     case 3: {
-      deploy::Connection doubled = one;
+      document::Connection doubled = one;
       doubled.to = other.to;
       doubled.policy.fan_in = random() % 2 == 0;
       all.push_back(doubled);
@@ -49,8 +49,8 @@ std::optional<std::string> change_wire(Document& document, Random& random) {
     }
     case 4:
       one.policy.max_age = std::chrono::seconds(100);
-      one.policy.on_old = deploy::Reaction::kHold;
-      one.policy.on_lost = deploy::Reaction::kHold;
+      one.policy.on_old = document::Reaction::kHold;
+      one.policy.on_lost = document::Reaction::kHold;
       return was + ": old data is held";
     default:
       one.policy.one_cycle_delay = true;
@@ -60,9 +60,9 @@ std::optional<std::string> change_wire(Document& document, Random& random) {
 
 std::optional<std::string> change_peers(Document& document, Random& random) {
   if (document.components.empty()) return std::nullopt;
-  deploy::Component& component = any_of(document.components, random);
+  document::Component& component = any_of(document.components, random);
   if (component.peers.empty()) return std::nullopt;
-  deploy::Peer& peer = any_of(component.peers, random);
+  document::Peer& peer = any_of(component.peers, random);
   const std::string was = component.name + ": peer " + peer.component;
   if (random() % 2 == 0) {
     component.peers.erase(component.peers.begin() + (&peer - component.peers.data()));

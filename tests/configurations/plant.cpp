@@ -112,25 +112,26 @@ class Servos final : public Plant {
   std::vector<Drive> drives_;
 };
 
-void erase_property(deploy::Component& component, std::string_view name) {
+void erase_property(document::Component& component, std::string_view name) {
   std::erase_if(component.properties, [&](const auto& each) { return each.name == name; });
 }
 
-void set_property(deploy::Component& component, const std::string& name, const std::string& text) {
+void set_property(document::Component& component, const std::string& name,
+                  const std::string& text) {
   erase_property(component, name);
-  deploy::Property property;
+  document::Property property;
   property.name = name;
-  property.value.kind = deploy::Value::Kind::kText;
+  property.value.kind = document::Value::Kind::kText;
   property.value.text = text;
   component.properties.push_back(std::move(property));
 }
 
 }  // namespace
 
-std::optional<deploy::Document> simulated(deploy::Document document) {
+std::optional<document::Document> simulated(document::Document document) {
   bool changed = false;
-  for (deploy::Component& each : document.components) {
-    const deploy::Property* const bus = deploy::find(each.properties, "bus");
+  for (document::Component& each : document.components) {
+    const document::Property* const bus = document::find(each.properties, "bus");
     if (each.model == "WamHardware" && bus != nullptr && bus->value.text != "emulator") {
       set_property(each, "bus", "emulator");
       changed = true;
@@ -144,11 +145,11 @@ std::optional<deploy::Document> simulated(deploy::Document document) {
   return changed ? std::optional(std::move(document)) : std::nullopt;
 }
 
-std::vector<std::unique_ptr<Plant>> plants_of(const deploy::Document& document,
+std::vector<std::unique_ptr<Plant>> plants_of(const document::Document& document,
                                               exec::Application& application) {
   std::vector<std::unique_ptr<Plant>> plants;
   auto servos = std::make_unique<Servos>(application);
-  for (const deploy::Component& each : document.components) {
+  for (const document::Component& each : document.components) {
     component::Component* const found = application.find(each.name);
     if (found == nullptr) continue;
     if (each.model == "SimulatedJanus") {

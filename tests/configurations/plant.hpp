@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/application.hpp"
 
 namespace armature::configurations {
@@ -50,11 +50,11 @@ struct RobotUnderTest {
 };
 
 /// The same deployment on the simulated robot; nothing if it is of that already.
-std::optional<deploy::Document> simulated(deploy::Document document);
+std::optional<document::Document> simulated(document::Document document);
 
 /// The robot of `document`, whose components `application` has; one for each that there is hardware
 /// of.
-std::vector<std::unique_ptr<Plant>> plants_of(const deploy::Document& document,
+std::vector<std::unique_ptr<Plant>> plants_of(const document::Document& document,
                                               exec::Application& application);
 
 RobotUnderTest janus();

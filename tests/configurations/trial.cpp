@@ -173,7 +173,7 @@ class Trial {
 
   Bounds to_stand() const {
     const bool is_weightless = std::ranges::any_of(
-        document_.modes, [](const deploy::Mode& mode) { return mode.name == "weightless"; });
+        document_.modes, [](const document::Mode& mode) { return mode.name == "weightless"; });
     return is_weightless ? weightless() : held();
   }
 
@@ -214,7 +214,7 @@ class Trial {
   }
   /// Whatever a script may do without a grant, it does.
   void act_as_a_script() {
-    for (const deploy::Component& each : document_.components) {
+    for (const document::Component& each : document_.components) {
       for (const char* act :
            {"shiftActivate", "releaseEstop", "actuatorOn", "brakeRelease", "motorOn"}) {
         static_cast<void>(application_->call(each.name, act, {}, exec::Caller::kScript));
@@ -222,7 +222,7 @@ class Trial {
     }
   }
   void let_nobody_press_keys() {
-    for (const deploy::Component& each : document_.components) {
+    for (const document::Component& each : document_.components) {
       if (each.model != "WamHardware") continue;
       static_cast<void>(
           application_->set_property(each.name, "emulated_operator", types::Value::of(false)));
@@ -246,7 +246,7 @@ class Trial {
     return value && *static_cast<const bool*>(value.value().data());
   }
   std::string name_of_model(std::string_view model) const {
-    for (const deploy::Component& each : document_.components) {
+    for (const document::Component& each : document_.components) {
       if (each.model == model) return each.name;
     }
     return std::string(model);
@@ -281,7 +281,7 @@ class Trial {
     run_for(1s);
   }
   void go_over_to_each_mode() {
-    for (const deploy::Mode& mode : document_.modes) {
+    for (const document::Mode& mode : document_.modes) {
       if (!ok()) return;
       begin("going over to another mode", to_stand());
       static_cast<void>(application_->switch_mode(mode.name));
@@ -309,7 +309,7 @@ class Trial {
   }
 
   const RobotUnderTest& robot_;
-  deploy::Document document_;
+  document::Document document_;
   const bool tell_;
   std::optional<exec::Application> application_;
   std::vector<std::unique_ptr<Plant>> plants_;
@@ -346,12 +346,12 @@ const char* name_of(Outcome outcome) {
   return "UNSAFE";
 }
 
-Verdict try_out(const RobotUnderTest& robot, const deploy::Document& document,
+Verdict try_out(const RobotUnderTest& robot, const document::Document& document,
                 const std::string& folder) {
   const std::unique_ptr<remote::Network> network(armature_make_network({}));
   deploy::DeploymentOptions options;
   options.library_folders = {LIBRARIES};
-  options.make_placeholder = [&network](const deploy::Component& written,
+  options.make_placeholder = [&network](const document::Component& written,
                                         std::unique_ptr<component::Component> prototype) {
     return network->make_placeholder(written, std::move(prototype));
   };
@@ -359,9 +359,9 @@ Verdict try_out(const RobotUnderTest& robot, const deploy::Document& document,
     using Made = base::Result<std::unique_ptr<component::Component>>;
     return Made(network->make_inlets(inputs));
   };
-  const auto checked = [&](const deploy::Document& one) {
+  const auto checked = [&](const document::Document& one) {
     deploy::Deployment deployment =
-        deploy::parse_deployment(deploy::write_yaml(one), one.file, options);
+        deploy::parse_deployment(document::write_yaml(one), one.file, options);
     if (!one.network.listen.empty()) network->check(one, deployment.diagnostics);
     return deployment;
   };

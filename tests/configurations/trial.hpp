@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 #include "tests/configurations/plant.hpp"
 
 namespace armature::configurations {
@@ -29,7 +29,7 @@ const char* name_of(Outcome outcome);
 /// asked for a motion that cannot be, go over to its other modes, and be stopped in an emergency
 /// while it moves; judges it by where it really is.
 /// @param folder  for what it writes
-Verdict try_out(const RobotUnderTest& robot, const deploy::Document& document,
+Verdict try_out(const RobotUnderTest& robot, const document::Document& document,
                 const std::string& folder);
 
 }  // namespace armature::configurations

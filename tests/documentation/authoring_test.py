@@ -1,20 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles every C++ snippet of docs/authoring.md, and looks whether its list of units is complete.
+"""Compiles every C++ snippet of docs/authoring.md and its parts, and looks whether the list of units is complete.
 
 usage: authoring_test.py SOURCE_DIR COMPILER OPTION...
 
-The snippets of a section (a heading with two #) share a namespace. The first snippet stands behind
+The snippets of a section (a heading with two #) share a namespace. The first snippet of docs/authoring.md stands before
 all others. Errors have the place in the page.
 """
 
-import os
 import re
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 
-LEAST_SNIPPETS = 10
+LEAST_SNIPPETS = 16
+LEAST_UNITS = 20
 
 
 def snippets(text):
@@ -34,49 +35,43 @@ def snippets(text):
             section += 1
 
 
-def program(page, text):
-    """The page's snippets as one source, and how many there are."""
-    includes, body = [], []
-    prelude, found = [], 0
-    for section, line, code in snippets(text):
-        found += 1
-        includes += [each for each in code if each.startswith("#include")]
+def program(pages):
+    """The snippets of all pages as one source, and how many they are."""
+    found = [(page, *snippet) for page in pages for snippet in snippets(page.read_text(encoding="utf-8"))]
+    includes = [line for *_, code in found for line in code if line.startswith("#include")]
+    prelude = [line for line in found[0][3] if line and not line.startswith("#include")]
+    body = []
+    for page, section, line, code in found[1:]:
         code = ["" if each.startswith("#include") else each for each in code]
-        if found == 1:
-            prelude = [each for each in code if each]
-            continue
-        body += [f"namespace section_{section} {{", *prelude, f'#line {line} "{page}"', *code, "}"]
-    return "\n".join(includes + body) + "\n", found
+        body += [f"namespace {page.stem}_{section} {{", *prelude, f'#line {line} "{page}"', *code, "}"]
+    return "\n".join(includes + body) + "\n", len(found)
 
 
-def missing_units(source, text):
-    """Units that the program knows and the page does not list."""
-    with open(os.path.join(source, "armature", "base", "unit.cpp"), encoding="utf-8") as file:
-        table = re.search(r"kSymbols\[\] = \{\n(.*?)\n\};", file.read(), re.DOTALL).group(1)
-    symbols = re.findall(r'^    \{"([^"]+)"', table, re.MULTILINE)
-    section = text.split("\n## Units\n")[1].split("\n## ")[0]
+def missing_units(source, page):
+    """Units that the program knows and the page leaves out."""
+    table = re.search(r"kSymbols\[\] = \{\n(.*?)\n\};", (source / "armature/base/unit.cpp").read_text(encoding="utf-8"),
+                      re.DOTALL)
+    symbols = re.findall(r'^    \{"([^"]+)"', table.group(1) if table else "", re.MULTILINE)
+    if len(symbols) < LEAST_UNITS:
+        return ["(the table of units in armature/base/unit.cpp was not found)"]
+    section = page.read_text(encoding="utf-8").split("\n## Units\n")[1].split("\n## ")[0]
     listed = set(re.findall(r"`([^`]+)`", section))
-    if len(symbols) < 20:
-        return ["(the table of units was not found)"]
     return [symbol for symbol in symbols if symbol not in listed]
 
 
 def main():
-    source = os.path.abspath(sys.argv[1])
-    page = os.path.join(source, "docs", "authoring.md")
-    with open(page, encoding="utf-8") as file:
-        text = file.read()
-    unlisted = missing_units(source, text)
+    source = Path(sys.argv[1]).resolve()
+    first, parts = source / "docs/authoring.md", source / "docs/authoring"
+    unlisted = missing_units(source, parts / "properties.md")
     if unlisted:
-        sys.exit(f"{page}: error: these units are not listed: " + " ".join(unlisted))
-    code, found = program(page, text)
+        sys.exit(f"{parts / 'properties.md'}: error: these units are not listed: " + " ".join(unlisted))
+    code, found = program([first, *sorted(parts.glob("*.md"))])
     if found < LEAST_SNIPPETS:
-        sys.exit(f"{page}: error: only {found} snippets were found")
+        sys.exit(f"{parts}: error: only {found} snippets were found")
     with tempfile.TemporaryDirectory() as work:
-        path = os.path.join(work, "authoring.cpp")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(code)
-        command = sys.argv[2:] + ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", path]
+        path = Path(work, "authoring.cpp")
+        path.write_text(code, encoding="utf-8")
+        command = sys.argv[2:] + ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", str(path)]
         done = subprocess.run(command, check=False)
     if done.returncode != 0:
         sys.exit(done.returncode)

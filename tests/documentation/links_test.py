@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-LINK = re.compile(r"\]\(([^)\s]+)\)")
+LINK = re.compile(r'\]\(([^)\s]+)(?: "[^"]*")?\)')
 FENCE = re.compile(r"^```.*?^```", re.M | re.S)
 HEADING = re.compile(r"^#+ (.+)$", re.M)
 ELSEWHERE = ("http://", "https://", "mailto:")
@@ -35,12 +35,13 @@ def broken_links(source, page):
 def main():
     source = Path(sys.argv[1]).resolve()
     pages = [page for folder in ("", "docs", "examples", "robots", "benchmarks", "web")
-             for page in sorted((source / folder).glob("*.md" if folder in ("", "docs") else "**/*.md"))
+             for page in sorted((source / folder).glob("**/*.md" if folder else "*.md"))
              if "node_modules" not in page.parts]
     mistakes = [mistake for page in pages for mistake in broken_links(source, page)]
     index = (source / "docs" / "README.md").read_text()
-    mistakes += [f"docs/README.md does not lead to '{page.name}'" for page in sorted((source / "docs").glob("*.md"))
-                 if page.name != "README.md" and f"]({page.name})" not in index]
+    ours = [str(page.relative_to(source / "docs")) for page in sorted((source / "docs").glob("**/*.md"))]
+    mistakes += [f"docs/README.md does not lead to '{page}'" for page in ours
+                 if page != "README.md" and f"]({page})" not in index]
     print("\n".join(mistakes) or f"{len(pages)} pages")
     return 1 if mistakes or len(pages) < 20 else 0
 

@@ -15,7 +15,7 @@ QUOTE = re.compile(r"<!-- from (\S+) -->\n```\w+\n(.*?)```", re.S)
 source = Path(sys.argv[1])
 quotes = 0
 mistakes = []
-for page in sorted(source.glob("docs/*.md")):
+for page in sorted(source.glob("docs/**/*.md")):
     for path, code in QUOTE.findall(page.read_text()):
         quotes += 1
         if code not in (source / path).read_text():

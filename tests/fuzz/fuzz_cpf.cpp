@@ -8,14 +8,14 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace armature;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const deploy::Limits limits = fuzz::options().limits;
+  const document::Limits limits = fuzz::options().limits;
   base::Diagnostics diagnostics;
-  const auto properties = deploy::parse_cpf(text, "fuzz.cpf", diagnostics, limits);
+  const auto properties = orocos::parse_cpf(text, "fuzz.cpf", diagnostics, limits);
   if (!diagnostics.ok()) return 0;
-  const std::string written = deploy::write_cpf(properties);
-  const auto again = deploy::parse_cpf(written, "again.cpf", diagnostics);
+  const std::string written = orocos::write_cpf(properties);
+  const auto again = orocos::parse_cpf(written, "again.cpf", diagnostics);
   if (!diagnostics.ok()) fuzz::fail(diagnostics.to_text().c_str(), written, "");
-  if (const std::string after = deploy::write_cpf(again); after != written) {
+  if (const std::string after = orocos::write_cpf(again); after != written) {
     fuzz::fail("the properties have changed", written, after);
   }
   return 0;

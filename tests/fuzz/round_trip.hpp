@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "armature/deploy/document_files.hpp"
+#include "armature/deploy/load.hpp"
 
 /// What the fuzz targets of deployment documents have in common.
 namespace armature::fuzz {
@@ -33,19 +33,19 @@ inline deploy::LoadOptions options() {
 /// `text` must read as the document whose YAML is `yaml`.
 inline void check_same(const std::string& text, const char* name, const std::string& yaml) {
   base::Diagnostics diagnostics;
-  const deploy::Document again = deploy::parse_document(text, name, {}, diagnostics);
+  const document::Document again = deploy::parse_document(text, name, {}, diagnostics);
   if (!diagnostics.ok()) fail(diagnostics.to_text().c_str(), yaml, text);
-  if (const std::string after = deploy::write_yaml(again); after != yaml) {
+  if (const std::string after = document::write_yaml(again); after != yaml) {
     fail("the document has changed", yaml, after);
   }
 }
 
 /// A document without errors is the same after it was written and read, in both formats.
-inline void check_round_trip(const deploy::Document& document) {
-  const std::string yaml = deploy::write_yaml(document);
+inline void check_round_trip(const document::Document& document) {
+  const std::string yaml = document::write_yaml(document);
   check_same(yaml, "again.yaml", yaml);
   base::Diagnostics of_writing;
-  const std::string xml = deploy::write_xml(document, of_writing);
+  const std::string xml = orocos::write_xml(document, of_writing);
   if (of_writing.ok()) check_same(xml, "again.xml", yaml);
 }
 

@@ -81,13 +81,13 @@ std::string head_with_delay(const std::string& connection) {
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, SERVO_LIBRARY};
   base::Diagnostics diagnostics;
-  deploy::Document document = deploy::load_document(JANUS "/pid.yaml", {}, diagnostics);
-  for (deploy::Connection& each : document.connections) {
+  document::Document document = deploy::load_document(JANUS "/pid.yaml", {}, diagnostics);
+  for (document::Connection& each : document.connections) {
     const std::string text =
         each.from.component + "." + each.from.port + " -> " + each.to.component;
     if (text == connection) each.policy.one_cycle_delay = true;
   }
-  return deploy::parse_deployment(deploy::write_yaml(document), document.file, options)
+  return deploy::parse_deployment(document::write_yaml(document), document.file, options)
       .diagnostics.to_text();
 }
 
@@ -132,15 +132,15 @@ std::string with_swapped(const std::string& file, const std::string& one,
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, SERVO_LIBRARY};
   base::Diagnostics diagnostics;
-  deploy::Document document = deploy::load_document(JANUS "/" + file, {}, diagnostics);
-  deploy::Endpoint* ends[2] = {};
-  for (deploy::Connection& each : document.connections) {
+  document::Document document = deploy::load_document(JANUS "/" + file, {}, diagnostics);
+  document::Endpoint* ends[2] = {};
+  for (document::Connection& each : document.connections) {
     const std::string reader = each.to.component + "." + each.to.port;
     if (reader == one) ends[0] = &each.to;
     if (reader == other) ends[1] = &each.to;
   }
   std::swap(*ends[0], *ends[1]);
-  return deploy::parse_deployment(deploy::write_yaml(document), document.file, options)
+  return deploy::parse_deployment(document::write_yaml(document), document.file, options)
       .diagnostics.to_text();
 }
 

@@ -10,10 +10,12 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/registry.hpp"
 #include "armature/deploy/builder.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/blueprint.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 
 /// Makes components with their properties, activities, peers and bindings.
 class ComponentBuilder {

@@ -10,10 +10,12 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/input_port.hpp"
 #include "armature/component/output_port.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 #include "armature/exec/blueprint.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 
 /// Writes down a document's connections, between the components that the blueprint has already.
 class ConnectionBuilder {

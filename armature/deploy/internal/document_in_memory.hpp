@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "armature/deploy/document_files.hpp"
+#include "armature/deploy/load.hpp"
+#include "armature/document/yaml.hpp"
 
 /// For tests: documents whose files are in memory.
 namespace armature::deploy::internal {
+
+using namespace document;
 
 struct Loaded {
   Document document;

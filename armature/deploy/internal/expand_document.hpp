@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/deploy/document.hpp"
 #include "armature/deploy/internal/expand.hpp"
 #include "armature/deploy/internal/overrides.hpp"
+#include "armature/document/document.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 
 /// The ranges of repeated components, by the name with `{i}` in place of the range.
 using RangesByPattern = std::map<std::string, std::vector<Range>>;

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 
 /// The full names of components and composites, and who may use which. A name inside a composite
 /// means its part of that name, or else what the name means where the composite is used.

@@ -7,9 +7,11 @@
 #include <unordered_map>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/deploy/internal/value_tree.hpp"
+#include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 
 /// Collects what each of many passes over a text found, once for each place: a range, or a
 /// composite that is used many times, meets the same mistake each time. Where only numbers differ

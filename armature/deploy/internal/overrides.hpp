@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/deploy/document.hpp"
+#include "armature/document/document.hpp"
 
 namespace armature::deploy::internal {
+
+using namespace document;
 
 /// One `--set path=value`.
 struct Override {

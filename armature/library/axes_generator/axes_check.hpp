@@ -15,6 +15,7 @@ namespace armature::library {
 class AxesCheck final : public component::Checked, public component::PropertyFollower {
  public:
   using Numbers = component::Property<std::vector<double>>;
+  /// The properties that hold the limits of the axes, and the port that has their references.
   struct Limits {
     const component::OutputPort<std::vector<double>>& desired;
     Numbers& lower;

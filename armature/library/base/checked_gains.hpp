@@ -25,6 +25,10 @@ class CheckedGains final : public component::Checked, public component::Property
     const T& value_of(const component::Property<T>& of) const {
       return property == &of ? *static_cast<const T*>(data) : of.get();
     }
+    template <typename Struct>
+    Struct value_of(const component::Properties<Struct>& of) const {
+      return of.with(property, data);
+    }
   };
   using Find = std::function<std::vector<DrivenJoint>(const component::Check& check)>;
   /// What is wrong with the gains, for these joints; empty if nothing is.

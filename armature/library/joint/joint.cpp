@@ -54,10 +54,10 @@ Outcome Joint::on_start() {
 
 Outcome Joint::set_up() {
   if (Outcome outcome = period_.known(); !outcome) return outcome;
-  if (!is_sign(actuator_sign_) || !is_sign(sensor_sign_)) {
+  if (!is_sign(settings_->actuator_sign) || !is_sign(settings_->sensor_sign)) {
     return component::refused("ActuatorSign and SensorSign are 1 or -1");
   }
-  if (!std::isfinite(gear_ratio_) || gear_ratio_ <= 0.0) {
+  if (!std::isfinite(settings_->gear_ratio) || settings_->gear_ratio <= 0.0) {
     return component::refused("GearRatio is a number above 0; directions are SensorSign's");
   }
   auto limiter = JointLimiter::make(limits());
@@ -69,39 +69,41 @@ Outcome Joint::set_up() {
   limiter_ = limiter.value();
   sequence_ = sequence.value();
   watch_ = watch.value();
-  sensor_ratio_ = sensor_sign_ * gear_ratio_;
-  measured_ = {.position = initial_position_, .velocity = 0.0};
+  sensor_ratio_ = settings_->sensor_sign * settings_->gear_ratio;
+  measured_ = {.position = settings_->initial_position, .velocity = 0.0};
   clipped_.assign(0);
   changes_.take();
   return component::accepted();
 }
 
 JointLimiter::Config Joint::limits() const {
-  return {.lower = lower_,
-          .upper = upper_,
-          .max_velocity = max_velocity_,
-          .max_acceleration = max_acceleration_,
-          .max_effort = max_effort_,
+  return {.lower = settings_->lower,
+          .upper = settings_->upper,
+          .max_velocity = settings_->max_velocity,
+          .max_acceleration = settings_->max_acceleration,
+          .max_effort = settings_->max_effort,
           .period = period_.duration(),
-          .arming_time = base::from_seconds(arming_time_),
-          .effort_rate = arming_time_ > 0.0 ? max_effort_ / arming_time_ : 0.0};
+          .arming_time = base::from_seconds(settings_->arming_time),
+          .effort_rate =
+              settings_->arming_time > 0.0 ? settings_->max_effort / settings_->arming_time : 0.0};
 }
 
 control::ArmingSequence::Config Joint::arming_steps() const {
-  return {.max_motion = arming_motion_,
-          .effort_tolerance = 0.02 * max_effort_,
+  return {.max_motion = settings_->arming_motion,
+          .effort_tolerance = 0.02 * settings_->max_effort,
           .settling_time = kSettling,
-          .patience = base::from_seconds(arming_time_) + kSettlingPatience,
+          .patience = base::from_seconds(settings_->arming_time) + kSettlingPatience,
           .watch_time = kWatchTime};
 }
 
 control::HoldingWatch::Config Joint::holding() const {
   return {.period = base::from_seconds(period_),
-          .max_motion = holding_motion_,
-          .max_velocity = holding_velocity_,
+          .max_motion = settings_->holding_motion,
+          .max_velocity = settings_->holding_velocity,
           .sinking_velocity = 0.0,
-          .least_effort = 0.02 * max_effort_,
-          .max_alternation = holding_alternation_ < 1.0 ? holding_alternation_ : 2.0,
+          .least_effort = 0.02 * settings_->max_effort,
+          .max_alternation =
+              settings_->holding_alternation < 1.0 ? settings_->holding_alternation : 2.0,
           .alternation_time = kAlternationTime,
           .rest_velocity = kRest,
           .settling_time = kComingToRest};
@@ -185,7 +187,7 @@ bool Joint::apply(double voltage) {
   commanded_ = voltage;
   effort_ = step.value;
   passed_ = step.status == JointLimiter::Status::kPassed;
-  voltage_actuator_.write(actuator_sign_ > 0.0 ? step.value : -step.value);
+  voltage_actuator_.write(settings_->actuator_sign > 0.0 ? step.value : -step.value);
   if (step.status == JointLimiter::Status::kPassed) return true;
   if (step.status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
   if (step.status != JointLimiter::Status::kNotFinite) return false;

@@ -16,6 +16,7 @@
 #include "armature/library/base/sample_watch.hpp"
 #include "armature/library/base/sampling_period.hpp"
 #include "armature/library/joint/joint_model.hpp"
+#include "armature/library/joint/joint_settings.hpp"
 
 namespace armature::library {
 
@@ -113,59 +114,15 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
     return answer.status == component::CallStatus::kDone && answer.value;
   }
 
-  // Of the hardware; paper 1, section 3.1.
   component::Property<std::string> peer_name_{
       this, "PeerName", "", "the component of the joint's hardware", "", component::mandatory};
   component::Property<bool> brake_{this, "Brake", false, "the joint has a brake"};
-  component::Property<double> actuator_sign_{this, "ActuatorSign", 1.0,
-                                             "-1 if a positive voltage moves the joint backwards"};
-  component::Property<double> sensor_sign_{this, "SensorSign", 1.0,
-                                           "-1 if the sensor counts backwards"};
-  component::Property<double> gear_ratio_{this, "GearRatio",
-                                          1.0,  "motion of the joint per motion of its sensor",
-                                          "",   component::mandatory};
-  component::Property<double> initial_position_{this, "InitialPos", 0.0,
-                                                "where the joint is at the first start", "rad"};
   component::Property<bool> sampler_{this, "Sampler", true, "follows the events Sample and Act"};
 
-  // Of the limiter.
-  component::Property<double> lower_{
-      this, "PositionMin", 0.0, "nothing drives the joint beyond", "rad", component::mandatory};
-  component::Property<double> upper_{
-      this, "PositionMax", 0.0, "nothing drives the joint beyond", "rad", component::mandatory};
-  component::Property<double> max_velocity_{
-      this, "MaxVelocity", 0.0, "nothing drives it on at more", "rad/s", component::mandatory};
-  component::Property<double> max_acceleration_{
-      this,      "MaxAcceleration",   0.0, "with which it can brake, before its limits, too",
-      "rad/s^2", component::mandatory};
-  component::Property<double> max_effort_{
-      this, "MaxVoltage", 0.0, "the most that is applied", "V", component::mandatory};
+  JointProperties settings_{this};
   SamplingPeriod period_{this};
-  component::Property<double> arming_time_{
-      this, "ArmingTime",
-      1.0,  "for which the voltage may only grow slowly after arming",
-      "s",  component::range(0.0, 60.0)};
 
-  component::Property<double> arming_motion_{
-      this,  "ArmingMotion",
-      0.01,  "a joint that moves more when it is armed is braked again, and not armed",
-      "rad", component::range(1e-6, 1.0)};
-
-  // Of the watch over the joint while it is to stand.
-  component::Property<double> holding_motion_{
-      this,  "HoldingMotion",
-      0.1,   "a joint that is to stand and moves farther is braked, and faults",
-      "rad", component::range(1e-6, 1e3)};
-  component::Property<double> holding_velocity_{
-      this,    "HoldingVelocity",
-      0.5,     "a joint that is to stand and is faster in three samples is braked, and faults",
-      "rad/s", component::range(1e-6, 1e3)};
-  component::Property<double> holding_alternation_{
-      this, "HoldingAlternation",
-      0.4,  "largest share of samples in which the effort that holds it changes its sign; 1: any",
-      "",   component::range(0.01, 1.0)};
-  JointModel model_{this,
-                    {lower_, upper_, max_velocity_, max_acceleration_, max_effort_, gear_ratio_}};
+  JointModel model_{this, settings_};
 
   component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
                                                     component::from(peer_name_)};
@@ -286,10 +243,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   component::Attribute<int> clipped_{this, "clipped", 0,
                                      "efforts since the configuration that the limiter changed"};
 
-  Changes changes_{
-      actuator_sign_, sensor_sign_,   gear_ratio_,       initial_position_, lower_,
-      upper_,         max_velocity_,  max_acceleration_, max_effort_,       period_.property(),
-      arming_time_,   arming_motion_, holding_motion_,   holding_velocity_, holding_alternation_};
+  Changes changes_{settings_, period_.property()};
   const component::Component* arming_ = nullptr;  ///< who lets it move, and could take that back
   std::optional<control::JointLimiter> limiter_;
   std::optional<control::ArmingSequence> sequence_;

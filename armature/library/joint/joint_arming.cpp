@@ -52,7 +52,7 @@ void Joint::on_arm() {
 void Joint::go_on_arming() {
   const bool waits_for_motor = !brake_ && !sequence_->let_go();
   const double effort = waits_for_motor ? commanded_ : effort_;
-  const bool affordable = std::abs(effort) < max_effort_;
+  const bool affordable = std::abs(effort) < settings_->max_effort;
   const auto next = sequence_->step({.position = measured_.position,
                                      .effort = effort,
                                      .caught_up = affordable && (passed_ || waits_for_motor)},
@@ -107,7 +107,7 @@ Reason Joint::not_held() const {
   append_number(why, told(sequence_->moved())).append(" rad when ");
   why.append(brake_ ? "its brake opened at " : "its motor was switched on at ");
   append_number(why, told(effort_)).append(" V (ArmingMotion: ");
-  append_number(why, arming_motion_);
+  append_number(why, settings_->arming_motion);
   why.append(brake_ ? "), so it is braked again" : "), so it is off again");
   return why.append(
       "; have a model of its weight compute what holds it, support it, or mend its ActuatorSign");
@@ -117,14 +117,14 @@ Reason Joint::moved_before() const {
   Reason why("it moved by ");
   append_number(why, told(sequence_->moved())).append(" rad ");
   why.append(brake_ ? "against its closed brake" : "before its motor was on");
-  append_number(why.append(" (ArmingMotion: "), arming_motion_);
+  append_number(why.append(" (ArmingMotion: "), settings_->arming_motion);
   return why.append("), expected that it rests");
 }
 
 Reason Joint::never_settled() const {
   Reason why("what is to hold it did not settle: ");
   append_number(why, told(brake_ ? effort_ : commanded_)).append(" V of ");
-  append_number(why, max_effort_).append(" V at the position ");
+  append_number(why, settings_->max_effort).append(" V at the position ");
   append_number(why, told(measured_.position));
   return why.append("; is its reference there, and within its limits?");
 }
@@ -170,7 +170,7 @@ void Joint::brake_because(const HoldingWatch::Finding& finding) {
 void Joint::note_sinking(double displacement) {
   if (!brake_) return;
   sunk_.assign(sunk_ + displacement);
-  if (told_of_sinking_ || std::abs(sunk_) <= holding_motion_) return;
+  if (told_of_sinking_ || std::abs(sunk_) <= settings_->holding_motion) return;
   told_of_sinking_ = true;
   log_warning("sinks: it moved by {} rad since it was disarmed, although its brake is applied",
               told(sunk_));

@@ -25,19 +25,21 @@ std::string versus(const std::string& what, double found, const std::string& uni
          unit;
 }
 
+bool all_numbers(const JointSettings& limits) {
+  return !std::isnan(limits.lower) && !std::isnan(limits.upper) &&
+         !std::isnan(limits.max_velocity) && !std::isnan(limits.max_acceleration) &&
+         !std::isnan(limits.max_effort) && !std::isnan(limits.gear_ratio);
+}
+
 }  // namespace
 
-JointModel::JointModel(component::Component* owner, const Limits& limits)
+JointModel::JointModel(component::Component* owner, JointProperties& settings)
     : Checked(owner),
       owner_(*owner),
-      limits_(limits),
+      settings_(settings),
       number_(owner, "RobotJoint", 0, "which joint of the Robot it is, from 1", "",
               component::range(0, 100000)) {
-  for (component::Property<double>* each :
-       {&limits.lower, &limits.upper, &limits.max_velocity, &limits.max_acceleration,
-        &limits.max_effort, &limits.gear_ratio}) {
-    each->add_follower(*this);
-  }
+  settings.add_follower(*this);
 }
 
 /// A peer, or else the only one that there is, if the joint says that it is of one.
@@ -58,12 +60,8 @@ const DescribesRobot* JointModel::robot(const component::Check& check) const {
 
 void JointModel::check(component::Check& check) const {
   known_.reset();
-  const Numbers limits = numbers();
-  for (const double each : {limits.lower, limits.upper, limits.max_velocity,
-                            limits.max_acceleration, limits.max_effort, limits.gear_ratio}) {
-    if (!std::isnan(each)) continue;
-    return check.error("one of its limits is no number");
-  }
+  const JointSettings& limits = settings_.get();
+  if (!all_numbers(limits)) return check.error("one of its limits is no number");
   const DescribesRobot* const model = robot(check);
   if (number_ == 0 && model == nullptr) {
     return check.warning(
@@ -100,21 +98,16 @@ base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) co
   if (!joint) return base::Error{joint.error()};
   Known known{.joint = std::move(joint).value(), .described = {}};
   known.joint.name = owner_.name();
-  known.joint.most_effort = limits_.max_effort;
-  known.joint.lower = limits_.lower;
-  known.joint.upper = limits_.upper;
-  known.joint.max_velocity = limits_.max_velocity;
-  known.joint.max_acceleration = limits_.max_acceleration;
+  known.joint.most_effort = settings_->max_effort;
+  known.joint.lower = settings_->lower;
+  known.joint.upper = settings_->upper;
+  known.joint.max_velocity = settings_->max_velocity;
+  known.joint.max_acceleration = settings_->max_acceleration;
   known.described = robot.limits(number);
   return known;
 }
 
-JointModel::Numbers JointModel::numbers() const {
-  return {limits_.lower,      limits_.upper,     limits_.max_velocity, limits_.max_acceleration,
-          limits_.max_effort, limits_.gear_ratio};
-}
-
-std::string JointModel::objection(const Known& known, const Numbers& limits) {
+std::string JointModel::objection(const Known& known, const JointSettings& limits) {
   const JointLimits& described = known.described;
   const double torque = known.joint.lightest.torque_per_effort * limits.max_effort;
   const double braking =
@@ -157,20 +150,8 @@ std::string JointModel::objection_to_gear(const Known& known, double gear_ratio)
 std::string JointModel::objection_to(const component::PropertyBase& property,
                                      const types::Value& value) const {
   if (!known_) return {};
-  Numbers wanted = numbers();
-  struct Each {
-    const component::PropertyBase& property;
-    double& number;
-  };
-  for (const auto& [each, number] :
-       {Each{limits_.lower, wanted.lower}, Each{limits_.upper, wanted.upper},
-        Each{limits_.max_velocity, wanted.max_velocity},
-        Each{limits_.max_acceleration, wanted.max_acceleration},
-        Each{limits_.max_effort, wanted.max_effort}, Each{limits_.gear_ratio, wanted.gear_ratio}}) {
-    if (&each != &property) continue;
-    number = *static_cast<const double*>(value.data());
-    if (std::isnan(number)) return "it is no number";
-  }
+  const JointSettings wanted = settings_.with(&property, value.data());
+  if (!all_numbers(wanted)) return "it is no number";
   return objection(*known_, wanted);
 }
 

@@ -7,6 +7,7 @@
 #include "armature/component/author.hpp"
 #include "armature/control/joint_limits.hpp"
 #include "armature/library/base/driven_joint.hpp"
+#include "armature/library/joint/joint_settings.hpp"
 
 namespace armature::library {
 
@@ -14,16 +15,7 @@ namespace armature::library {
 /// deployment says of links and drives, and tells whoever controls the joint what it drives.
 class JointModel final : public component::Checked, public component::PropertyFollower {
  public:
-  /// The properties of the joint's limiter.
-  struct Limits {
-    component::Property<double>& lower;
-    component::Property<double>& upper;
-    component::Property<double>& max_velocity;
-    component::Property<double>& max_acceleration;
-    component::Property<double>& max_effort;
-    component::Property<double>& gear_ratio;
-  };
-  JointModel(component::Component* owner, const Limits& limits);
+  JointModel(component::Component* owner, JointProperties& settings);
 
   void check(component::Check& check) const override;
 
@@ -39,9 +31,6 @@ class JointModel final : public component::Checked, public component::PropertyFo
                            const types::Value& value) const override;
 
  private:
-  struct Numbers {
-    double lower, upper, max_velocity, max_acceleration, max_effort, gear_ratio;
-  };
   /// As the check found them.
   struct Known {
     DrivenJoint joint;
@@ -50,12 +39,11 @@ class JointModel final : public component::Checked, public component::PropertyFo
 
   const DescribesRobot* robot(const component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
-  Numbers numbers() const;
-  static std::string objection(const Known& known, const Numbers& limits);
+  static std::string objection(const Known& known, const JointSettings& limits);
   static std::string objection_to_gear(const Known& known, double gear_ratio);
 
   component::Component& owner_;
-  Limits limits_;
+  JointProperties& settings_;
   component::Property<int> number_;
   mutable std::optional<Known> known_;
 };

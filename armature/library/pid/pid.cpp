@@ -25,10 +25,10 @@ std::string objection_to_range(double u_min, double u_max) {
 }  // namespace
 
 component::Outcome Pid::on_start() {
-  auto made = control::Pid::make(config());
+  auto made = control::Pid::make(config_.get());
   if (!made) return component::refused(made.error());
   pid_ = made.value();
-  fade_.be(config());
+  fade_.be(config_.get());
   started_ = time();
   if (const double* const present = output_.taken_over()) take_over(*present);
   return component::accepted();
@@ -67,11 +67,9 @@ void Pid::step(double measured) {
 
 /// Within their ranges, so that they are never refused.
 void Pid::take_gains() {
-  const control::Pid::Config& present = pid_->config();
-  const bool same = present.kp == kp_ && present.ki == ki_ && present.kd == kd_;
-  if (same) return;
+  if (pid_->config() == config_.get()) return;
   static_cast<void>(
-      pid_->reconfigure(fade_.step(config(), time(), base::from_seconds(gain_fade_time_))));
+      pid_->reconfigure(fade_.step(config_.get(), time(), base::from_seconds(gain_fade_time_))));
 }
 
 std::vector<DrivenJoint> Pid::joints(const component::Check& check) {
@@ -93,7 +91,8 @@ std::vector<DrivenJoint> Pid::joints_behind(const component::InputPortBase* inpu
 
 /// With a joint of its own it is to measure that one, and to follow something else.
 void Pid::on_check(component::Check& check) const {
-  if (const std::string wrong = objection_to_range(u_min_, u_max_); !wrong.empty()) {
+  if (const std::string wrong = objection_to_range(config_->u_min, config_->u_max);
+      !wrong.empty()) {
     check.error(wrong);
   }
   const component::OperationBase* const target = check.target_of(motor_set_);
@@ -114,11 +113,7 @@ void Pid::on_check(component::Check& check) const {
 
 std::string Pid::objection(const DrivenJoint& joint, double period_s,
                            const CheckedGains::Wanted& wanted) const {
-  const control::Pid::Config gains{.kp = wanted.value_of(kp_),
-                                   .ki = wanted.value_of(ki_),
-                                   .kd = wanted.value_of(kd_),
-                                   .u_min = wanted.value_of(u_min_),
-                                   .u_max = wanted.value_of(u_max_)};
+  const Config gains = wanted.value_of(config_);
   if (const auto checked = control::Pid::check(gains); !checked) return checked.error();
   if (std::string wrong = objection_to_range(gains.u_min, gains.u_max); !wrong.empty())
     return wrong;

@@ -46,38 +46,27 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
   void take_over(double output);
   void reset();
   void take_gains();
-  control::Pid::Config config() const { return {kp_, ki_, kd_, u_min_, u_max_}; }
   std::vector<DrivenJoint> joints(const component::Check& check);
   std::string objection(const DrivenJoint& joint, double period_s,
                         const CheckedGains::Wanted& wanted) const;
 
-  static constexpr double kLargestGain = 1e9;
+  static constexpr component::Range kGains{0.0, 1e9};
+  static constexpr component::ChangeableWhileRunning kLive{};
 
-  component::Property<double> kp_{this,
-                                  "Kp",
-                                  0.0,
-                                  "proportional gain",
-                                  "V/rad",
-                                  component::range(0.0, kLargestGain),
-                                  component::changeable_while_running};
-  component::Property<double> ki_{this,
-                                  "Ki",
-                                  0.0,
-                                  "integral gain, of one sample: the period is part of it",
-                                  "V/rad",
-                                  component::range(0.0, kLargestGain),
-                                  component::changeable_while_running};
-  component::Property<double> kd_{this,
-                                  "Kd",
-                                  0.0,
-                                  "differential gain, of one sample: the period is part of it",
-                                  "V/rad",
-                                  component::range(0.0, kLargestGain),
-                                  component::changeable_while_running};
-  component::Property<double> u_min_{
-      this, "UMin", -1.0, "lower limit of the output", "V", component::mandatory};
-  component::Property<double> u_max_{
-      this, "UMax", 1.0, "upper limit of the output", "V", component::mandatory};
+  using Config = control::Pid::Config;
+  component::Properties<Config> config_{
+      this,
+      {.u_min = -1.0, .u_max = 1.0},
+      component::member(&Config::kp, "Kp", "proportional gain", "V/rad", kGains, kLive),
+      component::member(&Config::ki, "Ki", "integral gain, of one sample: the period is part of it",
+                        "V/rad", kGains, kLive),
+      component::member(&Config::kd, "Kd",
+                        "differential gain, of one sample: the period is part of it", "V/rad",
+                        kGains, kLive),
+      component::member(&Config::u_min, "UMin", "lower limit of the output", "V",
+                        component::mandatory),
+      component::member(&Config::u_max, "UMax", "upper limit of the output", "V",
+                        component::mandatory)};
   component::Property<double> gain_fade_time_{
       this, "GainFadeTime",
       0.2,  "in which gains that are changed in motion become the new ones",
@@ -108,17 +97,12 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
   component::OperationCaller<bool(double)> motor_set_{
       this, "motorSet", "drives the joint", component::from(peer_name_), component::optional};
 
-  CheckedGains gains_{this,
-                      [this](const component::Check& check) { return joints(check); },
+  CheckedGains gains_{this, [this](const component::Check& check) { return joints(check); },
                       [this](const std::vector<DrivenJoint>& joints, double period_s,
                              const CheckedGains::Wanted& wanted) {
                         return objection(joints.front(), period_s, wanted);
                       },
-                      kp_,
-                      ki_,
-                      kd_,
-                      u_min_,
-                      u_max_};
+                      config_};
   std::optional<control::Pid> pid_;
   control::GainFade fade_;
   base::Time started_{};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "armature/record/recording.hpp"
-#include "armature/testing/described_types.hpp"
+#include "armature/testing/test_types.hpp"
 
 namespace armature::record {
 

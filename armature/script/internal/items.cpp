@@ -49,7 +49,7 @@ std::string without_lua(std::string_view text) {
 
 std::string spelled_for_lua(const exec::Application& application, std::string_view text) {
   const component::Component* const component =
-      remote::leading_component(application, text, ".:[ =");
+      inspect::leading_component(application, text, ".:[ =");
   if (component == nullptr) return std::string(text);
   return in_lua(component->name()) + std::string(text.substr(component->name().size()));
 }
@@ -59,11 +59,11 @@ component::Component* find_component(const exec::Application& application, std::
 }
 
 base::Result<Member> find_member(const exec::Application& application, std::string_view text) {
-  return remote::find_member(application, without_lua(text));
+  return inspect::find_member(application, without_lua(text));
 }
 
 base::Result<Item> find_item(const exec::Application& application, std::string_view text) {
-  return remote::find_item(application, without_lua(text));
+  return inspect::find_item(application, without_lua(text));
 }
 
 }  // namespace armature::script::internal

@@ -7,17 +7,17 @@
 #include <string>
 #include <string_view>
 
-#include "armature/remote/items.hpp"
+#include "armature/inspect/items.hpp"
 
 namespace armature::script::internal {
 
-using remote::component_names;
-using remote::Item;
-using remote::Member;
-using remote::no_component;
-using remote::part_of;
-using remote::read_members;
-using remote::Reading;
+using inspect::component_names;
+using inspect::Item;
+using inspect::Member;
+using inspect::no_component;
+using inspect::part_of;
+using inspect::read_members;
+using inspect::Reading;
 
 bool is_lua_name(std::string_view text);
 

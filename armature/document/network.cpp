@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `network`.
+#include "armature/document/network.hpp"
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "armature/document/reader.hpp"
+
+namespace armature::document {
+namespace {
+
+void read_path(const Value* value, std::string_view what, const ValueReader& reader,
+               Reference& path) {
+  if (value == nullptr) return;
+  path.where = value->where;
+  assign(reader.text(*value, what), path.name);
+}
+
+/// Half of what proves who somebody is proves nothing.
+void read_tls(const Value& value, const ValueReader& reader, Network& network) {
+  Fields fields(value, reader);
+  const std::pair<const char*, Reference*> kFiles[] = {{"certificate", &network.certificate},
+                                                       {"key", &network.key},
+                                                       {"authority", &network.authority}};
+  for (const auto& [key, file] : kFiles) {
+    const Value* const given = fields.take(key);
+    read_path(given, std::string(key) + " of tls", reader, *file);
+    if (given == nullptr) {
+      reader.error(value.where, "tls has no '" + std::string(key) + "'",
+                   "it needs the files certificate, key and authority");
+    }
+  }
+  fields.refuse_others();
+}
+
+/// `0660`, as chmod has it.
+std::optional<unsigned> read_mode(const Value& value, const ValueReader& reader) {
+  const auto text = reader.text(value, "socket_mode");
+  if (!text) return std::nullopt;
+  constexpr unsigned kMost = 0777;
+  unsigned mode = 0;
+  const char* const end = text->data() + text->size();
+  const auto [last, problem] = std::from_chars(text->data(), end, mode, 8);
+  if (problem == std::errc{} && last == end && mode <= kMost && text->size() >= 3) return mode;
+  reader.error(value.where, "socket_mode is '" + *text + "'",
+               "it must be the permissions of a file as chmod has them, such as 0600 or 0660");
+  return std::nullopt;
+}
+
+}  // namespace
+
+Network read_network(const Value& value, const ValueReader& reader) {
+  Network network;
+  Fields fields(value, reader);
+  for (const Value* address : items_of(fields.take("listen"))) {
+    if (auto text = reader.text(*address, "listen")) {
+      network.listen.push_back({std::move(*text), address->where});
+    }
+  }
+  for (const Value* input : items_of(fields.take("inputs"))) {
+    if (auto connection = read_input(*input, reader)) {
+      network.inputs.push_back(std::move(*connection));
+    }
+  }
+  read_path(fields.take("policy"), "policy", reader, network.policy);
+  if (const Value* tls = fields.take("tls")) read_tls(*tls, reader, network);
+  if (const Value* memory = fields.take("memory_kB")) {
+    constexpr int kLeast = 1000;
+    constexpr int kMost = 2'000'000;
+    network.memory_kb = reader.whole_number(*memory, "memory_kB of network", kLeast, kMost);
+  }
+  if (const Value* mode = fields.take("socket_mode")) {
+    network.socket_mode = read_mode(*mode, reader);
+  }
+  fields.refuse_others();
+  return network;
+}
+
+}  // namespace armature::document

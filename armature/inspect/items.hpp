@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What texts like `Joint1`, `Sensor.sensor[2]` and `Settings.Gains.kp` name in an application.
+// Functions that do not read values look only at what is fixed once the application is made, so any
+// thread may call them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/component/author.hpp"
+#include "armature/exec/application.hpp"
+
+namespace armature::inspect {
+
+std::vector<std::string> component_names(const exec::Application& application);
+
+/// The component with the longest name that `text` is, or begins with before one of `separators`;
+/// nullptr if there is none.
+component::Component* leading_component(const exec::Application& application, std::string_view text,
+                                        std::string_view separators);
+
+/// Why there is none, with the nearest name.
+std::string no_component(const exec::Application& application, std::string_view text);
+
+const exec::ComponentEntry& entry_of(const exec::Application& application,
+                                     const component::Component& component);
+
+/// The thread that runs it.
+const exec::ThreadPlan& thread_of(const exec::Application& application,
+                                  const component::Component& component);
+
+/// A member of a component; one of the pointers is set.
+struct Member {
+  const component::Component* component = nullptr;
+  const component::PropertyBase* property = nullptr;
+  const component::InputPortBase* input = nullptr;
+  const component::OutputPortBase* output = nullptr;
+  const component::OperationBase* operation = nullptr;
+  const component::EventBase* event = nullptr;
+
+  std::string name() const;  ///< with its component
+  bool has_value() const { return property != nullptr || port() != nullptr; }
+  const component::PortBase* port() const;
+  const types::Type& type() const;  ///< of its value
+  std::string_view unit() const;
+};
+
+/// The member that `text` names, `Component.member` or `Component:member`; else why there is none.
+base::Result<Member> find_member(const exec::Application& application, std::string_view text);
+
+/// A member's value or a part of it: `Sensor.sensor[2]`, `Settings.Gains.kp`.
+struct Item {
+  using Part = std::variant<std::size_t, const types::Field*>;  ///< counted from 0
+  std::string text;
+  Member member;
+  std::vector<Part> parts;
+  const types::Type* type = nullptr;
+  std::string unit;
+};
+base::Result<Item> find_item(const exec::Application& application, std::string_view text);
+
+/// A value as its component's thread had it at one moment.
+struct Reading {
+  types::Value whole;
+  bool written = true;  ///< false: nobody wrote the port yet
+  base::Duration age{};
+};
+/// Reads values of one component, by its own thread, all at one moment; nothing if its thread does
+/// not answer.
+std::optional<std::vector<Reading>> read_members(exec::Application& application,
+                                                 const std::vector<Member>& members);
+
+/// Where the part of `item` is in a reading of its member; nullptr if the list is not so long.
+const void* part_of(const Item& item, const types::Value& whole);
+
+}  // namespace armature::inspect

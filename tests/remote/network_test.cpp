@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a deployment may say of other processes.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/remote/processes.hpp"
+
+namespace armature::remote {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+TEST(RemoteDeployment, MistakesAreToldWithTheirPlaces) {
+  const Process wrong(R"(network: {inputs: [Axis.Wish, Axis.Wich, Axes.Wish]}
+components:
+  Axis: {model: Axis, activity: {periodic: 2 ms}}
+  A: {model: Axis, remote: tcp://127.0.0.1:4242}
+  B: {model: Axis, remote: tcp://127.0.0.1:4242/Axis, activity: {periodic: 2 ms}}
+  C: {model: Axis, remote: ftp/Axis}
+)");
+  const std::string text = wrong.deployment.diagnostics.to_text();
+  EXPECT_THAT(text,
+              HasSubstr("test.yaml:4:28: error: 'A', remote: 'tcp://127.0.0.1:4242' must be"));
+  EXPECT_THAT(text, HasSubstr("'B' lives in another process: its activity is there"));
+  EXPECT_THAT(text, HasSubstr("test.yaml:6:28: error: 'C', remote: "));
+  EXPECT_THAT(text, HasSubstr("'Axis' has no input 'Wich'"));
+  EXPECT_THAT(text, HasSubstr("did you mean 'Wish'?"));
+  EXPECT_THAT(text, HasSubstr("there is no component 'Axes'"));
+  EXPECT_THAT(text, HasSubstr("max_age: 100 ms"));
+}
+
+TEST(RemoteDeployment, AddressesAndPolicyAreCheckedBeforeAnythingListens) {
+  const Process wrong(R"(network: {listen: [tcp://127.0.0.1:0, "tcp:nowhere"], policy: no.policy}
+components: {Axis: {model: Axis, activity: {periodic: 2 ms}}}
+)");
+  base::Diagnostics diagnostics = wrong.deployment.diagnostics;
+  wrong.network_->check(wrong.deployment.document, diagnostics);
+  const std::string text = diagnostics.to_text();
+  EXPECT_THAT(text, HasSubstr("test.yaml:1:39: error: "));
+  EXPECT_THAT(text, HasSubstr("tcp:nowhere"));
+  EXPECT_THAT(text, HasSubstr("no.policy"));
+  EXPECT_TRUE(wrong.network_->addresses().empty());
+}
+
+TEST(RemoteDeployment, UnknownTransportsAreToldWithTheKnownOnes) {
+  const Process wrong(R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243"]}
+components:
+  Axis: {model: Axis, activity: {periodic: 2 ms}}
+  A: {model: Axis, remote: "https://127.0.0.1:443/Axis"}
+)");
+  base::Diagnostics diagnostics = wrong.deployment.diagnostics;
+  wrong.network_->check(wrong.deployment.document, diagnostics);
+  const std::string text = diagnostics.to_text();
+  EXPECT_THAT(text, HasSubstr("'http://127.0.0.1:80' has the unknown transport 'http' (known: "));
+  EXPECT_THAT(text, HasSubstr("tcp, unix, tls"));
+  EXPECT_THAT(text, HasSubstr("unknown transport 'https'"));
+  EXPECT_THAT(text, HasSubstr("'tls://127.0.0.1:4243' needs certificates"));
+}
+
+}  // namespace
+}  // namespace armature::remote
