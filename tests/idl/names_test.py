@@ -72,6 +72,9 @@ def portions(names, size):
 def roles(names):
     """Files by their names: one thing of many names in each."""
     files = {}
+    enumerators = portions([n for n in names if re.fullmatch("[a-z][a-z0-9]*(_[a-z0-9]+)*", n)], 240)
+    files["enumerators"] = "".join(f"enum E{i} : short {{ {', '.join(some)} }};" for i, some in enumerate(enumerators)) \
+        + "interface Uses { enum E0 f(enum E0 e); };"
     for i, some in enumerate(portions(names, 120)):
         structs = "".join(f"struct {n} {{ [range(0, 1)] int x; }};" for n in some)
         uses = "".join(f"struct {n} f{j}(struct {n} p, Array<struct {n}> q);" for j, n in enumerate(some))
@@ -79,8 +82,6 @@ def roles(names):
         enums = "".join(f"enum {n} {{ off, on }};" for n in some)
         uses = "".join(f"enum {n} f{j}(enum {n} p, Array<enum {n}> q);" for j, n in enumerate(some))
         files[f"enums{i}"] = f"{enums} interface Uses {{ {uses} }};"
-        enumerators = "".join(f", {n}" for n in some if re.fullmatch("[a-z][a-z0-9]*(_[a-z0-9]+)*", n))
-        files[f"enumerators{i}"] = f"enum E {{ zero{enumerators} }}; interface Uses {{ enum E f(enum E e); }};"
         events = "".join(f"event {n} {{ int x; }};" for n in some)
         files[f"events{i}"] = events + "interface Raises {" + "".join(f"event {n};" for n in some) + "};"
         members = "".join(f"[range(0, 1)] int {n};" for n in some)
