@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "armature/base/time.hpp"
@@ -48,44 +47,4 @@ struct RunArguments {
 };
 
 /// What `armature browse` is asked for.
-struct BrowseArguments {
-  std::string address;
-  std::string certificate;  ///< files in PEM form, for `tls://`
-  std::string key;
-  std::string authority;
-};
-
-/// What `armature check` is asked for.
-struct CheckArguments {
-  LoadArguments load;
-  bool order = false;
-  bool load_table = false;
-};
-
-/// What `armature graph` is asked for.
-struct GraphArguments {
-  LoadArguments load;
-  std::string format = "svg";
-  std::string output;
-  std::vector<std::string> only;  ///< names of components, also as Joint{1..7}
-  bool each_line = false;
-};
-
-/// What `armature models` is asked for.
-struct ModelsArguments {
-  std::vector<std::string> libraries;
-  std::vector<std::string> library_folders;
-  std::string name;
-  bool json = false;
-};
-
-/// What `armature report` is asked for.
-struct ReportArguments {
-  std::string folder;
-  std::string page;  ///< empty: beside the recordings
-};
-
-/// `10s`, `250 ms`: a time above 0, or nothing.
-std::optional<base::Duration> parse_duration(std::string_view text);
-
 }  // namespace armature::cli

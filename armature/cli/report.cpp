@@ -2,7 +2,6 @@
 // What needs the library `report`.
 #include "armature/report/report.hpp"
 
-#include "armature/cli/commands.hpp"
 #include "armature/cli/loaded.hpp"
 #include "armature/cli/report.hpp"
 #include "armature/report/moment_kind.hpp"
@@ -11,14 +10,6 @@ namespace armature::cli {
 namespace {
 
 constexpr std::size_t kMostLines = 1000;
-
-/// nullptr after an error, which was shown.
-void* function_of_report(const char* name, const Console& console) {
-  base::Diagnostics diagnostics;
-  void* const function = load_function("libarmature_report.so", name, "reports need", diagnostics);
-  console.show(diagnostics);
-  return function;
-}
 
 void keep(const rt::LogRecord& record, std::vector<rt::LogRecord>& kept, std::size_t& left_out) {
   if (kept.size() < kMostLines) {
@@ -29,6 +20,13 @@ void keep(const rt::LogRecord& record, std::vector<rt::LogRecord>& kept, std::si
 }
 
 }  // namespace
+
+void* function_of_report(const char* name, const Console& console) {
+  base::Diagnostics diagnostics;
+  void* const function = load_function("libarmature_report.so", name, "reports need", diagnostics);
+  console.show(diagnostics);
+  return function;
+}
 
 void note_for_summary(report::RunFacts& facts, const rt::LogRecord& record) {
   if (record.level >= rt::LogLevel::kWarning) {
@@ -47,24 +45,6 @@ bool write_run_summary(const std::string& folder, const report::RunFacts& facts,
   reinterpret_cast<report::WriteRunSummary>(function)(folder, facts, application, error);
   if (!error.empty()) console.say(rt::LogLevel::kError, error);
   return error.empty();
-}
-
-int report(const ReportArguments& arguments, const Console& console) {
-  void* const function = function_of_report(report::kWriteReport, console);
-  if (function == nullptr) return kFailed;
-  if (!arguments.page.empty() && !arguments.page.ends_with(".html")) {
-    console.say(rt::LogLevel::kError,
-                "--out is the page, whose name ends in .html, not '" + arguments.page + "'");
-    return kWrongUse;
-  }
-  base::Diagnostics diagnostics;
-  report::Written written;
-  reinterpret_cast<report::WriteReport>(function)({arguments.folder, arguments.page}, written,
-                                                  diagnostics);
-  console.show(diagnostics);
-  if (!diagnostics.ok()) return kFailed;
-  console.say(rt::LogLevel::kInfo, "wrote " + written.page + " and " + written.figures);
-  return kDone;
 }
 
 }  // namespace armature::cli

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/cli/run.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +15,6 @@
 
 #include "armature/analysis/schedule.hpp"
 #include "armature/cli/burial.hpp"
-#include "armature/cli/commands.hpp"
 #include "armature/cli/companions.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/cli/network.hpp"

@@ -11,6 +11,13 @@
 namespace armature::cli {
 namespace {
 
+struct BrowseArguments {
+  std::string address;
+  std::string certificate;  ///< files in PEM form, for `tls://`
+  std::string key;
+  std::string authority;
+};
+
 constexpr const char* kTls = "tls://";
 constexpr const char* kSchemes[] = {"tcp://", "unix:", kTls};
 
@@ -29,8 +36,6 @@ std::string wrong_use(const BrowseArguments& arguments) {
   if (tls && !all) return "a tls:// address needs --certificate, --key and --authority";
   return {};
 }
-
-}  // namespace
 
 int browse(const BrowseArguments& arguments, const Console& console) {
   if (const std::string problem = wrong_use(arguments); !problem.empty()) {
@@ -53,6 +58,25 @@ int browse(const BrowseArguments& arguments, const Console& console) {
   const std::size_t mistakes = reinterpret_cast<script::BrowseRemotely>(run)(options, problem);
   if (!problem.empty()) console.say(rt::LogLevel::kError, problem);
   return problem.empty() && mistakes == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_browse(const CommandLine& to) {
+  CLI::App* command = to.app.add_subcommand(
+      "browse", "commands a running application of another process or host line by line");
+  const auto arguments = std::make_shared<BrowseArguments>();
+  command
+      ->add_option("address", arguments->address,
+                   "where it listens: tcp://127.0.0.1:4242, unix:/run/robot.sock, tls://robot:4243")
+      ->required();
+  command->add_option("--certificate", arguments->certificate, "of this side, for tls://")
+      ->type_name("FILE");
+  command->add_option("--key", arguments->key, "the certificate's private key")->type_name("FILE");
+  command->add_option("--authority", arguments->authority, "whose certificates are taken")
+      ->type_name("FILE");
+  command->callback(
+      [to, arguments] { to.chosen = [to, arguments] { return browse(*arguments, to.console); }; });
 }
 
 }  // namespace armature::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/output.hpp"
+#include "armature/deploy/load.hpp"
+#include "armature/document/yaml.hpp"
+#include "armature/orocos/deployer_file.hpp"
+
+namespace armature::cli {
+namespace {
+
+struct ConvertArguments {
+  std::string from;
+  std::string to;
+};
+
+int convert(const std::string& from, const std::string& to, const Console& console) {
+  if (!to.ends_with(".xml") && !to.ends_with(".yaml") && !to.ends_with(".yml")) {
+    console.say(rt::LogLevel::kError, "the name of the file to write says its format: '" + to +
+                                          "' must end in .yaml, .yml or .xml");
+    return kWrongUse;
+  }
+  base::Diagnostics diagnostics;
+  const document::Document document = deploy::load_document(from, {}, diagnostics);
+  std::string text;
+  if (diagnostics.ok()) {
+    text = to.ends_with(".xml") ? orocos::write_xml(document, diagnostics)
+                                : document::write_yaml(document);
+  }
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  if (!is_no_source(to, document, console)) return kWrongUse;
+  return write(to, text, console);
+}
+
+}  // namespace
+
+void add_convert(const CommandLine& to) {
+  CLI::App* command = to.app.add_subcommand("convert", "rewrites YAML as OROCOS XML and back");
+  const auto arguments = std::make_shared<ConvertArguments>();
+  command->add_option("from", arguments->from, "the deployment to read")->required();
+  command->add_option("to", arguments->to, "the file to write; .xml is OROCOS XML")->required();
+  command->callback([to, arguments] {
+    to.chosen = [to, arguments] { return convert(arguments->from, arguments->to, to.console); };
+  });
+}
+
+}  // namespace armature::cli

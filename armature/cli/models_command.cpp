@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/output.hpp"
+#include "armature/deploy/loader.hpp"
+#include "armature/inspect/model_catalogue.hpp"
+
+namespace armature::cli {
+namespace {
+
+struct ModelsArguments {
+  std::vector<std::string> libraries;
+  std::vector<std::string> library_folders;
+  std::string name;
+  bool json = false;
+};
+
+int models(const ModelsArguments& arguments, const Console& console) {
+  component::Registry registry;
+  base::Diagnostics diagnostics;
+  const std::vector<std::string> folders = deploy::library_folders(arguments.library_folders, "./");
+  std::vector<std::string> names = arguments.libraries;
+  if (names.empty()) names = deploy::available_libraries(folders);
+  std::vector<document::Reference> libraries;
+  for (const std::string& name : names) libraries.push_back({name, {}});
+  deploy::load_libraries(libraries, folders, registry, diagnostics);
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  if (arguments.json) {
+    std::vector<std::string> wanted;
+    if (!arguments.name.empty()) wanted.push_back(arguments.name);
+    return print(inspect::models_as_json(registry, wanted), console);
+  }
+  if (arguments.name.empty()) return print(inspect::list_models(registry), console);
+  return print(inspect::describe_model(registry, arguments.name), console);
+}
+
+}  // namespace
+
+void add_models(const CommandLine& to) {
+  CLI::App* command = to.app.add_subcommand("models", "lists component models, or describes one");
+  const auto arguments = std::make_shared<ModelsArguments>();
+  command->add_option("name", arguments->name, "the model to describe");
+  command->add_option("-l,--library", arguments->libraries, "component library to look into")
+      ->allow_extra_args(false);
+  add_folders(*command, arguments->library_folders);
+  command->add_flag("--json", arguments->json, "for machines");
+  command->callback(
+      [to, arguments] { to.chosen = [to, arguments] { return models(*arguments, to.console); }; });
+}
+
+}  // namespace armature::cli

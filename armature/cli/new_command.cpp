@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/new_component.hpp"
+
+namespace armature::cli {
+namespace {
+
+int new_component(const std::string& name, const Console& console) {
+  const auto made = make_component_library(name, ".");
+  if (!made) {
+    console.say(rt::LogLevel::kError, made.error());
+    return kFailed;
+  }
+  for (const std::string& file : made.value().files) {
+    console.print(made.value().folder + "/" + file + "\n");
+  }
+  console.say(rt::LogLevel::kInfo,
+              "made " + made.value().folder + "; its README.md says how to build");
+  return kDone;
+}
+
+}  // namespace
+
+void add_new(const CommandLine& to) {
+  CLI::App* command = to.app.add_subcommand("new", "makes something to start from");
+  command->require_subcommand(1);
+  CLI::App* made = command->add_subcommand("component", "a component library that builds");
+  const auto name = std::make_shared<std::string>();
+  made->add_option("name", *name, "of the component, like GripperDriver")->required();
+  made->callback(
+      [to, name] { to.chosen = [to, name] { return new_component(*name, to.console); }; });
+}
+
+}  // namespace armature::cli

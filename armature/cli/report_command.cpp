@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/report.hpp"
+#include "armature/report/report.hpp"
+
+namespace armature::cli {
+namespace {
+
+struct ReportArguments {
+  std::string folder;
+  std::string page;  ///< empty: beside the recordings
+};
+
+int report(const ReportArguments& arguments, const Console& console) {
+  void* const function = function_of_report(report::kWriteReport, console);
+  if (function == nullptr) return kFailed;
+  if (!arguments.page.empty() && !arguments.page.ends_with(".html")) {
+    console.say(rt::LogLevel::kError,
+                "--out is the page, whose name ends in .html, not '" + arguments.page + "'");
+    return kWrongUse;
+  }
+  base::Diagnostics diagnostics;
+  report::Written written;
+  reinterpret_cast<report::WriteReport>(function)({arguments.folder, arguments.page}, written,
+                                                  diagnostics);
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  console.say(rt::LogLevel::kInfo, "wrote " + written.page + " and " + written.figures);
+  return kDone;
+}
+
+}  // namespace
+
+void add_report(const CommandLine& to) {
+  CLI::App* command = to.app.add_subcommand("report", "shows recorded runs as one HTML page");
+  const auto arguments = std::make_shared<ReportArguments>();
+  command->add_option("folder", arguments->folder, "of a run, or of folders of runs")->required();
+  command->add_option("--out", arguments->page, "the page; report.html in that folder otherwise")
+      ->type_name("FILE");
+  command->callback(
+      [to, arguments] { to.chosen = [to, arguments] { return report(*arguments, to.console); }; });
+}
+
+}  // namespace armature::cli
