@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/event_tap.hpp"
 #include "armature/component/internal/test_thread.hpp"
+#include "armature/rt/log.hpp"
 
 namespace armature::component {
 namespace {

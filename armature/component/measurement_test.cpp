@@ -4,6 +4,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/internal/test_thread.hpp"
+#include "armature/rt/statistics.hpp"
 #include "armature/rt/ticks.hpp"
 
 namespace armature::component {

@@ -7,6 +7,7 @@
 
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/component/internal/test_thread.hpp"
+#include "armature/rt/log.hpp"
 
 namespace {
 std::size_t allocations = 0;

@@ -9,6 +9,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/internal/test_thread.hpp"
 #include "armature/component/stand_in.hpp"
+#include "armature/component/tap.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::component {

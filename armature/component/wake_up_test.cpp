@@ -6,6 +6,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/component/internal/test_thread.hpp"
+#include "armature/rt/guard.hpp"
 
 namespace armature::component {
 namespace {
