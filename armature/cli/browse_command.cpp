@@ -3,6 +3,7 @@
 #include <string>
 
 #include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/loaded.hpp"
 #include "armature/cli/tls.hpp"
 #include "armature/platform/stop_priority.hpp"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/exec/plan.hpp"
 

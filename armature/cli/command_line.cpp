@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/cli/command_line.hpp"
+#include "armature/cli/internal/command_line.hpp"
 
 #include <algorithm>
 #include <filesystem>

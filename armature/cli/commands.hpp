@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/cli/command_line.hpp"
-
 namespace armature::cli {
+
+struct CommandLine;
 
 // The commands of the program; `add_NAME` is in NAME_command.cpp.
 void add_run(const CommandLine& to);

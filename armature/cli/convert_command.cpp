@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/output.hpp"
 #include "armature/deploy/load.hpp"
 #include "armature/document/yaml.hpp"

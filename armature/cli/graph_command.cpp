@@ -5,6 +5,7 @@
 
 #include "armature/analysis/wiring_graph.hpp"
 #include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/cli/output.hpp"
 

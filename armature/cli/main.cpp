@@ -6,6 +6,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
 #include "armature/platform/printer.hpp"
 
 namespace armature::cli {

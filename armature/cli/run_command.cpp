@@ -7,6 +7,7 @@
 
 #include "armature/base/unit.hpp"
 #include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/run.hpp"
 
 namespace armature::cli {

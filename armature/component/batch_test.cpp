@@ -11,6 +11,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/internal/test_ports.hpp"
+#include "armature/rt/guard.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {

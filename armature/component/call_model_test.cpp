@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/component/call.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/call_record.hpp"
+#include "armature/component/command_ticket.hpp"
 #include "armature/testing/model/explore.hpp"
 #include "armature/testing/model/mutants.hpp"
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/command.hpp"
 
+#include <string>
+
 #include "armature/component/black_box.hpp"
+#include "armature/component/command_ticket.hpp"
+#include "armature/component/internal/arguments.hpp"
+#include "armature/component/lanes.hpp"
+#include "armature/component/stand_in.hpp"
 
 namespace armature::component {
 
@@ -46,8 +52,10 @@ void CommandTicket::Cancellation::deliver(rt::Message& message) {
   ticket.release();
 }
 
-CommandBase::CommandBase(Component& owner, std::unique_ptr<About> about) noexcept
-    : OperationBase(owner, std::move(about)) {
+CommandBase::CommandBase(Component& owner, std::string_view name, std::string_view doc,
+                         Signature signature, Begin begin) noexcept
+    : OperationBase(owner, name, doc, std::move(signature), nullptr), begin_(begin) {
+  apply(in_own_thread);
   owner.add_step(*this, false);
 }
 
@@ -59,6 +67,27 @@ base::Result<std::optional<types::Value>> CommandBase::invoke(
   const base::Result<void> begun = begin_with(nullptr, arguments);
   if (!begun) return base::Error{begun.error()};
   return std::optional<types::Value>();
+}
+
+base::Result<void> CommandBase::begin_with(CommandTicket* ticket,
+                                           const std::vector<types::Value>& arguments) {
+  if (std::string problem = mismatch(arguments); !problem.empty()) {
+    if (ticket != nullptr) ticket->end(CommandStage::kRefused, problem);
+    return base::Error{std::move(problem)};
+  }
+  std::vector<const void*> places;
+  for (const types::Value& argument : arguments) places.push_back(argument.data());
+  const Outcome outcome = begin_from(ticket, places.data());
+  if (!outcome) return base::Error{std::string(outcome.reason())};
+  return {};
+}
+
+Outcome CommandBase::begin_from(CommandTicket* ticket, const void* const* arguments) {
+  Outcome outcome = admit(ticket);
+  if (!outcome) return outcome;
+  const bool completed =
+      owner().run(owner().context(), [&] { outcome = begin_(*this, arguments); });
+  return begun(ticket, completed, outcome);
 }
 
 void CommandBase::report(double progress) {
@@ -73,16 +102,27 @@ void CommandBase::step() {
   if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(*this)) complete();
 }
 
-void CommandBase::mark_twin(CommandBase& twin) const {
-  OperationBase::mark_twin(twin);
-  twin.cancelled_ = [](CommandBase& command) {
-    static_cast<StandIn&>(command.owner()).cancel(command);
-  };
+/// What stands for a command of a component that lives elsewhere.
+class CommandBase::Twin final : public CommandBase {
+ public:
+  Twin(Component& owner, const CommandBase& original)
+      : CommandBase(owner, original.name(), original.doc(), original.signature(),
+                    [](CommandBase& command, const void* const* arguments) {
+                      return static_cast<StandIn&>(command.owner()).begin(command, arguments);
+                    }) {
+    cancelled_ = [](CommandBase& command) {
+      static_cast<StandIn&>(command.owner()).cancel(command);
+    };
+  }
+};
+
+std::unique_ptr<OperationBase> CommandBase::make_twin(Component& owner) const {
+  return std::make_unique<Twin>(owner, *this);
 }
 
 Outcome CommandBase::admit(CommandTicket* ticket) {
   const bool running = owner().state() == State::kRunning;
-  if ((running || about().any_state) && !active()) {
+  if ((running || serves_in_any_state()) && !active()) {
     note(owner(), Noted::kBegun, name(), {});
     phase_ = Phase::kBeginning;
     return accepted();
@@ -136,6 +176,83 @@ void CommandBase::end(CommandStage stage, std::string_view reason) {
   if (active()) note(owner(), noted(stage), name(), reason);
   phase_ = Phase::kIdle;
   if (ticket != nullptr) ticket->end(stage, reason);
+}
+
+CommandHandle::~CommandHandle() {
+  if (ticket_ != nullptr) ticket_->release();
+}
+
+CommandStage CommandHandle::stage() const {
+  return sent() ? ticket_->stage() : CommandStage::kRefused;
+}
+
+bool CommandHandle::ended() const { return !sent() || ticket_->ended(); }
+
+double CommandHandle::progress() const { return sent() ? ticket_->progress() : 0.0; }
+
+std::string_view CommandHandle::reason() const {
+  return sent() ? ticket_->reason() : component::name_of(refusal_);
+}
+
+void CommandHandle::cancel() {
+  if (sent()) ticket_->request_cancel();
+}
+
+/// Of a command that a component sends; it carries the arguments there.
+class CommandCallerBase::SentTicket final : public CommandTicket {
+ public:
+  explicit SentTicket(CommandBase& command)
+      : CommandTicket(&SentTicket::deliver), command_(command), arguments_(command.signature()) {}
+
+  void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
+
+ private:
+  static void deliver(rt::Message& message) {
+    auto& ticket = static_cast<SentTicket&>(message);
+    if (ticket.cancel_requested()) {
+      ticket.end(CommandStage::kCancelled, "cancelled before it began");
+      return;
+    }
+    static_cast<void>(ticket.command_.begin_from(&ticket, ticket.arguments_.places()));
+  }
+  ExecutionContext& executor() const override { return command_.owner().context(); }
+  void cancel_now() override { command_.cancel(*this); }
+
+  CommandBase& command_;
+  internal::Arguments arguments_;
+};
+
+void CommandCallerBase::LetGo::operator()(SentTicket* ticket) const { ticket->release(); }
+
+CommandCallerBase::CommandCallerBase(Component& owner, std::string_view name, std::string_view doc,
+                                     Signature signature) noexcept
+    : OperationCallerBase(owner, name, doc, std::move(signature)) {}
+
+CommandCallerBase::~CommandCallerBase() = default;
+
+void CommandCallerBase::connect(OperationBase& command) {
+  operation_ = &command;
+  tickets_.clear();
+  for (std::size_t i = 0; i < outstanding(); ++i) {
+    tickets_.emplace_back(new SentTicket(static_cast<CommandBase&>(command)));
+  }
+}
+
+void CommandCallerBase::disconnect() {
+  operation_ = nullptr;
+  tickets_.clear();
+}
+
+CommandHandle CommandCallerBase::send_from(const void* const* arguments) {
+  if (operation_ == nullptr) return CommandHandle(CallStatus::kNotConnected);
+  for (auto& ticket : tickets_) {
+    if (!ticket->try_claim()) continue;
+    ticket->set_arguments(arguments);
+    operation_->owner().context().post(*ticket);
+    return CommandHandle(*ticket);
+  }
+  count_refused();
+  return CommandHandle(CallStatus::kQueueFull);
 }
 
 }  // namespace armature::component

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -15,6 +14,8 @@
 #include "armature/component/operation.hpp"
 
 namespace armature::component {
+
+class CommandTicket;
 
 /// Where a command is. Ordered: everything from kRefused on is an end.
 enum class CommandStage : std::uint32_t {
@@ -28,79 +29,6 @@ enum class CommandStage : std::uint32_t {
 };
 
 std::string_view name_of(CommandStage stage);
-
-/// What the thread that executes a command and its sender tell each other.
-///
-/// Specification: whoever sees that the command ended sees the reason; of several wishes to cancel
-/// it one is told to the executing thread, for which the record is shared until then.
-template <typename Text, typename Atomics>
-class BasicCommandState : public BasicSharedRecord<Atomics> {
- public:
-  CommandStage stage() const { return stage_.load(std::memory_order_acquire); }
-  bool ended() const { return stage() >= CommandStage::kRefused; }
-  /// 0..1 as the component reports it.
-  double progress() const { return progress_.load(std::memory_order_relaxed); }
-  /// Why it was refused, failed or was cancelled; of a command that ended.
-  const Text& given_reason() const { return reason_; }
-  bool cancel_requested() const { return cancel_.load(std::memory_order_acquire); }
-
-  /// @thread the sender's
-  bool try_claim() {
-    if (!this->try_share()) return false;
-    progress_.store(0.0, std::memory_order_relaxed);
-    cancel_.store(false, std::memory_order_relaxed);
-    stage_.store(CommandStage::kQueued, std::memory_order_relaxed);
-    return true;
-  }
-  /// True if the executing thread is to be told, which releases the record afterwards.
-  bool want_cancel() {
-    if (cancel_.exchange(true, std::memory_order_acq_rel)) return false;
-    this->share_once_more();
-    return true;
-  }
-
-  /// @thread the executing one
-  void report(double progress) { progress_.store(progress, std::memory_order_relaxed); }
-  void accept() { stage_.store(CommandStage::kAccepted, std::memory_order_release); }
-  template <typename Given>
-  void end(CommandStage stage, const Given& reason) {
-    reason_ = reason;
-    stage_.store(stage, std::memory_order_release);
-    this->release();
-  }
-
- private:
-  typename Atomics::template Atomic<CommandStage> stage_{CommandStage::kFree};
-  typename Atomics::template Atomic<double> progress_{0.0};
-  typename Atomics::template Atomic<bool> cancel_{false};
-  Text reason_{};
-};
-
-/// How a command fares; written by the component that executes it, read by whoever gave it.
-class CommandTicket : public rt::Message, public BasicCommandState<Reason, rt::StdAtomics> {
- public:
-  explicit CommandTicket(Deliver action) : rt::Message(action) {}
-
-  /// Why it was refused, failed or was cancelled; empty until it ended.
-  std::string_view reason() const { return ended() ? given_reason().view() : std::string_view(); }
-  void request_cancel();
-
- protected:
-  virtual ExecutionContext& executor() const = 0;
-  /// Ends the command if it is under way for this ticket.
-  virtual void cancel_now() = 0;
-
- private:
-  /// Its sender wants the command to end, on the way to the executing thread.
-  struct Cancellation final : rt::Message {
-    explicit Cancellation(CommandTicket& command_ticket)
-        : rt::Message(&deliver), ticket(command_ticket) {}
-    static void deliver(rt::Message& message);
-    CommandTicket& ticket;
-  };
-
-  Cancellation cancellation_{*this};
-};
 
 /// Options of a command.
 template <auto Predicate>
@@ -129,8 +57,11 @@ class CommandBase : public OperationBase, public Step {
   /// The same for a tool that follows the command: `ticket` is told how it fares, also of a
   /// refusal.
   /// @thread the component's own
-  virtual base::Result<void> begin_with(CommandTicket* ticket,
-                                        const std::vector<types::Value>& arguments) = 0;
+  base::Result<void> begin_with(CommandTicket* ticket, const std::vector<types::Value>& arguments);
+  /// Begins the command with arguments that are where `arguments` says, as its signature has them.
+  /// @param ticket  is told how it fares; nullptr: nobody asks
+  /// @thread the component's own
+  Outcome begin_from(CommandTicket* ticket, const void* const* arguments);
 
   /// For the component: how far it is (0..1), and its end.
   /// @rt nonblocking, no allocation
@@ -146,10 +77,10 @@ class CommandBase : public OperationBase, public Step {
   void halt(std::string_view reason) final { cancel(reason); }
 
  protected:
-  /// How the command stands. While `kBeginning`, its function decides whether to accept it.
-  enum class Phase : std::uint8_t { kIdle, kBeginning, kUnderWay };
+  using Begin = Outcome (*)(CommandBase&, const void* const* arguments);
 
-  CommandBase(Component& owner, std::unique_ptr<About> about) noexcept;
+  CommandBase(Component& owner, std::string_view name, std::string_view doc, Signature signature,
+              Begin begin) noexcept;
 
   using OperationBase::apply;
   template <auto Predicate>
@@ -167,20 +98,21 @@ class CommandBase : public OperationBase, public Step {
     };
   }
 
-  /// `twin` is one of this command.
-  void mark_twin(CommandBase& twin) const;
+ private:
+  class Twin;
+  enum class Phase : std::uint8_t { kIdle, kBeginning, kUnderWay };
 
+  std::unique_ptr<OperationBase> make_twin(Component& owner) const final;
   /// Begins, or refuses because it cannot now; `ticket` is told of a refusal, if there is one.
   Outcome admit(CommandTicket* ticket);
   /// Goes on after the component was asked, and tells `ticket`, if there is one.
   /// @param completed  no exception escaped
   /// @param outcome    what the component said
   Outcome begun(CommandTicket* ticket, bool completed, const Outcome& outcome);
-
- private:
   void cancel(std::string_view reason);
   void end(CommandStage stage, std::string_view reason);
 
+  Begin begin_;
   bool (*done_)(CommandBase&) = nullptr;
   void (*cancelled_)(CommandBase&) = nullptr;
   Phase phase_ = Phase::kIdle;
@@ -199,35 +131,28 @@ class Command final : public CommandBase {
   template <auto Function, typename... Options>
   Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
           Options... options) noexcept
-      : Command(*owner, name, doc, [](Command& command, Args... arguments) -> Outcome {
-          using Owner = internal::OwnerOf<Function>;
-          static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
-                        "a command is served by Outcome f(arguments of the command)");
-          auto& component = static_cast<Owner&>(command.owner());
-          return (component.*Function)(static_cast<Args>(arguments)...);
-        }) {
+      : CommandBase(*owner, name, doc, Signature::of<void, Args...>({}), &serve_from<Function>) {
     (apply(options), ...);
   }
-  ~Command() override;
 
   /// Begins the command; `ticket` is told how it fares, if there is one.
-  Outcome begin(CommandTicket* ticket, Args... arguments);
-
-  base::Result<void> begin_with(CommandTicket* ticket,
-                                const std::vector<types::Value>& arguments) override;
-
-  std::unique_ptr<OperationBase> twin(StandIn& owner) const override;
+  Outcome begin(CommandTicket* ticket, Args... arguments) {
+    const std::array<const void*, sizeof...(Args)> places{&arguments...};
+    return begin_from(ticket, places.data());
+  }
 
  private:
-  using Function = Outcome (*)(Command&, Args...);
-
-  Command(Component& owner, std::string_view name, std::string_view doc,
-          Function function) noexcept;
-  template <std::size_t... I>
-  Outcome begin_with(CommandTicket* ticket, const std::vector<types::Value>& arguments,
-                     std::index_sequence<I...>);
-
-  Function function_;
+  template <auto Function>
+  static Outcome serve_from(CommandBase& command, [[maybe_unused]] const void* const* arguments) {
+    using Owner = internal::OwnerOf<Function>;
+    static_assert(std::is_invocable_r_v<Outcome, decltype(Function), Owner&, Args...>,
+                  "a command is served by Outcome f(arguments of the command)");
+    auto& component = static_cast<Owner&>(command.owner());
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return (component.*Function)(*static_cast<const std::decay_t<Args>*>(arguments[I])...);
+    }
+    (std::index_sequence_for<Args...>{});
+  }
 };
 
 /// A command that was sent; letting go of it does not cancel it.
@@ -242,63 +167,67 @@ class [[nodiscard]] CommandHandle {
     std::swap(refusal_, other.refusal_);
     return *this;
   }
-  ~CommandHandle() {
-    if (ticket_ != nullptr) ticket_->release();
-  }
+  ~CommandHandle();
 
   /// False if it could not be sent: not connected, or too many under way.
   bool sent() const { return ticket_ != nullptr; }
   CallStatus send_status() const { return sent() ? CallStatus::kDone : refusal_; }
-  CommandStage stage() const { return sent() ? ticket_->stage() : CommandStage::kRefused; }
-  bool ended() const { return !sent() || ticket_->ended(); }
-  double progress() const { return sent() ? ticket_->progress() : 0.0; }
-  std::string_view reason() const {
-    return sent() ? ticket_->reason() : component::name_of(refusal_);
-  }
+  CommandStage stage() const;
+  bool ended() const;
+  double progress() const;
+  std::string_view reason() const;
   /// Asks the component to end it; it is over when `stage` says so.
-  void cancel() {
-    if (sent()) ticket_->request_cancel();
-  }
+  void cancel();
 
  private:
   CommandTicket* ticket_ = nullptr;
   CallStatus refusal_ = CallStatus::kPending;
 };
 
+/// What callers of commands have in common.
+class CommandCallerBase : public OperationCallerBase {
+ public:
+  ~CommandCallerBase() override;
+
+  bool needs_command() const final { return true; }
+  void connect(OperationBase& command) final;
+  void disconnect() final;
+
+ protected:
+  CommandCallerBase(Component& owner, std::string_view name, std::string_view doc,
+                    Signature signature) noexcept;
+
+  /// @param arguments  where they are, as the signature has them
+  CommandHandle send_from(const void* const* arguments);
+
+ private:
+  class SentTicket;
+  struct LetGo {
+    void operator()(SentTicket* ticket) const;
+  };
+
+  std::vector<std::unique_ptr<SentTicket, LetGo>> tickets_;
+};
+
 /// A component's declared use of a command of one of its peers.
 template <typename... Args>
-class CommandCaller final : public OperationCallerBase {
+class CommandCaller final : public CommandCallerBase {
  public:
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
   CommandCaller(Component* owner, std::string_view name, std::string_view doc,
                 Options... options) noexcept
-      : CommandCaller(*owner, name, doc) {
+      : CommandCallerBase(*owner, name, doc, Signature::of<void, Args...>({})) {
     (apply(options), ...);
   }
-  ~CommandCaller() override;
-
-  bool needs_command() const override { return true; }
 
   /// Sends the command and returns at once.
   /// @rt nonblocking; allocates only to make room for larger vectors than ever sent
   /// @thread the component's own
-  CommandHandle send(Args... arguments);
-
-  void connect(OperationBase& base) override;
-  void disconnect() override;
-
- private:
-  CommandCaller(Component& owner, std::string_view name, std::string_view doc) noexcept;
-
-  struct Ticket;
-
-  using OperationCallerBase::apply;
-  void apply(Outstanding option) noexcept { outstanding_ = option.count; }
-
-  Command<Args...>* command_ = nullptr;
-  std::size_t outstanding_ = kDefaultOutstanding;
-  std::vector<std::unique_ptr<Ticket, SharedRecord::LetGo>> tickets_;
+  CommandHandle send(Args... arguments) {
+    const std::array<const void*, sizeof...(Args)> places{&arguments...};
+    return send_from(places.data());
+  }
 };
 
 // Compiled once, in the library.
@@ -310,5 +239,3 @@ extern template class CommandCaller<double>;
 extern template class CommandCaller<const std::vector<double>&>;
 
 }  // namespace armature::component
-
-#include "armature/component/internal/command_definitions.hpp"

@@ -7,10 +7,14 @@
 
 #include "armature/component/black_box.hpp"
 #include "armature/component/input_port.hpp"
+#include "armature/component/internal/component_rest.hpp"
+#include "armature/component/lanes.hpp"
 #include "armature/component/output_port.hpp"
 #include "armature/component/state_machine.hpp"
 #include "armature/component/timeline.hpp"
 #include "armature/rt/guard.hpp"
+#include "armature/rt/log.hpp"
+#include "armature/rt/ticks.hpp"
 
 namespace armature::component {
 namespace {
@@ -26,6 +30,15 @@ ExecutionContext& no_context() {
 /// Of the engine that works in the calling thread, nullptr if none does.
 const ExecutionContext* context_of_this_thread() {
   return static_cast<const ExecutionContext*>(rt::guard_state().context);
+}
+
+constexpr std::string_view kExceptionBegin = "exception: ";
+
+/// What of an exception is longer than a reason.
+std::string_view rest_of(std::string_view what) {
+  const Reason told = Reason(kExceptionBegin).append(what);
+  what.remove_prefix(told.view().size() - kExceptionBegin.size());
+  return what;
 }
 
 }  // namespace
@@ -50,6 +63,28 @@ Component::Component(std::string name)
     : context_(&no_context()), rest_(std::make_unique<Rest>(*this, std::move(name))) {}
 
 Component::~Component() = default;
+
+const std::string& Component::name() const { return rest_->name; }
+
+bool Component::is_configured() const { return rest_->configured; }
+
+std::string_view Component::reason() const { return rest_->reason.view(); }
+
+const Pace& Component::pace() const { return rest_->pace; }
+
+base::Duration Component::period() const {
+  return rest_->pace.known() ? rest_->pace.period : base::Duration::zero();
+}
+
+void Component::set_pace(const Pace& pace) {
+  if (rest_->pace != pace) rest_->pace = pace;
+}
+
+const Interface& Component::interface() const { return rest_->interface; }
+
+Interface& Component::declare() { return rest_->interface; }
+
+const rt::Distribution& Component::execution_ticks() const { return rest_->execution_ticks; }
 
 void Component::on_check(Check&) const {}
 
@@ -155,7 +190,9 @@ void Component::update() {
     return;
   }
   if (!admits()) return;
-  run(*context_, [this] {
+  if (context_->outbox.any()) [[unlikely]]
+    context_->outbox.flush();  // an update may take its time: nobody waits for it
+  run_handler(*context_, [this] {
     for (Step* step : rest_->steps_before) step->step();
     if (state() == State::kRunning) on_update();
     for (Step* step : rest_->steps_after) step->step();
@@ -211,20 +248,14 @@ void Component::contain(ExecutionContext& where) noexcept {
   try {
     throw;
   } catch (const std::exception& known) {
-    fault_from(where, Reason("exception: ").append(known.what()));
-    log_rest_of(known.what());
+    fault_from(where, Reason(kExceptionBegin).append(known.what()));
+    for (std::string_view rest = rest_of(known.what()); !rest.empty();) {
+      const std::string_view line = rest.substr(0, rt::LogRecord::kTextRoom);
+      log_error("the exception goes on: {}", line);
+      rest.remove_prefix(line.size());
+    }
   } catch (...) {
     fault_from(where, "exception of an unknown type");
-  }
-}
-
-/// What of an exception is longer than a reason.
-void Component::log_rest_of(std::string_view text) {
-  constexpr std::size_t kEach = rt::LogRecord::kTextRoom;
-  constexpr std::string_view kBegin = "exception: ";
-  const std::size_t told = Reason(kBegin).append(text).view().size() - kBegin.size();
-  for (text.remove_prefix(told); !text.empty(); text.remove_prefix(std::min(kEach, text.size()))) {
-    log_error("the exception goes on: {}", text.substr(0, kEach));
   }
 }
 

@@ -17,9 +17,8 @@
 #include "armature/component/internal/side_by_side.hpp"
 #include "armature/component/outcome.hpp"
 #include "armature/component/pace.hpp"
-#include "armature/rt/log.hpp"
-#include "armature/rt/statistics.hpp"
-#include "armature/rt/ticks.hpp"
+#include "armature/rt/forward.hpp"
+#include "armature/rt/log_argument.hpp"
 
 namespace armature::component {
 
@@ -88,17 +87,17 @@ class Component {
   static void* operator new(std::size_t size) { return internal::allocate_side_by_side(size); }
   static void operator delete(void* at, std::size_t size) { internal::free_side_by_side(at, size); }
 
-  const std::string& name() const { return rest_->name; }
+  const std::string& name() const;
   /// @thread any
   State state() const { return state_.load(std::memory_order_acquire); }
   /// Serves operations: configured and without an exception.
   bool ready() const { return state() >= State::kStopped; }
   /// From its configuration to its clean-up, also behind an exception.
   /// @thread its own, or any while it does not run
-  bool is_configured() const { return rest_->configured; }
+  bool is_configured() const;
   /// Why the component is in its state after a refusal, an error or a fault; empty if all is well.
   /// @thread its own, or any while it does not run
-  std::string_view reason() const { return rest_->reason.view(); }
+  std::string_view reason() const;
 
   /// The cycle time of the thread: one value for everything that happens in a cycle.
   /// @rt nonblocking
@@ -152,24 +151,20 @@ class Component {
   /// The period with which it is run, as the plan knows it, from before it is configured on; 0 if
   /// the plan knows none, or two that differ (see `pace`).
   /// @rt nonblocking
-  base::Duration period() const {
-    return rest_->pace.known() ? rest_->pace.period : base::Duration::zero();
-  }
-  const Pace& pace() const { return rest_->pace; }
+  base::Duration period() const;
+  const Pace& pace() const;
   /// Told by the plan.
   /// @thread configuration only
-  void set_pace(const Pace& pace) {
-    if (rest_->pace != pace) rest_->pace = pace;
-  }
+  void set_pace(const Pace& pace);
 
   /// Looks at what the deployment makes of it: properties have their values, nothing is configured.
   /// Overridden by what has more to check than its declaration says; changes nothing.
   /// @thread configuration only
   virtual void on_check(Check& check) const;
 
-  const Interface& interface() const { return rest_->interface; }
+  const Interface& interface() const;
   /// The declaration lists, for the members that enter themselves.
-  Interface& declare() { return rest_->interface; }
+  Interface& declare();
   void add_step(Step& step, bool before_update);
   void remove_step(Step& step);
 
@@ -178,7 +173,7 @@ class Component {
   void assign_context(ExecutionContext& context);
 
   /// Execution time of the component in each measured cycle, in ticks, without what it called.
-  const rt::Distribution& execution_ticks() const { return rest_->execution_ticks; }
+  const rt::Distribution& execution_ticks() const;
   /// Adds up a measured cycle of all that ran in it.
   /// @rt nonblocking, no allocation, O(components that ran)
   /// @thread the context's
@@ -190,8 +185,7 @@ class Component {
   /// @rt as the code is; itself a few nanoseconds
   template <typename Code>
   bool run(ExecutionContext& where, Code&& code) noexcept {
-    if (where.outbox.any()) [[unlikely]]
-      where.outbox.flush();  // a hook or operation may take its time: nobody waits for it
+    where.flush();  // a hook or operation may take its time: nobody waits for it
     return run_handler(where, code);
   }
   /// The same for a handler, which is short: threads that are to be sent something wait for it.
@@ -287,20 +281,10 @@ class Component {
   friend class Entrance;
   using LogArguments = std::array<rt::LogArgument, 4>;
   void log(rt::LogLevel level, const char* format, const LogArguments& arguments);
-  /// A fault that happened in another thread, on its way to the component's own.
-  struct ReportedFault final : rt::Signal {
-    explicit ReportedFault(Component& component) : rt::Signal(&deliver), self(component) {}
-    static void deliver(rt::Message& message);
-    Component& self;
-    std::atomic<bool> taken{false};
-    Reason reason;
-  };
-
   /// Adds the time since the last mark to `ran`, which may be nobody.
   static void charge(ExecutionContext& where, Component* ran) noexcept;
   /// Faults because of the exception that is being handled.
   void contain(ExecutionContext& where) noexcept;
-  void log_rest_of(std::string_view text);
   void refuse_depth(ExecutionContext& where) noexcept;
   void enter_fault(std::string_view reason);
   void fault_from(const ExecutionContext& where, std::string_view reason);
@@ -315,25 +299,9 @@ class Component {
 
   /// What no handler touches. It lies apart, so that the members of the derived class lie close to
   /// what every handler touches: a cycle of many components is as fast as their data is small.
-  struct Rest {
-    Rest(Component& component, std::string component_name)
-        : name(std::move(component_name)), reported_fault(component) {}
-
-    std::string name;
-    bool configured = false;
-    base::Time ages_hold_until{};  ///< no input needs a look at its age before
-    Pace pace;
-    Interface interface;
-    std::vector<Step*> steps_before;
-    std::vector<Step*> steps_after;
-    Reason reason;
-    ReportedFault reported_fault;
-    // Last, being large: what a transition touches lies close together.
-    std::uint64_t measured_ticks = 0;
-    Component* next_measured = nullptr;
-    bool measured = false;
-    rt::Distribution execution_ticks;
-  };
+  struct Rest;
+  /// A fault that happened in another thread, on its way to the component's own.
+  struct ReportedFault;
 
   ExecutionContext* context_;
   std::atomic<State> state_{State::kPreOperational};

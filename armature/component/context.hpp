@@ -11,11 +11,7 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/entrance.hpp"
-#include "armature/rt/guard.hpp"
-#include "armature/rt/inbox.hpp"
-#include "armature/rt/log.hpp"
-#include "armature/rt/outbox.hpp"
-#include "armature/rt/wakeup.hpp"
+#include "armature/rt/forward.hpp"
 
 namespace armature::component {
 
@@ -37,20 +33,20 @@ class Supervisor {
 /// So deep hooks and operations may always nest in one thread.
 inline constexpr int kLeastDepthLimit = 64;
 
-struct ExecutionContext;
-
-/// The way of data to another thread.
-struct LaneTo {
-  LaneTo(rt::Outbox& writers_outbox, ExecutionContext& reading);
-  rt::Outbox& outbox;  ///< of the writer
-  ExecutionContext& reader;
-  rt::Lane lane;
-};
+/// The way of data to another thread (lanes.hpp).
+struct LaneTo;
 
 /// The thread that runs a component, as far as the component needs to know it. The execution engine
 /// owns it; all components that share a thread share its context.
 struct ExecutionContext {
+ private:
+  struct Mail;
+  std::unique_ptr<Mail> mail_;  ///< what it exchanges with other threads
+
+ public:
   explicit ExecutionContext(std::string context_name);
+  ExecutionContext(const ExecutionContext&) = delete;
+  ExecutionContext& operator=(const ExecutionContext&) = delete;
   ~ExecutionContext();
 
   std::string name;
@@ -73,10 +69,10 @@ struct ExecutionContext {
   bool simulated = false;  ///< several contexts take turns in one thread
   bool real_time = false;  ///< it asks for a real-time scheduler: its components wait for nobody
   std::atomic<bool> wakes_on_messages{false};
-  rt::Inbox inbox;       ///< empty when components of this context are disconnected or destroyed
-  rt::Inbox next_cycle;  ///< to be delivered first in the next cycle
-  rt::Wakeup wakeup;
-  rt::Outbox outbox;                           ///< for other threads
+  rt::Inbox& inbox;       ///< empty when components of this context are disconnected or destroyed
+  rt::Inbox& next_cycle;  ///< to be delivered first in the next cycle
+  rt::Wakeup& wakeup;
+  rt::Outbox& outbox;                          ///< for other threads
   std::vector<std::unique_ptr<LaneTo>> lanes;  ///< by which data goes to them in batches
   rt::LogQueue* log = nullptr;
   Supervisor* supervisor = nullptr;
@@ -99,25 +95,16 @@ struct ExecutionContext {
   /// Has `message` delivered by this context's thread, which is woken at once.
   /// @rt nonblocking, no allocation
   /// @thread any
-  void post(rt::Message& message) {
-    rt::send_gathered();
-    inbox.push(message);
-    wake();
-  }
-  void raise(rt::Signal& signal) {
-    rt::send_gathered();
-    if (signal.raise(inbox)) wake();
-  }
+  void post(rt::Message& message);
+  void raise(rt::Signal& signal);
   /// The same where more is to follow: the thread is woken when the calling one flushes its outbox.
-  void post_soon(rt::Message& message) {
-    rt::send_gathered();
-    inbox.push(message);
-    wake_soon();
-  }
-  void raise_soon(rt::Signal& signal) {
-    rt::send_gathered();
-    if (signal.raise(inbox)) wake_soon();
-  }
+  void post_soon(rt::Message& message);
+  void raise_soon(rt::Signal& signal);
+
+  /// Sends what this thread has for others: what follows may take its time.
+  /// @rt nonblocking; a system call for each thread that sleeps
+  /// @thread the context's
+  void flush();
 
   /// True if code that runs in `other` may touch what belongs to this context.
   bool shares_thread_with(const ExecutionContext& other) const {
@@ -125,12 +112,8 @@ struct ExecutionContext {
   }
 
  private:
-  void wake() {
-    if (wakes_on_messages.load(std::memory_order_relaxed)) wakeup.notify();
-  }
-  void wake_soon() {
-    if (wakes_on_messages.load(std::memory_order_relaxed)) rt::notify_soon(wakeup);
-  }
+  void wake();
+  void wake_soon();
 };
 
 }  // namespace armature::component

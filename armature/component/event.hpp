@@ -2,29 +2,24 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
-#include <string>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "armature/component/component.hpp"
-#include "armature/component/entrance.hpp"
-#include "armature/component/event_tap.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
-#include "armature/component/stand_in.hpp"
-#include "armature/rt/inbox.hpp"
-#include "armature/types/type.hpp"
 
 namespace armature::component {
+
+class EventTap;
+class StandIn;
 
 class EventHandlerBase;
 
@@ -64,8 +59,8 @@ class EventBase {
   /// assigned to. Handlers are told in the order of their subscription, but those in other threads
   /// first: they are to know of the event before data that it causes reaches them.
   /// @thread configuration only
-  virtual void subscribe(EventHandlerBase& handler) = 0;
-  virtual void unsubscribe_all() = 0;
+  void subscribe(EventHandlerBase& handler);
+  void unsubscribe_all();
 
   /// `listener` belongs to the same component and is told before the subscribers.
   void add_listener(EventListener& listener) { listeners_.push_back(&listener); }
@@ -79,37 +74,48 @@ class EventBase {
   /// An event of the same name and arguments, which `owner` raises by `raise_from`; it keeps the
   /// names of this one, which outlives it.
   /// @thread configuration only
-  virtual std::unique_ptr<EventBase> twin(StandIn& owner) const = 0;
+  std::unique_ptr<EventBase> twin(StandIn& owner) const;
   /// Raises it with arguments that are where `arguments` says, as its signature describes them.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  virtual RaiseStatus raise_from(const void* const* arguments) noexcept = 0;
+  RaiseStatus raise_from(const void* const* arguments) noexcept;
 
  protected:
   EventBase(Component& owner, std::string_view name, std::string_view doc,
             Signature signature) noexcept;
 
-  void tell_listeners() {
-    for (EventListener* listener : listeners_) listener->event_raised();
-  }
+  void mark_occasional() { occasional_ = true; }
 
+  /// Counts, and tells who is to know before the handlers of this thread.
+  /// @param arguments  where they are
+  RaiseStatus begin_raise(const void* const* arguments) noexcept {
+    ++raised_;
+    for (EventListener* listener : listeners_) listener->event_raised();
+    if (!queues_.empty()) return enqueue(arguments);
+    return subscribers_.empty() ? RaiseStatus::kNobodyListens : RaiseStatus::kDelivered;
+  }
   bool is_tapped() const { return first_tap_ != nullptr; }
   void tell_taps(const void* const* arguments) noexcept;
 
-  void mark_twin(EventBase& twin) const { twin.signature_ = signature_; }
-
-  void mark_occasional() { occasional_ = true; }
-
-  std::uint64_t raised_ = 0;
-  std::vector<EventHandlerBase*> subscribers_;
+  std::vector<EventHandlerBase*> direct_;  ///< those that run where it is raised
 
  private:
+  class Twin;
+  struct Queue;
+
+  /// The queue of `handler`'s thread.
+  Queue& queue_to(EventHandlerBase& handler);
+  RaiseStatus enqueue(const void* const* arguments) noexcept;
+
   bool occasional_ = false;
+  std::uint64_t raised_ = 0;
   Component& owner_;
   std::string_view name_;
   std::string_view doc_;
   Signature signature_;
+  std::vector<EventHandlerBase*> subscribers_;
   std::vector<EventListener*> listeners_;
+  std::vector<std::unique_ptr<Queue>> queues_;
   EventTap* first_tap_ = nullptr;
 };
 
@@ -130,40 +136,49 @@ class EventHandlerBase : public Requirement {
  public:
   ~EventHandlerBase() override;
 
-  const Signature& signature() const { return about().signature; }
-  bool runs_in_raisers_thread() const { return about().in_raisers_thread; }
-  const LeadsTo& effects() const { return about().leads_to; }
-  std::size_t queue_capacity() const { return about().queue_capacity; }
-  EventBase* source() const { return about().source; }
+  const Signature& signature() const;
+  bool runs_in_raisers_thread() const;
+  const LeadsTo& effects() const;
+  std::size_t queue_capacity() const;
+  EventBase* source() const;
   bool bound() const override { return source() != nullptr; }
   std::string_view handler() const final { return name(); }
   const Entrance* outer() const final { return outer_; }
   /// Events that came while the queue was full.
-  std::uint64_t dropped() const { return about().dropped.load(std::memory_order_relaxed); }
+  std::uint64_t dropped() const;
 
  protected:
-  /// Description, counters and lists, apart from what a cycle touches.
-  struct About : Requirement::About {
-    About(std::string_view its_name, std::string_view its_doc, Signature its_signature);
-    ~About() override;
-
-    Signature signature;
-    bool in_raisers_thread = false;
-    LeadsTo leads_to;
-    std::size_t queue_capacity = kDefaultEventQueue;
-    EventBase* source = nullptr;
-    std::atomic<std::uint64_t> dropped{0};
-  };
-
-  EventHandlerBase(Component& owner, std::unique_ptr<About> about) noexcept;
+  EventHandlerBase(Component& owner, std::string_view name, std::string_view doc,
+                   Signature signature) noexcept;
 
   using Requirement::apply;
-  void apply(InRaisersThread) noexcept { about().in_raisers_thread = true; }
-  void apply(const LeadsTo& effects) noexcept { about().leads_to = effects; }
-  void apply(QueueSize queue) noexcept { about().queue_capacity = queue.capacity; }
+  void apply(InRaisersThread) noexcept;
+  void apply(const LeadsTo& effects) noexcept;
+  void apply(QueueSize queue) noexcept;
 
-  About& about() const { return static_cast<About&>(Requirement::about()); }
-  void count_drop() { about().dropped.store(dropped() + 1, std::memory_order_relaxed); }
+  /// What it runs if that is no member function.
+  void set_free_function(FreeFunction function) noexcept;
+  FreeFunction free_function() const noexcept;
+
+  /// Handles an event whose arguments are where `arguments` says.
+  virtual void handle_from(ExecutionContext& where, const void* const* arguments) noexcept = 0;
+
+  template <typename Code>
+  void handle_with(ExecutionContext& where, Code&& code) noexcept {
+    Component& component = owner();
+    const bool own_thread = &where == &component.context();
+    if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
+    if (inside_) [[unlikely]]
+      return refuse(where);
+    inside_ = true;
+    component.enter_handler(where, *this, outer_, code);
+    inside_ = false;
+  }
+
+ private:
+  friend class EventBase;
+  struct About;
+  About& about() const;
 
   const Entrance* outer_ = nullptr;
   bool inside_ = false;  ///< it runs
@@ -181,50 +196,29 @@ class Event final : public EventBase {
  public:
   /// @param names  of the arguments, with units: `"position [rad]"`
   Event(Component* owner, std::string_view name, std::string_view doc,
-        std::initializer_list<std::string_view> names = {}) noexcept;
+        std::initializer_list<std::string_view> names = {}) noexcept
+      : EventBase(*owner, name, doc, Signature::of<void, Args...>(names)) {}
   Event(Component* owner, std::string_view name, std::string_view doc, Occasional,
         std::initializer_list<std::string_view> names = {}) noexcept
       : Event(owner, name, doc, names) {
     mark_occasional();
   }
-  ~Event() override;
 
   /// Tells all subscribers: those in this thread run now, the others are queued.
   /// @return kQueueFull if at least one subscriber could not be told
   /// @rt nonblocking, no allocation
   /// @thread the component's own
   RaiseStatus raise(const Args&... arguments) noexcept {
-    ++raised_;
-    RaiseStatus status =
-        subscribers_.empty() ? RaiseStatus::kNobodyListens : RaiseStatus::kDelivered;
-    tell_listeners();
-    for (const std::unique_ptr<Queue>& queue : queues_) {
-      if (!enqueue(*queue, arguments...)) status = RaiseStatus::kQueueFull;
+    const std::array<const void*, sizeof...(Args)> places{&arguments...};
+    const RaiseStatus status = begin_raise(places.data());
+    for (EventHandlerBase* base : direct_) {
+      auto& handler = static_cast<EventHandler<Args...>&>(*base);
+      owner().call_out(handler.owner(), [&] { handler.handle(owner().context(), arguments...); });
     }
-    if (!queues_.empty()) rt::flush_outbox();  // who is told of an event is woken at once
-    for (EventHandler<Args...>* handler : direct_) {
-      owner().call_out(handler->owner(), [&] { handler->handle(owner().context(), arguments...); });
-    }
-    if (is_tapped()) [[unlikely]] {
-      const std::array<const void*, sizeof...(Args)> places{&arguments...};
+    if (is_tapped()) [[unlikely]]
       tell_taps(places.data());
-    }
     return status;
   }
-
-  void subscribe(EventHandlerBase& base) override;
-  void unsubscribe_all() override;
-  std::unique_ptr<EventBase> twin(StandIn& owner) const override;
-  RaiseStatus raise_from(const void* const* arguments) noexcept override;
-
- private:
-  struct Queue;
-  /// The queue of `handler`'s thread.
-  Queue& queue_to(EventHandlerBase& handler);
-  bool enqueue(Queue& queue, const Args&... arguments);
-
-  std::vector<EventHandler<Args...>*> direct_;
-  std::vector<std::unique_ptr<Queue>> queues_;
 };
 
 /// Runs a member function when a peer raises the event of the same name and arguments: at once if
@@ -257,42 +251,37 @@ class EventHandler final : public EventHandlerBase {
       : EventHandler(*owner, name, doc, function, self) {
     (apply(options), ...);
   }
-  ~EventHandler() override;
 
-  // --- for the event that is subscribed to -----------------------------------------------------
-  void bind(Event<Args...>& event) { about().source = &event; }
-  void unbind() { about().source = nullptr; }
   /// For a component that calls out (see Component::call_out).
   void handle(ExecutionContext& where, const Args&... arguments) noexcept {
     handle_(*this, where, arguments...);
   }
-  using EventHandlerBase::count_drop;
 
  private:
   using Handle = void (*)(EventHandler&, ExecutionContext&, const Args&...) noexcept;
+  using Function = void (*)(void* self, const Args&...);
 
-  EventHandler(Component& owner, std::string_view name, std::string_view doc, Handle call) noexcept;
-  EventHandler(Component& owner, std::string_view name, std::string_view doc,
-               void (*function)(void* self, const Args&...), void* self) noexcept;
+  EventHandler(Component& owner, std::string_view name, std::string_view doc, Handle call) noexcept
+      : EventHandlerBase(owner, name, doc, Signature::of<void, Args...>({})), handle_(call) {}
+  EventHandler(Component& owner, std::string_view name, std::string_view doc, Function function,
+               void* self) noexcept
+      : EventHandler(
+            owner, name, doc,
+            [](EventHandler& handler, ExecutionContext& where, const Args&... arguments) noexcept {
+              handler.handle_with(where, [&] {
+                const FreeFunction free = handler.free_function();
+                free.as<Function>()(free.self, arguments...);
+              });
+            }) {
+    set_free_function(FreeFunction::of(function, self));
+  }
 
-  struct About final : EventHandlerBase::About {
-    using EventHandlerBase::About::About;
-    ~About() override;
-    void (*function)(void* self, const Args&...) = nullptr;
-    void* self = nullptr;
-  };
-  About& about() const { return static_cast<About&>(EventHandlerBase::about()); }
-
-  template <typename Code>
-  void handle_with(ExecutionContext& where, Code&& code) noexcept {
-    Component& component = owner();
-    const bool own_thread = &where == &component.context();
-    if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
-    if (inside_) [[unlikely]]
-      return refuse(where);
-    inside_ = true;
-    component.enter_handler(where, *this, outer_, code);
-    inside_ = false;
+  void handle_from(ExecutionContext& where,
+                   [[maybe_unused]] const void* const* arguments) noexcept override {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      handle(where, *static_cast<const Args*>(arguments[I])...);
+    }
+    (std::index_sequence_for<Args...>{});
   }
 
   Handle handle_;
@@ -303,5 +292,3 @@ extern template class Event<>;
 extern template class EventHandler<>;
 
 }  // namespace armature::component
-
-#include "armature/component/internal/event_definitions.hpp"

@@ -4,23 +4,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "armature/component/entrance.hpp"
+#include "armature/component/context.hpp"
 #include "armature/component/port.hpp"
 #include "armature/component/signature.hpp"
-#include "armature/component/stand_in.hpp"
-#include "armature/rt/inbox.hpp"
 
 namespace armature::component {
 
+class OutputPortBase;
+class StandIn;
 namespace internal {
-class ChannelBase;
-template <typename T>
 class Channel;
 }  // namespace internal
 
@@ -45,10 +41,6 @@ struct InputCounters {
   std::uint64_t lost = 0;    ///< how often a writer faulted
 };
 
-class OutputPortBase;
-template <typename T>
-class OutputPort;
-
 /// Option of an input port: a write runs the component's update.
 struct OnDataUpdate {};
 inline constexpr OnDataUpdate on_data_update{};
@@ -59,15 +51,19 @@ class InputPortBase : public PortBase {
   ~InputPortBase() override;
 
   bool triggers() const { return triggers_; }
-  const LeadsTo& effects() const { return about().leads_to; }
-  bool allows_fan_in() const { return about().fan_in; }
-  bool connected() const { return !about().writers.empty(); }
-  const std::vector<OutputPortBase*>& writers() const { return about().writers; }
-  bool ages() const { return about().max_age > base::Duration::zero(); }
-  base::Duration max_age() const { return about().max_age; }
-  Reaction stale_reaction() const { return about().stale_reaction; }
-  Reaction lost_reaction() const { return about().lost_reaction; }
-  InputCounters counters() const { return about().counters; }
+  const LeadsTo& effects() const;
+  bool allows_fan_in() const;
+  bool connected() const;
+  const std::vector<OutputPortBase*>& writers() const;
+  bool ages() const;
+  base::Duration max_age() const;
+  Reaction stale_reaction() const;
+  Reaction lost_reaction() const;
+  InputCounters counters() const;
+
+  const void* current() const final;
+  base::Time current_time() const final;
+  std::uint64_t current_sequence() const final;
 
   /// Declares an age from outside, as a deployment does for a connection.
   void set_max_age(MaxAge declared) { apply(declared); }
@@ -89,19 +85,16 @@ class InputPortBase : public PortBase {
 
   /// A writer faulted: the reader's thread reacts as declared.
   /// @thread the writer's
-  void tell_lost() { owner().context().raise(about().lost); }
+  void tell_lost();
 
   /// Its component runs, and no ages have to be looked at, or not for some time.
-  void set_at_once(bool on) {
-    set(kRests, !on);
-    set(kAges, !on && ages());
-  }
+  void set_at_once(bool on);
 
   /// The component starts: reactions to ages count from now.
   void begin();
 
   /// What was on its way to this port from another thread is gone with that thread.
-  void forget_messages() { about().lost.lower(); }
+  void forget_messages();
 
   /// The port's place in its array, from 0.
   std::size_t index() const { return index_; }
@@ -111,108 +104,67 @@ class InputPortBase : public PortBase {
   const Entrance* outer() const final { return outer_; }
 
   // --- for the output port that is connected ---------------------------------------------------
-  void connect_channel(OutputPortBase& writer, std::unique_ptr<internal::ChannelBase> channel);
+  /// It reads `sample`, which the writer holds.
+  void connect_source(OutputPortBase& writer, const void* sample);
+  void connect_channel(OutputPortBase& writer, std::unique_ptr<internal::Channel> channel);
+  /// Zeros in the shape of `value`: what is read before the first write.
+  void set_shape(const void* value);
   /// Several writers will be connected, which take turns: one runs, the others do not. What the
   /// last one wrote stays until the next one writes.
   /// @thread configuration only, before they are connected
-  void let_writers_take_turns() { about().turns = true; }
-  bool writers_take_turns() const { return about().turns; }
-  virtual void disconnect(OutputPortBase& writer) = 0;
+  void let_writers_take_turns();
+  bool writers_take_turns() const;
+  void disconnect(OutputPortBase& writer);
   /// A sample was written in this thread to the place that this port reads; for a component that
   /// calls out (see Component::call_out).
   /// @param where  the context of both
   void arrived(ExecutionContext& where) noexcept { arrived_(*this, where); }
   /// Takes what `channel` holds, one handler call for each sample.
-  virtual void drain(internal::ChannelBase& channel) = 0;
+  void drain(internal::Channel& channel);
+  /// Runs the handler on a sample that came by `channel`.
+  void receive(internal::Channel& channel, const void* sample);
 
   /// An input of the same name and type, whose values `owner` passes on; it keeps what this one is
   /// made of, which outlives it.
   /// @thread configuration only
-  virtual std::unique_ptr<InputPortBase> twin(StandIn& owner) const = 0;
+  std::unique_ptr<InputPortBase> twin(StandIn& owner) const;
   /// An output of `owner` of the same type: for who writes this input from elsewhere. It keeps what
   /// this one is made of, which outlives it.
   /// @thread configuration only
-  virtual std::unique_ptr<OutputPortBase> make_writer(Component& owner,
-                                                      std::string_view name) const = 0;
+  std::unique_ptr<OutputPortBase> make_writer(Component& owner, std::string_view name) const;
 
  protected:
   using Arrived = void (*)(InputPortBase&, ExecutionContext&) noexcept;
-
-  /// The message that the writer has faulted.
-  struct Lost final : rt::Signal {
-    explicit Lost(InputPortBase& port) : rt::Signal(&Lost::deliver), self(port) {}
-    static void deliver(rt::Message& message);
-    InputPortBase& self;
+  using Handle = void (*)(InputPortBase&, const void* value);
+  /// As `Reading`, of any type.
+  struct Found {
+    ReadStatus status;
+    bool stale;
+    const void* value;
+    base::Time time;
   };
 
-  /// Description, counters and lists, apart from what a cycle touches.
-  struct About : PortBase::About {
-    About(InputPortBase& port, std::string_view port_name, std::string_view port_doc,
-          std::string_view port_unit, const types::Type& port_type);
-    ~About() override;
-
-    bool fan_in = false;
-    bool turns = false;  ///< its writers take turns
-    bool late = false;   ///< the reaction to old data happened
-    LeadsTo leads_to;
-    Reaction stale_reaction = Reaction::kStop;
-    Reaction lost_reaction = Reaction::kStop;
-    base::Duration max_age{};
-    base::Time started{};
-    std::vector<OutputPortBase*> writers;
-    std::vector<std::unique_ptr<internal::ChannelBase>> channels;
-    std::size_t next_channel = 0;
-    bool unread = false;        ///< what was taken from a channel last was not read
-    bool looked_ahead = false;  ///< and is to be read before the next is taken
-    InputCounters counters;
-    Lost lost;
-  };
-
-  InputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
+  InputPortBase(Component& owner, const PortDeclaration& declaration) noexcept;
 
   using PortBase::apply;
   void apply(MaxAge declared) noexcept;
-  void apply(OnLost declared) noexcept { about().lost_reaction = declared.reaction; }
-  void apply(FanIn) noexcept { about().fan_in = true; }
-  void apply(const LeadsTo& effects) noexcept { about().leads_to = effects; }
+  void apply(OnLost declared) noexcept;
+  void apply(FanIn) noexcept;
+  void apply(const LeadsTo& effects) noexcept;
   void apply(OnDataUpdate) noexcept;
-  /// What its twin has of this one besides name and type.
-  void mark_twin(InputPortBase& twin) const;
-
-  /// `writer` and its channels are no more.
-  void forget_writer(OutputPortBase& writer);
-  /// The next sample was taken from `channel`.
-  void note_taken(internal::ChannelBase& channel, std::uint64_t sequence);
-  bool has_running_writer() const;
-  virtual void look_for_newer() = 0;
 
   ReadStatus status_of(std::uint64_t sequence) {
-    if (sequence == seen_) [[unlikely]] {
-      if (sequence != 0) return ReadStatus::kOld;
-      return connected() ? ReadStatus::kNone : ReadStatus::kNotConnected;
-    }
-    const std::uint64_t missed = sequence - seen_ - 1;
-    if (missed != 0) [[unlikely]]
-      about().counters.missed += missed;
+    if (sequence == seen_) [[unlikely]]
+      return ReadStatus::kOld;
+    if (sequence != seen_ + 1) [[unlikely]]
+      count_missed(sequence - seen_ - 1);
     seen_ = sequence;
     return ReadStatus::kNew;
   }
-
-  template <typename Code>
-  void pass(ExecutionContext& where, Code&& code) noexcept {
-    if (inside_ != 0) return refuse(where);
-    inside_ = 1;
-    owner().enter_handler(where, *this, outer_, code);
-    inside_ = 0;
-  }
-
-  About& about() const { return static_cast<About&>(PortBase::about()); }
-  bool is_stale(base::Time written) const {
-    return has(kAges) && owner().time() - written > about().max_age;
-  }
-  bool reads_zero(bool stale) const {
-    return has(kZeroed) || (stale && about().stale_reaction == Reaction::kZero);
-  }
+  /// Reads where there is more to it than a look at the sample.
+  Found find() noexcept;
+  /// Runs the handler where there is more to it than to call it.
+  void arrived_with_care(ExecutionContext& where, Handle handle) noexcept;
 
   /// What makes a port less simple than most; all of it in one byte, so that one look tells.
   enum Special : std::uint8_t {
@@ -224,19 +176,42 @@ class InputPortBase : public PortBase {
   bool is_special() const { return special_ != 0; }
   /// Its handler may run without a further look.
   bool is_simple() const { return (special_ | inside_) == 0; }
-  bool has(Special what) const { return (special_ & what) != 0; }
-  void set(Special what, bool on) {
-    special_ = static_cast<std::uint8_t>(on ? special_ | what : special_ & ~what);
-  }
 
   const Entrance* outer_ = nullptr;
   bool triggers_ = false;
   std::uint8_t inside_ = 0;  ///< 1 while its handler runs
 
  private:
+  struct About;
+  struct Lost;
+  class Twin;
+
+  About& about() const;
+  bool has(Special what) const { return (special_ & what) != 0; }
+  void set(Special what, bool on) {
+    special_ = static_cast<std::uint8_t>(on ? special_ | what : special_ & ~what);
+  }
+  void count_missed(std::uint64_t count);
+  bool is_stale(base::Time written) const;
+  bool reads_zero(bool stale) const;
+  template <typename Code>
+  void pass(ExecutionContext& where, Code&& code) noexcept;
   void react(Reaction reaction, std::string_view what);
   /// When the present data was written; waiting for the first counts from the start.
   base::Time written() const;
+  bool has_running_writer() const;
+
+  /// `writer` and its channels are no more.
+  void forget_writer(OutputPortBase& writer);
+  /// Takes the next sample of the channels, in turn; the channel it came from, or nullptr.
+  internal::Channel* pull();
+  /// Of writers that take turns only the newest sample counts.
+  internal::Channel* pull_newest();
+  void take(internal::Channel& channel, const void* sample);
+  /// The next sample was taken from `channel`.
+  void note_taken(internal::Channel& channel, std::uint64_t sequence);
+  /// A FIFO's next sample is not passed over: it is the one to be read next.
+  void look_for_newer();
 
   std::uint8_t special_ = kRests;
   std::uint32_t index_ = 0;
@@ -244,6 +219,7 @@ class InputPortBase : public PortBase {
  protected:
   Arrived arrived_ = nullptr;  ///< runs the handler; made for each, so that it is one piece of code
   std::uint64_t seen_ = 0;
+  const void* source_;  ///< the sample that is read
 };
 
 /// Option of an input port: a write runs `Handler`, a member function of the component that takes
@@ -268,50 +244,32 @@ class InputPort final : public InputPortBase {
       : InputPort(*owner, name, doc, unit) {
     (apply(options), ...);
   }
-  ~InputPort() override;
 
   /// The newest value (of a FIFO: the next), and whether it is new, was read before, was never
   /// written, or can never come because nothing is connected.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
   Reading<T> read() noexcept {
-    if (is_special()) [[unlikely]]
-      return read_special();
-    const Sample<T>& sample = *source_;
-    const ReadStatus status = status_of(sample.sequence);
-    const bool empty = status < ReadStatus::kOld;
-    return {status, false, empty ? about().empty.value : sample.value, sample.time};
+    const Sample<T>& newest = sample();
+    if (is_special() || newest.sequence == 0) [[unlikely]]
+      return read_with_care();
+    const ReadStatus status = status_of(newest.sequence);
+    return {status, false, newest.value, newest.time};
   }
 
-  const void* current() const override;
-  base::Time current_time() const override;
-  std::uint64_t current_sequence() const override;
-
-  // --- for the output port that is connected ---------------------------------------------------
-  void connect_source(OutputPortBase& writer, const Sample<T>& source);
-  void disconnect(OutputPortBase& writer) override;
-  /// Zeros in the shape of `shape`: what is read before the first write.
-  void set_shape(const T& shape);
-  void drain(internal::ChannelBase& channel) override;
-  std::unique_ptr<InputPortBase> twin(StandIn& owner) const override;
-  std::unique_ptr<OutputPortBase> make_writer(Component& owner,
-                                              std::string_view name) const override;
-  /// Runs the handler on a sample that came by `channel`.
-  void receive(internal::Channel<T>& channel, const Sample<T>& sample);
-
  private:
-  struct About final : InputPortBase::About {
-    using InputPortBase::About::About;
-    ~About() override;
-    Sample<T> empty{};
-  };
-
   template <typename Port>
   friend class PortArray;
   InputPort(Component& owner, std::string_view name, std::string_view doc,
-            std::string_view unit) noexcept;
+            std::string_view unit) noexcept
+      : InputPortBase(owner, {name, doc, unit, types::type_of<T>(), internal::is_small<T>}) {}
 
-  About& about() const { return static_cast<About&>(InputPortBase::about()); }
+  const Sample<T>& sample() const { return *static_cast<const Sample<T>*>(source_); }
+
+  [[gnu::noinline]] Reading<T> read_with_care() noexcept {
+    const Found found = find();
+    return {found.status, found.stale, *static_cast<const T*>(found.value), found.time};
+  }
 
   using InputPortBase::apply;
   template <auto Handler>
@@ -320,15 +278,15 @@ class InputPort final : public InputPortBase {
     arrived_ = [](InputPortBase& base, ExecutionContext& where) noexcept {
       auto& port = static_cast<InputPort&>(base);
       if (!port.is_simple()) [[unlikely]] {
-        port.arrived_with_care(where, [](InputPort& self, const T& value) {
-          call<Handler>(self.owner(), self, value);
+        port.arrived_with_care(where, [](InputPortBase& self, const void* value) {
+          call<Handler>(self.owner(), static_cast<InputPort&>(self), *static_cast<const T*>(value));
         });
         return;
       }
       Component& component = port.owner();
       port.inside_ = 1;
       component.enter_handler(where, port, port.outer_,
-                              [&] { call<Handler>(component, port, port.source_->value); });
+                              [&] { call<Handler>(component, port, port.sample().value); });
       port.inside_ = 0;
     };
   }
@@ -340,7 +298,7 @@ class InputPort final : public InputPortBase {
     if constexpr (std::is_invocable_v<decltype(Handler), Owner&>) {
       (owner.*Handler)();
     } else {
-      port.seen_ = port.source_->sequence;
+      port.seen_ = port.sample().sequence;
       if constexpr (std::is_invocable_v<decltype(Handler), Owner&, const T&>) {
         (owner.*Handler)(value);
       } else {
@@ -350,21 +308,6 @@ class InputPort final : public InputPortBase {
       }
     }
   }
-
-  [[gnu::noinline]] Reading<T> read_special() noexcept;
-
-  using Handle = void (*)(InputPort&, const T&);
-  [[gnu::noinline]] void arrived_with_care(ExecutionContext& where, Handle handle) noexcept;
-
-  /// Takes the next sample of the channels, in turn; the channel it came from, or nullptr.
-  internal::Channel<T>* pull();
-  /// Of writers that take turns only the newest sample counts.
-  internal::Channel<T>* pull_newest();
-  void take(internal::Channel<T>& channel, const Sample<T>& sample);
-  /// A FIFO's next sample is not passed over: it is the one to be read next.
-  void look_for_newer() override;
-
-  const Sample<T>* source_;
 };
 
 // Compiled once, in the library.
@@ -374,5 +317,3 @@ extern template class InputPort<double>;
 extern template class InputPort<std::vector<double>>;
 
 }  // namespace armature::component
-
-#include "armature/component/internal/input_port_definitions.hpp"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/rt/log.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/rt/statistics.hpp"
 #include "armature/rt/ticks.hpp"
 #include "armature/testing/test_thread.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/component.hpp"
+#include "armature/component/tap.hpp"
 
 namespace armature::component {
 

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
-#include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -17,11 +16,13 @@
 #include "armature/component/by_operator.hpp"
 #include "armature/component/call.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/context.hpp"
 #include "armature/component/requirement.hpp"
 #include "armature/component/signature.hpp"
-#include "armature/component/stand_in.hpp"
 
 namespace armature::component {
+
+class StandIn;
 
 /// Option of an operation: it is executed by its component's thread, in the order of the calls;
 /// without it, it runs in the thread of the caller.
@@ -50,60 +51,63 @@ class OperationBase {
   OperationBase& operator=(const OperationBase&) = delete;
   virtual ~OperationBase();
 
-  std::string_view name() const { return about_->name; }
-  std::string_view doc() const { return about_->doc; }
-  const Signature& signature() const { return about_->signature; }
+  std::string_view name() const;
+  std::string_view doc() const;
+  const Signature& signature() const;
   Component& owner() const { return owner_; }
-  bool runs_in_own_thread() const { return about_->own_thread; }
-  bool is_by_operator() const { return about_->by_operator; }
+  bool runs_in_own_thread() const;
+  bool is_by_operator() const;
   /// Its component stands for one that lives elsewhere.
-  bool is_elsewhere() const { return about_->elsewhere; }
+  bool is_elsewhere() const;
   /// True if accepting it is not the end of it: it has progress and completion.
   virtual bool is_command() const { return false; }
 
   /// Calls it with values of the argument types, for tools; the result if it has one.
   /// @thread the component's own
   virtual base::Result<std::optional<types::Value>> invoke(
-      const std::vector<types::Value>& arguments) = 0;
+      const std::vector<types::Value>& arguments);
+
+  /// Executes it in its own thread, for nobody who runs there.
+  /// @param arguments  where they are, as the signature has them
+  /// @param result     where it goes; nullptr if there is none
+  CallStatus execute_by_message(const void* const* arguments, void* result) noexcept;
 
   /// An operation of the same name and signature that `owner` passes on; it keeps the names of this
   /// one, which outlives it.
   /// @thread configuration only
-  virtual std::unique_ptr<OperationBase> twin(StandIn& owner) const = 0;
+  std::unique_ptr<OperationBase> twin(StandIn& owner) const;
 
  protected:
-  /// What is seldom needed lies apart, as for ports.
-  struct About {
-    About(std::string_view its_name, std::string_view its_doc, Signature its_signature,
-          bool its_own_thread);
-    virtual ~About();
+  using ExecuteFrom = CallStatus (*)(OperationBase&, ExecutionContext&,
+                                     const void* const* arguments, void* result) noexcept;
 
-    std::string_view name;
-    std::string_view doc;
-    Signature signature;
-    bool own_thread;
-    bool by_operator = false;
-    bool elsewhere = false;
-    bool any_state = false;
-  };
+  /// @param execute_from  nullptr for a command, which is begun
+  OperationBase(Component& owner, std::string_view name, std::string_view doc, Signature signature,
+                ExecuteFrom execute_from) noexcept;
+  void apply(InOwnThread) noexcept;
+  void apply(ByOperator) noexcept;
+  void apply(InAnyState) noexcept;
+  void apply(const ArgumentNames& given) noexcept;
 
-  OperationBase(Component& owner, std::unique_ptr<About> about) noexcept;
-  About& about() const { return *about_; }
-  void apply(InOwnThread) noexcept { about_->own_thread = true; }
-  void apply(ByOperator) noexcept { about_->by_operator = true; }
-  void apply(InAnyState) noexcept { about_->any_state = true; }
   /// Whether it is served now although its component is not ready.
   bool serves_unready() const;
-  void apply(const ArgumentNames& given) noexcept;
-  /// What its twin has of this one besides name and arguments.
-  void mark_twin(OperationBase& twin) const;
+  /// Whether it is served as long as its component is configured.
+  bool serves_in_any_state() const;
+  /// What it runs if that is no member function.
+  void set_free_function(FreeFunction function) noexcept;
+  FreeFunction free_function() const noexcept;
+  /// Has the stand-in that owns it call its original.
+  CallStatus pass_on(ExecutionContext& where, const void* const* arguments, void* result) noexcept;
   /// What is wrong with `arguments`, empty if nothing.
   std::string mismatch(const std::vector<types::Value>& arguments) const;
-  std::string refusal_of_sealed() const;
-  /// What `invoke` says of a call that did not succeed.
-  base::Error failure(CallStatus status) const;
 
  private:
+  /// What is seldom needed lies apart, as for ports.
+  struct About;
+
+  virtual std::unique_ptr<OperationBase> make_twin(Component& owner) const = 0;
+  std::string refusal_of_sealed() const;
+
   Component& owner_;
   std::unique_ptr<About> about_;
 };
@@ -143,32 +147,31 @@ class Operation<R(Args...)> final : public OperationBase {
       : Operation(*owner, name, doc, function, self) {
     (apply(options), ...);
   }
-  ~Operation() override;
 
   /// Executes it here, for a component that calls out (see Component::call_out).
   /// @param where  the context of the calling thread
   CallResult<R> execute(ExecutionContext& where, Args... arguments) noexcept {
     return execute_(*this, where, static_cast<Args>(arguments)...);
   }
-  /// Executes it in its own thread, for nobody who runs there.
-  CallResult<R> execute_by_message(Args... arguments) noexcept;
-
-  base::Result<std::optional<types::Value>> invoke(
-      const std::vector<types::Value>& arguments) override;
-
-  std::unique_ptr<OperationBase> twin(StandIn& owner) const override;
 
  private:
   using Execute = CallResult<R> (*)(Operation&, ExecutionContext&, Args...) noexcept;
+  using Function = R (*)(void* self, Args...);
 
-  Operation(Component& owner, std::string_view name, std::string_view doc,
-            Execute service) noexcept;
-  Operation(Component& owner, std::string_view name, std::string_view doc,
-            R (*function)(void* self, Args...), void* self) noexcept;
-
-  template <std::size_t... I>
-  base::Result<std::optional<types::Value>> invoke_with(const std::vector<types::Value>& arguments,
-                                                        std::index_sequence<I...>);
+  Operation(Component& owner, std::string_view name, std::string_view doc, Execute service) noexcept
+      : OperationBase(owner, name, doc, Signature::of<R, Args...>({}), &execute_from),
+        execute_(service) {}
+  Operation(Component& owner, std::string_view name, std::string_view doc, Function function,
+            void* self) noexcept
+      : Operation(owner, name, doc,
+                  [](Operation& operation, ExecutionContext& where, Args... arguments) noexcept {
+                    return operation.execute_with(where, [&]() -> R {
+                      const FreeFunction free = operation.free_function();
+                      return free.as<Function>()(free.self, static_cast<Args>(arguments)...);
+                    });
+                  }) {
+    set_free_function(FreeFunction::of(function, self));
+  }
 
   template <typename Code>
   CallResult<R> execute_with(ExecutionContext& where, Code&& code) noexcept {
@@ -186,51 +189,34 @@ class Operation<R(Args...)> final : public OperationBase {
     return result;
   }
 
-  struct About final : OperationBase::About {
-    using OperationBase::About::About;
-    ~About() override;
-    R (*function)(void* self, Args...) = nullptr;
-    void* self = nullptr;
-  };
-  About& about() const { return static_cast<About&>(OperationBase::about()); }
+  static CallStatus execute_from(OperationBase& base, ExecutionContext& where,
+                                 [[maybe_unused]] const void* const* arguments,
+                                 [[maybe_unused]] void* result) noexcept {
+    auto& operation = static_cast<Operation&>(base);
+    CallResult<R> answer = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return operation.execute(where, *static_cast<const std::decay_t<Args>*>(arguments[I])...);
+    }
+    (std::index_sequence_for<Args...>{});
+    if constexpr (!std::is_void_v<R>) {
+      if (answer) *static_cast<std::decay_t<R>*>(result) = std::move(answer.value);
+    }
+    return answer.status;
+  }
+
+  std::unique_ptr<OperationBase> make_twin(Component& owner) const override {
+    const auto service = [](Operation& operation, ExecutionContext& where,
+                            Args... arguments) noexcept -> CallResult<R> {
+      const std::array<const void*, sizeof...(Args)> places{&arguments...};
+      CallResult<R> result;
+      void* place = nullptr;
+      if constexpr (!std::is_void_v<R>) place = &result.value;
+      result.status = operation.pass_on(where, places.data(), place);
+      return result;
+    };
+    return std::unique_ptr<OperationBase>(new Operation(owner, name(), doc(), Execute(service)));
+  }
 
   Execute execute_;
-};
-
-/// A component's declared use of an operation of one of its peers.
-class OperationCallerBase : public Requirement {
- public:
-  ~OperationCallerBase() override;
-
-  const Signature& signature() const { return about().signature; }
-  OperationBase* target() const { return about().target; }
-  bool bound() const override { return target() != nullptr; }
-
-  /// Calls that were not taken because too many were under way.
-  std::uint64_t refused() const { return about().refused; }
-
-  /// True if it uses a command with completion, false if a plain operation.
-  virtual bool needs_command() const { return false; }
-
-  /// Connects to `operation`, which has the same signature, for the threads that both components
-  /// are assigned to.
-  /// @thread configuration only
-  virtual void connect(OperationBase& operation) = 0;
-  virtual void disconnect() = 0;
-
- protected:
-  /// Description, counters and lists, apart from what a cycle touches.
-  struct About : Requirement::About {
-    About(std::string_view its_name, std::string_view its_doc, Signature its_signature);
-    ~About() override;
-
-    Signature signature;
-    OperationBase* target = nullptr;
-    std::uint64_t refused = 0;
-  };
-
-  OperationCallerBase(Component& owner, std::unique_ptr<About> about) noexcept;
-  About& about() const { return static_cast<About&>(Requirement::about()); }
 };
 
 /// How many sent calls of one caller may be under way; one more is answered kQueueFull.
@@ -240,7 +226,50 @@ struct Outstanding {
 inline Outstanding outstanding(std::size_t count) { return {count}; }
 inline constexpr std::size_t kDefaultOutstanding = 4;
 
-/// Calls an operation of a peer that returns R and takes Args.
+/// A component's declared use of an operation of one of its peers.
+class OperationCallerBase : public Requirement {
+ public:
+  ~OperationCallerBase() override;
+
+  const Signature& signature() const;
+  OperationBase* target() const { return operation_; }
+  bool bound() const override { return operation_ != nullptr; }
+
+  /// Calls that were not taken because too many were under way.
+  std::uint64_t refused() const;
+
+  /// True if it uses a command with completion, false if a plain operation.
+  virtual bool needs_command() const { return false; }
+
+  /// Connects to `operation`, which has the same signature, for the threads that both components
+  /// are assigned to.
+  /// @thread configuration only
+  virtual void connect(OperationBase& operation);
+  virtual void disconnect();
+
+ protected:
+  OperationCallerBase(Component& owner, std::string_view name, std::string_view doc,
+                      Signature signature) noexcept;
+
+  using Requirement::apply;
+  void apply(Outstanding option) noexcept;
+  std::size_t outstanding() const;
+  void count_refused();
+
+  /// @param arguments  where they are, as the signature has them
+  SentCall send_from(const void* const* arguments);
+  void prepare_from(const void* const* arguments);
+  /// The operation lives elsewhere, and this thread waits for nobody.
+  bool would_wait() const;
+
+  OperationBase* operation_ = nullptr;
+  bool direct_ = false;  ///< a call runs here
+
+ private:
+  struct About;
+  About& about() const;
+};
+
 template <typename R, typename... Args>
 class OperationCaller<R(Args...)> final : public OperationCallerBase {
  public:
@@ -251,7 +280,6 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
       : OperationCaller(*owner, name, doc) {
     (apply(options), ...);
   }
-  ~OperationCaller() override;
 
   /// Calls and waits for the result. An operation of this thread runs at once, and so does one of a
   /// thread that does not run yet or any more; else it is queued there and waited for, at most one
@@ -262,9 +290,10 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
     if (operation_ == nullptr) [[unlikely]]
       return {CallStatus::kNotConnected};
     if (direct_ || operation_->owner().context().shares_thread_with(owner().context())) {
+      auto& operation = static_cast<Operation<R(Args...)>&>(*operation_);
       CallResult<R> result{};
-      owner().call_out(operation_->owner(), [&] {
-        result = operation_->execute(owner().context(), static_cast<Args>(arguments)...);
+      owner().call_out(operation.owner(), [&] {
+        result = operation.execute(owner().context(), static_cast<Args>(arguments)...);
       });
       return result;
     }
@@ -274,35 +303,27 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   /// Queues the call for the operation's own thread and returns at once.
   /// @rt nonblocking; allocates only to make room for larger vectors than ever sent
   /// @thread the component's own
-  SendHandle<R> send(Args... arguments);
+  SendHandle<R> send(Args... arguments) {
+    const std::array<const void*, sizeof...(Args)> places{&arguments...};
+    return SendHandle<R>(send_from(places.data()));
+  }
 
   /// Gives the queue's memory the shape of these arguments, so that sending them never allocates.
-  void prepare(Args... sample);
-
-  void connect(OperationBase& base) override;
-  void disconnect() override;
+  void prepare(Args... sample) {
+    const std::array<const void*, sizeof...(Args)> places{&sample...};
+    prepare_from(places.data());
+  }
 
  private:
   static constexpr base::Duration kCallLimit = std::chrono::seconds(1);
 
-  OperationCaller(Component& owner, std::string_view name, std::string_view doc) noexcept;
-  [[gnu::noinline]] CallResult<R> send_and_wait(Args... arguments);
+  OperationCaller(Component& owner, std::string_view name, std::string_view doc) noexcept
+      : OperationCallerBase(owner, name, doc, Signature::of<R, Args...>({})) {}
 
-  struct Record;
-  struct About final : OperationCallerBase::About {
-    using OperationCallerBase::About::About;
-    ~About() override;
-    std::size_t outstanding = kDefaultOutstanding;
-    std::vector<std::unique_ptr<Record, SharedRecord::LetGo>> records;
-    std::size_t next = 0;
-  };
-  About& about() const { return static_cast<About&>(OperationCallerBase::about()); }
-
-  using OperationCallerBase::apply;
-  void apply(Outstanding option) noexcept { about().outstanding = option.count; }
-
-  Operation<R(Args...)>* operation_ = nullptr;
-  bool direct_ = false;  ///< a call runs here
+  [[gnu::noinline]] CallResult<R> send_and_wait(Args... arguments) {
+    if (would_wait()) return {CallStatus::kWouldWait};
+    return send(static_cast<Args>(arguments)...).wait(kCallLimit);
+  }
 };
 
 // Compiled once, in the library.
@@ -316,5 +337,3 @@ extern template class OperationCaller<double()>;
 extern template class OperationCaller<void(double)>;
 
 }  // namespace armature::component
-
-#include "armature/component/internal/operation_definitions.hpp"

@@ -4,23 +4,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "armature/component/input_port.hpp"
 #include "armature/component/port.hpp"
-#include "armature/component/stand_in.hpp"
-#include "armature/component/tap.hpp"
 
 namespace armature::component {
 
-namespace internal {
-class PortTapBase;
-}  // namespace internal
-using AttachedTap = internal::PortTapBase;
+class AttachedTap;
+class Tap;
 
 /// What losses an output saw.
 struct OutputCounters {
@@ -34,13 +28,17 @@ class OutputPortBase : public PortBase {
  public:
   ~OutputPortBase() override;
 
-  OutputCounters counters() const { return about().counters; }
-  const std::vector<InputPortBase*>& readers() const { return about().readers; }
+  OutputCounters counters() const;
+  const std::vector<InputPortBase*>& readers() const;
+
+  const void* current() const final;
+  base::Time current_time() const final;
+  std::uint64_t current_sequence() const final;
 
   /// Connects `input`, which has the same type (see exec's checks), for the threads that both
   /// components are assigned to.
   /// @thread configuration only
-  virtual void connect(InputPortBase& input, const ConnectionPolicy& policy) = 0;
+  void connect(InputPortBase& input, const ConnectionPolicy& policy);
   void disconnect_all();
   /// `input` is no reader any more.
   void forget(InputPortBase& input);
@@ -49,19 +47,19 @@ class OutputPortBase : public PortBase {
   /// its component starts; nullptr: nothing.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  void take_over_from(const OutputPortBase* writer) { about().predecessor = writer; }
+  void take_over_from(const OutputPortBase* writer);
 
   /// Has every n-th sample from the first on go to a tap as well, which lives until
   /// `disconnect_all`. It is no reader: a write says what it would say without.
   /// @param capacity  samples that it holds
   /// @thread configuration only, once the port has its shape
   Tap& tap(std::size_t capacity, std::uint64_t every = 1);
-  bool is_tapped() const { return !about().taps.empty() || about().first_attached != nullptr; }
+  bool is_tapped() const;
 
   /// A tap to be attached: for who comes and goes while the application runs.
   /// @param shape  a value of the port's type, of the shape that the port has
   /// @thread any
-  virtual std::unique_ptr<AttachedTap> make_tap(std::size_t capacity, const void* shape) const = 0;
+  std::unique_ptr<AttachedTap> make_tap(std::size_t capacity, const void* shape) const;
   /// From now on every sample goes to `tap` as well, until it is detached, which it is before it
   /// goes.
   /// @rt nonblocking, no allocation, O(taps)
@@ -72,41 +70,40 @@ class OutputPortBase : public PortBase {
   /// An output of the same name and type, which `owner` writes by `write_from`; it keeps what this
   /// one is made of, which outlives it.
   /// @thread configuration only
-  virtual std::unique_ptr<OutputPortBase> twin(StandIn& owner) const = 0;
+  std::unique_ptr<OutputPortBase> twin(StandIn& owner) const;
   /// Writes a value of the port's type.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
-  virtual WriteStatus write_from(const void* value) noexcept = 0;
+  WriteStatus write_from(const void* value) noexcept;
 
   /// Gives vectors their declared size; the number of elements of the current value otherwise.
-  virtual void prepare() = 0;
+  void prepare();
   /// True if `input` expects vectors of the size that this port writes.
-  virtual bool fits(const InputPortBase& input) const = 0;
+  bool fits(const InputPortBase& input) const;
 
  protected:
-  /// Description, counters and lists, apart from what a cycle touches.
-  struct About : PortBase::About {
-    using PortBase::About::About;
-    ~About() override;
-    OutputCounters counters;
-    std::vector<InputPortBase*> readers;
-    std::vector<InputPortBase*> triggered;  ///< readers in this thread whose handlers run now
-    std::vector<internal::ChannelBase*> channels;
-    std::vector<std::unique_ptr<internal::PortTapBase>> taps;
-    AttachedTap* first_attached = nullptr;
-    const OutputPortBase* predecessor = nullptr;
-  };
-  OutputPortBase(Component& owner, std::unique_ptr<About> about) noexcept;
+  /// @param sample  of the declared type, which the port holds
+  OutputPortBase(Component& owner, const PortDeclaration& declaration, void* sample) noexcept;
 
-  About& about() const { return static_cast<About&>(PortBase::about()); }
+  /// What this port takes over from; nullptr: nothing.
+  const OutputPortBase* predecessor() const;
 
-  /// `input` reads the value where it is.
-  void add_reader(InputPortBase& input);
-  /// `input` is given samples by `made_channel`; the last one, `sample`, at once.
-  void add_reader(InputPortBase& input, std::unique_ptr<internal::ChannelBase> made_channel,
-                  const void* sample, std::uint64_t sequence);
+  /// Tells the readers of a sample that was written, and says what became of it.
+  [[gnu::always_inline]] WriteStatus tell(const void* sample) noexcept {
+    if (delivery_ != Delivery::kHandler) {
+      return delivery_ == Delivery::kNothing ? unread_ : deliver(sample);
+    }
+    ExecutionContext& where = owner().context();
+    if (where.measuring) [[unlikely]] {
+      run_measured(*only_.handler);
+    } else {
+      only_.handler->arrived(where);
+    }
+    return WriteStatus::kWritten;
+  }
   /// Apart, so that they add nothing to the common case.
   WriteStatus deliver(const void* sample) noexcept;
+  WriteStatus refuse_size() noexcept;
   void run_measured(InputPortBase& input) noexcept;
 
   /// What a write has to do for its readers.
@@ -114,18 +111,36 @@ class OutputPortBase : public PortBase {
   /// The one reader's handler or channel; `Delivery` says which.
   union Only {
     InputPortBase* handler = nullptr;
-    internal::ChannelBase* channel;
+    internal::Channel* channel;
   };
   Only only_;
   Delivery delivery_ = Delivery::kNothing;
   WriteStatus unread_ = WriteStatus::kNotConnected;  ///< what a write that has nothing to do says
 
  private:
-  virtual std::unique_ptr<internal::PortTapBase> make_own_tap(std::size_t capacity,
-                                                              std::uint64_t every) = 0;
+  friend class InputPortBase;
+  struct About;
+  class Erased;
+
+  About& about() const;
+  /// `input` reads the value where it is.
+  void add_reader(InputPortBase& input);
+  /// `input` is given samples by `made_channel`; the last one at once.
+  void add_reader(InputPortBase& input, std::unique_ptr<internal::Channel> made_channel);
   void choose_delivery();
   void note(rt::PushResult result, WriteStatus& status);
 };
+
+namespace internal {
+template <typename T>
+bool same_shape(const T& a, const T& b) {
+  return types::same_shape(types::type_of<T>(), &a, &b);
+}
+/// The usual case, without a look at the type's description.
+template <typename E>
+requires std::is_trivially_copyable_v<E>
+bool same_shape(const std::vector<E>& a, const std::vector<E>& b) { return a.size() == b.size(); }
+}  // namespace internal
 
 /// Writes typed data to any number of inputs.
 ///
@@ -144,7 +159,6 @@ class OutputPort final : public OutputPortBase {
       : OutputPort(*owner, name, doc, unit) {
     (apply(options), ...);
   }
-  ~OutputPort() override;
 
   /// Writes `value` and runs the handlers that are to run on it in this thread.
   /// @rt nonblocking, no allocation
@@ -154,7 +168,7 @@ class OutputPort final : public OutputPortBase {
       return write_shaped(value);
     } else {
       sample_.value = value;
-      return tell();
+      return tell_written();
     }
   }
 
@@ -170,49 +184,28 @@ class OutputPort final : public OutputPortBase {
   /// @rt nonblocking, no allocation
   /// @thread the component's own
   const T* taken_over() const {
-    const OutputPortBase* const predecessor = about().predecessor;
-    return predecessor == nullptr ? nullptr : static_cast<const T*>(predecessor->current());
+    const OutputPortBase* const before = predecessor();
+    return before == nullptr ? nullptr : static_cast<const T*>(before->current());
   }
-
-  const void* current() const override;
-  base::Time current_time() const override;
-  std::uint64_t current_sequence() const override;
-  void prepare() override;
-  bool fits(const InputPortBase& input) const override;
-  void connect(InputPortBase& base, const ConnectionPolicy& policy) override;
-  std::unique_ptr<AttachedTap> make_tap(std::size_t capacity, const void* shape) const override;
-  std::unique_ptr<OutputPortBase> twin(StandIn& owner) const override;
-  WriteStatus write_from(const void* value) noexcept override;
 
  private:
   template <typename Port>
   friend class PortArray;
-  template <typename Other>
-  friend class InputPort;
   OutputPort(Component& owner, std::string_view name, std::string_view doc,
-             std::string_view unit) noexcept;
+             std::string_view unit) noexcept
+      : OutputPortBase(owner, {name, doc, unit, types::type_of<T>(), internal::is_small<T>},
+                       &sample_) {}
 
-  std::unique_ptr<internal::ChannelBase> make_channel(InputPortBase& input,
-                                                      const ConnectionPolicy& policy,
-                                                      bool same_thread);
-  std::unique_ptr<internal::PortTapBase> make_own_tap(std::size_t capacity,
-                                                      std::uint64_t every) override;
-  [[gnu::noinline]] WriteStatus write_shaped(const T& value) noexcept;
+  [[gnu::noinline]] WriteStatus write_shaped(const T& value) noexcept {
+    if (!internal::same_shape(sample_.value, value)) return refuse_size();
+    sample_.value = value;
+    return tell_written();
+  }
 
-  [[gnu::always_inline]] WriteStatus tell() noexcept {
-    Component& writer = owner();
-    sample_.time = writer.time();
+  [[gnu::always_inline]] WriteStatus tell_written() noexcept {
+    sample_.time = owner().time();
     ++sample_.sequence;
-    if (delivery_ != Delivery::kHandler) {
-      return delivery_ == Delivery::kNothing ? unread_ : deliver(&sample_);
-    }
-    ExecutionContext& where = writer.context();
-    if (where.measuring) [[unlikely]] {
-      run_measured(*only_.handler);
-    } else {
-      only_.handler->arrived(where);
-    }
-    return WriteStatus::kWritten;
+    return tell(&sample_);
   }
 
   Sample<T> sample_{};
@@ -225,5 +218,3 @@ extern template class OutputPort<double>;
 extern template class OutputPort<std::vector<double>>;
 
 }  // namespace armature::component
-
-#include "armature/component/internal/output_port_definitions.hpp"

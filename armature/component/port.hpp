@@ -16,7 +16,7 @@
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/property.hpp"
-#include "armature/rt/ring.hpp"
+#include "armature/rt/when_full.hpp"
 #include "armature/types/enum.hpp"
 #include "armature/types/type.hpp"
 
@@ -127,6 +127,15 @@ LeadsTo leads_to(Names... names) {
 }
 inline LeadsTo leads_to_nothing() { return {{}, true}; }
 
+/// What a port is made of.
+struct PortDeclaration {
+  std::string_view name;
+  std::string_view doc;
+  std::string_view unit;
+  const types::Type& type;
+  bool is_small;  ///< see internal::is_small
+};
+
 /// What input and output ports have in common.
 class PortBase : public Entrance {
  public:
@@ -135,14 +144,14 @@ class PortBase : public Entrance {
   static void* operator new(std::size_t size) { return internal::allocate_side_by_side(size); }
   static void operator delete(void* at, std::size_t size) { internal::free_side_by_side(at, size); }
 
-  const std::string& name() const { return about_->name; }
-  std::string_view doc() const { return about_->doc; }
-  std::string_view unit() const { return about_->unit; }
-  const types::Type& type() const { return about_->type; }
+  const std::string& name() const;
+  std::string_view doc() const;
+  std::string_view unit() const;
+  const types::Type& type() const;
   Component& owner() const { return owner_; }
   Component& component() const final { return owner_; }
-  const PortSize& declared_size() const { return about_->size; }
-  bool stays_open() const { return about_->may_stay_open; }
+  const PortSize& declared_size() const;
+  bool stays_open() const;
 
   /// The value that a tool shows.
   /// @thread the component's own
@@ -153,23 +162,12 @@ class PortBase : public Entrance {
  protected:
   /// What is seldom needed. It lies apart, so that what every write and read touches lies close
   /// together: a cycle of many components is as fast as their data is small.
-  struct About {
-    About(std::string_view port_name, std::string_view port_doc, std::string_view port_unit,
-          const types::Type& port_type);
-    virtual ~About();
-
-    std::string name;
-    const types::Type& type;
-    std::string_view unit;
-    PortSize size;
-    bool may_stay_open = false;
-    std::string_view doc;
-  };
+  struct About;
 
   PortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
-  void apply(PortSize size) noexcept { about_->size = size; }
-  void apply(MayStayOpen) noexcept { about_->may_stay_open = true; }
+  void apply(PortSize size) noexcept;
+  void apply(MayStayOpen) noexcept;
 
   About& about() const { return *about_; }
 
@@ -188,18 +186,10 @@ concept PortData = !std::is_same_v<T, std::string> && std::is_default_constructi
 
 namespace internal {
 
-/// Every number 0, every text empty, sizes as they are.
-void set_to_zero(const types::Type& type, void* value);
-
 /// It can be copied as bytes, and is small.
 template <typename T>
 inline constexpr bool is_small = std::is_trivially_copyable_v<T> && sizeof(T) <= 256 &&
                                  alignof(T) <= sizeof(void*);
 
-template <typename T>
-inline constexpr bool is_vector = false;
-template <typename E>
-inline constexpr bool is_vector<std::vector<E>> = true;
 }  // namespace internal
-
 }  // namespace armature::component

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/internal/test_ports.hpp"
+#include "armature/rt/inbox.hpp"
 
 namespace armature::component {
 namespace {

@@ -12,7 +12,6 @@
 #include "armature/base/result.hpp"
 #include "armature/component/by_operator.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/tap.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component {
@@ -33,6 +32,7 @@ struct Mandatory {};
 /// The property has no useful default: a deployment must give it.
 inline constexpr Mandatory mandatory{};
 
+class Tap;
 namespace internal {
 class PropertyTap;
 }  // namespace internal

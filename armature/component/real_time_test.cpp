@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/internal/test_ports.hpp"
+#include "armature/rt/log.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace {

@@ -50,6 +50,21 @@ struct Serve {};
 template <auto Function>
 inline constexpr Serve<Function> serve{};
 
+/// A function that is no member function, of any signature, and what it is given as `self`.
+struct FreeFunction {
+  void (*function)() = nullptr;
+  void* self = nullptr;
+
+  template <typename Function>
+  static FreeFunction of(Function function, void* self) {
+    return {reinterpret_cast<void (*)()>(function), self};
+  }
+  template <typename Function>
+  Function as() const {
+    return reinterpret_cast<Function>(function);
+  }
+};
+
 namespace internal {
 
 template <typename Member>

@@ -45,4 +45,17 @@ class Tap {
   std::atomic<std::uint64_t> dropped_{0};
 };
 
+/// Of an output port; it may come and go while the application runs.
+class AttachedTap : public Tap {
+ public:
+  /// @param sample  a `Sample` of the port's type
+  /// @rt nonblocking, no allocation
+  /// @thread the writer's
+  virtual void push(const void* sample) noexcept = 0;
+
+ private:
+  friend class OutputPortBase;
+  AttachedTap* next_ = nullptr;  ///< of those that are attached to a port
+};
+
 }  // namespace armature::component

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/tap.hpp"
 
 namespace armature::component {
 namespace {

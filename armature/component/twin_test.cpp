@@ -8,6 +8,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/stand_in.hpp"
+#include "armature/component/tap.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/testing/test_thread.hpp"
 

@@ -14,6 +14,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
+#include "armature/component/call_record.hpp"
 #include "armature/component/command.hpp"
 #include "armature/exec/black_box.hpp"
 #include "armature/exec/blueprint.hpp"

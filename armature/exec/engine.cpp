@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/component/lanes.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/rt/ticks.hpp"

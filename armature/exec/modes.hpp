@@ -8,6 +8,7 @@
 #include "armature/base/fixed_text.hpp"
 #include "armature/base/time.hpp"
 #include "armature/component/author.hpp"
+#include "armature/rt/inbox.hpp"
 
 namespace armature::exec {
 

@@ -14,6 +14,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/event_tap.hpp"
+#include "armature/component/tap.hpp"
 #include "armature/rt/ring.hpp"
 
 namespace armature::remote {

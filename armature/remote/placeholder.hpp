@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/remote/interface_numbers.hpp"
 #include "armature/remote/link_to.hpp"
 #include "armature/ride/peer.hpp"
+#include "armature/rt/inbox.hpp"
 
 namespace armature::remote {
 

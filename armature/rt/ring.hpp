@@ -6,17 +6,9 @@
 #include <vector>
 
 #include "armature/rt/atomics.hpp"
+#include "armature/rt/when_full.hpp"
 
 namespace armature::rt {
-
-/// What a full queue does with a new value.
-enum class WhenFull {
-  kDropNewest,  ///< the new value is not taken, the writer is told
-  kDropOldest,  ///< the oldest value makes room, the writer is told
-};
-
-/// What became of a value that was pushed.
-enum class PushResult { kTaken, kRefused, kDroppedOldest };
 
 /// A first-in first-out queue of fixed capacity from one writer thread to one reader thread.
 ///

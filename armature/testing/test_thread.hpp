@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/component.hpp"
+#include "armature/component/lanes.hpp"
 
 namespace armature::component {
 

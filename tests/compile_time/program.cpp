@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/rt/inbox.hpp"
 
 namespace {
 

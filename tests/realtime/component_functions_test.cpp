@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/event_tap.hpp"
+#include "armature/component/tap.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/periodic_schedule.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -294,7 +296,7 @@ TEST_P(ComponentFunctions, AnOperationInItsOwnThread) {
   });
   EXPECT_TRUE(pending);
   bool cancelled = true;
-  expect_realtime("SendHandle::cancel", [&] {
+  expect_realtime("SentCall::cancel", [&] {
     SendHandle<double> handle = client_.queued.send(1.0, vector_);
     cancelled = cancelled && handle.cancel();
     deliver();
@@ -380,6 +382,7 @@ TEST(RealtimeContexts, MessagesArePosted) {
     context.post(message);
     context.inbox.take_all();
   });
+  expect_realtime("ExecutionContext::flush", [&] { context.flush(); });
 }
 
 TEST(RealtimeContexts, ScheduleSettles) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/tap.hpp"
+#include "armature/rt/inbox.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::component {
@@ -96,11 +98,13 @@ TEST_P(PortFunctions, ANumberIsWrittenAndRead) {
   const double given = 2.0;
   expect_realtime("OutputPortBase::write_from", [&] { source_.number.write_from(&given); });
   const auto tap = source_.number.make_tap(4, &given);
+  const Sample<double> pushed{given, {}, 1};
   expect_realtime("OutputPortBase::attach", [&] {
     source_.number.attach(*tap);
     source_.number.write(1.0);
     source_.number.detach(*tap);
   });
+  expect_realtime("AttachedTap::push", [&] { tap->push(&pushed); });
   expect_realtime("InputPort::read", [&] {
     begin_cycle();
     source_.number.write(2.0);

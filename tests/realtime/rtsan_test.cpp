@@ -9,6 +9,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/exec/application.hpp"
+#include "armature/rt/guard.hpp"
 
 namespace armature::exec {
 namespace {

@@ -5,48 +5,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
-#include "armature/component/port.hpp"
 #include "armature/component/tap.hpp"
-#include "armature/rt/ring.hpp"
 
 namespace armature::component::internal {
 
-class PortTapBase : public Tap {
- public:
-  /// @param sample  a `Sample` of the port's type
-  /// @thread the writer's
-  virtual void push(const void* sample) noexcept = 0;
+class SampleForm;
 
-  PortTapBase* next = nullptr;  ///< of those that are attached to a port
-};
-
-/// The writer copies its sample, and the reader brings it into its binary form.
-template <typename T>
-class PortTap final : public PortTapBase {
- public:
-  PortTap(std::size_t capacity, std::uint64_t every, const Sample<T>& shape)
-      : every_(every), ring_(capacity, rt::WhenFull::kDropNewest, shape) {}
-
-  void push(const void* written) noexcept override {
-    const auto& sample = *static_cast<const Sample<T>*>(written);
-    if (every_ != 1 && (sample.sequence - 1) % every_ != 0) return;
-    if (ring_.push(sample) != rt::PushResult::kTaken) count_dropped();
-  }
-
-  bool take(TappedSample& to) override {
-    const Sample<T>* const sample = ring_.pop();
-    if (sample == nullptr) return false;
-    to.time = sample->time;
-    to.sequence = sample->sequence;
-    to.value.clear();
-    types::encode(types::type_of<T>(), &sample->value, to.value);
-    return true;
-  }
-
- private:
-  const std::uint64_t every_;
-  rt::Ring<Sample<T>> ring_;
-};
+/// The writer copies every n-th sample, and the reader brings it into its binary form.
+/// @param value  of the port's type, in the shape that the port has
+std::unique_ptr<AttachedTap> make_port_tap(const SampleForm& form, bool is_small, const void* value,
+                                           std::size_t capacity, std::uint64_t every);
 
 }  // namespace armature::component::internal

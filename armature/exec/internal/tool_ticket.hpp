@@ -2,6 +2,7 @@
 #pragma once
 
 #include "armature/component/command.hpp"
+#include "armature/component/command_ticket.hpp"
 
 namespace armature::exec::internal {
 

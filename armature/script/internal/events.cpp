@@ -8,6 +8,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/component/event_tap.hpp"
+#include "armature/component/tap.hpp"
 #include "armature/rt/entry_pool.hpp"
 #include "armature/script/internal/values.hpp"
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "armature/component/call_record.hpp"
+#include "armature/component/internal/arguments.hpp"
+#include "armature/component/operation.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::component::internal {
+
+/// A call of an operation on its way to the operation's thread, with its arguments and its result.
+class PendingCall final : public BasicCallRecord<void, rt::FutexParker> {
+ public:
+  explicit PendingCall(OperationBase& operation);
+
+  /// As the operation's signature describes them.
+  void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
+
+  /// What the operation returned, of a call that was finished and done; nullptr if nothing.
+  const void* value() const { return value_ ? value_->data() : nullptr; }
+
+ private:
+  static void deliver(rt::Message& message);
+
+  OperationBase& operation_;
+  Arguments arguments_;
+  std::optional<types::Value> value_;
+};
+
+}  // namespace armature::component::internal
