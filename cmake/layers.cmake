@@ -20,10 +20,11 @@ set(ARMATURE_LAYERS
     "deploy: base exec component types platform"
     "report: base platform types control component exec record"
     "remote: base ride deploy exec component rt types platform"
-    "script: base remote ride deploy exec component rt types platform"
+    "lua: base exec component rt types platform"
+    "browser: base remote ride lua exec component types platform"
     "library: base component can control guardian record rt types"
     "sim: base exec component can control"
     "robots: base platform rt types library component can control guardian sim"
     "studio: base remote record"
-    "cli: base platform types rt control component can ride tls exec record deploy report script remote library sim studio"
-    "testing: base platform types rt guard control component can guardian ride tls exec record deploy report script remote library sim studio")
+    "cli: base platform types rt control component can ride tls exec record deploy report lua remote browser library sim studio"
+    "testing: base platform types rt guard control component can guardian ride tls exec record deploy report lua remote browser library sim studio")
