@@ -24,9 +24,10 @@ set(ARMATURE_LAYERS
     "deploy: base document orocos analysis inspect exec component platform"
     "report: base platform control component exec record"
     "remote: base ride document inspect exec component rt types platform"
-    "script: base remote ride inspect exec component rt types platform"
+    "lua: base exec component rt types platform"
+    "browser: base remote ride lua inspect exec component types platform"
     "library: base component control guardian record rt types"
     "sim: base control"
     "robots: base platform rt types library component can control guardian sim"
-    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy report script remote library sim"
-    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy report script remote library sim")
+    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy report lua remote browser library sim"
+    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy report lua remote browser library sim")

@@ -2,12 +2,12 @@
 #include <memory>
 #include <string>
 
+#include "armature/browser/remote_browser.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/loaded.hpp"
 #include "armature/cli/tls.hpp"
 #include "armature/platform/stop_priority.hpp"
-#include "armature/script/remote_browser.hpp"
 
 namespace armature::cli {
 namespace {
@@ -44,19 +44,19 @@ int browse(const BrowseArguments& arguments, const Console& console) {
     return kWrongUse;
   }
   base::Diagnostics diagnostics;
-  script::RemoteBrowserOptions options;
+  browser::RemoteBrowserOptions options;
   options.address = arguments.address;
   if (arguments.address.starts_with(kTls)) {
     const tls::Options files{arguments.certificate, arguments.key, arguments.authority};
     if (auto transport = load_tls(files, diagnostics)) options.transports = {transport};
   }
   const platform::Promptness promptness;
-  void* const run = load_function("libarmature_script.so", script::kBrowseRemotely,
+  void* const run = load_function("libarmature_browser.so", browser::kBrowseRemotely,
                                   "the task browser needs", diagnostics);
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
   std::string problem;
-  const std::size_t mistakes = reinterpret_cast<script::BrowseRemotely>(run)(options, problem);
+  const std::size_t mistakes = reinterpret_cast<browser::BrowseRemotely>(run)(options, problem);
   if (!problem.empty()) console.say(rt::LogLevel::kError, problem);
   return problem.empty() && mistakes == 0 ? kDone : kFailed;
 }

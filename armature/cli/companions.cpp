@@ -12,7 +12,8 @@
 namespace armature::cli {
 namespace {
 
-constexpr const char* kScriptLibrary = "libarmature_script.so";
+constexpr const char* kLuaLibrary = "libarmature_lua.so";
+constexpr const char* kBrowserLibrary = "libarmature_browser.so";
 constexpr const char* kRecordLibrary = "libarmature_record.so";
 
 /// What a script prints is what the program was asked for, so it goes to standard output.
@@ -20,26 +21,25 @@ void print_line(std::string_view line) {
   platform::print(platform::kStandardOutput, std::string(line) + '\n');
 }
 
-std::unique_ptr<script::Script> load_script(const RunArguments& arguments,
-                                            base::Diagnostics& diagnostics) {
+std::unique_ptr<lua::Script> load_script(const RunArguments& arguments,
+                                         base::Diagnostics& diagnostics) {
   if (arguments.script.empty()) return nullptr;
-  void* const load =
-      load_function(kScriptLibrary, script::kLoadScript, "scripts need", diagnostics);
+  void* const load = load_function(kLuaLibrary, lua::kLoadScript, "scripts need", diagnostics);
   if (load == nullptr) return nullptr;
-  script::Options options;
+  lua::Options options;
   options.print = print_line;
-  return std::unique_ptr<script::Script>(
-      reinterpret_cast<script::LoadScript>(load)(arguments.script, options, diagnostics));
+  return std::unique_ptr<lua::Script>(
+      reinterpret_cast<lua::LoadScript>(load)(arguments.script, options, diagnostics));
 }
 
-std::unique_ptr<script::Browser> load_browser(const RunArguments& arguments,
-                                              base::Diagnostics& diagnostics) {
+std::unique_ptr<browser::Browser> load_browser(const RunArguments& arguments,
+                                               base::Diagnostics& diagnostics) {
   if (!arguments.browse) return nullptr;
   void* const make =
-      load_function(kScriptLibrary, script::kMakeBrowser, "the task browser needs", diagnostics);
+      load_function(kBrowserLibrary, browser::kMakeBrowser, "the task browser needs", diagnostics);
   if (make == nullptr) return nullptr;
-  return std::unique_ptr<script::Browser>(
-      reinterpret_cast<script::MakeBrowser>(make)(arguments.simulated));
+  return std::unique_ptr<browser::Browser>(
+      reinterpret_cast<browser::MakeBrowser>(make)(arguments.simulated));
 }
 
 std::unique_ptr<record::TimelineWriter> create_timeline(const RunArguments& arguments,

@@ -5,18 +5,18 @@
 #include <string>
 
 #include "armature/base/diagnostic.hpp"
+#include "armature/browser/browser.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/exec/application.hpp"
+#include "armature/lua/script.hpp"
 #include "armature/record/timeline_writer.hpp"
-#include "armature/script/browser.hpp"
-#include "armature/script/script.hpp"
 
 namespace armature::cli {
 
 /// What accompanies the runs that want it; each from its own library.
 struct Companions {
-  std::unique_ptr<script::Script> script;            ///< `--script`
-  std::unique_ptr<script::Browser> browser;          ///< `--browse`
+  std::unique_ptr<lua::Script> script;               ///< `--script`
+  std::unique_ptr<browser::Browser> browser;         ///< `--browse`
   std::unique_ptr<record::TimelineWriter> timeline;  ///< `--trace`
 };
 

@@ -204,8 +204,8 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
 void let_run(exec::Application& application, const Companions& companions,
              const RunArguments& arguments, const platform::StopSignal& stop,
              base::Diagnostics& mistakes, report::RunFacts& facts) {
-  const std::unique_ptr<script::Script>& script = companions.script;
-  const std::unique_ptr<script::Browser>& browser = companions.browser;
+  const std::unique_ptr<lua::Script>& script = companions.script;
+  const std::unique_ptr<browser::Browser>& browser = companions.browser;
   const base::Duration duration = arguments.duration.value_or(kUntilStopped);
   const base::Time begin = application.now();
   const base::Time wall_begin = platform::monotonic_now();
@@ -222,7 +222,7 @@ base::Diagnostics leave(exec::Application& application, const Companions& compan
                         const platform::StopSignal& stop, exec::RunEnd end, bool mistaken) {
   const auto how = mistaken ? exec::Leave::kAfterMistake : exec::Leave::kInOrder;
   base::Diagnostics problems = application.run_before_stop(end, &stop, how);
-  const std::unique_ptr<script::Browser>& browser = companions.browser;
+  const std::unique_ptr<browser::Browser>& browser = companions.browser;
   std::function<bool(base::Duration)> converse;
   if (browser && !browser->at_end()) {
     converse = [&](base::Duration limit) {

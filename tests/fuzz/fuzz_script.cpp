@@ -11,7 +11,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/exec/application.hpp"
-#include "armature/script/script.hpp"
+#include "armature/lua/script.hpp"
 
 namespace {
 
@@ -57,11 +57,11 @@ bool matches_patterns(std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (matches_patterns(text)) return 0;
-  script::Options options;
+  lua::Options options;
   options.time_limit = 20ms;
   options.memory_limit = 4u << 20;
   base::Diagnostics diagnostics;
-  const auto script = script::parse_script(text, "/nowhere/fuzz.lua", options, diagnostics);
+  const auto script = lua::parse_script(text, "/nowhere/fuzz.lua", options, diagnostics);
   if (!diagnostics.ok()) return 0;
   exec::Blueprint blueprint;
   blueprint.add<Axis>("Axis", exec::Activity::periodic(10ms));

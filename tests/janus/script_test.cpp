@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The experiment of paper 1 (table 2) as its script commands it.
-#include "armature/script/script.hpp"
+#include "armature/lua/script.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ struct Course {
 
 Course run_experiment_script() {
   Course course;
-  script::Options options;
+  lua::Options options;
   options.print = [&](std::string_view line) {
     std::array<double, 4> sample{};
     const std::string text(line);
@@ -51,7 +51,7 @@ Course run_experiment_script() {
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   base::Diagnostics diagnostics;
   const auto script =
-      script::parse_script(kWatch + text, JANUS "/experiment.lua", options, diagnostics);
+      lua::parse_script(kWatch + text, JANUS "/experiment.lua", options, diagnostics);
   Robot robot("pid.yaml");
   robot.start();
   EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),
@@ -89,10 +89,10 @@ TEST(Script, RunsTheExperimentTwiceTheSameToTheBit) {
 /// What the script of the patrol printed; the robot is looked at where it ended.
 std::vector<std::string> run_patrol() {
   std::vector<std::string> lines;
-  script::Options options;
+  lua::Options options;
   options.print = [&](std::string_view line) { lines.emplace_back(line); };
   base::Diagnostics diagnostics;
-  const auto script = script::load_script(JANUS "/patrol.lua", options, diagnostics);
+  const auto script = lua::load_script(JANUS "/patrol.lua", options, diagnostics);
   Robot robot("pid.yaml");
   robot.start();
   EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),
@@ -138,11 +138,11 @@ std::string documented_script(const std::string& text) {
 
 TEST(Script, OfTheDocumentationRuns) {
   std::vector<std::string> lines;
-  script::Options options;
+  lua::Options options;
   options.print = [&](std::string_view line) { lines.emplace_back(line); };
   base::Diagnostics diagnostics;
-  const auto script = script::parse_script(documented_script("local shuttle = machine {"),
-                                           "shuttle.lua", options, diagnostics);
+  const auto script = lua::parse_script(documented_script("local shuttle = machine {"),
+                                        "shuttle.lua", options, diagnostics);
   Robot robot("pid.yaml");
   robot.start();
   EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "armature/exec/modes.hpp"
-#include "armature/script/script.hpp"
+#include "armature/lua/script.hpp"
 #include "armature/testing/realtime_guard.hpp"
 #include "tests/janus/experiment.hpp"
 
@@ -351,11 +351,11 @@ TEST_F(Switching, BreaksNoRuleOfRealTime) {
 }
 
 TEST_F(Switching, AScriptDoesItWithoutAGrant) {
-  script::Options options;
+  lua::Options options;
   std::vector<std::string> lines;
   options.print = [&lines](std::string_view line) { lines.emplace_back(line); };
   base::Diagnostics diagnostics;
-  const auto script = script::parse_script(
+  const auto script = lua::parse_script(
       "assert(wait(Modes:switch('feed_forward')))\nprint(Modes.mode)\n"
       "local done, why = wait(Modes:switch('fed'))\n",
       "switch.lua", options, diagnostics);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/browser/browser.hpp"
+
+#include "armature/browser/internal/console.hpp"
+#include "armature/browser/internal/task_browser.hpp"
+
+namespace armature::browser {
+namespace {
+
+class StandardBrowser final : public Browser {
+ public:
+  explicit StandardBrowser(bool simulated) : simulated_(simulated) {}
+
+  exec::RunEnd run(exec::Application& application, base::Duration duration,
+                   const platform::StopSignal* stop) override {
+    internal::TaskBrowser browser(application, duration, stop, simulated_, console_.surface());
+    browser.idle();
+    mistakes_ += console_.run(browser, internal::lua_language().quitting);
+    return browser.end();
+  }
+  void beside(const std::function<void()>& write) override { console_.beside(write); }
+  bool at_terminal() const override { return console_.surface().live(); }
+  bool at_end() const override { return console_.at_end(); }
+  std::size_t mistakes() const override { return mistakes_; }
+
+ private:
+  bool simulated_;
+  internal::Console console_;
+  std::size_t mistakes_ = 0;
+};
+
+}  // namespace
+}  // namespace armature::browser
+
+extern "C" armature::browser::Browser* armature_make_browser(bool simulated) {
+  return new armature::browser::StandardBrowser(simulated);
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/browser/internal/language.hpp"
+#include "armature/browser/internal/robot.hpp"
+
+namespace armature::browser::internal {
+
+/// What may stand where the cursor is.
+struct Completion {
+  std::size_t begin = 0;  ///< of the word that they complete, in the text before the cursor
+  std::vector<std::string> words;  ///< whole, in order
+
+  /// What all of them begin with.
+  std::string common() const;
+};
+
+/// @param names_in  the names in a table of Lua's; of the global one for an empty name; none: there
+///   is no Lua
+Completion complete(Robot& robot, const Language& language,
+                    const std::function<std::vector<std::string>(const std::string&)>& names_in,
+                    std::string_view before_cursor);
+
+}  // namespace armature::browser::internal

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What the task browser explains.
+
+#include <string>
+#include <string_view>
+
+#include "armature/base/result.hpp"
+#include "armature/browser/internal/display.hpp"
+#include "armature/browser/internal/language.hpp"
+#include "armature/browser/internal/robot.hpp"
+
+namespace armature::browser::internal {
+
+/// What there is to type.
+std::string help_overview(const Paper& paper, const Language& language);
+
+/// Help on a command, a function, a component or a member of one; a mistake says what is near.
+base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Language& language,
+                                  std::string_view subject);
+
+}  // namespace armature::browser::internal

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What the task browser lists: components, their members, threads, faults.
+
+#include <string>
+#include <vector>
+
+#include "armature/browser/internal/display.hpp"
+#include "armature/lua/interpreter.hpp"
+#include "inspection_types.hpp"
+
+namespace armature::browser::internal {
+
+/// Every component with model, state and thread.
+std::string list_components(const Paper& paper,
+                            const std::vector<remote::ComponentStatus>& components);
+
+/// Every state machine of the script with its state.
+std::string list_machines(const Paper& paper, const std::vector<lua::MachineStatus>& machines);
+
+/// One component with its values.
+std::string list_members(const Paper& paper, const remote::ComponentDetails& component);
+
+/// Each thread's cycles, times and load.
+std::string list_threads(const Paper& paper, const std::vector<remote::ThreadStatus>& threads);
+
+/// Who is in an error, faulted or was stopped, and why.
+std::string list_faults(const Paper& paper, const remote::Faults& faults);
+
+}  // namespace armature::browser::internal

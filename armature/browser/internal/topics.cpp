@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of the task browsers and the functions of their Lua, as help and completion know
+// them.
+#include "armature/browser/internal/language.hpp"
+
+namespace armature::browser::internal {
+namespace {
+
+std::vector<Topic> lua_examples() {
+  return {{"", "Joint1.Position", "shows a property, attribute or port with its unit", ""},
+          {"", "Joint1.GearRatio = 0.02", "sets a property", ""},
+          {"", "Generator:moveTo(array(1.0, 1.0), 10)",
+           "calls an operation or begins a command; `wait` waits for its end", ""},
+          {"", "for i = 1, 3 do print(i) end", "any Lua; Ctrl-C interrupts it", ""}};
+}
+
+std::vector<Topic> lua_commands() {
+  return {
+      {"ls", "ls [COMPONENT ...]",
+       "lists the components and state machines, or one component with its values",
+       "ls\nls Joint1\n`list` is the same."},
+      {"help", "help [WHAT]", "explains a command, a function, a component or a member of one",
+       "help watch\nhelp moveTo\nhelp Joint1\nhelp Joint1.Position\nhelp Generator:moveTo"},
+      {"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
+       "shows values as they change, until a key",
+       "In simulated time, and where there is no terminal, it lets that time pass and writes a "
+       "line for each step: ten of them unless `for` says more.\n"
+       "watch Joint1.Position Joint2.Position every 0.2\n"
+       "watch Sensor.sensor[1] every 0.01 for 1"},
+      {"threads", "threads", "how often each thread ran, how long its cycles take, its load", ""},
+      {"faults", "faults", "who does not run, and why", ""},
+      {"start", "start [COMPONENT ...]", "starts a component, and configures it before if need be",
+       "start Joint1\nWithout a name: every component that does not run, writers before readers, "
+       "but for those that the deployment does not start."},
+      {"stop", "stop COMPONENT ...", "stops a component; `quit` stops the application",
+       "stop Joint1"},
+      {"reset", "reset [COMPONENT ...]", "takes a component out of its exception, to stopped",
+       "reset Joint1\nstart Joint1\nWithout a name: every component that is in an exception."},
+      {"recover", "recover [COMPONENT ...]",
+       "takes a component out of its run-time error, to running",
+       "recover Joint1\nWithout a name: every component that is in an error."},
+      {"cleanup", "cleanup COMPONENT ...",
+       "has a component that is stopped forget its configuration; `start` configures it anew",
+       "reset WAM\ncleanup WAM\nstart WAM"},
+      {"run", "run SECONDS", "lets simulated time pass; in real time the same as wait",
+       "run 5\nCtrl-C ends it early."},
+      {"wait", "wait [SECONDS]", "waits so long, or until the commands that were begun have ended",
+       "Generator:moveTo(array(1.0, 1.0), 10)\nwait\n"
+       "Ctrl-C cancels the commands; a second one ends the waiting. As a function it takes a "
+       "command, an event or a machine: wait(motion) is true, or false and why."},
+      {"cancel", "cancel", "cancels the commands that are under way",
+       "Those that were begun here. One alone: motion:cancel()."},
+      {"quit", "quit", "stops the application in order; also Ctrl-D, exit, stop()", ""}};
+}
+
+std::vector<Topic> lua_functions() {
+  return {
+      {"at", "at(seconds, function)", "calls a function at a time, counted from the begin",
+       "at(now() + 5, function() Generator:moveTo(array(1, 1), 10) end)"},
+      {"on", "on(event, function)", "calls a function each time that an event is raised",
+       "watching = on(Arming.Stop, function() print(now()) end)\nwatching:cancel()"},
+      {"machine", "machine {...}", "defines a state machine",
+       "m = machine {initial = \"Idle\", Idle = {on = {go = \"Moving\"}}, Moving = {after = {5, "
+       "\"Idle\"}}}\nm:start()\nm:send(\"go\")\nm.state\nm:stop()"},
+      {"now", "now()", "seconds since the begin", ""},
+      {"stop", "stop()", "stops the application in order", ""},
+      {"print", "print(...)", "writes a line", "print(Joint1.Position, Joint2.Position)"},
+      {"array", "array(...)", "a list: array(1, 2) is {1, 2}", ""},
+      {"require", "require(\"name\")", "runs name.lua in the working directory, once", ""},
+      {"done", "motion:done()", "whether a command has ended in any way",
+       "motion = Generator:moveTo(array(1, 1), 10)\nmotion:done()"},
+      {"progress", "motion:progress()", "how far a command is, 0 to 1", ""},
+      {"reason", "motion:reason()", "why a command failed or was cancelled, else \"\"", ""}};
+}
+
+std::vector<Topic> remote_examples() {
+  return {{"", "Joint1.Position", "shows a property, attribute or port with its unit", ""},
+          {"", "PID1.Kp = 300", "sets a property; also in another unit, PID1.UMax = 6000 mV", ""},
+          {"", "Generator:moveTo({1.0, 1.0}, 10)",
+           "calls an operation or begins a command; `wait` waits for its end", ""}};
+}
+
+/// What needs no Lua is the same as in the application's own process.
+std::vector<Topic> remote_commands() {
+  std::vector<Topic> all;
+  for (const Topic& topic : lua_commands()) {
+    const bool other = topic.name == "watch" || topic.name == "stop" || topic.name == "run" ||
+                       topic.name == "wait" || topic.name == "quit";
+    if (!other) all.push_back(topic);
+  }
+  all.push_back({"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
+                 "shows values as they change, until a key",
+                 "Where there is no terminal it writes a line for each step: ten of them unless "
+                 "`for` says more.\nwatch Joint1.Position Joint2.Position every 0.2"});
+  all.push_back({"stop", "stop COMPONENT ...", "stops a component", "stop Joint1"});
+  all.push_back({"wait", "wait [SECONDS]",
+                 "waits so long, or until the commands that were begun have ended",
+                 "Generator:moveTo({1.0, 1.0}, 10)\nwait\n"
+                 "Ctrl-C cancels the commands; a second one ends the waiting."});
+  all.push_back({"quit", "quit", "leaves; the application goes on; also Ctrl-D, exit", ""});
+  return all;
+}
+
+}  // namespace
+
+const Language& remote_language() {
+  static const Language language{
+      "Values and calls", remote_examples(), remote_commands(), {}, "leaves", "_.:-"};
+  return language;
+}
+
+const Language& lua_language() {
+  static const Language language{
+      "Values and calls (Lua 5.4)", lua_examples(), lua_commands(), lua_functions(),
+      "stops the application",      "_.:"};
+  return language;
+}
+
+}  // namespace armature::browser::internal

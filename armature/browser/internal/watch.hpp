@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
+#include "armature/browser/internal/display.hpp"
+#include "armature/browser/internal/robot.hpp"
+
+namespace armature::browser::internal {
+
+/// Values that are looked at again and again: `watch ITEM ... [every SECONDS] [for SECONDS]`.
+class Watch {
+ public:
+  static base::Result<Watch> parse(Robot& robot, const std::vector<std::string>& words);
+
+  base::Duration every() const { return every_; }
+  const std::optional<base::Duration>& limit() const { return limit_; }
+
+  /// The items in lines of their own, to be shown in place.
+  std::string picture(const Paper& paper, Robot& robot) const;
+  /// One line for each moment, `seconds` behind which the values stand; and what is above them.
+  std::string heading(const Paper& paper) const;
+  std::string line(const Paper& paper, Robot& robot, double seconds) const;
+
+ private:
+  /// What is looked at.
+  struct Item {
+    std::string text;
+    std::string unit;
+  };
+  std::vector<remote::ItemValue> read(Robot& robot) const;
+  std::vector<std::string> values(Robot& robot) const;
+  static std::string name_of(const Item& item);
+  bool fits(const Paper& paper) const;
+
+  std::vector<Item> items_;
+  base::Duration every_ = std::chrono::milliseconds(200);
+  std::optional<base::Duration> limit_;
+};
+
+/// A time above 0 in seconds, `0.2`, or with its unit, `20ms`.
+std::optional<base::Duration> seconds_in(std::string_view text);
+
+}  // namespace armature::browser::internal

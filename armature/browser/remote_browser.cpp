@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/browser/remote_browser.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "armature/browser/internal/console.hpp"
+#include "armature/browser/internal/remote_browser.hpp"
+#include "armature/ride/node.hpp"
+
+namespace armature::browser {
+namespace {
+
+/// For the first connection; those that are lost are waited for as long as it takes.
+constexpr base::Duration kConnectionLimit = std::chrono::seconds(3);
+
+std::size_t browse(const RemoteBrowserOptions& options, std::string& problem) {
+  ride::NodeOptions node_options;
+  node_options.name = "armature browse";
+  node_options.transports = options.transports;
+  ride::Node node(node_options);
+  ride::Peer& peer = node.connect(options.address);
+  internal::RemoteRobot robot(peer);
+  if (const auto there = peer.wait_until_connected(kConnectionLimit); !there) {
+    problem = there.error();
+    return 0;
+  }
+  internal::Console console;
+  internal::RemoteBrowser browser(robot, console.surface(),
+                                  [](base::Duration time) { std::this_thread::sleep_for(time); });
+  return console.run(browser, internal::remote_language().quitting);
+}
+
+}  // namespace
+}  // namespace armature::browser
+
+extern "C" std::size_t armature_browse_remotely(
+    const armature::browser::RemoteBrowserOptions& options, std::string& problem) {
+  return armature::browser::browse(options, problem);
+}
