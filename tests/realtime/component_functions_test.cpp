@@ -15,6 +15,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
+struct EffortLimits {
+  double effort = 1.0;
+};
+
 class Server final : public Component {
  public:
   using Component::Component;
@@ -36,6 +40,7 @@ class Server final : public Component {
   using Component::log_info;
   using Component::log_warning;
 
+  Properties<EffortLimits> limits{this, {}, member(&EffortLimits::effort, "MaxEffort", "at most")};
   Property<std::vector<double>> gains{this, "Gains", {1.0, 2.0}, "", "", changeable_while_running};
   Operation<double(double, const std::vector<double>&)> add_{this, "add", serve<&Server::add>, ""};
   Operation<double(double, const std::vector<double>&)> queued_{this, "queued", serve<&Server::add>,
@@ -181,6 +186,8 @@ TEST_P(ComponentFunctions, Properties) {
   expect_realtime("Property::get", [&] { sum += server_.gains.get()[1]; });
   EXPECT_EQ(sum, 202.0);
   types::Value other = types::Value::of(std::vector<double>{3.0, 4.0, 5.0});
+  expect_realtime("Properties::get", [&] { sum += server_.limits.get().effort; });
+  expect_realtime("Properties::operator->", [&] { sum += server_.limits->effort; });
   expect_realtime("PropertyBase::swap", [&] { server_.gains.swap(other); });
   EXPECT_EQ(server_.gains.get().size(), 3u);
   EXPECT_TRUE(server_.at_home.set(types::Value::of(true)));
