@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/stand_in.hpp"
 #include "armature/library/base/of_this_run.hpp"
 #include "armature/library/base/reason_text.hpp"
 
