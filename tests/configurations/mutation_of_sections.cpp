@@ -74,7 +74,7 @@ std::optional<std::string> change_stop(Document& document, Random& random) {
     default:
       document.on_fault =
           random() % 2 == 0 ? document::OnFault::kKeepRunning : document::OnFault::kStopAll;
-      return "on_fault: " + std::string(document::to_text(document.on_fault));
+      return "on_fault: " + std::string(types::name_of(document.on_fault));
   }
 }
 

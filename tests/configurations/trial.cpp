@@ -14,6 +14,7 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/deploy/deployment.hpp"
+#include "armature/document/yaml.hpp"
 #include "armature/remote/network.hpp"
 #include "tests/configurations/motion_watch.hpp"
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "armature/orocos/property_file.hpp"
 #include "tests/fuzz/round_trip.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "armature/deploy/load.hpp"
+#include "armature/document/yaml.hpp"
+#include "armature/orocos/deployer_file.hpp"
 
 /// What the fuzz targets of deployment documents have in common.
 namespace armature::fuzz {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/deployment.hpp"
+#include "armature/document/yaml.hpp"
 
 namespace armature {
 namespace {
