@@ -2,7 +2,7 @@
 #include "armature/browser/browser.hpp"
 
 #include "armature/browser/internal/console.hpp"
-#include "armature/browser/internal/task_browser.hpp"
+#include "armature/browser/internal/local_browsing.hpp"
 
 namespace armature::browser {
 namespace {
@@ -13,10 +13,10 @@ class StandardBrowser final : public Browser {
 
   exec::RunEnd run(exec::Application& application, base::Duration duration,
                    const platform::StopSignal* stop) override {
-    internal::TaskBrowser browser(application, duration, stop, simulated_, console_.surface());
-    browser.idle();
-    mistakes_ += console_.run(browser, internal::lua_language().quitting);
-    return browser.end();
+    internal::LocalBrowsing local(application, duration, stop, simulated_, console_.surface());
+    local.session.keep_up();
+    mistakes_ += console_.run(local.browser, local.language.vocabulary().quitting);
+    return local.session.end();
   }
   void beside(const std::function<void()>& write) override { console_.beside(write); }
   bool at_terminal() const override { return console_.surface().live(); }

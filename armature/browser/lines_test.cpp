@@ -157,7 +157,7 @@ TEST(BrowserLines, EndTheApplicationByQuitAndByStop) {
     Desk desk;
     desk.type(line);
     EXPECT_TRUE(desk.browser.has_ended()) << line;
-    EXPECT_EQ(desk.browser.end(), exec::RunEnd::kStopRequested);
+    EXPECT_EQ(desk.local.session.end(), exec::RunEnd::kStopRequested);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(BrowserLines, EndWhenTheTimeOfTheRunIsUp) {
   Desk desk;
   desk.type("wait(2000)");
   EXPECT_TRUE(desk.browser.has_ended());
-  EXPECT_EQ(desk.browser.end(), exec::RunEnd::kTimeUp);
+  EXPECT_EQ(desk.local.session.end(), exec::RunEnd::kTimeUp);
 }
 
 TEST(BrowserLines, ThatRunForLongAreInterrupted) {

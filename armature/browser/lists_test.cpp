@@ -144,7 +144,7 @@ TEST(Help, ExplainsCommandsFunctionsAndOperationsByTheirName) {
 TEST(Help, KnowsEveryCommand) {
   Desk desk;
   const std::string overview = desk.type("help");
-  for (const internal::Topic& topic : internal::lua_language().commands) {
+  for (const internal::Topic& topic : internal::lua_vocabulary().commands) {
     EXPECT_THAT(overview, HasSubstr(std::string(topic.usage)));
     EXPECT_THAT(desk.type("help " + std::string(topic.name)), Not(HasSubstr("error: ")));
     EXPECT_THAT(desk.type(std::string(topic.name) + " ]"), Not(HasSubstr("syntax")))

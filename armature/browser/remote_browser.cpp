@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "armature/browser/internal/console.hpp"
-#include "armature/browser/internal/remote_browser.hpp"
+#include "armature/browser/internal/remote_browsing.hpp"
 #include "armature/ride/node.hpp"
 
 namespace armature::browser {
@@ -26,9 +26,9 @@ std::size_t browse(const RemoteBrowserOptions& options, std::string& problem) {
     return 0;
   }
   internal::Console console;
-  internal::RemoteBrowser browser(robot, console.surface(),
+  internal::RemoteBrowsing remote(robot, console.surface(),
                                   [](base::Duration time) { std::this_thread::sleep_for(time); });
-  return console.run(browser, internal::remote_language().quitting);
+  return console.run(remote.browser, remote.language.vocabulary().quitting);
 }
 
 }  // namespace

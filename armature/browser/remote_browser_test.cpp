@@ -165,19 +165,54 @@ TEST(RemoteBrowser, WhatTheRobotSaysMovesNoCursor) {
   }
 }
 
+TEST(RemoteBrowser, ExplainsWhatNamesNothing) {
+  Away away;
+  EXPECT_EQ(away.type("Setings"),
+            "error: there is no command and no component 'Setings' (did you mean 'Settings'?)");
+  EXPECT_EQ(away.type("thraeds"),
+            "error: there is no command and no component 'thraeds' (did you mean 'threads'?)");
+  EXPECT_EQ(away.type("run 5"), "error: there is no command and no component 'run 5'");
+  EXPECT_EQ(away.type("Settings.Gian"), "error: 'Settings' has no 'Gian' (did you mean 'Gain'?)");
+  EXPECT_EQ(away.type("Settings.Gain[3]"), "error: 'Settings.Gain' is a double and has no '[3]'");
+  EXPECT_EQ(away.type("Settings.Offsets[3]"),
+            "error: 'Settings.Offsets[3]' is not there: it is [0.5, -1]");
+  EXPECT_EQ(away.browser->mistakes(), 6u);
+}
+
+TEST(RemoteBrowser, TellsTheAgeOfAValueThatIsOlderThanASecond) {
+  Desk desk;
+  Away away;
+  desk.type("run 0.1\nstop Axis\nrun 2");
+  away.pass(100ms);
+  away.type("stop Axis");
+  away.pass(2s);
+  EXPECT_THAT(away.type("Axis.Position"), ::testing::MatchesRegex("0 m, 2[.0-9]* s old"));
+  EXPECT_EQ(desk.type("Axis.Position"), "0 m") << "who types there sees it stop";
+}
+
+TEST(RemoteBrowser, AnInterruptEndsAWait) {
+  Away away;
+  away.screen.asks_until_interrupt = 3;
+  EXPECT_EQ(away.type("wait 900"), "interrupted");
+  EXPECT_EQ(away.type("wait -1"), "error: wait takes the seconds to wait, above 0: wait 5");
+}
+
 TEST(RemoteBrowser, QuitLeavesAndTheApplicationGoesOn) {
   Away away;
   away.type("Axis:moveTo(1000)");
   EXPECT_EQ(away.type("quit"),
             "Axis.moveTo: cancelled, since it ends with the connection of who began it");
   EXPECT_TRUE(away.browser->has_ended());
+  away.screen.lines.clear();
+  away.browser->stop();
+  EXPECT_THAT(away.screen.lines, ::testing::IsEmpty()) << "what is said once is not said again";
   EXPECT_TRUE(away.bench.application().running());
 }
 
 TEST(RemoteBrowser, KnowsEveryCommandOfItsHelp) {
   Away away;
   const std::string overview = away.type("help");
-  for (const internal::Topic& topic : internal::remote_language().commands) {
+  for (const internal::Topic& topic : internal::plain_vocabulary().commands) {
     EXPECT_THAT(overview, HasSubstr(std::string(topic.usage)));
     EXPECT_THAT(away.type("help " + std::string(topic.name)), Not(HasSubstr("error: ")));
     EXPECT_THAT(away.type(std::string(topic.name) + " ]"), Not(HasSubstr("no command")));

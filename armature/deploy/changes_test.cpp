@@ -100,10 +100,5 @@ TEST(Removal, SaysNothingElseOfAComponent) {
                 "else)"));
 }
 
-TEST(Removal, LeavesWhatElseNamesTheComponentToBeMended) {
-  EXPECT_THAT(arm_with("components: {Log: {remove: true}}\nmodes: {all: [C, Log]}\n").messages(),
-              HasSubstr("'Log'"));
-}
-
 }  // namespace
 }  // namespace armature::deploy::internal

@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{{{"a.yaml", "include: b.yaml\ncomponents: {J: {model: M}}\n"},
                  {"b.yaml", "components: {J: {model: M}}\n"}},
                 "a.yaml:2:14: error: component 'J' is given twice (first at b.yaml:1:14; to change "
-                "that one write override: true)\n"},
+                "that one write override: true, to leave it out remove: true)\n"},
         Mistake{{{"a.yaml", "include: [b.yaml, c.yaml]\n"},
                  {"b.yaml", "parameters: {n: 1}\n"},
                  {"c.yaml", "parameters: {n: 2}\n"}},

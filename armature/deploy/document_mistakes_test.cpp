@@ -138,7 +138,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "complete)\n"},
         Mistake{"twice_by_range", "components:\n  J2: {model: M}\n  J{1..2}: {model: M}\n",
                 "robot.yaml:3:3: error: component 'J2' is given twice (first at robot.yaml:2:3; "
-                "to change that one write override: true)\n"},
+                "to change that one write override: true, "
+                "to leave it out remove: true)\n"},
         Mistake{"override_of_nothing", "components: {A: {override: true}}\n",
                 "robot.yaml:1:14: error: component 'A' is to be overridden but is not there\n"}),
     name_of);

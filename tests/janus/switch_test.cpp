@@ -213,7 +213,8 @@ class Switching : public ::testing::Test {
   void spoil(const char* component, std::string_view name, double value) {
     for (auto* property : head.robot.application().find(component)->interface().properties) {
       if (property->name() != name) continue;
-      dynamic_cast<component::Property<double>&>(*property).assign(value);
+      types::Value unchecked = types::Value::of(value);
+      property->swap(unchecked);
     }
   }
   /// All that was stopped with the controller.

@@ -8,16 +8,14 @@
 namespace armature::browser::internal {
 namespace {
 
-using Names = std::function<std::vector<std::string>(const std::string&)>;
-
-bool is_part_of_word(const Language& language, char c) {
+bool is_part_of_word(const Vocabulary& vocabulary, char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-         language.in_names.find(c) != std::string_view::npos;
+         vocabulary.in_names.find(c) != std::string_view::npos;
 }
 
 /// Where the word begins that ends at the cursor; `_G["aic-1"].Ga` is one.
-std::size_t begin_of_word(const Language& language, std::string_view text) {
-  const auto is_part = [&](char c) { return is_part_of_word(language, c); };
+std::size_t begin_of_word(const Vocabulary& vocabulary, std::string_view text) {
+  const auto is_part = [&](char c) { return is_part_of_word(vocabulary, c); };
   const std::size_t indexed = text.rfind("_G[\"");
   if (indexed != std::string_view::npos) {
     const std::size_t name = indexed + 4;
@@ -34,14 +32,14 @@ std::size_t begin_of_word(const Language& language, std::string_view text) {
 }
 
 /// The first word of the line if it is a command of the browser's, and the cursor is behind it.
-std::string_view command_before(const Language& language, std::string_view text,
+std::string_view command_before(const Vocabulary& vocabulary, std::string_view text,
                                 std::size_t begin) {
   const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
   const std::size_t end = std::min(text.find(' ', first), text.size());
   if (begin <= first || begin < end) return {};
   const std::string_view word = text.substr(first, end - first);
   if (word == "list") return "ls";
-  for (const Topic& topic : language.commands) {
+  for (const Topic& topic : vocabulary.commands) {
     if (topic.name == word) return topic.name;
   }
   return {};
@@ -61,7 +59,7 @@ void add_operations(const remote::ComponentDetails& component, const std::string
 }
 
 /// What may follow `Joint1.`, `Joint1:`, `left.`, `math.`, `motion:`.
-void add_members(Robot& robot, const Names& names_in, const std::string& owner, char separator,
+void add_members(Robot& robot, Language& language, const std::string& owner, char separator,
                  bool for_help, std::set<std::string>& words) {
   const std::string before = owner + separator;
   const std::string component = robot.find(owner);
@@ -75,13 +73,12 @@ void add_members(Robot& robot, const Names& names_in, const std::string& owner, 
       words.insert(name.substr(0, name.find('.', before.size())));
     }
   }
-  if (!words.empty() || !component.empty() || !names_in) return;
+  if (!words.empty() || !component.empty()) return;
   if (separator == '.') {
-    for (const std::string& name : names_in(owner)) words.insert(before + name);
+    for (const std::string& name : language.names_in(owner)) words.insert(before + name);
   } else {
-    for (const char* method :
-         {"cancel()", "done()", "is_in(", "progress()", "reason()", "send(", "start()", "stop()"}) {
-      words.insert(before + method);
+    for (const std::string_view method : language.vocabulary().methods) {
+      words.insert(before + std::string(method));
     }
   }
 }
@@ -113,27 +110,27 @@ std::string Completion::common() const {
   return text;
 }
 
-Completion complete(Robot& robot, const Language& language, const Names& names_in,
-                    std::string_view before_cursor) {
+Completion complete(Robot& robot, Language& language, std::string_view before_cursor) {
+  const Vocabulary& vocabulary = language.vocabulary();
   Completion completion;
-  completion.begin = begin_of_word(language, before_cursor);
+  completion.begin = begin_of_word(vocabulary, before_cursor);
   const std::string word(before_cursor.substr(completion.begin));
-  const std::string_view command = command_before(language, before_cursor, completion.begin);
+  const std::string_view command = command_before(vocabulary, before_cursor, completion.begin);
   const std::size_t separator = word.find_last_of(".:");
   std::set<std::string> words;
   if (names_components(command)) {
     add_components(robot, true, words);
   } else if (separator != std::string::npos) {
-    add_members(robot, names_in, word.substr(0, separator), word[separator], command == "help",
+    add_members(robot, language, word.substr(0, separator), word[separator], command == "help",
                 words);
   } else {
     add_components(robot, !command.empty(), words);
     const bool first = before_cursor.find_first_not_of(' ') >= completion.begin;
-    if (first || command == "help") add_topics(language.commands, words);
-    if (command == "help") add_topics(language.functions, words);
+    if (first || command == "help") add_topics(vocabulary.commands, words);
+    if (command == "help") add_topics(vocabulary.functions, words);
     if (command == "watch") words.insert({"every", "for"});
-    if (command.empty() && names_in) {
-      for (const std::string& name : names_in("")) words.insert(name);
+    if (command.empty()) {
+      for (const std::string& name : language.names_in("")) words.insert(name);
     }
   }
   for (const std::string& one : words) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,10 +20,6 @@ struct Completion {
   std::string common() const;
 };
 
-/// @param names_in  the names in a table of Lua's; of the global one for an empty name; none: there
-///   is no Lua
-Completion complete(Robot& robot, const Language& language,
-                    const std::function<std::vector<std::string>(const std::string&)>& names_in,
-                    std::string_view before_cursor);
+Completion complete(Robot& robot, Language& language, std::string_view before_cursor);
 
 }  // namespace armature::browser::internal

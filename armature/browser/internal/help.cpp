@@ -252,20 +252,20 @@ std::string help_by_operation(const Paper& paper, Robot& robot, const std::strin
 
 }  // namespace
 
-std::string help_overview(const Paper& paper, const Language& language) {
-  return topics_text(paper, language.heading, language.examples) +
-         topics_text(paper, "Commands", language.commands) +
-         topics_text(paper, "Functions", language.functions) + "Tab completes names.";
+std::string help_overview(const Paper& paper, const Vocabulary& vocabulary) {
+  return topics_text(paper, vocabulary.heading, vocabulary.examples) +
+         topics_text(paper, "Commands", vocabulary.commands) +
+         topics_text(paper, "Functions", vocabulary.functions) + "Tab completes names.";
 }
 
-base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Language& language,
+base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Vocabulary& vocabulary,
                                   std::string_view subject) {
   if (const std::string name = robot.find(subject); !name.empty()) {
     return help_component(paper, robot, name);
   }
   std::string text;
   std::vector<std::string> known = robot.component_names();
-  for (const auto* topics : {&language.commands, &language.functions}) {
+  for (const auto* topics : {&vocabulary.commands, &vocabulary.functions}) {
     for (const Topic& topic : *topics) {
       known.emplace_back(topic.name);
       if (topic.name != subject && !(topic.name == "ls" && subject == "list")) continue;

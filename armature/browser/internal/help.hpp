@@ -8,16 +8,16 @@
 
 #include "armature/base/result.hpp"
 #include "armature/browser/internal/display.hpp"
-#include "armature/browser/internal/language.hpp"
 #include "armature/browser/internal/robot.hpp"
+#include "armature/browser/internal/vocabulary.hpp"
 
 namespace armature::browser::internal {
 
 /// What there is to type.
-std::string help_overview(const Paper& paper, const Language& language);
+std::string help_overview(const Paper& paper, const Vocabulary& vocabulary);
 
 /// Help on a command, a function, a component or a member of one; a mistake says what is near.
-base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Language& language,
+base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Vocabulary& vocabulary,
                                   std::string_view subject);
 
 }  // namespace armature::browser::internal

@@ -1,32 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "armature/browser/internal/vocabulary.hpp"
+#include "armature/lua/interpreter.hpp"
+
 namespace armature::browser::internal {
 
-/// Something to type: a command of the task browser, a function of its Lua.
-struct Topic {
-  std::string_view name;
-  std::string_view usage;
-  std::string_view summary;
-  std::string_view detail;  ///< more, and examples; may be empty
-};
+/// What lines mean that are no commands of the task browser: values to set, calls, statements.
+class Language {
+ public:
+  virtual ~Language() = default;
 
-/// What a task browser understands, as help and completion know it.
-struct Language {
-  std::string_view heading;     ///< of `examples`
-  std::vector<Topic> examples;  ///< how values are shown and set, and operations called
-  std::vector<Topic> commands;
-  std::vector<Topic> functions;
-  std::string_view quitting;  ///< what `quit` does
-  std::string_view in_names;  ///< what is in names of components and members beside letters
-};
+  virtual const Vocabulary& vocabulary() const = 0;
 
-/// Of the browser in the application's own process: commands, else Lua.
-const Language& lua_language();
-/// Of the browser in another process.
-const Language& remote_language();
+  /// Whether a line is of this language although it begins with the name of a command.
+  /// @param behind  what follows the name: `= 5` of `run = 5`
+  virtual bool goes_on(std::string_view behind) const = 0;
+  /// Whether a line cannot be the name of something to show.
+  virtual bool is_statement(std::string_view line) const = 0;
+  /// Does what a line says that names nothing to show; tells of mistakes.
+  virtual void take(std::string_view line) = 0;
+
+  /// The lines so far ask for more.
+  virtual bool wants_more() const { return false; }
+  virtual void forget_lines() {}
+
+  /// The names in a table, such as `math`; the global ones for an empty name.
+  virtual std::vector<std::string> names_in(const std::string& table) = 0;
+  /// State machines that lines defined.
+  virtual std::vector<lua::MachineStatus> machines() const { return {}; }
+};
 
 }  // namespace armature::browser::internal

@@ -2,7 +2,7 @@
 #include "armature/browser/internal/local_robot.hpp"
 
 #include "armature/browser/internal/display.hpp"
-#include "armature/browser/internal/items.hpp"
+#include "armature/inspect/items.hpp"
 #include "armature/lua/names.hpp"
 #include "armature/remote/inspection.hpp"
 
@@ -18,11 +18,11 @@ remote::ToText for_people(std::size_t most_elements) {
 }  // namespace
 
 std::vector<std::string> LocalRobot::component_names() {
-  return internal::component_names(application_);
+  return inspect::component_names(application_);
 }
 
 std::string LocalRobot::find(std::string_view text) {
-  const component::Component* const found = find_component(application_, text);
+  const component::Component* const found = application_.find(lua::without_lua(text));
   return found == nullptr ? std::string() : found->name();
 }
 
@@ -53,7 +53,11 @@ std::vector<remote::ItemValue> LocalRobot::read(const std::vector<std::string>& 
                                                 std::size_t most_elements) {
   std::vector<std::string> plain;
   for (const std::string& item : items) plain.push_back(lua::without_lua(item));
-  return remote::values_of(application_, plain, for_people(most_elements));
+  std::vector<remote::ItemValue> values =
+      remote::values_of(application_, plain, for_people(most_elements));
+  // Ages are for whoever looks from another process, beside whom no log runs.
+  for (remote::ItemValue& value : values) value.age = 0.0;
+  return values;
 }
 
 Robot::Changed LocalRobot::change(const std::string& component, const std::string& change) {

@@ -2,7 +2,6 @@
 #include "armature/browser/internal/robot.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "armature/base/near_name.hpp"
 #include "armature/browser/internal/words.hpp"
@@ -47,8 +46,7 @@ base::Result<MemberName> member_in(Robot& robot, std::string_view text) {
   }
   found.separator = text[size];
   const std::string_view behind = text.substr(size + 1);
-  const auto end =
-      std::find_if_not(behind.begin(), behind.end(), [](char c) { return is_name_character(c); });
+  const auto end = std::find_if_not(behind.begin(), behind.end(), is_name_character);
   found.member.assign(behind.begin(), end);
   found.rest.assign(end, behind.end());
   const std::vector<std::string> names = member_names(robot.interface_of(found.component));

@@ -37,6 +37,7 @@ class Robot {
   virtual remote::ComponentDetails look_at(const std::string& component) = 0;
   /// A component without them: asks no thread of the application.
   virtual remote::ComponentDetails interface_of(const std::string& component) = 0;
+  /// Values, with an age where it is to be told.
   /// @param most_elements  of a list that are shown
   virtual std::vector<remote::ItemValue> read(const std::vector<std::string>& items,
                                               std::size_t most_elements) = 0;

@@ -2,267 +2,231 @@
 #include "armature/browser/internal/task_browser.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <optional>
+#include <iterator>
 
-#include "armature/base/seconds.hpp"
-#include "armature/base/unit.hpp"
 #include "armature/browser/internal/help.hpp"
-#include "armature/browser/internal/items.hpp"
 #include "armature/browser/internal/listing.hpp"
 #include "armature/browser/internal/watch.hpp"
 
 namespace armature::browser::internal {
 namespace {
 
-using component::Component;
-using component::State;
+/// An older value is told with its age.
+constexpr double kOldSeconds = 1.0;
+
+std::string_view first_word(std::string_view line) {
+  return line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
+}
+
+std::string behind_first_word(std::string_view line) {
+  return trimmed(line.substr(first_word(line).size()));
+}
+
+bool has_value(const remote::ComponentDetails& component, const std::string& member) {
+  const auto is_it = [&](const auto& one) { return one.name == member; };
+  return std::ranges::any_of(component.properties, is_it) ||
+         std::ranges::any_of(component.inputs, is_it) ||
+         std::ranges::any_of(component.outputs, is_it);
+}
+
+/// What follows a member where a part of its value is meant: `[2].x`.
+bool names_part(std::string_view rest) {
+  constexpr std::string_view kPart = ".[]";
+  return std::ranges::all_of(
+      rest, [&](char c) { return is_name_character(c) || kPart.find(c) != kPart.npos; });
+}
+
+std::string as_one_text(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += word + " ";
+  return trimmed(text);
+}
 
 }  // namespace
 
-/// An assignment whose target may be an item.
-struct TaskBrowser::ItemAssignment : Assignment {
-  using Assignment::Assignment;
-  std::optional<Item> item;
+struct TaskBrowser::Command {
+  std::string_view name;
+  std::string_view topic;  ///< in the vocabulary, which has it if the language does
+  void (TaskBrowser::*act)(const Words& arguments);
 };
 
-TaskBrowser::TaskBrowser(exec::Application& application, base::Duration duration,
-                         const platform::StopSignal* stop, bool simulated, Surface& surface)
-    : SharedCommands(robot_here_, lua_language(), surface),
-      application_(application),
-      robot_here_(application),
-      simulated_(simulated),
-      begin_(application.now()),
-      course_(application, duration, stop),
-      listener_(surface),
-      interpreter_(
-          lua::make_interpreter(application, course_, listener_,
-                                {.simulated = simulated, .most_elements = kAskedElements})) {}
-
-double TaskBrowser::seconds() const { return base::to_seconds(application_.now() - begin_); }
-
-std::string TaskBrowser::prompt() const {
-  if (wants_more()) return "... ";
-  const std::string& name = application_.blueprint().name;
-  return name + (simulated_ ? number_text(" %.9g s> ", seconds()) : "> ");
-}
-
 Completion TaskBrowser::complete(std::string_view before_cursor) {
-  return internal::complete(
-      robot(), lua_language(),
-      [this](const std::string& table) { return interpreter_->names_in(table); }, before_cursor);
+  try {
+    return internal::complete(robot_, language_, before_cursor);
+  } catch (const NoAnswer&) {
+    return {};
+  }
 }
 
 // --- lines ---------------------------------------------------------------------------------------
 
 void TaskBrowser::take(std::string_view line) {
   surface().take_interrupt();
-  if (wants_more()) {
-    take_lua(lines_ + "\n" + std::string(line));
-    return;
-  }
+  if (wants_more()) return language_.take(line);
   const std::string text = trimmed(line);
-  if (text.empty() || take_command(text) || take_item(text)) return;
-  take_lua(text);
+  if (text.empty()) return;
+  const bool leaves = text == "quit" || text == "exit";
+  if (!leaves && !session_.is_ready()) return;
+  try {
+    take_whole(text);
+  } catch (const NoAnswer& problem) {
+    surface().end_keys();
+    surface().show("");
+    answers_.mistake(problem.what());
+  }
+  session_.end_line();
+}
+
+void TaskBrowser::take_whole(const std::string& line) {
+  if (const Command* const command = command_of(line)) {
+    (this->*command->act)(words_of(behind_first_word(line)));
+  } else if (language_.is_statement(line) || !take_item(line)) {
+    language_.take(line);
+  }
 }
 
 const TaskBrowser::Command* TaskBrowser::find_command(std::string_view name) {
-  static const Command kCommands[] = {{"ls", &act<&TaskBrowser::list>},
-                                      {"list", &act<&TaskBrowser::list>},
-                                      {"help", &act<&TaskBrowser::help>},
-                                      {"?", &act<&TaskBrowser::help>},
-                                      {"watch", &act<&TaskBrowser::watch>},
-                                      {"threads", &act<&TaskBrowser::threads>},
-                                      {"faults", &act<&TaskBrowser::faults>},
-                                      {"start", &act<&TaskBrowser::start>},
-                                      {"stop", &act<&TaskBrowser::stop_components>},
-                                      {"reset", &act<&TaskBrowser::reset>},
-                                      {"recover", &act<&TaskBrowser::recover>},
-                                      {"cleanup", &act<&TaskBrowser::clean_up>},
-                                      {"run", &act<&TaskBrowser::run>},
-                                      {"wait", &act<&TaskBrowser::wait>},
-                                      {"cancel", &act<&TaskBrowser::cancel>},
-                                      {"quit", &act<&TaskBrowser::quit>},
-                                      {"exit", &act<&TaskBrowser::quit>}};
-  for (const Command& command : kCommands) {
-    if (command.name == name) return &command;
-  }
-  return nullptr;
+  static constexpr Command kCommands[] = {
+      {"ls", "ls", &TaskBrowser::list},
+      {"list", "ls", &TaskBrowser::list},
+      {"help", "help", &TaskBrowser::help},
+      {"?", "help", &TaskBrowser::help},
+      {"watch", "watch", &TaskBrowser::watch},
+      {"threads", "threads", &TaskBrowser::threads},
+      {"faults", "faults", &TaskBrowser::faults},
+      {"start", "start", &TaskBrowser::start},
+      {"stop", "stop", &TaskBrowser::stop_components},
+      {"reset", "reset", &TaskBrowser::reset},
+      {"recover", "recover", &TaskBrowser::recover},
+      {"cleanup", "cleanup", &TaskBrowser::clean_up},
+      {"run", "run", &TaskBrowser::run},
+      {"wait", "wait", &TaskBrowser::wait},
+      {"cancel", "cancel", &TaskBrowser::cancel},
+      {"quit", "quit", &TaskBrowser::quit},
+      {"exit", "quit", &TaskBrowser::quit},
+  };
+  const auto* const found = std::ranges::find(kCommands, name, &Command::name);
+  return found == std::end(kCommands) ? nullptr : found;
 }
 
-/// A command is the first word, but not where Lua goes on: `run = 5`, `wait(5)`, `ls.Position`.
-bool TaskBrowser::take_command(const std::string& line) {
-  const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-  const Command* const command = find_command(std::string_view(line).substr(0, end));
-  if (command == nullptr) return false;
-  const std::string rest = trimmed(std::string_view(line).substr(end));
-  const bool lua = !rest.empty() &&
-                   std::string_view("=([.:+*/%<>~^,;").find(rest.front()) != std::string_view::npos;
-  if (lua) return false;
-  command->act(*this, words_of(rest));
-  return true;
+/// The command that is the first word of a line, unless the language goes on behind it.
+const TaskBrowser::Command* TaskBrowser::command_of(std::string_view line) const {
+  const Command* const command = find_command(first_word(line));
+  const bool meant = command != nullptr && vocabulary().has_command(command->topic) &&
+                     !language_.goes_on(behind_first_word(line));
+  return meant ? command : nullptr;
 }
 
 /// `Joint1`, `Joint1.Position`, `Sensor.sensor[2]`: what it is now, with its unit.
 bool TaskBrowser::take_item(const std::string& line) {
-  if (find_component(application_, line) != nullptr) {
+  if (!robot_.find(line).empty()) {
     list({line});
     return true;
   }
-  if (const auto member = find_member(application_, line); member && !member.value().has_value()) {
-    help({line});
-    return true;
+  const base::Result<MemberName> member = member_in(robot_, line);
+  if (!member || !names_part(member.value().rest)) return false;
+  if (!has_value(robot_.interface_of(member.value().component), member.value().member)) {
+    if (member.value().rest.empty()) help({line});
+    return member.value().rest.empty();
   }
-  const base::Result<Item> item = find_item(application_, line);
-  if (!item) return false;
-  const auto readings = read_members(application_, {item.value().member});
-  if (!readings) {
-    mistake("the thread of '" + item.value().member.component->name() + "' does not answer");
-    return true;
-  }
-  const void* const part = part_of(item.value(), readings->front().whole);
-  if (part == nullptr) {
-    mistake("'" + line + "' is not there: it is " +
-            value_text(item.value().member.type(), readings->front().whole.data(), {}));
-  } else if (!readings->front().written) {
-    surface().say("not yet written");
+  const remote::ItemValue value = robot_.read({line}, kAskedElements).at(0);
+  if (value.type.empty()) return false;
+  if (!value.error.empty()) {
+    answers_.mistake(value.error);
+  } else if (!value.written) {
+    answers_.say("not yet written");
   } else {
-    surface().say(value_text(*item.value().type, part, item.value().unit, kAskedElements));
+    answers_.say(with_unit(value.value, value.unit) +
+                 (value.age >= kOldSeconds ? number_text(", %.3g s old", value.age) : ""));
   }
   return true;
 }
 
-/// What Lua would take without a word, or not at all: a part of a copy, a value with its unit.
-bool TaskBrowser::prepare(ItemAssignment& assignment) {
-  const base::Result<Item> item = find_item(application_, assignment.target);
-  if (!item) return true;
-  assignment.item = item.value();
-  const Member& member = item.value().member;
-  if (!item.value().parts.empty() && member.property != nullptr) {
-    mistake("'" + assignment.target + "' is a part of what was read: set the whole, " +
-            member.name() + " = ...");
-    return false;
-  }
-  const auto quantity = base::parse_quantity(assignment.value);
-  if (!quantity || quantity.value().unit.empty()) return true;
-  const auto number = base::convert(quantity.value().value, quantity.value().unit, member.unit());
-  if (!number) {
-    mistake(member.name() + ": " + number.error());
-    return false;
-  }
-  assignment.value = number_text("%.17g", number.value());
-  return true;
+bool TaskBrowser::takes_nothing(std::string_view command, const Words& arguments) {
+  if (arguments.empty()) return true;
+  answers_.mistake(std::string(command) + " takes nothing, found '" + arguments.front() + "'");
+  return false;
 }
 
-void TaskBrowser::take_lua(const std::string& text) {
-  lines_.clear();
-  ItemAssignment assignment(text);
-  std::string lua = spelled_for_lua(application_, text);
-  if (!assignment.target.empty()) {
-    if (!prepare(assignment)) return;
-    if (assignment.item) {
-      lua = spelled_for_lua(application_, assignment.target) + " = " + assignment.value;
-    }
-  }
-  if (interpreter_->is_incomplete(lua)) {
-    lines_ = text;
-    return;
-  }
-  if (!interpreter_->run(lua)) {
-    count_mistake();
-  } else if (assignment.item) {
-    const auto readings = read_members(application_, {assignment.item->member});
-    if (!readings) return;
-    surface().say(assignment.item->text + " = " +
-                  value_text(*assignment.item->type, readings->front().whole.data(),
-                             assignment.item->unit, kAskedElements));
-  }
-}
-
-// --- commands ------------------------------------------------------------------------------------
+// --- commands that show --------------------------------------------------------------------------
 
 void TaskBrowser::list(const Words& names) {
-  SharedCommands::list(names);
-  if (names.empty() && !interpreter_->machines().empty()) {
-    surface().say(list_machines(paper(), interpreter_->machines()));
+  if (names.empty()) {
+    answers_.say(list_components(paper(), robot_.components()));
+    const std::vector<lua::MachineStatus> machines = language_.machines();
+    if (!machines.empty()) answers_.say(list_machines(paper(), machines));
   }
+  for (const std::string& name : names) {
+    if (const std::string component = robot_.find(name); !component.empty()) {
+      answers_.say(list_members(paper(), robot_.look_at(component)));
+    } else if (const auto member = member_in(robot_, name); member) {
+      help({name});
+    } else {
+      answers_.mistake(member.error());
+    }
+  }
+}
+
+void TaskBrowser::help(const Words& subjects) {
+  if (subjects.empty()) answers_.say(help_overview(paper(), vocabulary()));
+  for (const std::string& subject : subjects) {
+    const base::Result<std::string> text = help_on(paper(), robot_, vocabulary(), subject);
+    text ? answers_.say(text.value()) : answers_.mistake(text.error());
+  }
+}
+
+void TaskBrowser::threads(const Words& arguments) {
+  if (takes_nothing("threads", arguments)) {
+    answers_.say(list_threads(paper(), robot_.status().threads));
+  }
+}
+
+void TaskBrowser::faults(const Words& arguments) {
+  if (takes_nothing("faults", arguments)) answers_.say(list_faults(paper(), robot_.faults()));
 }
 
 void TaskBrowser::watch(const Words& words) {
-  const base::Result<Watch> watch = Watch::parse(robot(), words);
-  if (!watch) {
-    mistake(watch.error());
-    return;
-  }
+  const base::Result<Watch> watch = Watch::parse(robot_, words);
+  if (!watch) return answers_.mistake(watch.error());
   surface().begin_keys();
-  if (surface().live() && !simulated_) {
-    watch_in_place(watch.value());
+  if (surface().live() && !session_.simulated()) {
+    watch_in_place(watch.value(), robot_, session_, surface());
   } else {
-    watch_by_lines(watch.value());
+    watch_by_lines(watch.value(), robot_, session_, surface());
   }
   surface().end_keys();
   surface().take_interrupt();
 }
 
-void TaskBrowser::watch_in_place(const Watch& watch) {
-  const base::Time end =
-      base::later(application_.now(), watch.limit().value_or(base::Duration::max()));
-  bool key = false;
-  const auto key_came = [&] { return key = key || surface().take_key(); };
-  std::string picture;
-  do {
-    picture = watch.picture(paper(), robot());
-    surface().show(picture + "\n" + inked(paper(), Ink::kFaint, "any key ends it"));
-  } while (interpreter_->let_pass(std::min(watch.every(), end - application_.now()), key_came) &&
-           application_.now() < end);
-  surface().show("");
-  surface().say(picture);
-}
+// --- time and commands under way -----------------------------------------------------------------
 
-void TaskBrowser::watch_by_lines(const Watch& watch) {
-  constexpr int kUsualLines = 10;
-  const base::Time end =
-      base::later(application_.now(), watch.limit().value_or(kUsualLines * watch.every()));
-  bool key = false;
-  const auto key_came = [&] { return key = key || surface().take_key(); };
-  if (const std::string heading = watch.heading(paper()); !heading.empty()) surface().say(heading);
-  while (application_.now() < end &&
-         interpreter_->let_pass(std::min(watch.every(), end - application_.now()), key_came)) {
-    surface().say(watch.line(paper(), robot(), seconds()));
-  }
+void TaskBrowser::let_pass(const Words& duration, std::string_view wanted) {
+  const auto time = seconds_in(as_one_text(duration));
+  if (!time) return answers_.mistake(wanted);
+  const bool whole = session_.let_pass(*time, {});
+  surface().show("");
+  if (!whole && surface().take_interrupt()) answers_.say(session_.interrupted_text());
 }
 
 void TaskBrowser::run(const Words& arguments) {
-  std::string text;
-  for (const std::string& word : arguments) text += word + " ";
-  const auto time = seconds_in(trimmed(text));
-  if (!time) {
-    mistake("run takes the seconds to let pass, above 0: run 5");
-    return;
-  }
-  const bool whole = interpreter_->let_pass(*time, {});
-  surface().show("");
-  if (!whole && surface().take_interrupt()) {
-    surface().say("interrupted at " + number_text("%.9g s", seconds()));
-  }
+  let_pass(arguments, "run takes the seconds to let pass, above 0: run 5");
 }
 
 void TaskBrowser::wait(const Words& arguments) {
   if (arguments.empty()) {
-    interpreter_->wait_for_commands();
+    session_.wait_for_commands();
   } else {
-    run(arguments);
+    let_pass(arguments, "wait takes the seconds to wait, above 0: wait 5");
   }
 }
 
 void TaskBrowser::cancel(const Words& arguments) {
   if (!takes_nothing("cancel", arguments)) return;
-  if (!interpreter_->cancel_commands()) surface().say("no command is under way");
+  if (!session_.cancel_commands()) answers_.say("no command is under way");
 }
 
 void TaskBrowser::quit(const Words& arguments) {
-  if (takes_nothing("quit", arguments)) course_.stop();
+  if (takes_nothing("quit", arguments)) session_.stop();
 }
 
 }  // namespace armature::browser::internal

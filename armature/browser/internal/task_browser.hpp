@@ -1,81 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "armature/browser/internal/answers.hpp"
 #include "armature/browser/internal/completion.hpp"
 #include "armature/browser/internal/console.hpp"
-#include "armature/browser/internal/listener.hpp"
-#include "armature/browser/internal/local_robot.hpp"
-#include "armature/browser/internal/shared_commands.hpp"
-#include "armature/browser/internal/surface.hpp"
-#include "armature/exec/application.hpp"
-#include "armature/lua/course.hpp"
-#include "armature/lua/interpreter.hpp"
+#include "armature/browser/internal/language.hpp"
+#include "armature/browser/internal/life_cycle.hpp"
+#include "armature/browser/internal/robot.hpp"
+#include "armature/browser/internal/session.hpp"
+#include "armature/browser/internal/words.hpp"
 
 namespace armature::browser::internal {
 
 class Watch;
 
-/// What the operator's lines mean: commands of the browser, values to show, Lua. Knows no terminal.
-class TaskBrowser final : public LineTaker, private SharedCommands {
+/// What the operator's lines mean: commands of the browser, values to show, else the language.
+/// Knows neither the terminal nor whether the application is of this process.
+class TaskBrowser final : public LineTaker {
  public:
-  /// @param duration  of the application's run, in its own time
-  TaskBrowser(exec::Application& application, base::Duration duration,
-              const platform::StopSignal* stop, bool simulated, Surface& surface);
+  /// All outlive it.
+  TaskBrowser(Robot& robot, Session& session, Language& language, Answers& answers)
+      : robot_(robot),
+        session_(session),
+        language_(language),
+        answers_(answers),
+        life_cycle_(robot, answers) {}
 
   void take(std::string_view line) override;
-  /// False if the run has ended.
-  bool idle() override { return interpreter_->catch_up(); }
-  bool wants_more() const override { return !lines_.empty(); }
-  void forget_lines() override { lines_.clear(); }
-  std::string prompt() const override;
+  bool idle() override { return session_.keep_up(); }
+  bool wants_more() const override { return language_.wants_more(); }
+  void forget_lines() override { language_.forget_lines(); }
+  std::string prompt() const override { return wants_more() ? "... " : session_.prompt(); }
   Completion complete(std::string_view before_cursor) override;
-
-  void stop() override { course_.stop(); }
-  bool has_ended() const override { return course_.has_ended(); }
-  std::size_t mistakes() const override { return SharedCommands::mistakes(); }
-  exec::RunEnd end() const { return course_.end(); }
+  void stop() override { session_.stop(); }
+  bool has_ended() const override { return session_.has_ended(); }
+  std::size_t mistakes() const override { return answers_.mistakes(); }
 
  private:
-  struct Command {
-    std::string_view name;
-    void (*act)(TaskBrowser& browser, const Words& arguments);
-  };
-  /// Not a pointer to a member: those of a base class at another address confuse GCC's sanitizer.
-  template <auto Member>
-  static void act(TaskBrowser& browser, const Words& arguments) {
-    (browser.*Member)(arguments);
-  }
+  struct Command;
   static const Command* find_command(std::string_view name);
-  bool take_command(const std::string& line);
+  const Command* command_of(std::string_view line) const;
+  void take_whole(const std::string& line);
   bool take_item(const std::string& line);
-  void take_lua(const std::string& text);
-  struct ItemAssignment;
-  bool prepare(ItemAssignment& assignment);
+  bool takes_nothing(std::string_view command, const Words& arguments);
 
   void list(const Words& names);
+  void help(const Words& subjects);
+  void threads(const Words& arguments);
+  void faults(const Words& arguments);
+  void start(const Words& names) { life_cycle_.start(names); }
+  void stop_components(const Words& names) { life_cycle_.stop(names, vocabulary().quitting); }
+  void reset(const Words& names) { life_cycle_.reset(names); }
+  void recover(const Words& names) { life_cycle_.recover(names); }
+  void clean_up(const Words& names) { life_cycle_.clean_up(names); }
   void watch(const Words& words);
-  void watch_in_place(const Watch& watch);
-  void watch_by_lines(const Watch& watch);
   void run(const Words& arguments);
   void wait(const Words& arguments);
   void cancel(const Words& arguments);
   void quit(const Words& arguments);
 
-  double seconds() const;
+  void let_pass(const Words& duration, std::string_view wanted);
+  const Vocabulary& vocabulary() const { return language_.vocabulary(); }
+  Surface& surface() { return answers_.surface(); }
+  Paper paper() const { return answers_.paper(); }
 
-  exec::Application& application_;
-  LocalRobot robot_here_;
-  bool simulated_;
-  base::Time begin_;
-  lua::Course course_;
-  Listener listener_;
-  std::unique_ptr<lua::Interpreter> interpreter_;
-  std::string lines_;  ///< of a statement that is not whole yet
+  Robot& robot_;
+  Session& session_;
+  Language& language_;
+  Answers& answers_;
+  LifeCycle life_cycle_;
 };
 
 }  // namespace armature::browser::internal

@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "armature/browser/internal/remote_browser.hpp"
+#include "armature/browser/internal/remote_browsing.hpp"
 #include "armature/browser/internal/test_screen.hpp"
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/inspector.hpp"
@@ -28,11 +28,12 @@ class Away {
     ride::Peer& peer = client_.connect(node_.listen("tcp://127.0.0.1:0").value().text());
     robot_ = std::make_unique<internal::RemoteRobot>(peer);
     EXPECT_TRUE(peer.wait_until_connected(20s).ok());
-    browser = std::make_unique<internal::RemoteBrowser>(
+    remote_ = std::make_unique<internal::RemoteBrowsing>(
         *robot_, screen, [this](base::Duration time) { pass(time); });
+    browser = &remote_->browser;
   }
   ~Away() {
-    browser.reset();
+    remote_.reset();
     robot_.reset();
     node_.remove(inspector_.service());
     over_ = true;
@@ -59,7 +60,7 @@ class Away {
 
   SmallRobot bench;
   Screen screen;
-  std::unique_ptr<internal::RemoteBrowser> browser;
+  internal::TaskBrowser* browser = nullptr;
 
  private:
   void control() {
@@ -81,6 +82,7 @@ class Away {
   ride::Node node_;
   ride::Node client_;
   std::unique_ptr<internal::RemoteRobot> robot_;
+  std::unique_ptr<internal::RemoteBrowsing> remote_;
 };
 
 }  // namespace armature::browser::test

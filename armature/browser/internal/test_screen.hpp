@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/browser/internal/task_browser.hpp"
+#include "armature/browser/internal/local_browsing.hpp"
 #include "armature/testing/small_robot.hpp"
 
 namespace armature::browser::test {
@@ -52,7 +52,7 @@ class Screen final : public internal::Surface {
 class Desk {
  public:
   explicit Desk(bool simulated = true)
-      : bench(simulated), browser(bench.application(), 1000s, nullptr, simulated, screen) {
+      : bench(simulated), local(bench.application(), 1000s, nullptr, simulated, screen) {
     browser.idle();
   }
 
@@ -71,7 +71,8 @@ class Desk {
 
   SmallRobot bench;
   Screen screen;
-  internal::TaskBrowser browser;
+  internal::LocalBrowsing local;
+  internal::TaskBrowser& browser = local.browser;
 };
 
 }  // namespace armature::browser::test

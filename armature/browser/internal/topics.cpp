@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of the task browsers and the functions of their Lua, as help and completion know
+// The commands of the task browser and the functions of its Lua, as help and completion know
 // them.
-#include "armature/browser/internal/language.hpp"
+#include <algorithm>
+
+#include "armature/browser/internal/vocabulary.hpp"
 
 namespace armature::browser::internal {
 namespace {
@@ -73,7 +75,7 @@ std::vector<Topic> lua_functions() {
       {"reason", "motion:reason()", "why a command failed or was cancelled, else \"\"", ""}};
 }
 
-std::vector<Topic> remote_examples() {
+std::vector<Topic> plain_examples() {
   return {{"", "Joint1.Position", "shows a property, attribute or port with its unit", ""},
           {"", "PID1.Kp = 300", "sets a property; also in another unit, PID1.UMax = 6000 mV", ""},
           {"", "Generator:moveTo({1.0, 1.0}, 10)",
@@ -81,7 +83,7 @@ std::vector<Topic> remote_examples() {
 }
 
 /// What needs no Lua is the same as in the application's own process.
-std::vector<Topic> remote_commands() {
+std::vector<Topic> plain_commands() {
   std::vector<Topic> all;
   for (const Topic& topic : lua_commands()) {
     const bool other = topic.name == "watch" || topic.name == "stop" || topic.name == "run" ||
@@ -103,17 +105,35 @@ std::vector<Topic> remote_commands() {
 
 }  // namespace
 
-const Language& remote_language() {
-  static const Language language{
-      "Values and calls", remote_examples(), remote_commands(), {}, "leaves", "_.:-"};
-  return language;
+bool Vocabulary::has_command(std::string_view name) const {
+  return std::ranges::find(commands, name, &Topic::name) != commands.end();
 }
 
-const Language& lua_language() {
-  static const Language language{
-      "Values and calls (Lua 5.4)", lua_examples(), lua_commands(), lua_functions(),
-      "stops the application",      "_.:"};
-  return language;
+const Vocabulary& plain_vocabulary() {
+  static const Vocabulary vocabulary{
+      .heading = "Values and calls",
+      .examples = plain_examples(),
+      .commands = plain_commands(),
+      .functions = {},
+      .methods = {},
+      .quitting = "leaves",
+      .in_names = "_.:-",
+  };
+  return vocabulary;
+}
+
+const Vocabulary& lua_vocabulary() {
+  static const Vocabulary vocabulary{
+      .heading = "Values and calls (Lua 5.4)",
+      .examples = lua_examples(),
+      .commands = lua_commands(),
+      .functions = lua_functions(),
+      .methods = {"cancel()", "done()", "is_in(", "progress()", "reason()", "send(", "start()",
+                  "stop()"},
+      .quitting = "stops the application",
+      .in_names = "_.:",
+  };
+  return vocabulary;
 }
 
 }  // namespace armature::browser::internal

@@ -128,4 +128,37 @@ std::string Watch::line(const Paper& paper, Robot& robot, double seconds) const 
   return text;
 }
 
+void watch_in_place(const Watch& watch, Robot& robot, Session& session, Surface& surface) {
+  const base::Duration limit = watch.limit().value_or(base::Duration::max());
+  bool key = false;
+  const auto key_came = [&] { return key = key || surface.take_key(); };
+  std::string picture;
+  base::Duration passed{};
+  base::Duration step{};
+  do {
+    passed += step;
+    step = std::min(watch.every(), limit - passed);
+    const Paper paper = surface.paper();
+    picture = watch.picture(paper, robot);
+    surface.show(picture + "\n" + inked(paper, Ink::kFaint, "any key ends it"));
+  } while (session.let_pass(step, key_came) && passed + step < limit);
+  surface.show("");
+  surface.say(picture);
+}
+
+void watch_by_lines(const Watch& watch, Robot& robot, Session& session, Surface& surface) {
+  constexpr int kUsualLines = 10;
+  const base::Duration limit = watch.limit().value_or(kUsualLines * watch.every());
+  bool key = false;
+  const auto key_came = [&] { return key = key || surface.take_key(); };
+  const std::string heading = watch.heading(surface.paper());
+  if (!heading.empty()) surface.say(heading);
+  for (base::Duration passed{}; passed < limit;) {
+    const base::Duration step = std::min(watch.every(), limit - passed);
+    if (!session.let_pass(step, key_came)) return;
+    passed += step;
+    surface.say(watch.line(surface.paper(), robot, session.stamp(passed)));
+  }
+}
+
 }  // namespace armature::browser::internal

@@ -9,6 +9,8 @@
 #include "armature/base/time.hpp"
 #include "armature/browser/internal/display.hpp"
 #include "armature/browser/internal/robot.hpp"
+#include "armature/browser/internal/session.hpp"
+#include "armature/browser/internal/surface.hpp"
 
 namespace armature::browser::internal {
 
@@ -41,6 +43,11 @@ class Watch {
   base::Duration every_ = std::chrono::milliseconds(200);
   std::optional<base::Duration> limit_;
 };
+
+/// Shows the values as they change, until a key, Ctrl-C or the watch's end: in place, or a line for
+/// each step, ten of them unless the watch says more.
+void watch_in_place(const Watch& watch, Robot& robot, Session& session, Surface& surface);
+void watch_by_lines(const Watch& watch, Robot& robot, Session& session, Surface& surface);
 
 /// A time above 0 in seconds, `0.2`, or with its unit, `20ms`.
 std::optional<base::Duration> seconds_in(std::string_view text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands that both task browsers have, on a robot that is none.
-#include "armature/browser/internal/shared_commands.hpp"
+// Starting and stopping components, on a robot that is none.
+#include "armature/browser/internal/life_cycle.hpp"
 
 #include <map>
 #include <string>
@@ -66,20 +66,15 @@ class Quiet final : public Surface {
   void end_keys() override {}
 };
 
-class Commands final : public SharedCommands {
- public:
-  Commands(Robot& robot, Surface& surface) : SharedCommands(robot, lua_language(), surface) {}
-  using SharedCommands::start;
-};
-
-TEST(SharedCommands, StartStartsThoseAgainThatStoppedWhileHardwareTookItsTime) {
+TEST(LifeCycle, StartStartsThoseAgainThatStoppedWhileHardwareTookItsTime) {
   SlowRobot robot;
   Quiet quiet;
-  Commands commands(robot, quiet);
-  commands.start({});
+  Answers answers(quiet);
+  LifeCycle life_cycle(robot, answers);
+  life_cycle.start({});
   EXPECT_THAT(robot.changed, ElementsAre("Reader", "Hardware", "Other", "Reader"));
   EXPECT_EQ(robot.states["Reader"], "Running");
-  EXPECT_EQ(commands.mistakes(), 1u) << "who refused is not asked again";
+  EXPECT_EQ(answers.mistakes(), 1u) << "who refused is not asked again";
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "armature/browser/internal/answers.hpp"
+#include "armature/browser/internal/robot.hpp"
+#include "armature/browser/internal/words.hpp"
+#include "armature/component/component.hpp"
+
+namespace armature::browser::internal {
+
+/// The commands that start and stop components, and take them out of faults.
+class LifeCycle {
+ public:
+  /// @param robot, answers  outlive it
+  LifeCycle(Robot& robot, Answers& answers) : robot_(robot), answers_(answers) {}
+
+  /// These components; for no names all that rest and that the deployment starts.
+  void start(const Words& names);
+  /// @param quitting  what `quit` does, which may have been meant
+  void stop(const Words& names, std::string_view quitting);
+  void reset(const Words& names);
+  void recover(const Words& names);
+  void clean_up(const Words& names);
+
+ private:
+  /// @return whose change was not refused
+  Words change(const Words& names, const std::string& change);
+  void start_those_that_stopped_again(const Words& started);
+  Words all_in(component::State state);
+
+  Robot& robot_;
+  Answers& answers_;
+};
+
+}  // namespace armature::browser::internal
