@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "armature/base/utf8.hpp"
+
 namespace armature::analysis {
 
 using namespace document;
@@ -362,10 +364,7 @@ class Placer {
 WiringLayout place(const Wiring& wiring) { return Placer(wiring).run(); }
 
 double text_width(std::string_view text) {
-  const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  });
-  return kLetterWidth * static_cast<double>(letters);
+  return kLetterWidth * static_cast<double>(base::character_count(text));
 }
 
 }  // namespace armature::analysis

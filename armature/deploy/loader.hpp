@@ -29,7 +29,8 @@ base::Result<std::string> find_library(std::string_view name,
 
 /// Loads a component library and adds its models to `registry`. Refuses what is no library, has no
 /// `armature_component_library`, was built for another ABI or with headers of another layout, or
-/// brings a model that exists already. The library stays loaded until the program ends.
+/// brings a model that exists already. What the library needs of Armature is that of this program,
+/// whichever installation it was built against. The library stays loaded until the program ends.
 base::Result<void> load_library(const std::string& file, component::Registry& registry);
 
 /// Finds and loads libraries; each that fails is reported at its place. One that is named twice is

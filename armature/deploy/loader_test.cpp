@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/deploy/loader.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -17,6 +19,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 namespace fs = std::filesystem;
 
 std::string library(const std::string& name) {
@@ -52,6 +55,43 @@ TEST(Loader, AnotherLayoutIsRefusedBeforeTheLibraryIsAskedForItsModels) {
                                  "program, so they disagree about the layout of components: "
                                  "rebuild the library with the headers of this program");
   }
+}
+
+/// The folders from which the process has loaded files of this name.
+std::set<std::string> folders_of_loaded(const std::string& file) {
+  std::set<std::string> folders;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const fs::path path = line.substr(std::min(line.find('/'), line.size()));
+    if (path.filename().string().starts_with(file)) folders.insert(path.parent_path().string());
+  }
+  return folders;
+}
+
+TEST(Loader, ALibraryBuiltAgainstAnotherInstallationRunsOnTheRuntimeOfThisProgram) {
+  ASSERT_THAT(folders_of_loaded("libarmature_can.so"), IsEmpty());
+  component::Registry registry;
+  const base::Result<void> loaded = load_library(library("built_elsewhere"), registry);
+  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  EXPECT_NE(registry.find("Sender"), nullptr);
+  EXPECT_EQ(folders_of_loaded("libarmature_can.so"), folders_of_loaded("libarmature_component.so"));
+}
+
+TEST(Loader, ALibraryOfAnotherVersionIsRefusedBeforeItsRuntimeIsLoaded) {
+  const std::set<std::string> own = folders_of_loaded("libarmature_component.so");
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_EQ(why_not("other_version"),
+            "'" + library("other_version") +
+                "' was built for libarmature_component.so.9.9, but this program has "
+                "libarmature_component.so.0.1 in '" +
+                *own.begin() + "': rebuild the library with this program's headers and compiler");
+  EXPECT_EQ(folders_of_loaded("libarmature_component.so"), own);
+}
+
+TEST(Loader, ALibraryThatCallsWhatThisRuntimeDoesNotHaveIsToBeRebuilt) {
+  EXPECT_THAT(why_not("newer_headers"),
+              AllOf(HasSubstr("undefined symbol"), HasSubstr("function_of_tomorrow"),
+                    HasSubstr("rebuild the library with the headers of this program")));
 }
 
 TEST(Loader, ALibraryWithoutTheFunctionIsNoComponentLibrary) {

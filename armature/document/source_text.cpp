@@ -3,29 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <utility>
 
+#include "armature/base/utf8.hpp"
+
 namespace armature::document {
 namespace {
-
-/// Bytes of the UTF-8 sequence at the start of `text`, 0 if there is no valid one.
-std::size_t sequence_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-  std::uint32_t code = first & (0xffu >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-    code = (code << 6) | (byte(i) & 0x3f);
-  }
-  constexpr std::array<std::uint32_t, 5> kSmallest = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-  return code < kSmallest[length] || code > 0x10ffff || surrogate ? 0 : length;
-}
 
 std::string hexadecimal(unsigned char byte) {
   std::array<char, 8> text{};
@@ -87,8 +71,8 @@ bool check_source_text(std::string_view text, const std::string& file, std::size
   }
   for (std::size_t at = 0; at < text.size();) {
     const auto byte = static_cast<unsigned char>(text[at]);
-    const std::size_t length = sequence_length(text.substr(at));
-    if (length == 0) {
+    const auto character = base::code_point_at(text, at);
+    if (!character) {
       diagnostics.error(LineIndex(text, file).at(at),
                         "byte " + hexadecimal(byte) + " is not valid UTF-8",
                         "save the file as UTF-8");
@@ -99,7 +83,7 @@ bool check_source_text(std::string_view text, const std::string& file, std::size
                         "control character " + hexadecimal(byte) + " in a text file");
       return false;
     }
-    at += length;
+    at = character->end;
   }
   return check_conflicts(text, file, diagnostics);
 }

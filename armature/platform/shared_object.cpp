@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "armature/platform/file.hpp"
+#include "armature/platform/internal/elf.hpp"
 
 namespace armature::platform {
 
@@ -19,6 +20,11 @@ base::Result<SharedObject> SharedObject::load(const std::string& path) {
 }
 
 void* SharedObject::symbol(const char* name) const { return dlsym(handle_, name); }
+
+std::vector<std::string> needed_libraries(const std::string& file) {
+  if (!expect_file(file)) return {};
+  return Elf(file).needed();
+}
 
 std::string file_of(const void* address) {
   Dl_info found{};

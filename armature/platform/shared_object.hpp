@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "armature/base/result.hpp"
 
@@ -22,6 +23,10 @@ class SharedObject {
   explicit SharedObject(void* handle) : handle_(handle) {}
   void* handle_;
 };
+
+/// The libraries that `file` was linked with, such as `libm.so.6`; empty if it is no library. Loads
+/// nothing.
+std::vector<std::string> needed_libraries(const std::string& file);
 
 /// The file that the code at `address` was loaded from, empty if it is nobody's.
 std::string file_of(const void* address);

@@ -8,7 +8,9 @@ namespace armature::platform {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 TEST(SharedObject, FindsItsFunctionsAndNoOthers) {
   const base::Result<SharedObject> library = SharedObject::load("libm.so.6");
@@ -31,6 +33,17 @@ TEST(SharedObject, ALibraryWithAnUnresolvedFunctionIsRefusedAtOnce) {
   EXPECT_THAT(SharedObject::load(UNRESOLVED_LIBRARY).error(),
               AllOf(HasSubstr(UNRESOLVED_LIBRARY), HasSubstr("undefined symbol"),
                     HasSubstr("function_that_nobody_has")));
+}
+
+TEST(SharedObject, TellsWhatALibraryWasLinkedWith) {
+  const std::string runtime = file_of(reinterpret_cast<const void*>(&needed_libraries));
+  EXPECT_THAT(needed_libraries(runtime), Contains("libc.so.6")) << runtime;
+}
+
+TEST(SharedObject, WhatIsNoLibraryNeedsNone) {
+  EXPECT_THAT(needed_libraries("/nowhere/libarm.so"), IsEmpty());
+  EXPECT_THAT(needed_libraries("/etc/passwd"), IsEmpty());
+  EXPECT_THAT(needed_libraries("/etc"), IsEmpty());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "armature/record/internal/utf8.hpp"
+#include "armature/base/utf8.hpp"
 
 namespace armature::record::internal {
 
@@ -20,7 +20,7 @@ base::Result<ChannelId> ChannelList::add(Channel channel) {
   constexpr std::size_t kMost = std::numeric_limits<ChannelId>::max();
   if (channel.name.empty()) return refusal("a channel is expected to have a name, but has none");
   for (const std::string* text : {&channel.name, &channel.unit, &channel.doc}) {
-    if (is_utf8(*text)) continue;
+    if (base::is_utf8(*text)) continue;
     return refusal("channel '" + channel.name +
                    "' is expected to have name, unit and documentation in UTF-8");
   }

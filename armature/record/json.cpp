@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "armature/base/utf8.hpp"
 #include "armature/record/internal/json_text.hpp"
-#include "armature/record/internal/utf8.hpp"
 
 namespace armature::record {
 namespace {
@@ -91,22 +91,23 @@ namespace internal {
 void append_json_string(std::string_view text, std::string& to) {
   constexpr std::string_view kHex = "0123456789abcdef";
   to += '"';
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const auto byte = static_cast<unsigned char>(text.front());
-    if (length == 0) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto character = base::code_point_at(text, at);
+    const std::size_t end = character ? character->end : at + 1;
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (!character) {
       to += '?';
     } else if (byte == '"' || byte == '\\') {
       to += '\\';
-      to += text.front();
+      to += text[at];
     } else if (byte < 0x20) {
       to += "\\u00";
       to += kHex[byte >> 4];
       to += kHex[byte & 15];
     } else {
-      to += text.substr(0, length);
+      to += text.substr(at, end - at);
     }
-    text.remove_prefix(length == 0 ? 1 : length);
+    at = end;
   }
   to += '"';
 }

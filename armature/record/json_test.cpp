@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "armature/record/internal/test_types.hpp"
-#include "armature/record/internal/utf8.hpp"
 
 namespace armature::record {
 namespace {
@@ -75,17 +74,6 @@ TEST(Json, DoublesComeBackToTheBit) {
 
 TEST(Json, BytesThatAreNoUtf8BecomeQuestionMarks) {
   EXPECT_EQ(json_of(std::string("a\xff\xc0\x80z\xe2\x82")), R"({"value":"a???z??"})");
-}
-
-TEST(Json, Utf8IsWhatTheUnicodeStandardSays) {
-  for (const char* text : {"", "a", "µ", "€", "\xf0\x9f\xa4\x96", "\xed\x9f\xbf"}) {
-    EXPECT_TRUE(internal::is_utf8(text)) << text;
-  }
-  // A lone continuation, overlong forms, a surrogate, beyond the last character, cut off.
-  for (const char* text : {"\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf", "\xed\xa0\x80",
-                           "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xe2\x82", "\xe2\x82z"}) {
-    EXPECT_FALSE(internal::is_utf8(text)) << text;
-  }
 }
 
 TEST(Json, AnErrorSaysWhereWhatWasExpected) {

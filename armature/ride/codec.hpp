@@ -19,9 +19,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "armature/base/utf8.hpp"
 #include "armature/ride/body.hpp"
 #include "armature/ride/memory_share.hpp"
-#include "armature/ride/utf8.hpp"
 
 namespace armature::ride {
 
@@ -230,7 +230,7 @@ class Decoder {
     std::uint32_t size = 0;
     if (!take_count(size)) return false;
     const std::string_view found(reinterpret_cast<const char*>(start_ + at_), size);
-    if (!is_utf8(found)) return fail();
+    if (!base::is_utf8(found)) return fail();
     at_ += size;
     text = found;
     return true;

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/base/utf8.hpp"
 #include "armature/ride/codec.hpp"
-#include "armature/ride/utf8.hpp"
 #include "armature/ride/wire.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 TEST(RealtimeRide, Text) {
   bool valid = false;
-  expect_realtime("ride::is_utf8", [&] { valid = is_utf8("grüße"); });
+  expect_realtime("base::is_utf8", [&] { valid = base::is_utf8("grüße"); });
   EXPECT_TRUE(valid);
 }
 
