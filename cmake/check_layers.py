@@ -152,7 +152,10 @@ def parse(text):
 
 
 def library_of(path):
-    """The library a file belongs to; None for examples, benchmarks and tests across libraries."""
+    """The library a file belongs to; None for examples, benchmarks, tests across libraries, and
+    component libraries that a test loads."""
+    if "/testdata/" in path:
+        return None
     top, _, rest = path.partition("/")
     if top == "armature":
         return rest.split("/")[0]
