@@ -13,7 +13,7 @@ import unittest
 
 import deaths
 
-ATTEMPTS = 4
+ATTEMPTS = 10
 NAMES = ("program", "emulator", "libraries", "victim", "wam")
 OPTIONS = types.SimpleNamespace(**dict(zip(NAMES, sys.argv[1:6])))
 
