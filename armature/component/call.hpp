@@ -15,7 +15,7 @@ namespace armature::component {
 namespace internal {
 class PendingCall;
 }  // namespace internal
-
+/// How a call of an operation stands, or how it ended.
 enum class CallStatus : std::uint8_t {
   kDone,
   kPending,       ///< sent, not finished

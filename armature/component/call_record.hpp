@@ -21,7 +21,7 @@ namespace armature::component {
 /// whoever shares it anew, or frees it, sees all that was done with it before.
 template <typename Atomics>
 class BasicSharedRecord {
- public:
+ public:  /// Deleter of a handle: lets go of the record.
   struct LetGo {
     void operator()(BasicSharedRecord* record) const { record->release(); }
   };

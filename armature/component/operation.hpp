@@ -269,7 +269,7 @@ class OperationCallerBase : public Requirement {
   struct About;
   About& about() const;
 };
-
+/// Calls an operation of a peer that returns R and takes Args.
 template <typename R, typename... Args>
 class OperationCaller<R(Args...)> final : public OperationCallerBase {
  public:

@@ -53,6 +53,7 @@ struct MachineStatus {
   std::string state;  ///< empty while it does not run
 };
 
+/// Whose lines are run, and how.
 struct InterpreterOptions {
   bool simulated = false;           ///< the application's time
   std::size_t most_elements = 100;  ///< of a list that are said

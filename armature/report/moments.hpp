@@ -17,6 +17,7 @@ struct Moment {
   std::vector<std::string> told;         ///< `WAM: fault: E-stop, ...`, in the order of time
 };
 
+/// What happened in a run, by time.
 struct Moments {
   std::vector<Moment> all;   ///< by their time
   std::size_t left_out = 0;  ///< of more than a page can show

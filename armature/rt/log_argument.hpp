@@ -7,14 +7,14 @@
 #include <string_view>
 
 namespace armature::rt {
-
+/// How grave a log line is.
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 std::string_view name_of(LogLevel level);
 
 /// One argument of a log line: a number, or a text that lives until a LogRecord has taken it.
 class LogArgument {
- public:
+ public:  /// Which type the argument has.
   enum class Kind { kNone, kSigned, kUnsigned, kDouble, kBool, kText };
 
   LogArgument() = default;

@@ -8,7 +8,7 @@ enum class WhenFull {
   kDropNewest,  ///< the new value is not taken, the writer is told
   kDropOldest,  ///< the oldest value makes room, the writer is told
 };
-
+/// What became of a value that was pushed.
 enum class PushResult { kTaken, kRefused, kDroppedOldest };
 
 }  // namespace armature::rt

@@ -23,6 +23,7 @@ namespace armature::testing::small_robot {
 using namespace component;
 using namespace std::chrono_literals;
 
+/// A struct that is a property.
 struct Gains {
   double kp = 0.0;
   int steps = 1;

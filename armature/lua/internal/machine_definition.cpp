@@ -16,7 +16,6 @@ namespace {
 
 using component::kNoState;
 using component::MachineState;
-using Kind = MachineFunction::Kind;
 using Names = std::vector<std::string>;
 
 constexpr int kDeepestStates = 32;
@@ -52,7 +51,7 @@ class MachineReader {
   void read_substates(int table, int parent, const std::string& place, const Names& known);
   void read_state(int table, int self);
   void read_actions(int table, int self, const std::string& place);
-  void* keep(Kind kind, int reference, int state) {
+  void* keep(MachineFunction::Kind kind, int reference, int state) {
     return &definition_.functions.emplace_back(
         MachineFunction{kind, reference, state, kNoTrigger, nullptr});
   }
@@ -172,10 +171,11 @@ void MachineReader::read_actions(int table, int self, const std::string& place) 
   const int during = reader_.function(table, "during", place);
   definition_.states[static_cast<std::size_t>(self)].run = reader_.function(table, "run", place);
   MachineState& state = state_at(self);
-  state.entry = {&MachineFunction::perform, keep(Kind::kEntry, entry, self), {}};
-  state.exit = {&MachineFunction::perform, keep(Kind::kExit, exit, self), {}};
+  state.entry = {&MachineFunction::perform, keep(MachineFunction::Kind::kEntry, entry, self), {}};
+  state.exit = {&MachineFunction::perform, keep(MachineFunction::Kind::kExit, exit, self), {}};
   if (during == LUA_NOREF) return;
-  state.during = {&MachineFunction::perform, keep(Kind::kDuring, during, self), {}};
+  state.during = {
+      &MachineFunction::perform, keep(MachineFunction::Kind::kDuring, during, self), {}};
 }
 
 }  // namespace
