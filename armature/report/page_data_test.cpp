@@ -73,7 +73,9 @@ TEST(PageData, IsThinnedUntilItFitsAndKeepsMinimaAndMaxima) {
   const std::string few = page_json(runs, kMost);
   EXPECT_LE(few.size(), kMost);
   EXPECT_GT(few.size(), kMost / 4) << "thinner than need be";
-  for (const Json& run : Json::parse(few)["runs"]) {
+  const Json page = Json::parse(few);
+  ASSERT_FALSE(page["runs"].empty());
+  for (const Json& run : page["runs"]) {
     for (const Json& curve : run["others"]) {
       const auto values = unpacked(curve["v"], curve["per"].get<double>());
       EXPECT_NEAR(*std::ranges::max_element(values), 7.5, 1e-4);
