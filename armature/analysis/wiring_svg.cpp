@@ -8,6 +8,7 @@
 
 #include "armature/analysis/wiring_graph.hpp"
 #include "armature/analysis/wiring_layout.hpp"
+#include "armature/base/xml_text.hpp"
 
 namespace armature::analysis {
 
@@ -51,29 +52,6 @@ std::string number(double value) {
   return text.data();
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string rectangle(std::string_view style, double x, double y, double width, double height,
                       double radius) {
   return "<rect class=\"" + std::string(style) + "\" x=\"" + number(x) + "\" y=\"" + number(y) +
@@ -85,7 +63,7 @@ std::string label(std::string_view style, std::string_view anchor, Point at,
                   std::string_view text) {
   return "<text class=\"" + std::string(style) + "\" text-anchor=\"" + std::string(anchor) +
          "\" x=\"" + number(at.x) + "\" y=\"" + number(at.y + kTextBaseline) + "\">" +
-         escaped(text) + "</text>\n";
+         base::xml_escaped(text) + "</text>\n";
 }
 
 std::string point(Point at) { return number(at.x) + " " + number(at.y); }
@@ -137,7 +115,7 @@ std::string draw_edge(const Wiring& wiring, const WiringEdge& edge, const Way& w
   const std::string_view style = style_of(edge);
   const std::string_view marker = style == "event" ? "trigger" : style;
   return "<path class=\"" + std::string(style) + "\" marker-end=\"url(#" + std::string(marker) +
-         ")\" d=\"" + path_of(way) + "\"><title>" + escaped(title_of(wiring, edge)) +
+         ")\" d=\"" + path_of(way) + "\"><title>" + base::xml_escaped(title_of(wiring, edge)) +
          "</title></path>\n";
 }
 
@@ -179,8 +157,8 @@ std::string draw_lane(const WiringThread& thread, const Lane& lane, double width
   const double y = lane.y + kLaneTitleHeight / 2.0 + kTextBaseline;
   return rectangle("lane", x, lane.y, width - kMargin, lane.height, kRadius) +
          "<text class=\"lane-title\" x=\"" + number(x + kMargin) + "\" y=\"" + number(y) + "\">" +
-         escaped(thread.name) + "<tspan class=\"lane-activity\" dx=\"10\">" +
-         escaped(thread.activity) + "</tspan></text>\n";
+         base::xml_escaped(thread.name) + "<tspan class=\"lane-activity\" dx=\"10\">" +
+         base::xml_escaped(thread.activity) + "</tspan></text>\n";
 }
 
 /// What the lines mean, below the lanes.
@@ -218,7 +196,7 @@ std::string graph_as_svg(const exec::Blueprint& blueprint, const exec::Plan& pla
   const std::string size = "width=\"" + number(width) + "\" height=\"" + number(height) + "\"";
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " +
                     number(width) + " " + number(height) + "\">\n<title>" +
-                    escaped(wiring.application) + "</title>\n" + std::string(kStyle) +
+                    base::xml_escaped(wiring.application) + "</title>\n" + std::string(kStyle) +
                     rectangle("page", 0, 0, width, height, 0) +
                     draw_legend({kMargin, layout.height + kLegendHeight / 3.0});
   for (std::size_t i = 0; i < wiring.threads.size(); ++i) {

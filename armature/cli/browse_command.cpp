@@ -66,7 +66,7 @@ int browse(const BrowseArguments& arguments, const Console& console) {
 void add_browse(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand(
       "browse", "commands a running application of another process or host line by line");
-  const auto arguments = std::make_shared<BrowseArguments>();
+  const auto arguments = arguments_of(*command, to, browse);
   command
       ->add_option("address", arguments->address,
                    "where it listens: tcp://127.0.0.1:4242, unix:/run/robot.sock, tls://robot:4243")
@@ -76,8 +76,6 @@ void add_browse(const CommandLine& to) {
   command->add_option("--key", arguments->key, "the certificate's private key")->type_name("FILE");
   command->add_option("--authority", arguments->authority, "whose certificates are taken")
       ->type_name("FILE");
-  command->callback(
-      [to, arguments] { to.chosen = [to, arguments] { return browse(*arguments, to.console); }; });
 }
 
 }  // namespace armature::cli

@@ -43,12 +43,10 @@ int check(const CheckArguments& arguments, const Console& console) {
 
 void add_check(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("check", "finds every mistake without running");
-  const auto arguments = std::make_shared<CheckArguments>();
+  const auto arguments = arguments_of(*command, to, check);
   add_load_options(*command, arguments->load);
   command->add_flag("--order", arguments->order, "prints which thread runs what, in which order");
   command->add_flag("--load", arguments->load_table, "prints the load of each thread");
-  command->callback(
-      [to, arguments] { to.chosen = [to, arguments] { return check(*arguments, to.console); }; });
 }
 
 }  // namespace armature::cli

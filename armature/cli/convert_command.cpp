@@ -18,7 +18,8 @@ struct ConvertArguments {
   std::string to;
 };
 
-int convert(const std::string& from, const std::string& to, const Console& console) {
+int convert(const ConvertArguments& arguments, const Console& console) {
+  const auto& [from, to] = arguments;
   if (!to.ends_with(".xml") && !to.ends_with(".yaml") && !to.ends_with(".yml")) {
     console.say(rt::LogLevel::kError, "the name of the file to write says its format: '" + to +
                                           "' must end in .yaml, .yml or .xml");
@@ -41,12 +42,9 @@ int convert(const std::string& from, const std::string& to, const Console& conso
 
 void add_convert(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("convert", "rewrites YAML as OROCOS XML and back");
-  const auto arguments = std::make_shared<ConvertArguments>();
+  const auto arguments = arguments_of(*command, to, convert);
   command->add_option("from", arguments->from, "the deployment to read")->required();
   command->add_option("to", arguments->to, "the file to write; .xml is OROCOS XML")->required();
-  command->callback([to, arguments] {
-    to.chosen = [to, arguments] { return convert(arguments->from, arguments->to, to.console); };
-  });
 }
 
 }  // namespace armature::cli

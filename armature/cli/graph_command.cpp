@@ -53,7 +53,7 @@ int graph(const GraphArguments& arguments, const Console& console) {
 
 void add_graph(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("graph", "draws the wiring");
-  const auto arguments = std::make_shared<GraphArguments>();
+  const auto arguments = arguments_of(*command, to, graph);
   add_load_options(*command, arguments->load);
   command->add_option("--format", arguments->format, "svg (default), dot or mermaid")
       ->check(one_of({"svg", "dot", "mermaid"}));
@@ -66,8 +66,6 @@ void add_graph(const CommandLine& to) {
       ->allow_extra_args(false);
   command->add_flag("--each-line", arguments->each_line,
                     "every connection by itself, none bundled");
-  command->callback(
-      [to, arguments] { to.chosen = [to, arguments] { return graph(*arguments, to.console); }; });
 }
 
 }  // namespace armature::cli

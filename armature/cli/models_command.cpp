@@ -43,14 +43,12 @@ int models(const ModelsArguments& arguments, const Console& console) {
 
 void add_models(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("models", "lists component models, or describes one");
-  const auto arguments = std::make_shared<ModelsArguments>();
+  const auto arguments = arguments_of(*command, to, models);
   command->add_option("name", arguments->name, "the model to describe");
   command->add_option("-l,--library", arguments->libraries, "component library to look into")
       ->allow_extra_args(false);
   add_folders(*command, arguments->library_folders);
   command->add_flag("--json", arguments->json, "for machines");
-  command->callback(
-      [to, arguments] { to.chosen = [to, arguments] { return models(*arguments, to.console); }; });
 }
 
 }  // namespace armature::cli

@@ -30,10 +30,8 @@ void add_new(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("new", "makes something to start from");
   command->require_subcommand(1);
   CLI::App* made = command->add_subcommand("component", "a component library that builds");
-  const auto name = std::make_shared<std::string>();
+  const auto name = arguments_of(*made, to, new_component);
   made->add_option("name", *name, "of the component, like GripperDriver")->required();
-  made->callback(
-      [to, name] { to.chosen = [to, name] { return new_component(*name, to.console); }; });
 }
 
 }  // namespace armature::cli

@@ -38,12 +38,10 @@ int report(const ReportArguments& arguments, const Console& console) {
 
 void add_report(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("report", "shows recorded runs as one HTML page");
-  const auto arguments = std::make_shared<ReportArguments>();
+  const auto arguments = arguments_of(*command, to, report);
   command->add_option("folder", arguments->folder, "of a run, or of folders of runs")->required();
   command->add_option("--out", arguments->page, "the page; report.html in that folder otherwise")
       ->type_name("FILE");
-  command->callback(
-      [to, arguments] { to.chosen = [to, arguments] { return report(*arguments, to.console); }; });
 }
 
 }  // namespace armature::cli

@@ -6,10 +6,12 @@
 #include <charconv>
 #include <system_error>
 
+#include "armature/base/alternatives.hpp"
 #include "armature/base/near_name.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/document/value_tree.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::document {
 namespace {
@@ -122,20 +124,14 @@ std::optional<base::Duration> ValueReader::duration(const Value& value,
 
 void ValueReader::refuse_name(const Value& value, std::string_view what,
                               const types::Type& type) const {
-  std::vector<std::string> known;
-  for (const types::Enumerator& each : type.enumerators) known.push_back(each.name);
-  refuse_choice(value, what, value.text, known);
+  refuse_choice(value, what, value.text, types::enumerator_names(type));
 }
 
 void ValueReader::refuse_choice(const Value& value, std::string_view what, const std::string& found,
                                 const std::vector<std::string>& known) const {
-  std::string list;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const bool last = i + 1 == known.size();
-    list += (i == 0 ? "" : last ? " or " : ", ") + known[i];
-  }
   const std::string near = base::near_name(found, known);
-  error(value.where, std::string(what) + " must be " + list + ", found " + in_quotes(found),
+  error(value.where,
+        std::string(what) + " must be " + base::alternatives(known) + ", found " + in_quotes(found),
         near.empty() ? "" : "did you mean '" + near + "'?");
 }
 

@@ -6,6 +6,7 @@
 #include "armature/component/port_array.hpp"
 #include "armature/component/property.hpp"
 #include "armature/component/state_machine.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::inspect {
 
@@ -16,18 +17,12 @@ std::string joined(const Component& component, std::string_view item) {
   return component.name() + "." + std::string(item);
 }
 
-std::vector<std::string> names_of_values(const types::Type& type) {
-  std::vector<std::string> names;
-  for (const types::Enumerator& each : type.enumerators) names.push_back(each.name);
-  return names;
-}
-
 PropertyDescription describe_property(const PropertyBase& property, Values values) {
   PropertyDescription description;
   description.name = property.name();
   description.doc = property.doc();
   description.type = property.type().name;
-  description.values = names_of_values(property.type());
+  description.values = types::enumerator_names(property.type());
   description.unit = property.unit();
   description.range = property.limits();
   description.persistent = property.persistent();
@@ -44,7 +39,7 @@ void describe_port(const PortBase& port, Values values, PortDescription& descrip
   description.name = port.name();
   description.doc = port.doc();
   description.type = port.type().name;
-  description.values = names_of_values(port.type());
+  description.values = types::enumerator_names(port.type());
   description.unit = port.unit();
   if (port.declared_size().declared()) description.size = port.declared_size().value();
   description.sequence = port.current_sequence();

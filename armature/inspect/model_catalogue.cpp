@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "armature/base/alternatives.hpp"
 #include "armature/base/near_name.hpp"
 #include "armature/base/quoted.hpp"
 #include "armature/base/text_table.hpp"
@@ -23,14 +24,6 @@ std::string number(double value) { return types::Value::of(value).text(); }
 /// Adds `what` to a list separated by commas.
 void add(std::string& list, const std::string& what) { list += (list.empty() ? "" : ", ") + what; }
 
-std::string list_of(const std::vector<std::string>& values) {
-  std::string list;
-  for (const std::string& value : values) {
-    list += (list.empty() ? "" : value == values.back() ? " or " : ", ") + value;
-  }
-  return list;
-}
-
 std::string with_notes(const std::string& doc, const std::string& notes) {
   return notes.empty() ? doc : doc + " (" + notes + ")";
 }
@@ -42,7 +35,7 @@ Row row_of(const PropertyDescription& property) {
   } else {
     add(notes, "default " + (property.value.empty() ? "\"\"" : property.value));
   }
-  if (!property.values.empty()) add(notes, list_of(property.values));
+  if (!property.values.empty()) add(notes, base::alternatives(property.values));
   if (property.range)
     add(notes, number(property.range->low) + " .. " + number(property.range->high));
   if (!property.persistent) add(notes, "attribute");
@@ -51,7 +44,7 @@ Row row_of(const PropertyDescription& property) {
 }
 
 std::string port_notes(const PortDescription& port) {
-  if (!port.values.empty()) return list_of(port.values);
+  if (!port.values.empty()) return base::alternatives(port.values);
   return port.size ? std::to_string(*port.size) + " elements" : "";
 }
 

@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "armature/base/xml_text.hpp"
 #include "armature/document/typed_text.hpp"
 #include "armature/document/value_tree.hpp"
 #include "armature/orocos/internal/xml_tree.hpp"
@@ -91,30 +92,12 @@ Value values_of(const XmlElement& bag, base::Diagnostics& diagnostics) {
   return list;
 }
 
+/// Tabs and line ends, too, which a reader of XML would make blanks.
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\t':
-      case '\n':
-      case '\r':
-        result += "&#" + std::to_string(static_cast<int>(c)) + ";";
-        break;
-      default:
-        result += c;
-    }
+  for (const char c : base::xml_escaped(text)) {
+    const bool blank = c == '\t' || c == '\n' || c == '\r';
+    result += blank ? "&#" + std::to_string(static_cast<int>(c)) + ";" : std::string(1, c);
   }
   return result;
 }

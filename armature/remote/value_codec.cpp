@@ -45,17 +45,6 @@ std::string_view scalar_name(Kind kind) {
   }
 }
 
-/// `enum Mode:byte{off=0,on=1}`.
-std::string enumeration(const Type& type) {
-  std::string text =
-      "enum " + type.name + ":" + std::string(scalar_name(type.underlying->kind)) + "{";
-  for (const types::Enumerator& each : type.enumerators) {
-    if (&each != &type.enumerators.front()) text += ",";
-    text += each.name + "=" + std::to_string(each.value);
-  }
-  return text + "}";
-}
-
 /// Bytes that a value has at least, so that a count can be believed before memory is asked for.
 std::size_t least_size(const Type& type) {
   if (types::is_text(type) || type.kind == Kind::kVector) return sizeof(std::uint32_t);
@@ -100,7 +89,10 @@ std::string canonical(const Type& type) {
   if (type.kind == Kind::kArray) {
     return "Array<" + canonical(*type.element) + "," + std::to_string(type.count) + ">";
   }
-  if (type.kind == Kind::kEnum) return enumeration(type);
+  if (type.kind == Kind::kEnum) {
+    return "enum " + type.name + ":" + std::string(scalar_name(type.underlying->kind)) +
+           types::enumerator_values(type);
+  }
   if (type.kind != Kind::kStruct) return std::string(scalar_name(type.kind));
   std::string text = "struct " + type.name + "{";
   for (const types::Field& field : type.fields) {

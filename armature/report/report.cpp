@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "armature/base/xml_text.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/report/figures.hpp"
 #include "armature/report/internal/page_parts.hpp"
@@ -12,27 +13,12 @@
 namespace armature::report {
 namespace {
 
-/// The page's title may hold what the name of an application or a folder does.
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '&') {
-      safe += "&amp;";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
 std::string make_page(const Runs& runs) {
   struct Part {
     std::string_view mark;
     std::string content;
   };
-  const Part parts[] = {{"{{title}}", escaped(title_of(runs))},
+  const Part parts[] = {{"{{title}}", base::xml_escaped(title_of(runs))},
                         {"{{uplot.css}}", std::string(internal::kUplotCss)},
                         {"{{report.css}}", std::string(internal::kReportCss)},
                         {"{{data}}", page_json(runs)},

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "armature/types/type.hpp"
 
@@ -44,6 +46,12 @@ inline const void* at_offset(const void* value, std::size_t offset) {
 inline void* at_offset(void* value, std::size_t offset) {
   return value == nullptr ? nullptr : static_cast<std::byte*>(value) + offset;
 }
+
+/// Of an enumeration: the names of its values, in their order.
+std::vector<std::string> enumerator_names(const Type& type);
+
+/// Of an enumeration: `{off=0,on=1}`.
+std::string enumerator_values(const Type& type);
 
 /// Calls `code` with `std::type_identity` of the C++ type of a scalar, and returns what it returns;
 /// a default value if `kind` is none; an enumeration is asked for its `underlying` type.

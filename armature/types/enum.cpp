@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "armature/base/alternatives.hpp"
 #include "armature/base/near_name.hpp"
 #include "armature/types/elements.hpp"
 
@@ -50,16 +51,22 @@ void set_enumerator(const Type& type, const Enumerator& enumerator, void* value)
   });
 }
 
-std::string enumerator_list(const Type& type) {
-  std::string list;
-  for (const Enumerator& each : type.enumerators) {
-    if (&each != &type.enumerators.front()) {
-      list += &each == &type.enumerators.back() ? " or " : ", ";
-    }
-    list += each.name;
-  }
-  return list;
+std::vector<std::string> enumerator_names(const Type& type) {
+  std::vector<std::string> names;
+  for (const Enumerator& each : type.enumerators) names.push_back(each.name);
+  return names;
 }
+
+std::string enumerator_values(const Type& type) {
+  std::string text = "{";
+  for (const Enumerator& each : type.enumerators) {
+    if (text.back() != '{') text += ',';
+    text += each.name + "=" + std::to_string(each.value);
+  }
+  return text + "}";
+}
+
+std::string enumerator_list(const Type& type) { return base::alternatives(enumerator_names(type)); }
 
 std::string doc_with_enumerators(std::string_view doc, const Type& type) {
   std::string text(doc);
@@ -72,9 +79,7 @@ std::string unknown_enumerator(const Type& type, std::string_view name) {
 }
 
 std::string near_enumerator(const Type& type, std::string_view name) {
-  std::vector<std::string> names;
-  for (const Enumerator& each : type.enumerators) names.push_back(each.name);
-  return base::suggestion(name, names);
+  return base::suggestion(name, enumerator_names(type));
 }
 
 }  // namespace armature::types

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/base/hash.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::types {
 namespace {
@@ -62,15 +63,6 @@ std::string name_of_list(const Type& type, const std::string& inner) {
   return "array<" + inner + "," + std::to_string(type.count) + ">";
 }
 
-std::string enum_layout(const Type& type) {
-  std::string text = type.name + ":" + type.underlying->name + "{";
-  for (const Enumerator& each : type.enumerators) {
-    if (text.back() != '{') text += ',';
-    text += each.name + "=" + std::to_string(each.value);
-  }
-  return text + "}";
-}
-
 }  // namespace
 
 bool same_type(const Type& a, const Type& b) {
@@ -88,7 +80,9 @@ bool same_type(const Type& a, const Type& b) {
 
 std::string layout_text(const Type& type) {
   if (type.element != nullptr) return name_of_list(type, layout_text(*type.element));
-  if (type.kind == Kind::kEnum) return enum_layout(type);
+  if (type.kind == Kind::kEnum) {
+    return type.name + ":" + type.underlying->name + enumerator_values(type);
+  }
   if (type.kind != Kind::kStruct) return type.name;
   std::string text = type.name + "{";
   for (const Field& field : type.fields) {

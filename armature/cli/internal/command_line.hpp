@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,17 @@ struct CommandLine {
   const std::vector<std::string>& words;  ///< as typed
   std::function<int()>& chosen;           ///< becomes the command to execute; gives the exit code
 };
+
+/// What a command was given; once chosen, it executes with that.
+template <typename Arguments, typename Output>
+std::shared_ptr<Arguments> arguments_of(CLI::App& command, const CommandLine& to,
+                                        int (*execute)(const Arguments&, Output&)) {
+  const auto arguments = std::make_shared<Arguments>();
+  command.callback([to, arguments, execute] {
+    to.chosen = [to, arguments, execute] { return execute(*arguments, to.console); };
+  });
+  return arguments;
+}
 
 /// Refuses what is not in `names` with the nearest, or all of them.
 CLI::Validator one_of(std::vector<std::string> names);
