@@ -68,8 +68,8 @@ void NetworkOnDemand::leave() {
 
 remote::Network* NetworkOnDemand::load(base::Diagnostics& diagnostics) {
   if (network_ != nullptr) return network_.get();
-  void* const make =
-      load_function(kRemoteLibrary, remote::kMakeNetwork, "a part in a network needs", diagnostics);
+  void* const make = load_function(kRemoteLibrary, remote::kMakeNetwork,
+                                   "communication with other processes needs", diagnostics);
   if (make == nullptr) return nullptr;
   remote::NetworkOptions options;
   options.tls = [](const document::Network& files, base::Diagnostics& problems) {

@@ -104,9 +104,9 @@ connections: [S.Out -> A.In]
 )",
                                                  "robot.yaml", options);
   EXPECT_THAT(deployment.diagnostics.to_text(),
-              ::testing::HasSubstr("robot.yaml:3:3: warning: nothing ever runs 'A': it has no "
-                                   "activity, and nothing triggers or calls it (give it one, for "
-                                   "example activity: {periodic: 10 ms})\n"));
+              ::testing::HasSubstr("robot.yaml:3:3: warning: 'A' never runs: it has no "
+                                   "activity, and nothing triggers or calls it (give it an "
+                                   "activity, for example activity: {periodic: 10 ms})\n"));
 }
 
 base::Diagnostics with_threads(const std::string& how_many, const std::string& head) {
