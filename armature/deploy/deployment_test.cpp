@@ -87,7 +87,7 @@ TEST(LoadDeployment, AFileThatIsNotThereIsNamedWithTheReason) {
 TEST(LoadDeployment, AFileWithoutComponentsIsAMistake) {
   for (const char* text : {"", "# nothing yet\n", "application: empty\n"}) {
     EXPECT_EQ(parse_deployment(text, "robot.yaml").diagnostics.to_text(),
-              "robot.yaml: error: the file has no components\n");
+              "robot.yaml: error: the file has no components (add them under components:)\n");
   }
 }
 
