@@ -84,10 +84,9 @@ bool write_times_file(const std::string& path, const exec::Application& applicat
 bool stand_behind_guard(const RunArguments& arguments, const Console& console) {
   if (!arguments.guard || rt::loaded_guard() != nullptr) return true;
   if (std::getenv("ARMATURE_GUARD") != nullptr) {
-    console.say(
-        LogLevel::kError,
-        "the guard was asked for but is not there: libarmature_guard.so must lie beside the "
-        "other libraries of armature");
+    console.say(LogLevel::kError,
+                "--guard needs libarmature_guard.so beside the other libraries of armature, and it "
+                "is missing: install it there");
     return false;
   }
   const base::Error failure =

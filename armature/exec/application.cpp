@@ -72,7 +72,7 @@ base::Diagnostics Application::start() {
   if (hangs_) {
     base::Diagnostics refusal;
     refusal.error(
-        {}, internal::quoted(blueprint_.name) + " cannot be started again: a hook of it hangs",
+        {}, internal::quoted(blueprint_.name) + " cannot be started again: one of its hooks hangs",
         "end the process");
     return refusal;
   }

@@ -147,8 +147,8 @@ std::optional<Held> Application::held_by_help_of(const Component& component) {
 void Application::say_held(const std::vector<Held>& held) {
   for (const Held& one : held)
     say("before the stop, " + quoted(one.component) + " holds " + one.what);
-  say("it is held for " + seconds(options_.hold_at_stop) +
-      " at most while you do that; Ctrl-C again, or `quit` typed again, lets go of it");
+  say("it is held for at most " + seconds(options_.hold_at_stop) +
+      " while you do that; Ctrl-C again, or `quit` typed again, lets go of it");
 }
 
 base::Diagnostics Application::hold_until_told(
@@ -187,7 +187,7 @@ base::Diagnostics Application::hold_until_told(
   };
   const RunEnd ended = run_until(end, let_go, stop);
   if (ended == RunEnd::kConditionMet) return diagnostics;
-  return lets_go(ended == RunEnd::kStopRequested ? "a signal came" : "nobody answered");
+  return lets_go(ended == RunEnd::kStopRequested ? "a signal came" : "no answer came");
 }
 
 // ---- The orderly stop of a component

@@ -62,7 +62,7 @@ std::string Application::unknown_component(std::string_view name) const {
   for (const ComponentEntry& entry : blueprint_.components) {
     names.push_back(entry.component->name());
   }
-  return with_suggestion("there is no component " + quoted(name), name, names);
+  return with_suggestion("unknown component " + quoted(name), name, names);
 }
 
 bool Application::run_in_thread_of(Component& component, std::function<void()> work) {
@@ -109,7 +109,7 @@ Outcome Application::stop_component(std::string_view name) {
   if (holder != nullptr && !holds_nothing(name)) return begin_way_to_stop(*holder);
   if (const auto kept = holder != nullptr ? held_by_help_of(*holder) : std::nullopt) {
     return component::refused(quoted(name) + " was not stopped, since " + quoted(kept->component) +
-                              " needs it: that holds " + kept->what + "; or stop " +
+                              " needs it and holds " + kept->what + "; or stop " +
                               quoted(kept->component) + " first");
   }
   return change(name, [](Component& component) {
@@ -129,7 +129,7 @@ Outcome Application::reset_component(std::string_view name) {
 Outcome Application::clean_up_component(std::string_view name) {
   return change(name, [](Component& component) {
     if (component.state() != component::State::kStopped) {
-      return component::refused("cannot be cleaned up: it is not stopped");
+      return component::refused("cannot be cleaned up: stop it first");
     }
     component.cleanup();
     return component::accepted();
@@ -196,7 +196,7 @@ base::Result<void> Application::granted(const Component& component, std::string_
   const bool script = caller == Caller::kScript;
   return base::Error{quoted(whole) +
                      " is an act of the operator: " + (script ? "a script" : "another process") +
-                     " may do it only where the deployment says so (grants: {" +
+                     " may use it only if the deployment grants it (grants: {" +
                      (script ? "script" : "remote") + ": [" + whole + "]})"};
 }
 

@@ -246,8 +246,8 @@ void Application::deliver_leftovers_of(Index thread, base::Diagnostics& diagnost
   if (!report.hangs) return;
   give_up_thread(engine->context());
   const Component* const where = engine->context().running();
-  diagnostics.error({}, "what was sent to the thread " + quoted(engine->context().name) +
-                            " after its end hangs" +
+  diagnostics.error({}, "a message to the thread " + quoted(engine->context().name) +
+                            ", handled after its end, hangs" +
                             (where == nullptr ? "" : " in " + quoted(where->name())));
 }
 

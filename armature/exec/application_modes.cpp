@@ -70,7 +70,7 @@ Outcome Application::switch_mode(std::string_view name) {
   std::vector<std::string> names;
   for (const ModePlan& mode : plan_.modes) names.push_back(mode.name);
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    return component::refused("there is no mode " + internal::quoted(name) + " (" +
+    return component::refused("unknown mode " + internal::quoted(name) + " (" +
                               base::suggestion(name, names) + ")");
   }
   const auto outcome = std::make_shared<Outcome>(component::accepted());

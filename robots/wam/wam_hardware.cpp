@@ -121,9 +121,9 @@ void WamHardware::drive_or_hold() {
   if (armed()) {
     without_command_ = std::exchange(commanded_, false) ? 0 : without_command_ + 1;
     if (without_command_ > 0) cycles_without_command_.assign(cycles_without_command_() + 1);
-    if (without_command_ >= kMostWithoutCommand) disarm("no torques come any more");
+    if (without_command_ >= kMostWithoutCommand) disarm("torques have stopped coming");
     if (arming_ != nullptr && arming_->state() == component::State::kException) {
-      disarm("who armed it is out of service");
+      disarm("the component that armed it is out of service");
     }
     watch_driven();
   }
@@ -161,7 +161,7 @@ void WamHardware::on_torque(const Vector& torques) {
   if (!armed() || std::exchange(commanded_, true)) return;
   const auto result = path_->step_drive(torques, link_->now());
   clipped_.assign(path_->clipped());
-  if (result == TorquePath::Result::kNotFinite) disarm("a torque is no finite number");
+  if (result == TorquePath::Result::kNotFinite) disarm("a torque is not a finite number");
   send_torques();
 }
 
@@ -201,10 +201,10 @@ component::Reason WamHardware::held() {
   if (held_by_hand_.said() || from_home() < kAtHome) return {};
   component::Reason what("the arm's weight away from home: ");
   what.append(armed() ? "" : "arm it, then ")
-      .append("say ")
+      .append("call ")
       .append(name())
       .append(":moveHome(); or ");
-  return what.append("hold it, and say ").append(name()).append(".held_by_hand = true");
+  return what.append("hold it, and set ").append(name()).append(".held_by_hand = true");
 }
 
 // ---- Arming

@@ -61,7 +61,7 @@ void WamHardware::note_last_safety_state() {
   told.append(", said last ").append({room, static_cast<std::size_t>(end.ptr - room)});
   const bool silent = safety_state_age_() > base::to_seconds(kSilentBoardTime);
   told.append(silent ? " s before it was found silent"
-                     : " s before it was not listened to any more");
+                     : " s before this process stopped listening to it");
   safety_state_.assign(told);
 }
 
@@ -143,7 +143,7 @@ void WamHardware::leave_service() {
   path_->go_off();
   followed_ = base::Time::min();
   tell_armed(false);
-  if (move_home_.active()) move_home_.fail("the arm is not active any more");
+  if (move_home_.active()) move_home_.fail("the arm is no longer active");
 }
 
 /// Pucks that are idle brake their motors.

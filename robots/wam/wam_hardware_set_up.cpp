@@ -109,7 +109,8 @@ void WamHardware::on_check(component::Check& check) const {
   if (period == base::Duration::zero() || within_its_reach(period)) return;
   component::Reason why("it is sampled every ");
   controllers::append_duration(why, period);
-  check.error(std::string(why.append(kReach).view()), "2 ms is what its controllers are made for");
+  check.error(std::string(why.append(kReach).view()),
+              "use 2 ms, for which its controllers are made");
 }
 
 /// The emulated arm outlives a configuration, as a real one does.

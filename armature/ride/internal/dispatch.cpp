@@ -59,18 +59,18 @@ void NodeState::dispatch(Link& link, const Message& message) {
       return;  // Too late: whoever has asked has given up.
     case Type::kEvent:
       if (link.peer != nullptr) return link.peer->take_event(message);
-      return link.refuse(Code::kNoSuchComponent, message, "nobody has subscribed to it");
+      return link.refuse(Code::kNoSuchComponent, message, "it has no subscriber");
     case Type::kControl:
       return take_control(link, message);
   }
-  link.refuse(Code::kMalformed, message, "no type of message");
+  link.refuse(Code::kMalformed, message, "unknown type of message");
 }
 
 void NodeState::take_control(Link& link, const Message& message) {
   Decoder from(message.body);
   Control control;
   if (!from.take(control) || !from.ended()) {
-    return link.refuse(Code::kMalformed, message, "no body of a CONTROL message");
+    return link.refuse(Code::kMalformed, message, "the body is not that of a CONTROL message");
   }
   switch (control.code) {
     case Code::kHello:
@@ -121,7 +121,7 @@ void NodeState::execute(Link& link, const Message& message, bool is_request) {
   }
   if (is_request &&
       link.kept_replies.load(std::memory_order_relaxed) >= options_.limits.pending_replies) {
-    return link.refuse(Code::kBusy, message, "as many answers are owed as may be");
+    return link.refuse(Code::kBusy, message, "too many requests wait for an answer");
   }
   run_service(link, message, *hosted, operation, call, is_request, parameters, holding);
 }
@@ -133,14 +133,14 @@ std::optional<Refusal> NodeState::refusal_of(const Link& link, const Message& fi
   const Type type = first.header.type;
   const bool is_operation = type == Type::kCommand || type == Type::kRequest;
   if (type == Type::kEvent && link.peer != nullptr) return std::nullopt;
-  if (type == Type::kEvent) return Refusal{Code::kNoSuchComponent, "nobody has subscribed to it"};
-  if (type == Type::kControl) return Refusal{Code::kTooLarge, "CONTROL is a single message"};
-  if (!is_operation) return Refusal{Code::kMalformed, "no type of message"};
+  if (type == Type::kEvent) return Refusal{Code::kNoSuchComponent, "it has no subscriber"};
+  if (type == Type::kControl) return Refusal{Code::kTooLarge, "CONTROL must be a single message"};
+  if (!is_operation) return Refusal{Code::kMalformed, "unknown type of message"};
   Decoder from(first.body);
   Number operation = 0;
   if (!from.take(operation)) return Refusal{Code::kMalformed, "no operation in its body"};
   if (first.header.identifier == kDirectory) {
-    return Refusal{Code::kTooLarge, "what the directory is asked is a single message"};
+    return Refusal{Code::kTooLarge, "a request to the directory must be a single message"};
   }
   const std::lock_guard lock(hosted_mutex_);
   const Hosted* const hosted = find_hosted(first.header.identifier);
@@ -203,7 +203,7 @@ void NodeState::run_service(Link& link, const Message& message, Hosted& hosted, 
   } catch (const Malformed& refusal) {
     if (!reply.settled()) link.refuse(Code::kMalformed, message, refusal.what());
   } catch (const std::bad_alloc&) {
-    if (!reply.settled()) link.refuse(Code::kBusy, message, "there is no memory for it");
+    if (!reply.settled()) link.refuse(Code::kBusy, message, "not enough memory for it");
   } catch (const std::exception& failure) {
     if (!reply.settled()) fail(link, message, hosted, operation, failure.what());
   }
@@ -262,7 +262,8 @@ void NodeState::execute_directory(Link& link, const Message& message, Number ope
   };
   const auto take = [&](auto&... values) {
     const bool taken = (parameters.take(values) && ...) && parameters.ended();
-    if (!taken) link.refuse(Code::kMalformed, message, "parameters of the directory expected");
+    if (!taken)
+      link.refuse(Code::kMalformed, message, "the parameters do not fit the directory's operation");
     return taken;
   };
   std::int32_t component = 0;
@@ -316,7 +317,7 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
     queue = std::make_shared<EventQueue>(link.shared_from_this(), link.memory, chosen, event,
                                          identifier, options_.limits.events_per_subscription);
   } catch (const std::bad_alloc&) {
-    return refuse_subscription(link, Code::kBusy, "there is no memory for it");
+    return refuse_subscription(link, Code::kBusy, "not enough memory for it");
   }
   {
     const std::lock_guard lock(link.mutex());
@@ -332,7 +333,8 @@ std::int32_t NodeState::subscribe(Link& link, std::int32_t component, Number eve
                link.event_queues.size() >= options_.limits.subscriptions;
     if (!too_many) link.event_queues.push_back(queue);
   }
-  if (too_many) return refuse_subscription(link, Code::kBusy, "it has as many as it may have");
+  if (too_many)
+    return refuse_subscription(link, Code::kBusy, "it has reached its limit of subscriptions");
   publisher.add(std::move(queue));
   return 0;
 }

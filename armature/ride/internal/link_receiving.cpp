@@ -76,17 +76,18 @@ void Link::take_messages() {
         take_message(message);
         break;
       case Found::kTooLarge:
-        refuse_locked(Code::kTooLarge, message, "the body is larger than this node takes");
+        refuse_locked(Code::kTooLarge, message, "the body is larger than this node accepts");
         break;
       case Found::kNoMemory:
-        refuse_locked(Code::kBusy, message, "there is no memory for it: others take it");
+        refuse_locked(Code::kBusy, message, "not enough memory for it: other connections use it");
         break;
       case Found::kBadMagic:
-        return end_with(Code::kBadMagic, {}, "what came is no message: no 'RIDE'");
+        return end_with(Code::kBadMagic, {},
+                        "the data is not a RIDE message: it does not begin with 'RIDE'");
       case Found::kBadLength:
         return end_with(Code::kMalformed, message, "a length below that of the header");
       case Found::kTooMany:
-        return end_with(Code::kTooLarge, message, "too many bodies go on at once");
+        return end_with(Code::kTooLarge, message, "too many bodies are under way at once");
       case Found::kNothing:
         break;
     }
@@ -113,7 +114,7 @@ void Link::answer(OpenCall& call, std::span<const std::byte> result) {
   try {
     call.answered(result, holding);
   } catch (const std::bad_alloc&) {
-    call.refused(Code::kTooLarge, "there is no memory for the answer");
+    call.refused(Code::kTooLarge, "not enough memory for the answer");
   }
 }
 

@@ -60,7 +60,7 @@ bool Link::too_much_for(Type type) {
   if (!is_backed_up()) return false;
   if (type != Type::kReply && type != Type::kControl) return true;
   if (unsent() < limits_.unsent_bytes + limits_.body_bytes) return false;
-  break_off_locked("it does not take what it is sent");
+  break_off_locked("it does not read what it is sent");
   return true;
 }
 
@@ -87,7 +87,7 @@ Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
   return open() ? Sent::kYes : Sent::kNotConnected;
 }
 
-/// All of it or nothing: false if there is no memory for it.
+/// All of it or nothing: false if not enough memory for it.
 template <typename Append>
 bool Link::append(const Append& append) {
   const std::size_t start = out_.size();
@@ -106,7 +106,7 @@ Sent Link::no_memory_for(Type type, std::uint32_t recipient) {
   if (type == Type::kReply) {
     host_.refused(*this, Code::kBusy, {{.type = type, .identifier = recipient}, {}}, kNoMemory);
     const Control control{Code::kBusy, static_cast<std::uint32_t>(Type::kRequest), 0, 0,
-                          "there is no memory for the answer"};
+                          "not enough memory for the answer"};
     const auto fields = std::tie(control);
     return send_locked({}, Type::kControl, recipient, {}, Fields(fields), Flush::kNow);
   }
@@ -166,7 +166,7 @@ void Link::end_if_stuck(base::Time now, base::Duration limit) {
   const std::lock_guard lock(mutex_);
   if (!open() || !blocked_ || !memory->exceeds_reserve()) return;
   if (stuck_since_ != base::Time{} && now - stuck_since_ >= limit) {
-    break_off_locked("it does not take what it is sent, and others want the memory");
+    break_off_locked("it does not read what it is sent, and other connections need the memory");
   }
 }
 
@@ -186,7 +186,7 @@ void Link::send_event(EventQueue& queue, std::span<const std::byte> message, bas
 }
 
 /// The subscriber's identifier goes into the header of each part.
-/// @return false if there is no memory for it
+/// @return false if not enough memory for it
 bool Link::append_event(EventQueue& queue, std::span<const std::byte> message) {
   const std::size_t start = out_.size();
   if (!append([&] { out_.append(message); })) return false;
@@ -214,7 +214,7 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
   std::unique_lock lock(mutex_);
   const auto identifier = recipient.identifier();
   if (!open() || !identifier) {
-    return call.refused(Code::kNotConnected, "there is no connection to it");
+    return call.refused(Code::kNotConnected, "it is not connected");
   }
   call.id = ++last_call_ != 0 ? last_call_ : ++last_call_;
   call.waits = true;
@@ -223,7 +223,7 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
                                 parameters, Flush::kNow);
   if (sent == Sent::kQueueFull) {
     remove_call(call.id);
-    return call.refused(Code::kBusy, "the other side has not taken what was sent before");
+    return call.refused(Code::kBusy, "the other side has not yet taken earlier messages");
   }
   bool reads = !call.done && take_reading();
   base::Duration limit = options.deadline;
@@ -253,7 +253,7 @@ void Link::call(Number operation, const Recipient& recipient, const Fields& para
   OpenCall* const open_call = call.release();
   const auto identifier = recipient.identifier();
   if (!open() || !identifier) {
-    return open_call->refused(Code::kNotConnected, "there is no connection to it");
+    return open_call->refused(Code::kNotConnected, "it is not connected");
   }
   open_call->id = ++last_call_ != 0 ? last_call_ : ++last_call_;
   calls_.push_back(open_call);
@@ -261,7 +261,7 @@ void Link::call(Number operation, const Recipient& recipient, const Fields& para
                                 {operation, open_call->id}, parameters, Flush::kNow);
   if (sent != Sent::kQueueFull) return;
   remove_call(open_call->id);
-  open_call->refused(Code::kBusy, "the other side has not taken what was sent before");
+  open_call->refused(Code::kBusy, "the other side has not yet taken earlier messages");
 }
 
 }  // namespace armature::ride::internal

@@ -30,13 +30,13 @@ base::Result<Address> NodeState::listen(const std::string& text) {
   if (!numeric) return base::Error{"'" + text + "': " + numeric.error()};
   if (!transport->safe(numeric.value())) {
     return base::Error{"'" + text +
-                       "': other machines would reach this address and nobody would have to prove "
-                       "who they are; listen at 127.0.0.1, ::1 or a unix: socket, or use tls"};
+                       "': other machines would reach this address without proving who they are; "
+                       "listen at 127.0.0.1, ::1 or a unix: socket, or use tls"};
   }
   if (!options_.allows && !is_of_this_machine(numeric.value())) {
     return base::Error{"'" + text +
-                       "': other machines would reach this address, and nothing says what they may "
-                       "do; give node '" +
+                       "': other machines would reach this address, and no policy says what they "
+                       "may do; give node '" +
                        options_.name + "' a policy, or listen at 127.0.0.1, ::1 or a unix: socket"};
   }
   base::Result<Address> got = base::Error{};
@@ -50,12 +50,13 @@ void NodeState::warn_of_everyone(const Address& address) {
   constexpr unsigned kOthers = 0022;
   if (address.scheme == "unix" && (options_.socket_mode & kOthers) == 0) return;
   constexpr const char* kWarning =
-      "everyone on this machine may do everything at {}: there is no policy (NodeOptions::allows)";
+      "everyone on this machine may do everything at {}: the node has no policy (set "
+      "NodeOptions::allows)";
   journal_.tell(rt::LogLevel::kWarning, kWarning, address.text());
   if (options_.log) return;
   std::fprintf(stderr,
-               "ride: everyone on this machine may do everything at %s: there is no policy "
-               "(NodeOptions::allows)\n",
+               "ride: everyone on this machine may do everything at %s: the node has no policy "
+               "(set NodeOptions::allows)\n",
                address.text().c_str());
 }
 

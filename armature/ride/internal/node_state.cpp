@@ -310,7 +310,7 @@ void NodeState::dispatch_safely(Link& link, const Message& message) {
   try {
     dispatch(link, message);
   } catch (const std::bad_alloc&) {
-    link.refuse(Code::kBusy, message, "there is no memory for it");
+    link.refuse(Code::kBusy, message, "not enough memory for it");
   }
   dispatches_ = false;
 }
@@ -319,11 +319,11 @@ void NodeState::say_goodbye() {
   pending_.release_large();
   while (!pending_.empty()) {
     const Pending::Entry entry = pending_.pop();
-    entry.link->refuse(Code::kShuttingDown, entry.message, "the node shuts down");
+    entry.link->refuse(Code::kShuttingDown, entry.message, "the node is shutting down");
   }
   const auto leave = [](Link& link) {
-    link.send_control(0, {Code::kShuttingDown, 0, 0, 0, "the node shuts down"});
-    link.break_off("the node shuts down");
+    link.send_control(0, {Code::kShuttingDown, 0, 0, 0, "the node is shutting down"});
+    link.break_off("the node is shutting down");
   };
   for (const auto& link : links_) leave(*link);
   for (const auto& peer : peers_) leave(peer->state()->link());
@@ -335,7 +335,7 @@ void NodeState::say_goodbye() {
     // Whoever still reads has been told, and is on its way.
     while (!peer->state()->link().close())
       platform::sleep_until(platform::monotonic_now() + kRound);
-    peer->state()->lost("the node shuts down");
+    peer->state()->lost("the node is shutting down");
   }
   links_.clear();
   departed_.clear();

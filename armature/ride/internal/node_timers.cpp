@@ -31,7 +31,7 @@ void NodeState::throttle(Link& link) {
   link.window_messages = 0;
   if (now >= std::exchange(link.window_end, now + kWindow)) return;
   counters_.throttled.fetch_add(1, std::memory_order_relaxed);
-  journal_.tell(rt::LogLevel::kWarning, "{} sends more than {} messages a second: it has to wait",
+  journal_.tell(rt::LogLevel::kWarning, "{} sends more than {} messages a second: it must wait",
                 link.other_end(), options_.limits.messages_per_second);
   link.set_throttled(true);
   wake_at(link.window_end);
