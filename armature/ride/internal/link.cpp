@@ -67,7 +67,8 @@ bool Link::establish_locked(Progress progress) {
   return progress == Progress::kDone;
 }
 
-void Link::end_if_all_is_sent() {
+void Link::let_go_if_leaving() {
+  if (!is_leaving() || !waiting.empty()) return;
   const std::lock_guard lock(mutex_);
   if (!open() || unsent() != 0 || kept_replies.load(std::memory_order_relaxed) != 0) return;
   break_off_locked(connection_->problem());

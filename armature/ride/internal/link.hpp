@@ -157,9 +157,9 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
 
   /// True if the other side sends no more, and is owed something.
   bool is_leaving() const { return leaving_.load(std::memory_order_relaxed); }
-  /// Ends the connection of one that is leaving once it is owed nothing more.
+  /// Ends the connection of one that is leaving once it has been answered all it has asked.
   /// @thread the I/O thread
-  void end_if_all_is_sent();
+  void let_go_if_leaving();
   /// One of `kept_replies` was given.
   void reply_was_given();
 

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// An application's threads: what is asked of the system for them, and what was granted.
-#include <exception>
+#include "armature/exec/internal/application/threads.hpp"
+
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "armature/exec/application.hpp"
-#include "armature/exec/internal/age_watch.hpp"
-#include "armature/exec/internal/directory.hpp"
-#include "armature/exec/internal/start_gate.hpp"
+#include "armature/base/quoted.hpp"
 #include "armature/platform/death_watch.hpp"
 #include "armature/platform/memory.hpp"
+#include "armature/platform/stop_priority.hpp"
 
-namespace armature::exec {
+namespace armature::exec::internal {
 namespace {
 
-using internal::quoted;
+using base::quoted;
 
 /// Room for the components' own variables, and for handlers that set each other off within one
 /// thread.
@@ -66,11 +64,11 @@ Verdict::Line line_of(const platform::ThreadRequest& request, const platform::Th
 
 }  // namespace
 
-bool Application::prepare_threads(base::Diagnostics& diagnostics) {
+bool Threads::prepare(base::Diagnostics& diagnostics) {
   verdict_ = {};
   if (options_.simulated) return true;
   if (options_.realtime != RealtimeMode::kOff) reserve_system();
-  gate_ = std::make_shared<internal::StartGate>();
+  gate_ = std::make_shared<StartGate>();
   try {
     start_workers();
   } catch (const std::system_error& problem) {
@@ -82,19 +80,18 @@ bool Application::prepare_threads(base::Diagnostics& diagnostics) {
   return false;
 }
 
-void Application::start_workers() {
+void Threads::start_workers() {
   for (Index t = 0; t < engines_.size(); ++t) {
     const bool idle = plan_.threads[t].members.empty() && t == plan_.service_thread();
     if (!idle) start_worker(t);
   }
-  age_watch_ =
-      std::make_unique<internal::AgeWatch>(engines_, options_.realtime != RealtimeMode::kOff);
+  age_watch_ = std::make_unique<AgeWatch>(engines_, options_.realtime != RealtimeMode::kOff);
   if (const platform::ThreadGrant* grant = age_watch_->grant()) {
     verdict_.lines.push_back(line_of(age_watch_->request(), *grant));
   }
 }
 
-void Application::reserve_system() {
+void Threads::reserve_system() {
   const base::Result<void> locked = platform::lock_memory();
   memory_locked_ = locked.ok();
   Verdict::Line memory{"memory", "locked", memory_locked_ ? "locked" : "not locked", {}};
@@ -113,7 +110,7 @@ void Application::reserve_system() {
   verdict_.lines.push_back(clock_line());
 }
 
-void Application::start_worker(Index thread) {
+void Threads::start_worker(Index thread) {
   const ThreadPlan& plan = plan_.threads[thread];
   Engine* const engine = engines_[thread].get();
   const platform::ThreadRequest request = request_for(plan, options_.realtime);
@@ -125,42 +122,25 @@ void Application::start_worker(Index thread) {
   verdict_.lines.push_back(line_of(request, workers_.back().thread->grant()));
 }
 
-/// False if the one who waits for this moment has an objection.
-bool Application::get_ready(base::Diagnostics& diagnostics) {
+void Threads::populate_memory() const {
   if (memory_locked_) platform::populate_memory();
-  if (!options_.ready) return true;
-  try {
-    options_.ready();
-  } catch (const std::exception& thrown) {
-    diagnostics.error({}, std::string("not ready: ") + thrown.what());
-  } catch (...) {
-    diagnostics.error({}, "not ready: an exception of an unknown type");
-  }
-  return diagnostics.ok();
 }
 
-void Application::go_live() {
-  const base::Time begin = now();
-  for (auto& engine : engines_) engine->begin(begin);
-  running_ = true;
+void Threads::go() {
   if (gate_ != nullptr) gate_->open();
 }
 
-void Application::end_threads(base::Diagnostics& diagnostics) {
+void Threads::make_prompt(const component::ExecutionContext& context) const {
+  if (gate_ == nullptr || options_.realtime == RealtimeMode::kOff) return;
+  platform::make_prompt(gate_->thread_of(&context));
+}
+
+void Threads::end(base::Diagnostics& diagnostics) {
   if (gate_ != nullptr) gate_->give_up();
-  for (auto& engine : engines_) engine->end();
+  for (const auto& engine : engines_) engine->end();
   std::vector<component::ExecutionContext*> ended;
   for (Worker& worker : workers_) {
-    component::ExecutionContext& context = worker.engine->context();
-    const bool known = stuck_.count(&context) > 0;
-    const base::Duration limit = known ? base::Duration::zero() : options_.stop_limit;
-    if (worker.thread->join_within(limit)) {
-      ended.push_back(&context);
-      continue;
-    }
-    worker.thread->abandon();
-    give_up_thread(context);
-    if (!known) diagnostics.error({}, "the thread " + quoted(context.name) + " does not end");
+    if (join(worker, diagnostics)) ended.push_back(&worker.engine->context());
   }
   // Only now: until then the others still sent them messages.
   for (component::ExecutionContext* context : ended) {
@@ -175,4 +155,16 @@ void Application::end_threads(base::Diagnostics& diagnostics) {
   idle_states_.reset();
 }
 
-}  // namespace armature::exec
+/// One that is known to hang is not waited for.
+bool Threads::join(Worker& worker, base::Diagnostics& diagnostics) {
+  component::ExecutionContext& context = worker.engine->context();
+  const bool known = unreachable_.includes(context);
+  const base::Duration limit = known ? base::Duration::zero() : options_.stop_limit;
+  if (worker.thread->join_within(limit)) return true;
+  worker.thread->abandon();
+  unreachable_.give_up(context);
+  if (!known) diagnostics.error({}, "the thread " + quoted(context.name) + " does not end");
+  return false;
+}
+
+}  // namespace armature::exec::internal
