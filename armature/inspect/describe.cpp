@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/inspect/describe.hpp"
 
-#include "armature/component/event.hpp"
-#include "armature/component/operation.hpp"
-#include "armature/component/port_array.hpp"
-#include "armature/component/property.hpp"
-#include "armature/component/state_machine.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/operation.hpp"
+#include "armature/component/ports/port_array.hpp"
+#include "armature/component/properties/property.hpp"
+#include "armature/component/states/state_machine.hpp"
 #include "armature/types/elements.hpp"
 
 namespace armature::inspect {

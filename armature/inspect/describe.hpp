@@ -11,8 +11,8 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/input_port.hpp"
-#include "armature/component/output_port.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
 
 namespace armature::inspect {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "armature/base/time.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/lua/course.hpp"
 

@@ -8,7 +8,7 @@
 namespace armature::wam {
 
 base::Result<ArmParts> ArmParts::make(const ArmNumbers& numbers, WamParameters& parameters,
-                                      const library::RobotDescription& description,
+                                      const controllers::RobotDescription& description,
                                       std::vector<std::string>& warnings) {
   const auto config = parameters.torque_path(numbers);
   if (!config) return base::Error{config.error()};

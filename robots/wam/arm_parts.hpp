@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
-#include "armature/library/base/robot_description.hpp"
+#include "armature/controllers/base/robot_description.hpp"
 #include "robots/wam/arm_numbers.hpp"
-#include "robots/wam/driven_watch.hpp"
+#include "robots/wam/driver/driven_watch.hpp"
+#include "robots/wam/driver/standing_watch.hpp"
+#include "robots/wam/driver/wam_motion.hpp"
 #include "robots/wam/joint_controller.hpp"
-#include "robots/wam/standing_watch.hpp"
 #include "robots/wam/torque_path.hpp"
-#include "robots/wam/wam_motion.hpp"
 #include "robots/wam/wam_parameters.hpp"
 
 namespace armature::wam {
@@ -29,7 +29,7 @@ struct ArmParts {
   /// @param warnings  of the robot's description
   /// @thread configuration only
   static base::Result<ArmParts> make(const ArmNumbers& numbers, WamParameters& parameters,
-                                     const library::RobotDescription& description,
+                                     const controllers::RobotDescription& description,
                                      std::vector<std::string>& warnings);
 };
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/component/outcome.hpp"
 #include "armature/exec/application_options.hpp"
 #include "armature/exec/internal/application/holders.hpp"

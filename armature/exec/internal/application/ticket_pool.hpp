@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "armature/component/call_record.hpp"
+#include "armature/component/operations/call_record.hpp"
 #include "armature/exec/internal/tool_ticket.hpp"
 
 namespace armature::exec::internal {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/exec/application_options.hpp"
 #include "armature/exec/internal/application/executor.hpp"
 #include "armature/exec/internal/application/roster.hpp"

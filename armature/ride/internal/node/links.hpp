@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/internal/entrance.hpp"
 #include "armature/ride/internal/handshakes.hpp"
 #include "armature/ride/internal/link.hpp"

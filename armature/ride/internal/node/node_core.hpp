@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/internal/journal.hpp"
 #include "armature/ride/internal/node/node_clock.hpp"
 #include "armature/ride/memory_share.hpp"

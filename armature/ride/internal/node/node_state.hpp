@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/platform/thread.hpp"
 #include "armature/ride/internal/link.hpp"
 #include "armature/ride/internal/mailbox.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 
 namespace armature::ride::internal {
 namespace {
