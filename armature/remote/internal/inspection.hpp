@@ -5,8 +5,8 @@
 // may be anything: names that this program does not know and numbers that make no sense become
 // "not told".
 
-#include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "armature/inspect/view.hpp"
