@@ -12,7 +12,7 @@
 namespace armature::benchmarks {
 namespace {
 
-constexpr double kBound = 12.0;
+constexpr double kBound = 10.0;
 constexpr std::int64_t kRounds = 301;
 /// So that a disturbance of a millisecond is one of few rounds, and the reference has its turn of
 /// a length, too.

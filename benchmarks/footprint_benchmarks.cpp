@@ -11,8 +11,8 @@
 namespace armature::benchmarks {
 namespace {
 
-constexpr double kResidentBound = 8.0;  // MB
-constexpr double kCompileBound = 3.0;   // s
+constexpr double kResidentBound = 12.0;  // MB
+constexpr double kCompileBound = 3.0;    // s
 constexpr std::int64_t kRounds = 5;
 constexpr base::Duration kUntilSteady = std::chrono::milliseconds(500);  // some hundred cycles
 constexpr const char* kDeployment = ARMATURE_SOURCE_DIR "/benchmarks/control_cycle/cycle.yaml";

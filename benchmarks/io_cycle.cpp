@@ -26,7 +26,7 @@
 #include "armature/deploy/deployment.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/platform/clock.hpp"
-#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic/aic_driver.hpp"
 #include "robots/janus/simulated_janus.hpp"
 
 namespace armature::janus {

@@ -27,15 +27,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/platform/clock.hpp"
 #include "benchmarks/wam_deployed_cycle.hpp"
-#include "robots/wam/arm_motors.hpp"
-#include "robots/wam/emulator.hpp"
+#include "robots/wam/driver/wam_driver.hpp"
+#include "robots/wam/driver/wam_startup.hpp"
+#include "robots/wam/driver/wire_time.hpp"
+#include "robots/wam/emulator/arm_motors.hpp"
+#include "robots/wam/emulator/emulator.hpp"
 #include "robots/wam/joint_controller.hpp"
-#include "robots/wam/wam_driver.hpp"
-#include "robots/wam/wam_startup.hpp"
-#include "robots/wam/wire_time.hpp"
 
 namespace armature::wam {
 namespace {

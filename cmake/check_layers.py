@@ -4,7 +4,8 @@
 
 usage: check_layers.py SOURCE_DIR
 
-- a library includes only libraries that layers.cmake allows, its tests also testing;
+- a library includes only libraries that layers.cmake allows, its tests also testing, and exec where
+  they are tests of components, to run them;
 - internal/ headers are included only by their own library;
 - one robot does not include another, and no library includes a robot;
 - the interface compiler, idl/, is a library like those of armature/, which do not include it;
@@ -120,10 +121,16 @@ class Tree:
             return f"{user} is not in cmake/layers.cmake"
         allowed = self.layers[user]
         if is_test_code(path):
-            allowed = closure(self.layers, user) | {TEST_ONLY}
+            allowed = self.allowed_in_tests(user)
         if used not in allowed:
             return f"{user} may use only {', '.join(sorted(allowed)) or 'the standard library'}"
         return None
+
+    def allowed_in_tests(self, user):
+        allowed = closure(self.layers, user) | {TEST_ONLY}
+        if "component" in allowed:
+            allowed |= {"exec"} | closure(self.layers, "exec")
+        return allowed
 
     def check_robot(self, path, name):
         if path.startswith("armature/"):

@@ -35,31 +35,40 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(list(Tree(self.root).problems()), [])
 
     def test_a_lower_layer_does_not_include_a_higher_one(self):
-        self.assert_refused("armature/component/port.hpp", '"armature/deploy/plan.hpp"',
+        self.assert_refused("armature/component/ports/port.hpp", '"armature/deploy/plan.hpp"',
                             "component may use only base, rt, types")
 
     def test_a_higher_layer_includes_a_lower_one(self):
-        self.assert_accepted("armature/component/port.hpp", '"armature/rt/latest.hpp"')
+        self.assert_accepted("armature/component/ports/port.hpp", '"armature/rt/latest.hpp"')
 
     def test_one_robot_does_not_reach_into_deploy(self):
-        self.assert_refused("robots/janus/aic.cpp", '"armature/deploy/plan.hpp"', "robots may use")
+        self.assert_refused("robots/janus/aic/aic.cpp", '"armature/deploy/plan.hpp"', "robots may use")
 
     def test_one_robot_does_not_include_another(self):
-        self.assert_refused("robots/janus/aic.cpp", '"robots/wam/puck.hpp"',
+        self.assert_refused("robots/janus/aic/aic.cpp", '"robots/wam/emulator/puck.hpp"',
                             "one robot does not use another")
 
     def test_a_robot_includes_itself(self):
-        self.assert_accepted("robots/janus/aic.cpp", '"robots/janus/aic.hpp"')
+        self.assert_accepted("robots/janus/aic/aic.cpp", '"robots/janus/aic/aic.hpp"')
 
     def test_a_library_does_not_include_a_robot(self):
-        self.assert_refused("armature/sim/plant.cpp", '"robots/janus/aic.hpp"',
+        self.assert_refused("armature/sim/plant.cpp", '"robots/janus/aic/aic.hpp"',
                             "does not know the robots")
+
+    def test_a_test_of_components_runs_them(self):
+        self.assert_accepted("armature/general/filter_test.cpp", '"armature/exec/application.hpp"')
+        self.assert_refused("armature/general/filter.cpp", '"armature/exec/application.hpp"',
+                            "general may use")
+
+    def test_a_test_of_what_knows_no_components_runs_none(self):
+        self.assert_refused("armature/rt/lane_test.cpp", '"armature/exec/application.hpp"',
+                            "rt may use")
 
     def test_a_product_does_not_include_testing(self):
         self.assert_refused("armature/cli/run.cpp", '"armature/testing/guard.hpp"', "cli may use")
 
     def test_what_tests_share_includes_testing(self):
-        self.assert_accepted("armature/library/internal/test_joint.hpp",
+        self.assert_accepted("armature/controllers/internal/test_joint.hpp",
                              '"armature/testing/harness.hpp"')
 
     def test_a_test_includes_testing(self):

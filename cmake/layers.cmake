@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Who may use whom, as ARCHITECTURE.md has it: "library: the libraries it may use". Everything may
+# Who may use whom, as ARCHITECTURE.md has it: a library, a colon, the libraries it may use. Everything may
 # use base, only tests may use testing. Read by ArmatureLibrary.cmake (what a library declares) and
 # by check_layers.py (what its files include).
 set(ARMATURE_LAYERS
@@ -26,8 +26,9 @@ set(ARMATURE_LAYERS
     "remote: base ride document inspect exec component rt types platform"
     "lua: base inspect exec component rt types platform"
     "browser: base remote ride lua inspect exec component platform"
-    "library: base component control guardian record rt types"
+    "controllers: base component control guardian types"
+    "general: base component record rt"
     "sim: base control"
-    "robots: base platform rt types library component can control guardian sim"
-    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy report lua remote browser library sim"
-    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy report lua remote browser library sim")
+    "robots: base platform rt types controllers component can control guardian sim"
+    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy report lua remote browser controllers general sim"
+    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy report lua remote browser controllers general sim")

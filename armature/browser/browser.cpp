@@ -30,8 +30,9 @@ class StandardBrowser final : public Browser {
 };
 
 }  // namespace
-}  // namespace armature::browser
 
-extern "C" armature::browser::Browser* armature_make_browser(bool simulated) {
-  return new armature::browser::StandardBrowser(simulated);
+std::unique_ptr<Browser> make_browser(bool simulated) {
+  return std::make_unique<StandardBrowser>(simulated);
 }
+
+}  // namespace armature::browser

@@ -39,9 +39,7 @@ class Browser {
   virtual std::size_t mistakes() const = 0;
 };
 
-/// For a program that loads this library only when it is asked for; the browser is the caller's.
-using MakeBrowser = Browser* (*)(bool simulated);
-/// The name of the function in this library.
-inline constexpr const char* kMakeBrowser = "armature_make_browser";
+/// @param simulated  time passes as the operator lets it
+std::unique_ptr<Browser> make_browser(bool simulated);
 
 }  // namespace armature::browser

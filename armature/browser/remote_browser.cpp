@@ -14,7 +14,9 @@ namespace {
 /// For the first connection; those that are lost are waited for as long as it takes.
 constexpr base::Duration kConnectionLimit = std::chrono::seconds(3);
 
-std::size_t browse(const RemoteBrowserOptions& options, std::string& problem) {
+}  // namespace
+
+std::size_t browse_remotely(const RemoteBrowserOptions& options, std::string& problem) {
   ride::NodeOptions node_options;
   node_options.name = "armature browse";
   node_options.transports = options.transports;
@@ -31,10 +33,4 @@ std::size_t browse(const RemoteBrowserOptions& options, std::string& problem) {
   return console.run(browsing.browser, browsing.language.vocabulary().quitting);
 }
 
-}  // namespace
 }  // namespace armature::browser
-
-extern "C" std::size_t armature_browse_remotely(
-    const armature::browser::RemoteBrowserOptions& options, std::string& problem) {
-  return armature::browser::browse(options, problem);
-}

@@ -22,8 +22,6 @@ struct RemoteBrowserOptions {
 /// is lost comes back by itself.
 /// @param problem  why the process cannot be reached; otherwise left empty
 /// @return lines that were mistakes, if no terminal was there to see that
-using BrowseRemotely = std::size_t (*)(const RemoteBrowserOptions& options, std::string& problem);
-/// The name of the function in this library.
-inline constexpr const char* kBrowseRemotely = "armature_browse_remotely";
+std::size_t browse_remotely(const RemoteBrowserOptions& options, std::string& problem);
 
 }  // namespace armature::browser

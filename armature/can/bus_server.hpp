@@ -10,7 +10,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
 #include "armature/can/virtual_bus.hpp"
-#include "armature/platform/packet_socket.hpp"
+#include "armature/platform/sockets/packet_socket.hpp"
 
 namespace armature::can {
 

@@ -14,7 +14,7 @@
 #include "armature/can/internal/server_rig.hpp"
 #include "armature/can/internal/shared_bus_messages.hpp"
 #include "armature/can/shared_bus.hpp"
-#include "armature/platform/packet_socket.hpp"
+#include "armature/platform/sockets/packet_socket.hpp"
 
 // What hostile and broken clients can do: nothing to the others.
 

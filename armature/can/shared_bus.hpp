@@ -9,7 +9,7 @@
 
 #include "armature/can/bus.hpp"
 #include "armature/can/internal/tally.hpp"
-#include "armature/platform/packet_socket.hpp"
+#include "armature/platform/sockets/packet_socket.hpp"
 #include "armature/platform/thread.hpp"
 
 namespace armature::can::internal {

@@ -8,7 +8,7 @@
 
 #include "armature/can/bus.hpp"
 #include "armature/can/internal/tally.hpp"
-#include "armature/platform/can_socket.hpp"
+#include "armature/platform/sockets/can_socket.hpp"
 #include "armature/platform/thread.hpp"
 
 namespace armature::can {

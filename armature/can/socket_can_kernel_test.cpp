@@ -8,7 +8,7 @@
 
 #include "armature/can/internal/conformance.hpp"
 #include "armature/can/internal/kernel_rig.hpp"
-#include "armature/platform/can_socket.hpp"
+#include "armature/platform/sockets/can_socket.hpp"
 
 // Interfaces vcan0, can0 and can1 as scripts/test-socketcan has them.
 

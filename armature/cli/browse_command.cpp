@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "armature/browser/remote_browser.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
-#include "armature/cli/loaded.hpp"
-#include "armature/cli/tls.hpp"
 #include "armature/platform/stop_priority.hpp"
+#include "armature/tls/transport.hpp"
 
 namespace armature::cli {
 namespace {
@@ -48,15 +48,15 @@ int browse(const BrowseArguments& arguments, const Console& console) {
   options.address = arguments.address;
   if (arguments.address.starts_with(kTls)) {
     const tls::Options files{arguments.certificate, arguments.key, arguments.authority};
-    if (auto transport = load_tls(files, diagnostics)) options.transports = {transport};
+    if (auto made = tls::make_transport(files, diagnostics)) {
+      options.transports.push_back(std::move(made));
+    }
   }
-  const platform::Promptness promptness;
-  void* const run = load_function("libarmature_browser.so", browser::kBrowseRemotely,
-                                  "the task browser needs", diagnostics);
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
+  const platform::Promptness promptness;
   std::string problem;
-  const std::size_t mistakes = reinterpret_cast<browser::BrowseRemotely>(run)(options, problem);
+  const std::size_t mistakes = browser::browse_remotely(options, problem);
   if (!problem.empty()) console.say(rt::LogLevel::kError, problem);
   return problem.empty() && mistakes == 0 ? kDone : kFailed;
 }

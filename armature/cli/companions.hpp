@@ -13,7 +13,7 @@
 
 namespace armature::cli {
 
-/// What accompanies the runs that want it; each from its own library.
+/// What accompanies the runs that want it.
 struct Companions {
   std::unique_ptr<lua::Script> script;               ///< `--script`
   std::unique_ptr<browser::Browser> browser;         ///< `--browse`
@@ -21,10 +21,6 @@ struct Companions {
 };
 
 /// Those that `arguments` ask for; what is wrong is added to `diagnostics`.
-Companions load_companions(const RunArguments& arguments, base::Diagnostics& diagnostics);
-
-/// Writes a file for a fault, which is hoped to be needed by nobody.
-/// @return what is to be said of it
-std::string write_black_box(const exec::BlackBoxReport& report, const std::string& folder);
+Companions make_companions(const RunArguments& arguments, base::Diagnostics& diagnostics);
 
 }  // namespace armature::cli

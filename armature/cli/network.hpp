@@ -10,8 +10,7 @@
 
 namespace armature::cli {
 
-/// The process's part in a network, from a library that is loaded when something asks for it.
-/// It outlives the application.
+/// The process's part in a network, made when something asks for it. It outlives the application.
 class NetworkOnDemand {
  public:
   /// @param console  outlives this
@@ -36,7 +35,7 @@ class NetworkOnDemand {
   void leave();
 
  private:
-  remote::Network* load(base::Diagnostics& diagnostics);
+  remote::Network& network();
 
   const Console& console_;
   std::unique_ptr<remote::Network> network_;

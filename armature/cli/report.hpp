@@ -9,9 +9,6 @@
 
 namespace armature::cli {
 
-/// A function of the library `report`; nullptr after an error, which was shown.
-void* function_of_report(const char* name, const Console& console);
-
 /// Keeps what a run's summary tells of its log: warnings, errors and moments such as `armed`. It
 /// has no more than the first thousand of each: an application that complains in every cycle is not
 /// to fill the memory.

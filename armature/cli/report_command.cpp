@@ -5,7 +5,6 @@
 
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
-#include "armature/cli/report.hpp"
 #include "armature/report/report.hpp"
 
 namespace armature::cli {
@@ -17,17 +16,14 @@ struct ReportArguments {
 };
 
 int report(const ReportArguments& arguments, const Console& console) {
-  void* const function = function_of_report(report::kWriteReport, console);
-  if (function == nullptr) return kFailed;
   if (!arguments.page.empty() && !arguments.page.ends_with(".html")) {
     console.say(rt::LogLevel::kError,
                 "--out is the page, whose name ends in .html, not '" + arguments.page + "'");
     return kWrongUse;
   }
   base::Diagnostics diagnostics;
-  report::Written written;
-  reinterpret_cast<report::WriteReport>(function)({arguments.folder, arguments.page}, written,
-                                                  diagnostics);
+  const report::Written written =
+      report::write_report({arguments.folder, arguments.page}, diagnostics);
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
   console.say(rt::LogLevel::kInfo, "wrote " + written.page + " and " + written.figures);

@@ -30,6 +30,7 @@
 #include "armature/platform/process.hpp"
 #include "armature/platform/stop_priority.hpp"
 #include "armature/platform/stop_signal.hpp"
+#include "armature/record/black_box_file.hpp"
 
 namespace armature::cli {
 namespace {
@@ -178,7 +179,7 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
     companions.browser->beside([&] { console.log(record); });
   };
   options.black_box.write = [&arguments](const exec::BlackBoxReport& report) {
-    return write_black_box(report, arguments.output_folder);
+    return record::say_written(report, arguments.output_folder);
   };
   if (companions.timeline) {
     options.timeline.sink = [&](const exec::TimelineSlice& slice) {
@@ -339,7 +340,7 @@ int run(const RunArguments& arguments, Console& console) {
   if (!make_output_folder(arguments.output_folder, lock, console)) return kFailed;
 
   base::Diagnostics mistakes;
-  const Companions companions = load_companions(arguments, mistakes);
+  const Companions companions = make_companions(arguments, mistakes);
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
   return run_checked(deployment, {arguments, companions, network, mistakes, console});

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "armature/component/component.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/output_port.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/ports/output_port.hpp"
 #include "armature/rt/ticks.hpp"
 
 namespace armature::component {

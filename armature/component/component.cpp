@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "armature/component/black_box.hpp"
-#include "armature/component/input_port.hpp"
 #include "armature/component/internal/component_rest.hpp"
 #include "armature/component/lanes.hpp"
-#include "armature/component/output_port.hpp"
-#include "armature/component/state_machine.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
+#include "armature/component/states/state_machine.hpp"
 #include "armature/component/timeline.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/rt/log.hpp"

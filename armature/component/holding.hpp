@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "armature/component/component.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/signature.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/signature.hpp"
 
 namespace armature::component {
 

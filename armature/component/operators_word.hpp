@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "armature/base/time.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/properties/property.hpp"
 
 namespace armature::component {
 

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
-#include "armature/component/command.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/input_port.hpp"
-#include "armature/component/operation.hpp"
-#include "armature/component/output_port.hpp"
-#include "armature/component/property.hpp"
-#include "armature/component/state_machine.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/command.hpp"
+#include "armature/component/operations/operation.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
+#include "armature/component/properties/property.hpp"
+#include "armature/component/states/state_machine.hpp"
 
 namespace armature::component {
 

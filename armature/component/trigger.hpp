@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "armature/component/event.hpp"
-#include "armature/component/operation.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/operation.hpp"
 
 namespace armature::component {
 

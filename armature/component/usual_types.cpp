@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "armature/component/command.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/input_port.hpp"
-#include "armature/component/operation.hpp"
-#include "armature/component/output_port.hpp"
-#include "armature/component/port_array.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/command.hpp"
+#include "armature/component/operations/operation.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
+#include "armature/component/ports/port_array.hpp"
+#include "armature/component/properties/property.hpp"
 
 namespace armature::component {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/operation.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/operation.hpp"
+#include "armature/component/properties/property.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"

@@ -8,7 +8,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
-#include "armature/component/state_machine.hpp"
+#include "armature/component/states/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/overrides.hpp"
 #include "armature/document/property_value.hpp"

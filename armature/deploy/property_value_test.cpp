@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/base/fixed_text.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/properties/property.hpp"
 #include "armature/deploy/load.hpp"
 #include "armature/orocos/property_file.hpp"
 #include "armature/types/enum.hpp"

@@ -8,7 +8,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
-#include "armature/component/port.hpp"
+#include "armature/component/ports/port.hpp"
 #include "armature/exec/activity.hpp"
 #include "armature/exec/application.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/properties/property.hpp"
 #include "armature/document/document.hpp"
 #include "armature/types/type.hpp"
 

@@ -14,8 +14,8 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
-#include "armature/component/call_record.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/operations/call_record.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/exec/black_box.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/engine.hpp"

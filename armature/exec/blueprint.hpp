@@ -10,7 +10,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/port.hpp"
+#include "armature/component/ports/port.hpp"
 #include "armature/exec/activity.hpp"
 
 namespace armature::exec {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/input_port.hpp"
-#include "armature/component/operation.hpp"
-#include "armature/component/output_port.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/operations/operation.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
 #include "armature/exec/blueprint.hpp"
 
 namespace armature::exec {

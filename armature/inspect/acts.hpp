@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/inspect/items.hpp"
 #include "armature/inspect/status.hpp"

@@ -6,7 +6,7 @@
 
 #include "armature/base/alternatives.hpp"
 #include "armature/component/author.hpp"
-#include "armature/component/port_array.hpp"
+#include "armature/component/ports/port_array.hpp"
 #include "armature/inspect/internal/snapshot.hpp"
 #include "armature/types/elements.hpp"
 

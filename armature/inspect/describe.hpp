@@ -12,9 +12,9 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/input_port.hpp"
-#include "armature/component/output_port.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
+#include "armature/component/properties/property.hpp"
 #include "armature/inspect/status.hpp"
 
 namespace armature::inspect {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "armature/base/time.hpp"
-#include "armature/component/command.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/operations/command.hpp"
 
 namespace armature::inspect {
 

@@ -108,9 +108,3 @@ std::unique_ptr<Script> load_script(const std::string& path, Options options,
 }
 
 }  // namespace armature::lua
-
-extern "C" armature::lua::Script* armature_load_script(const std::string& path,
-                                                       armature::lua::Options& options,
-                                                       armature::base::Diagnostics& diagnostics) {
-  return armature::lua::load_script(path, std::move(options), diagnostics).release();
-}

@@ -47,11 +47,4 @@ std::unique_ptr<Script> load_script(const std::string& path, Options options,
 std::unique_ptr<Script> parse_script(std::string_view text, const std::string& path,
                                      Options options, base::Diagnostics& diagnostics);
 
-/// `load_script` for a program that loads this library only when there is a script, so that a
-/// process without one does not keep Lua in its memory. The script is the caller's.
-using LoadScript = Script* (*)(const std::string& path, Options& options,
-                               base::Diagnostics& diagnostics);
-/// The name of the function in this library.
-inline constexpr const char* kLoadScript = "armature_load_script";
-
 }  // namespace armature::lua

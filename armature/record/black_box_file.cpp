@@ -111,8 +111,3 @@ std::string say_written(const exec::BlackBoxReport& report, const std::string& f
 }
 
 }  // namespace armature::record
-
-extern "C" void armature_write_black_box(const armature::exec::BlackBoxReport& report,
-                                         const std::string& folder, std::string& said) {
-  said = armature::record::say_written(report, folder);
-}

@@ -17,13 +17,6 @@ namespace armature::record {
 base::Result<std::string> write_black_box(const exec::BlackBoxReport& report,
                                           const std::string& folder);
 
-/// The same for a program that loads this library only when there is something to write.
-/// @param said  what became of it, for people
-using WriteBlackBox = void (*)(const exec::BlackBoxReport& report, const std::string& folder,
-                               std::string& said);
-/// The name of the function in this library.
-inline constexpr const char* kWriteBlackBox = "armature_write_black_box";
-
 /// What becomes of a report, as `BlackBoxOptions::write` says it.
 std::string say_written(const exec::BlackBoxReport& report, const std::string& folder);
 

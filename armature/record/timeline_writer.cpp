@@ -189,11 +189,3 @@ base::Result<std::unique_ptr<TimelineWriter>> TimelineWriter::create(const std::
 }
 
 }  // namespace armature::record
-
-extern "C" armature::record::TimelineWriter* armature_create_timeline_writer(
-    const std::string& path, std::string& error) {
-  auto created = armature::record::TimelineWriter::create(path);
-  if (created) return std::move(created).value().release();
-  error = created.error();
-  return nullptr;
-}

@@ -30,10 +30,4 @@ class TimelineWriter {
   virtual base::Result<void> close() = 0;
 };
 
-/// `TimelineWriter::create` for a program that loads this library only when it writes a timeline.
-/// The writer is the caller's; nullptr: `error` says why.
-using CreateTimelineWriter = TimelineWriter* (*)(const std::string& path, std::string& error);
-/// The name of the function in this library.
-inline constexpr const char* kCreateTimelineWriter = "armature_create_timeline_writer";
-
 }  // namespace armature::record

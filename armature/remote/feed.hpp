@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/component/event_tap.hpp"
+#include "armature/component/events/event_tap.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/rt/ring.hpp"
 

@@ -275,9 +275,9 @@ class RideNetwork final : public Network {
 };
 
 }  // namespace
-}  // namespace armature::remote
 
-extern "C" __attribute__((visibility("default"))) armature::remote::Network* armature_make_network(
-    const armature::remote::NetworkOptions& options) {
-  return new armature::remote::RideNetwork(options);
+std::unique_ptr<Network> make_network(const NetworkOptions& options) {
+  return std::make_unique<RideNetwork>(options);
 }
+
+}  // namespace armature::remote

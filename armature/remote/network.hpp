@@ -59,10 +59,6 @@ class Network {
   virtual void leave() = 0;
 };
 
-/// For a program that loads this library only when it has a part in a network; the network is the
-/// caller's.
-using MakeNetwork = Network* (*)(const NetworkOptions& options);
-/// The name of the function in this library.
-inline constexpr const char* kMakeNetwork = "armature_make_network";
+std::unique_ptr<Network> make_network(const NetworkOptions& options);
 
 }  // namespace armature::remote

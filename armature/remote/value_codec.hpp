@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "armature/component/signature.hpp"
+#include "armature/component/operations/signature.hpp"
 #include "armature/ride/codec.hpp"
 #include "armature/types/type.hpp"
 

@@ -56,9 +56,3 @@ Written write_report(const Options& options, base::Diagnostics& diagnostics) {
 }
 
 }  // namespace armature::report
-
-extern "C" void armature_write_report(const armature::report::Options& options,
-                                      armature::report::Written& written,
-                                      armature::base::Diagnostics& diagnostics) {
-  written = armature::report::write_report(options, diagnostics);
-}

@@ -26,10 +26,4 @@ struct Written {
 /// Writes nothing after an error; each one says what was expected where.
 Written write_report(const Options& options, base::Diagnostics& diagnostics);
 
-/// `write_report` for a program that loads this library only when a report is wanted.
-using WriteReport = void (*)(const Options& options, Written& written,
-                             base::Diagnostics& diagnostics);
-/// The name of the function in this library.
-inline constexpr const char* kWriteReport = "armature_write_report";
-
 }  // namespace armature::report

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/base/seconds.hpp"
-#include "armature/component/property.hpp"
+#include "armature/component/properties/property.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/report/internal/json.hpp"
@@ -181,11 +181,3 @@ base::Result<void> write_run_summary(const std::string& folder, const RunFacts& 
 }
 
 }  // namespace armature::report
-
-extern "C" void armature_write_run_summary(const std::string& folder,
-                                           const armature::report::RunFacts& facts,
-                                           const armature::exec::Application& application,
-                                           std::string& error) {
-  const auto written = armature::report::write_run_summary(folder, facts, application);
-  if (!written) error = written.error();
-}

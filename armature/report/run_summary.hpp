@@ -36,11 +36,4 @@ struct RunFacts {
 base::Result<void> write_run_summary(const std::string& folder, const RunFacts& facts,
                                      const exec::Application& application);
 
-/// `write_run_summary` for a program that loads this library only for that.
-/// @param error  becomes the error's text
-using WriteRunSummary = void (*)(const std::string& folder, const RunFacts& facts,
-                                 const exec::Application& application, std::string& error);
-/// The name of the function in this library.
-inline constexpr const char* kWriteRunSummary = "armature_write_run_summary";
-
 }  // namespace armature::report

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "armature/platform/clock.hpp"
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/ride/internal/node_state.hpp"
 #include "armature/ride/internal/raw_client.hpp"
 #include "armature/ride/internal/test_vision.hpp"

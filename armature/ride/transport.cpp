@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 
 namespace armature::ride {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/transport.hpp"
 
 namespace armature::ride {

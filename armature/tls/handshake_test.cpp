@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/platform/poller.hpp"
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/poller.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/tls/internal/connection.hpp"
 #include "armature/tls/internal/credentials.hpp"
 #include "armature/tls/internal/test_certificates.hpp"

@@ -15,7 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/ride/placeholder.hpp"
 #include "armature/ride/policy.hpp"
 #include "armature/ride/service.hpp"

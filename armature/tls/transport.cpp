@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/tls/internal/connection.hpp"
 #include "armature/tls/internal/credentials.hpp"
 
@@ -88,9 +88,3 @@ std::unique_ptr<ride::Transport> make_transport(const Options& options,
 }
 
 }  // namespace armature::tls
-
-extern "C" __attribute__((visibility("default"))) armature::ride::Transport*
-armature_make_tls_transport(const armature::tls::Options& options,
-                            armature::base::Diagnostics& diagnostics) {
-  return armature::tls::make_transport(options, diagnostics).release();
-}

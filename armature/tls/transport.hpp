@@ -30,10 +30,4 @@ struct Options {
 std::unique_ptr<ride::Transport> make_transport(const Options& options,
                                                 base::Diagnostics& diagnostics);
 
-/// `make_transport` for a program that loads this library only when it is wanted; the transport is
-/// the caller's.
-using MakeTransport = ride::Transport* (*)(const Options& options, base::Diagnostics& diagnostics);
-/// The name of the function in this library.
-inline constexpr const char* kMakeTransport = "armature_make_tls_transport";
-
 }  // namespace armature::tls

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
-#include "armature/library/actuator_demux/actuator_demux.hpp"
-#include "armature/library/arming/arming.hpp"
-#include "armature/library/controller_npid/controller_npid.hpp"
-#include "armature/library/joint/joint.hpp"
-#include "armature/library/pid/pid.hpp"
-#include "armature/library/sampler/sampler.hpp"
-#include "armature/library/sensor_mux/sensor_mux.hpp"
+#include "armature/controllers/actuator_demux/actuator_demux.hpp"
+#include "armature/controllers/arming/arming.hpp"
+#include "armature/controllers/controller_npid/controller_npid.hpp"
+#include "armature/controllers/joint/joint.hpp"
+#include "armature/controllers/pid/pid.hpp"
+#include "armature/controllers/sampler/sampler.hpp"
+#include "armature/controllers/sensor_mux/sensor_mux.hpp"
 #include "benchmarks/control_cycle/pacer.hpp"
 #include "benchmarks/control_cycle/stand_ins.hpp"
 
@@ -49,7 +49,7 @@ void add_joint(exec::Blueprint& blueprint, const std::string& number, double gea
                base::Duration period) {
   const std::string card = "Card" + number;
   Component& joint =
-      add<library::Joint>(blueprint, "Joint" + number, {card, "Sampler", "Actuator", "Arming"});
+      add<controllers::Joint>(blueprint, "Joint" + number, {card, "Sampler", "Actuator", "Arming"});
   const control::JointLimiter::Config limits = limits_of_joints();
   set(joint, "PeerName", card);
   set(joint, "GearRatio", gear_ratio);
@@ -67,7 +67,7 @@ void add_joint(exec::Blueprint& blueprint, const std::string& number, double gea
 }
 
 void add_pid(exec::Blueprint& blueprint, const std::string& number) {
-  Component& pid = add<library::Pid>(blueprint, "PID" + number, {"Arming"});
+  Component& pid = add<controllers::Pid>(blueprint, "PID" + number, {"Arming"});
   set(pid, "Kp", kKp);
   set(pid, "Ki", kKi);
   set(pid, "Kd", kKd);
@@ -133,14 +133,15 @@ exec::Blueprint make_cycle(int joints, const CycleThreads& threads) {
   const exec::Activity slowly = exec::Activity::periodic(std::chrono::milliseconds(10));
   exec::Blueprint blueprint;
   blueprint.name = "control cycle";
-  add<library::Sampler>(blueprint, "Sampler", {}, threads.sampler);
-  set(add<library::SensorNMux>(blueprint, "Sensor", {"Sampler"}, threads.sensor), "joints", joints);
-  set(add<Reference>(blueprint, "Reference", {"Arming"}, slowly), "joints", joints);
-  set(add<library::Arming>(blueprint, "Arming", {}, slowly), "joints", joints);
-  set(add<library::ControllerNPID>(blueprint, "Controller", {"Sampler"}, threads.controller),
-      "joints", joints);
-  set(add<library::ActuatorNDemux>(blueprint, "Actuator", {"Sampler"}, threads.actuator), "joints",
+  add<controllers::Sampler>(blueprint, "Sampler", {}, threads.sampler);
+  set(add<controllers::SensorNMux>(blueprint, "Sensor", {"Sampler"}, threads.sensor), "joints",
       joints);
+  set(add<Reference>(blueprint, "Reference", {"Arming"}, slowly), "joints", joints);
+  set(add<controllers::Arming>(blueprint, "Arming", {}, slowly), "joints", joints);
+  set(add<controllers::ControllerNPID>(blueprint, "Controller", {"Sampler"}, threads.controller),
+      "joints", joints);
+  set(add<controllers::ActuatorNDemux>(blueprint, "Actuator", {"Sampler"}, threads.actuator),
+      "joints", joints);
   connect_vectors(blueprint);
   add_joints(blueprint, joints, threads.period);
   for (int i = 1; i <= joints; ++i) connect_joint(blueprint, std::to_string(i));

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/library/base/joint_hardware.hpp"
+#include "armature/controllers/base/joint_hardware.hpp"
 #include "benchmarks/control_cycle/motor.hpp"
 
 namespace armature::benchmarks {
 
 /// The hardware of a joint: a simulated motor.
-class Card final : public library::JointHardware {
+class Card final : public controllers::JointHardware {
  public:
   using JointHardware::JointHardware;
   const SimulatedMotor& motor() const { return motor_; }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "armature/component/registry.hpp"
-#include "armature/library/base/joint_hardware.hpp"
-#include "armature/library/base/sampling_period.hpp"
+#include "armature/controllers/base/joint_hardware.hpp"
+#include "armature/controllers/base/sampling_period.hpp"
 
 namespace servo {
 
@@ -14,7 +14,7 @@ using namespace armature::component;
 /// One drive with its encoder. Framework and operator see to it that it is switched on only when
 /// the operator arms, gets only what the joint's limiter let through, and is switched off whenever
 /// something stops.
-class Servo final : public armature::library::JointHardware {
+class Servo final : public armature::controllers::JointHardware {
  public:
   using JointHardware::JointHardware;
 
@@ -66,7 +66,7 @@ class Servo final : public armature::library::JointHardware {
   static constexpr double kGearRatio = 0.01;     // of the joint's angle
   static constexpr double kTurn = 6.283185307179586;
 
-  armature::library::SamplingPeriod period_{this};
+  armature::controllers::SamplingPeriod period_{this};
   Property<double> weight_{this, "Weight",
                            0.0,  "voltage that holds the joint where it is level",
                            "V",  range(-12.0, 12.0)};

@@ -12,7 +12,7 @@
 #include "armature/base/time.hpp"
 #include "armature/control/dc_motor.hpp"
 #include "armature/sim/plant.hpp"
-#include "robots/janus/aic_wiring.hpp"
+#include "robots/janus/aic/aic_wiring.hpp"
 
 namespace armature::janus {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The component library `janus`: the head's hardware, real and simulated.
 #include "armature/component/registry.hpp"
-#include "robots/janus/aic.hpp"
-#include "robots/janus/aic_bus.hpp"
+#include "robots/janus/aic/aic.hpp"
+#include "robots/janus/aic/aic_bus.hpp"
 #include "robots/janus/simulated_janus.hpp"
 
 using namespace armature::janus;

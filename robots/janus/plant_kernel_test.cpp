@@ -11,7 +11,7 @@
 
 #include "armature/can/bus_link.hpp"
 #include "armature/platform/clock.hpp"
-#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic/aic_driver.hpp"
 #include "robots/janus/janus_urdf.hpp"
 #include "robots/janus/plant.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "robots/janus/aic_host.hpp"
+#include "robots/janus/aic/aic_host.hpp"
 #include "robots/janus/simulated_link.hpp"
 
 namespace armature::janus {

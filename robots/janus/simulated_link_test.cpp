@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/platform/clock.hpp"
-#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic/aic_driver.hpp"
 
 namespace armature::janus {
 namespace {

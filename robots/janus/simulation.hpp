@@ -11,7 +11,7 @@
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
 #include "armature/can/virtual_bus.hpp"
-#include "robots/janus/aic_firmware.hpp"
+#include "robots/janus/aic/aic_firmware.hpp"
 #include "robots/janus/head.hpp"
 
 namespace armature::janus {

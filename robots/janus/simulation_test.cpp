@@ -14,7 +14,7 @@
 
 #include "armature/sim/encoder.hpp"
 #include "armature/testing/realtime_guard.hpp"
-#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic/aic_driver.hpp"
 
 namespace armature::janus {
 namespace {

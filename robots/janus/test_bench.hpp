@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/can/virtual_bus.hpp"
-#include "robots/janus/aic_firmware.hpp"
+#include "robots/janus/aic/aic_firmware.hpp"
 
 namespace armature::janus {
 

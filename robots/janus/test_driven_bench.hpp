@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic/aic_driver.hpp"
 #include "robots/janus/test_bench.hpp"
 
 namespace armature::janus {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/rt/wakeup.hpp"
-#include "robots/janus/aic_driver.hpp"
+#include "robots/janus/aic/aic_driver.hpp"
 #include "robots/janus/simulation.hpp"
 
 namespace armature::janus {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "armature/library/base/reason_text.hpp"
+#include "armature/controllers/base/reason_text.hpp"
 
 namespace armature::wam {
 
@@ -12,15 +12,15 @@ void ActuatorWam::actuate(const std::vector<double>& act) {
   for (std::size_t i = 0; i < act.size(); ++i) {
     if (std::isfinite(act[i])) continue;
     component::Reason why("the torque for joint ");
-    library::append_number(why, static_cast<double>(i + 1)).append(" is ");
-    return fault(library::append_number(why, act[i]).append(", expected finite numbers"));
+    controllers::append_number(why, static_cast<double>(i + 1)).append(" is ");
+    return fault(controllers::append_number(why, act[i]).append(", expected finite numbers"));
   }
   torque_.write(act);
 }
 
-std::vector<library::DrivenJoint> ActuatorWam::joints_behind(
+std::vector<controllers::DrivenJoint> ActuatorWam::joints_behind(
     const component::InputPortBase* /*input*/, const component::Check& check) {
-  return library::joints_behind(torque_, check);
+  return controllers::joints_behind(torque_, check);
 }
 
 }  // namespace armature::wam

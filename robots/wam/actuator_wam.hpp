@@ -3,20 +3,20 @@
 
 #include <vector>
 
-#include "armature/library/base/actuator.hpp"
-#include "armature/library/base/driven_joint.hpp"
+#include "armature/controllers/base/actuator.hpp"
+#include "armature/controllers/base/driven_joint.hpp"
 
 namespace armature::wam {
 
 /// The actuators of the arm (paper 3, ActuatorWAM): hands the torques of all joints on to
 /// WamHardware. One that is no finite number is a fault, and nothing is handed on.
 /// @rt nonblocking, no allocation, O(joints)
-class ActuatorWam final : public library::Actuator, public library::DrivesJoints {
+class ActuatorWam final : public controllers::Actuator, public controllers::DrivesJoints {
  public:
   using Actuator::Actuator;
 
-  std::vector<library::DrivenJoint> joints_behind(const component::InputPortBase* input,
-                                                  const component::Check& check) override;
+  std::vector<controllers::DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                                      const component::Check& check) override;
 
  private:
   void actuate(const std::vector<double>& act) override;

@@ -9,9 +9,9 @@
 
 namespace armature::wam {
 
-using library::DrivenJoint;
-using library::figure;
-using Wanted = library::CheckedGains::Wanted;
+using controllers::DrivenJoint;
+using controllers::figure;
+using Wanted = controllers::CheckedGains::Wanted;
 
 namespace {
 
@@ -47,7 +47,7 @@ std::string text_of(const Bound& bound) {
 
 ArmCheck::ArmCheck(component::Component* owner, const component::Property<int>& joints,
                    const component::Property<std::string>& bus,
-                   const library::RobotDescription& description, WamParameters& parameters)
+                   const controllers::RobotDescription& description, WamParameters& parameters)
     : Checked(owner),
       owner_(*owner),
       joints_(joints),
@@ -124,7 +124,7 @@ std::vector<DrivenJoint> ArmCheck::driven(const Arm& arm) const {
     joints[i].gravity = description_.gravity();
     const bool commands_hold = config && config.value().command_has_weight;
     joints[i].holds_weight =
-        commands_hold ? library::HoldsWeight::kCommands : library::HoldsWeight::kHardware;
+        commands_hold ? controllers::HoldsWeight::kCommands : controllers::HoldsWeight::kHardware;
   }
   return joints;
 }
@@ -209,7 +209,7 @@ std::string ArmCheck::objection_to_hold(const TorquePath::Config& config, std::s
   const auto controller = control::SampledController::of(control::PositionalPid::Config{
       .kp = gains.kp, .ki = gains.ki, .kd = gains.kd, .period_s = period});
   const DrivenJoint driven_joint = driven(*arm_)[joint];
-  const std::string wrong = library::objection_to_gains(driven_joint, controller, period);
+  const std::string wrong = controllers::objection_to_gains(driven_joint, controller, period);
   if (wrong.empty()) return {};
   return "Kp " + figure(gains.kp) + ", Ki " + figure(gains.ki) + ", Kd " + figure(gains.kd) +
          ", with which it is held: " + wrong.substr(driven_joint.name.size() + 2);

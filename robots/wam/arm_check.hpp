@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/control/joint_inertias.hpp"
+#include "armature/control/dynamics/joint_inertias.hpp"
 #include "armature/control/joint_limits.hpp"
-#include "armature/library/base/checked_gains.hpp"
-#include "armature/library/base/driven_joint.hpp"
-#include "armature/library/base/robot_description.hpp"
+#include "armature/controllers/base/checked_gains.hpp"
+#include "armature/controllers/base/driven_joint.hpp"
+#include "armature/controllers/base/robot_description.hpp"
 #include "robots/wam/torque_path.hpp"
 #include "robots/wam/wam_parameters.hpp"
 
@@ -28,13 +28,13 @@ class ArmCheck final : public component::Checked, public component::PropertyFoll
   /// @param joints, bus  properties of `owner`
   ArmCheck(component::Component* owner, const component::Property<int>& joints,
            const component::Property<std::string>& bus,
-           const library::RobotDescription& description, WamParameters& parameters);
+           const controllers::RobotDescription& description, WamParameters& parameters);
 
   void check(component::Check& check) const override;
 
   /// As whoever writes `torRefPort` drives them; nothing if the description cannot be read.
   /// @thread configuration only
-  std::vector<library::DrivenJoint> driven() const;
+  std::vector<controllers::DrivenJoint> driven() const;
 
   void follow() override {}
   std::string objection() const override { return {}; }
@@ -51,17 +51,17 @@ class ArmCheck final : public component::Checked, public component::PropertyFoll
 
   const ArmNumbers& numbers() const;
   base::Result<Arm> load() const;
-  std::string objection(const library::CheckedGains::Wanted& wanted) const;
+  std::string objection(const controllers::CheckedGains::Wanted& wanted) const;
   std::string objection_to_limits(const TorquePath::Config& config, std::size_t joint) const;
   std::string objection_to_growth(const TorquePath::Config& config, std::size_t joint) const;
   std::string objection_to_hold(const TorquePath::Config& config, std::size_t joint) const;
   std::string objection_to_gravity() const;
-  std::vector<library::DrivenJoint> driven(const Arm& arm) const;
+  std::vector<controllers::DrivenJoint> driven(const Arm& arm) const;
 
   component::Component& owner_;
   const component::Property<int>& joints_;
   const component::Property<std::string>& bus_;
-  const library::RobotDescription& description_;
+  const controllers::RobotDescription& description_;
   WamParameters& parameters_;
   component::Property<bool> other_mounting_;
   mutable std::optional<Arm> arm_;  ///< as the check found it

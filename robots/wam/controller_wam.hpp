@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "armature/library/base/controller.hpp"
+#include "armature/controllers/base/controller.hpp"
 
 namespace armature::wam {
 
@@ -11,7 +11,7 @@ namespace armature::wam {
 /// 6): has WamHardware compute the torques, which knows the law and its gains; their way to the
 /// arm is that of any other controller's. A torque that is no finite number is a fault.
 /// @rt nonblocking, no allocation, O(joints)
-class ControllerWam final : public library::Controller {
+class ControllerWam final : public controllers::Controller {
  public:
   using Controller::Controller;
 

@@ -4,17 +4,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "armature/library/base/driven_joint.hpp"
-#include "armature/library/base/max_age.hpp"
-#include "armature/library/base/sampling_period.hpp"
-#include "armature/library/base/sensor.hpp"
+#include "armature/controllers/base/driven_joint.hpp"
+#include "armature/controllers/base/max_age.hpp"
+#include "armature/controllers/base/sampling_period.hpp"
+#include "armature/controllers/base/sensor.hpp"
 
 namespace armature::wam {
 
 /// The sensors of the arm (paper 3, SensorWAM): asks its peer WamHardware for a reading at each
 /// Sample, and makes `sensor` of what comes.
 /// @rt nonblocking but for the hardware's reading, no allocation, O(joints)
-class SensorWam final : public library::Sensor, public library::PassesSamples {
+class SensorWam final : public controllers::Sensor, public controllers::PassesSamples {
  public:
   using Sensor::Sensor;
 
@@ -30,7 +30,7 @@ class SensorWam final : public library::Sensor, public library::PassesSamples {
   void sample_now() override;
   void on_data(const Vector& data);
 
-  library::SamplingPeriod period_{this};
+  controllers::SamplingPeriod period_{this};
   component::OperationCaller<bool()> read_{this, "getJointSensorsOperation",
                                            "has the sensors read"};
   component::InputPort<Vector> data_{this,
@@ -39,7 +39,7 @@ class SensorWam final : public library::Sensor, public library::PassesSamples {
                                      "",
                                      component::on_data<&SensorWam::on_data>,
                                      component::size_of(joints_, 3),
-                                     component::max_age(library::kMaxAge),
+                                     component::max_age(controllers::kMaxAge),
                                      component::leads_to("sensor")};
   component::Attribute<int> unread_{this, "samples_without_data", 0,
                                     "Samples since the configuration in which nothing was read"};

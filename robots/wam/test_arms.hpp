@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "robots/wam/arm_numbers.hpp"
 
 namespace armature::wam {

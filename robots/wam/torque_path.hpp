@@ -7,10 +7,10 @@
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
-#include "armature/control/hand_over.hpp"
-#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/arming/hand_over.hpp"
+#include "armature/control/arming/reference_brake.hpp"
+#include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/control/joint_limiter.hpp"
-#include "armature/control/reference_brake.hpp"
 #include "armature/control/transmission.hpp"
 #include "robots/wam/joint_controller.hpp"
 

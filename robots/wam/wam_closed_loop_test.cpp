@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "robots/wam/test_hosted_bench.hpp"
-#include "robots/wam/wam_driver.hpp"
+#include "robots/wam/driver/test_hosted_bench.hpp"
+#include "robots/wam/driver/wam_driver.hpp"
 
 namespace armature::wam {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/rt/guard.hpp"
-#include "robots/wam/safety_text.hpp"
+#include "robots/wam/driver/safety_text.hpp"
 #include "robots/wam/tip_speed.hpp"
 
 namespace armature::wam {

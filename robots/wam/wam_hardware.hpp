@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/library/base/guarded_bus.hpp"
-#include "armature/library/base/max_age.hpp"
-#include "armature/library/base/robot_description.hpp"
-#include "armature/library/base/sample_watch.hpp"
+#include "armature/controllers/base/guarded_bus.hpp"
+#include "armature/controllers/base/max_age.hpp"
+#include "armature/controllers/base/robot_description.hpp"
+#include "armature/controllers/base/sample_watch.hpp"
 #include "robots/wam/arm_check.hpp"
-#include "robots/wam/emulated_link.hpp"
-#include "robots/wam/safety_text.hpp"
+#include "robots/wam/driver/safety_text.hpp"
+#include "robots/wam/driver/wam_driver.hpp"
+#include "robots/wam/driver/wam_motion.hpp"
+#include "robots/wam/emulator/emulated_link.hpp"
 #include "robots/wam/torque_path.hpp"
-#include "robots/wam/wam_driver.hpp"
-#include "robots/wam/wam_motion.hpp"
 #include "robots/wam/wam_parameters.hpp"
 
 namespace armature::wam {
@@ -34,12 +34,12 @@ namespace armature::wam {
 ///
 /// Properties count from the configuration on.
 /// @rt no allocation; waits for the pucks' answers, 1.4 ms at most
-class WamHardware final : public component::Component, public library::DrivesJoints {
+class WamHardware final : public component::Component, public controllers::DrivesJoints {
  public:
   using Component::Component;
 
-  std::vector<library::DrivenJoint> joints_behind(const component::InputPortBase* input,
-                                                  const component::Check& check) override;
+  std::vector<controllers::DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                                      const component::Check& check) override;
 
   /// For tests that break something: the arm in this process; nullptr on another bus.
   EmulatedLink* emulated() { return emulated_; }
@@ -148,9 +148,9 @@ class WamHardware final : public component::Component, public library::DrivesJoi
   component::Property<std::string> bus_{
       this, "bus", "emulator",
       "emulator: the arm emulated in this process; virtual:PATH; or an interface such as can0"};
-  library::RobotDescription description_{this};
+  controllers::RobotDescription description_{this};
   WamParameters parameters_{this};
-  library::GuardedBus guard_{this};
+  controllers::GuardedBus guard_{this};
   ArmCheck arm_check_{this, joints_, bus_, description_, parameters_};
   component::Property<double> idle_patience_{
       this, "idle_patience",
@@ -174,7 +174,7 @@ class WamHardware final : public component::Component, public library::DrivesJoi
       "V",
       component::on_data<&WamHardware::on_torque>,
       component::size_of(joints_),
-      component::max_age(library::kMaxAge, component::Reaction::kHold),
+      component::max_age(controllers::kMaxAge, component::Reaction::kHold),
       component::on_lost(component::Reaction::kHold),
       component::leads_to("Armed")};
   component::OutputPort<Vector> control_data_{this, "ControlDataPort",
@@ -281,7 +281,7 @@ class WamHardware final : public component::Component, public library::DrivesJoi
   EmulatedLink* emulated_ = nullptr;
   std::optional<WamDriver> driver_;
   std::optional<WamMotion> motion_;
-  library::SampleWatch watch_;
+  controllers::SampleWatch watch_;
 
   Ending ending_{*this};
   base::Time read_at_ = base::Time::min();

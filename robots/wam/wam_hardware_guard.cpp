@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // WamHardware: who sets the pucks idle if this process cannot any more.
 #include "armature/base/seconds.hpp"
-#include "robots/wam/wam_guard.hpp"
+#include "robots/wam/driver/wam_guard.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
-#include "robots/wam/safety_text.hpp"
+#include "robots/wam/driver/safety_text.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {

@@ -10,8 +10,8 @@
 #include "armature/can/bus_link.hpp"
 #include "armature/can/make_bus.hpp"
 #include "armature/platform/clock.hpp"
-#include "robots/wam/arm_connection.hpp"
-#include "robots/wam/safety_text.hpp"
+#include "robots/wam/driver/arm_connection.hpp"
+#include "robots/wam/driver/safety_text.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {
@@ -53,9 +53,10 @@ Outcome WamHardware::on_configure() {
   return component::accepted();
 }
 
-std::vector<library::DrivenJoint> WamHardware::joints_behind(const component::InputPortBase* input,
-                                                             const component::Check& /*check*/) {
-  return input == &torque_reference_ ? arm_check_.driven() : std::vector<library::DrivenJoint>{};
+std::vector<controllers::DrivenJoint> WamHardware::joints_behind(
+    const component::InputPortBase* input, const component::Check& /*check*/) {
+  return input == &torque_reference_ ? arm_check_.driven()
+                                     : std::vector<controllers::DrivenJoint>{};
 }
 
 Outcome WamHardware::set_up_path() {
@@ -98,7 +99,7 @@ Outcome WamHardware::check_period() const {
   if (Outcome outcome = parameters_.period().known(); !outcome) return outcome;
   if (within_its_reach(parameters_.period().duration())) return component::accepted();
   component::Reason why("the period between two samples is ");
-  library::append_duration(why, parameters_.period().duration());
+  controllers::append_duration(why, parameters_.period().duration());
   return component::refused(why.append(kReach));
 }
 
@@ -107,7 +108,7 @@ void WamHardware::on_check(component::Check& check) const {
   const base::Duration period = parameters_.period().duration();
   if (period == base::Duration::zero() || within_its_reach(period)) return;
   component::Reason why("it is sampled every ");
-  library::append_duration(why, period);
+  controllers::append_duration(why, period);
   check.error(std::string(why.append(kReach).view()), "2 ms is what its controllers are made for");
 }
 

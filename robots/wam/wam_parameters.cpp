@@ -62,7 +62,7 @@ WamParameters::WamParameters(component::Component* owner)
           "rad", range(1e-2, 3.0)) {}
 
 base::Result<TorquePath::Config> WamParameters::torque_path(
-    const ArmNumbers& numbers, const library::CheckedGains::Wanted& wanted) const {
+    const ArmNumbers& numbers, const controllers::CheckedGains::Wanted& wanted) const {
   const std::size_t joints = numbers.joints();
   TorquePath::Config config;
   std::vector<double> lower, upper, velocity, control;
@@ -139,7 +139,7 @@ void WamParameters::add_follower(component::PropertyFollower& follower) {
 }
 
 base::Result<std::vector<JointGains>> WamParameters::gains(
-    const ArmNumbers& numbers, const library::CheckedGains::Wanted& wanted) const {
+    const ArmNumbers& numbers, const controllers::CheckedGains::Wanted& wanted) const {
   std::vector<JointGains> gains = numbers.gains;
   struct Parameter {
     const Numbers& numbers;

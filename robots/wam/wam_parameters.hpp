@@ -6,11 +6,11 @@
 
 #include "armature/base/result.hpp"
 #include "armature/component/author.hpp"
-#include "armature/library/base/checked_gains.hpp"
-#include "armature/library/base/sampling_period.hpp"
+#include "armature/controllers/base/checked_gains.hpp"
+#include "armature/controllers/base/sampling_period.hpp"
 #include "robots/wam/arm_numbers.hpp"
-#include "robots/wam/driven_watch.hpp"
-#include "robots/wam/standing_watch.hpp"
+#include "robots/wam/driver/driven_watch.hpp"
+#include "robots/wam/driver/standing_watch.hpp"
 #include "robots/wam/torque_path.hpp"
 
 namespace armature::wam {
@@ -25,7 +25,7 @@ class WamParameters {
   /// @thread configuration only
   /// @param wanted  another value of one of them
   base::Result<TorquePath::Config> torque_path(
-      const ArmNumbers& numbers, const library::CheckedGains::Wanted& wanted = {}) const;
+      const ArmNumbers& numbers, const controllers::CheckedGains::Wanted& wanted = {}) const;
   /// Of what `torque_path` says, but for the period.
   void add_follower(component::PropertyFollower& follower);
   bool says_who_holds_the_weight(const component::PropertyBase& property) const {
@@ -35,7 +35,7 @@ class WamParameters {
   base::Result<StandingWatch::Config> standing_watch(const ArmNumbers& numbers) const;
   /// The same for the watch over the arm that is armed.
   base::Result<DrivenWatch::Config> driven_watch(const ArmNumbers& numbers) const;
-  const library::SamplingPeriod& period() const { return period_; }
+  const controllers::SamplingPeriod& period() const { return period_; }
   /// Where no gains were given, those of the vendor are shown: they count.
   /// @thread configuration only
   void show_gains(const std::vector<JointGains>& used);
@@ -43,10 +43,10 @@ class WamParameters {
  private:
   using Numbers = component::Property<std::vector<double>>;
 
-  base::Result<std::vector<JointGains>> gains(const ArmNumbers& numbers,
-                                              const library::CheckedGains::Wanted& wanted) const;
+  base::Result<std::vector<JointGains>> gains(
+      const ArmNumbers& numbers, const controllers::CheckedGains::Wanted& wanted) const;
 
-  library::SamplingPeriod period_;
+  controllers::SamplingPeriod period_;
   component::Property<bool> controller_has_gravity_;
   component::Property<double> arming_time_;
   component::Property<double> hand_over_;

@@ -18,9 +18,6 @@
 #include "armature/remote/network.hpp"
 #include "tests/configurations/motion_watch.hpp"
 
-extern "C" armature::remote::Network* armature_make_network(
-    const armature::remote::NetworkOptions& options);
-
 namespace armature::configurations {
 namespace {
 
@@ -349,7 +346,7 @@ const char* name_of(Outcome outcome) {
 
 Verdict try_out(const RobotUnderTest& robot, const document::Document& document,
                 const std::string& folder) {
-  const std::unique_ptr<remote::Network> network(armature_make_network({}));
+  const std::unique_ptr<remote::Network> network = remote::make_network({});
   deploy::DeploymentOptions options;
   options.library_folders = {LIBRARIES};
   options.make_placeholder = [&network](const document::Component& written,

@@ -4,7 +4,7 @@
 
 usage: rules_test.py SOURCE_DIR [--write]
 
-A link to a file of tests has the tests in its title: [port_test](../armature/component/port_test.cpp "Port.IsRead, Port.IsWritten").
+A link to a file of tests has the tests in its title: [port_test](../armature/component/ports/port_test.cpp "Port.IsRead, Port.IsWritten").
 Tests that stand elsewhere, in backquotes, have to exist as well. --write mends links to files that have moved.
 """
 

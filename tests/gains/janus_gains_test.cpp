@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "armature/control/joint_inertias.hpp"
+#include "armature/control/dynamics/joint_inertias.hpp"
 #include "armature/control/pid.hpp"
 #include "armature/control/sampled_loop.hpp"
 #include "robots/janus/head.hpp"

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "armature/control/computed_torque.hpp"
-#include "armature/control/joint_inertias.hpp"
+#include "armature/control/dynamics/computed_torque.hpp"
+#include "armature/control/dynamics/joint_inertias.hpp"
 #include "armature/control/low_pass.hpp"
 #include "armature/control/sampled_loop.hpp"
-#include "robots/wam/arm_simulation.hpp"
+#include "robots/wam/emulator/arm_simulation.hpp"
 #include "robots/wam/joint_controller.hpp"
 #include "tests/gains/trial.hpp"
 

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <vector>
 
-#include "armature/control/arming_sequence.hpp"
-#include "armature/control/gain_fade.hpp"
-#include "armature/control/holding_watch.hpp"
-#include "armature/control/resting_mean.hpp"
+#include "armature/control/arming/arming_sequence.hpp"
+#include "armature/control/arming/gain_fade.hpp"
+#include "armature/control/arming/holding_watch.hpp"
+#include "armature/control/arming/resting_mean.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::control {

@@ -13,9 +13,9 @@
 
 #include "armature/can/bus_server.hpp"
 #include "armature/can/virtual_bus.hpp"
+#include "armature/controllers/base/guarded_bus.hpp"
 #include "armature/exec/death.hpp"
 #include "armature/guardian/guardian.hpp"
-#include "armature/library/base/guarded_bus.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/testing/harness.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -105,14 +105,14 @@ TEST_F(RealtimeGuardian, ThatHasActedIsHeardInRealTimeToo) {
 class Guarded final : public component::Component {
  public:
   using Component::Component;
-  library::GuardedBus bus{this};
+  controllers::GuardedBus bus{this};
 };
 
 TEST_F(RealtimeGuardian, OfAComponentsBusThatIsThereOrNotWanted) {
   for (const std::string wish : {"on", "off"}) {
     testing::Harness bench(std::make_unique<Guarded>("Host"));
     bench.set("guardian", wish);
-    library::GuardedBus& bus = static_cast<Guarded&>(bench.component()).bus;
+    controllers::GuardedBus& bus = static_cast<Guarded&>(bench.component()).bus;
     ASSERT_TRUE(bus.start(orders(kLong)));
     EXPECT_FALSE(bus.complains()) << bus.said();
     EXPECT_EQ(bus.said().empty(), wish == "off");
@@ -126,7 +126,7 @@ TEST_F(RealtimeGuardian, OfAComponentsBusThatIsThereOrNotWanted) {
 
 TEST_F(RealtimeGuardian, OfAComponentsBusSaysInRealTimeWhyItSwitchedTheDrivesOff) {
   testing::Harness bench(std::make_unique<Guarded>("Host"));
-  library::GuardedBus& bus = static_cast<Guarded&>(bench.component()).bus;
+  controllers::GuardedBus& bus = static_cast<Guarded&>(bench.component()).bus;
   ASSERT_TRUE(bus.start(orders(kShort)));
   ASSERT_FALSE(bus.complains()) << bus.said();
   std::optional<component::Reason> why;

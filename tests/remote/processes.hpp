@@ -21,9 +21,6 @@
 #include "armature/platform/clock.hpp"
 #include "armature/remote/network.hpp"
 
-extern "C" armature::remote::Network* armature_make_network(
-    const armature::remote::NetworkOptions& options);
-
 namespace armature::remote::test {
 
 using component::accepted;
@@ -134,7 +131,7 @@ class Process {
   explicit Process(const std::string& yaml) {
     NetworkOptions options;
     options.log = [this](const rt::LogRecord& record) { log += record.message() + "\n"; };
-    network_.reset(armature_make_network(options));
+    network_ = make_network(options);
     deploy::DeploymentOptions how;
     how.models = [](component::Registry& models) {
       models.add<Axis>("Axis", "");

@@ -3,7 +3,7 @@
 
 #include "tests/reporter/reporting.hpp"
 
-namespace armature::library {
+namespace armature::controllers {
 namespace {
 
 using ::testing::AllOf;
@@ -186,4 +186,4 @@ TEST_F(Reporting, TheConsoleHasALineForEachSample) {
 }
 
 }  // namespace
-}  // namespace armature::library
+}  // namespace armature::controllers

@@ -11,7 +11,7 @@
 
 #include "tests/reporter/reporting.hpp"
 
-namespace armature::library {
+namespace armature::controllers {
 namespace {
 
 using ::testing::AllOf;
@@ -173,4 +173,4 @@ TEST_F(Reporting, ASharedThreadIsWarnedOf) {
 }
 
 }  // namespace
-}  // namespace armature::library
+}  // namespace armature::controllers

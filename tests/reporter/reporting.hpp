@@ -14,11 +14,11 @@
 #include <gtest/gtest.h>
 
 #include "armature/exec/application.hpp"
-#include "armature/library/reporter/reporter.hpp"
+#include "armature/general/reporter/reporter.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/record/mcap_reader.hpp"
 
-namespace armature::library {
+namespace armature::controllers {
 
 using namespace std::chrono_literals;
 using component::Component;
@@ -96,7 +96,7 @@ class Reporting : public ::testing::Test {
   }
 
   void add_reporter(const std::string& name) {
-    blueprint.add<Reporter>(name, exec::Activity::periodic(50ms));
+    blueprint.add<general::Reporter>(name, exec::Activity::periodic(50ms));
   }
   template <typename T>
   void set(const std::string& property, const T& value, const std::string& reporter = "Reporter") {
@@ -155,4 +155,4 @@ T value(const McapRecording& recording, const record::RecordedSample& sample) {
   return read;
 }
 
-}  // namespace armature::library
+}  // namespace armature::controllers

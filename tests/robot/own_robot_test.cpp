@@ -11,8 +11,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/controllers/base/limited_effort.hpp"
 #include "armature/deploy/deployment.hpp"
-#include "armature/library/base/limited_effort.hpp"
 
 namespace armature {
 namespace {

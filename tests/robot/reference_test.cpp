@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operator's Reference before a generator, as deployments connect them.
-#include "armature/library/reference/reference.hpp"
+#include "armature/controllers/reference/reference.hpp"
 
 #include <chrono>
 #include <memory>

@@ -14,12 +14,12 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/author.hpp"
-#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/control/transmission.hpp"
-#include "armature/library/base/actuator.hpp"
-#include "armature/library/base/sensor.hpp"
-#include "robots/wam/arm_simulation.hpp"
-#include "robots/wam/puck_torque.hpp"
+#include "armature/controllers/base/actuator.hpp"
+#include "armature/controllers/base/sensor.hpp"
+#include "robots/wam/emulator/arm_simulation.hpp"
+#include "robots/wam/protocol/puck_torque.hpp"
 
 namespace armature::wam {
 
@@ -50,7 +50,7 @@ class PuckTorques {
 /// The arm and its encoders. With `rounds` it measures and drives in the steps of pucks, as the
 /// driver does. A torque acts a millisecond after the Sample that it answers, as on a bus, and each
 /// motor's is limited as its puck limits it. Braked until the first torques come.
-class BenchArm final : public library::Sensor {
+class BenchArm final : public controllers::Sensor {
  public:
   using Sensor::Sensor;
   static constexpr base::Duration kDelay = std::chrono::milliseconds(1);
@@ -143,7 +143,7 @@ class BenchArm final : public library::Sensor {
 };
 
 /// Hands torques on to the arm.
-class BenchActuator final : public library::Actuator {
+class BenchActuator final : public controllers::Actuator {
  public:
   using Actuator::Actuator;
 

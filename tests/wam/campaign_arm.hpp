@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/deployment.hpp"
-#include "robots/wam/emulator_command.hpp"
+#include "robots/wam/emulator/emulator_command.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {

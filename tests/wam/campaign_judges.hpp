@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "armature/can/virtual_bus.hpp"
-#include "armature/control/inverse_dynamics.hpp"
+#include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/control/transmission.hpp"
-#include "robots/wam/puck_protocol.hpp"
+#include "robots/wam/protocol/puck_protocol.hpp"
 #include "tests/wam/campaign_arm.hpp"
 
 namespace armature::wam {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/browser/internal/command_texts.hpp"
 
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 
 namespace armature::browser::internal {
 

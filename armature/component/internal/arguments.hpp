@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "armature/component/signature.hpp"
+#include "armature/component/operations/signature.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component::internal {

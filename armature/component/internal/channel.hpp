@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "armature/component/input_port.hpp"
 #include "armature/component/lanes.hpp"
-#include "armature/component/port.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/port.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/lane.hpp"
 

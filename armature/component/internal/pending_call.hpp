@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "armature/component/call_record.hpp"
 #include "armature/component/internal/arguments.hpp"
-#include "armature/component/operation.hpp"
+#include "armature/component/operations/call_record.hpp"
+#include "armature/component/operations/operation.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component::internal {

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/component/input_port.hpp"
 #include "armature/component/internal/channel.hpp"
 #include "armature/component/internal/sample_form.hpp"
-#include "armature/component/output_port.hpp"
-#include "armature/component/port.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
+#include "armature/component/ports/port.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/rt/inbox.hpp"
 

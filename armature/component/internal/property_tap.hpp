@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/component/property.hpp"
+#include "armature/component/properties/property.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/rt/ring.hpp"
 

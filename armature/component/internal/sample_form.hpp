@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "armature/base/time.hpp"
-#include "armature/component/port.hpp"
+#include "armature/component/ports/port.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::component::internal {

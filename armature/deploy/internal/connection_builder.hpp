@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/component/input_port.hpp"
-#include "armature/component/output_port.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
 #include "armature/document/document.hpp"
 #include "armature/exec/blueprint.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
-#include "armature/component/requirement.hpp"
+#include "armature/component/operations/requirement.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/component/command.hpp"
-#include "armature/component/command_ticket.hpp"
+#include "armature/component/operations/command.hpp"
+#include "armature/component/operations/command_ticket.hpp"
 
 namespace armature::exec::internal {
 

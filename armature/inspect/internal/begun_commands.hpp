@@ -6,7 +6,7 @@
 #include <deque>
 #include <string>
 
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 
 namespace armature::inspect::internal {
 

@@ -6,7 +6,7 @@
 
 #include <lua5.4/lua.hpp>
 
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
 
 namespace armature::lua::internal {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "armature/component/component.hpp"
-#include "armature/component/event_tap.hpp"
+#include "armature/component/events/event_tap.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/lua/internal/values.hpp"
 #include "armature/rt/entry_pool.hpp"

@@ -10,7 +10,7 @@
 
 #include <lua5.4/lua.hpp>
 
-#include "armature/component/event.hpp"
+#include "armature/component/events/event.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/types/type.hpp"

@@ -10,7 +10,7 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/state_machine.hpp"
+#include "armature/component/states/state_machine.hpp"
 #include "armature/component/trigger.hpp"
 #include "armature/lua/internal/events.hpp"
 #include "armature/lua/internal/machine_definition.hpp"

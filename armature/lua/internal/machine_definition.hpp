@@ -12,8 +12,8 @@
 #include <lua5.4/lua.hpp>
 
 #include "armature/base/time.hpp"
-#include "armature/component/event.hpp"
-#include "armature/component/machine_table.hpp"
+#include "armature/component/events/event.hpp"
+#include "armature/component/states/machine_table.hpp"
 
 namespace armature::lua::internal {
 

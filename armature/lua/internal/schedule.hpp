@@ -11,7 +11,7 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/lua/internal/events.hpp"
 #include "armature/lua/internal/sandbox.hpp"

@@ -3,7 +3,7 @@
 
 #include <lua5.4/lua.hpp>
 
-#include "armature/component/event.hpp"
+#include "armature/component/events/event.hpp"
 #include "armature/lua/internal/events.hpp"
 #include "armature/lua/internal/schedule.hpp"
 

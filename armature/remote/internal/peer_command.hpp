@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "armature/base/time.hpp"
-#include "armature/component/command.hpp"
+#include "armature/component/operations/command.hpp"
 #include "armature/ride/origin.hpp"
 
 namespace armature::remote::internal {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/base/seconds.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/port.hpp"
+#include "armature/component/ports/port.hpp"
 #include "armature/remote/internal/inspection.hpp"
 
 namespace armature::remote::internal {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/transport.hpp"
 
 namespace armature::ride::internal {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/answer.hpp"
 #include "armature/ride/internal/assembler.hpp"
 #include "armature/ride/internal/event_queue.hpp"

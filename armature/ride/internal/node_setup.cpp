@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/ride/internal/node_state.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 #include "armature/ride/internal/publisher.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/platform/poller.hpp"
+#include "armature/platform/sockets/poller.hpp"
 #include "armature/platform/thread.hpp"
 #include "armature/ride/internal/directory.hpp"
 #include "armature/ride/internal/entrance.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/ride/transport.hpp"
 #include "armature/tls/internal/openssl.hpp"
 #include "armature/tls/internal/reason.hpp"

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "armature/platform/stream_socket.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/tls/internal/openssl.hpp"
 
 namespace armature::tls::internal {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "robots/wam/puck_properties.hpp"
+#include "robots/wam/protocol/puck_properties.hpp"
 
 namespace armature::wam::internal {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "armature/base/seconds.hpp"
-#include "armature/control/holding_watch.hpp"
+#include "armature/control/arming/holding_watch.hpp"
 
 namespace armature::wam::internal {
 

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/controllers/axes_generator/axes_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include "armature/control/per_joint.hpp"
+#include "armature/controllers/base/of_this_run.hpp"
+#include "armature/controllers/base/reason_text.hpp"
+
+namespace armature::controllers {
+namespace {
+
+/// The number of `axis`, where there may be one for all.
+double limit(const std::vector<double>& numbers, std::size_t axis) {
+  return numbers.size() == 1 ? numbers.front() : numbers[axis];
+}
+
+}  // namespace
+
+using component::Outcome;
+using component::Reason;
+using control::Refusal;
+using control::Trajectory;
+
+Outcome AxesGeneratorPos::set_up() {
+  const auto axes = static_cast<std::size_t>(axes_.get());
+  struct Limit {
+    const component::Property<Vector>& numbers;
+    double Trajectory::Axis::*field;
+  };
+  const Limit limits[] = {{max_velocity_, &Trajectory::Axis::max_velocity},
+                          {max_acceleration_, &Trajectory::Axis::max_acceleration},
+                          {lower_, &Trajectory::Axis::lower},
+                          {upper_, &Trajectory::Axis::upper}};
+  Trajectory::Config config{std::vector<Trajectory::Axis>(axes)};
+  for (const auto& [numbers, field] : limits) {
+    const auto each = control::per_joint(numbers.name(), numbers.get(), axes);
+    if (!each) return component::refused(each.error());
+    for (std::size_t i = 0; i < axes; ++i) config.axes[i].*field = each.value()[i];
+  }
+  auto made = Trajectory::make(config);
+  if (!made) return component::refused(made.error());
+  trajectory_ = std::move(made.value());
+  numbers_.assign(axes, 0.0);
+  peers_limit_.resize(axes);
+  changes_.take();
+  return component::accepted();
+}
+
+Outcome AxesGeneratorPos::on_start() {
+  position_known_ = false;
+  started_ = time();
+  armed_ = false;
+  return changes_.take() ? set_up() : component::accepted();
+}
+
+void AxesGeneratorPos::on_update() {
+  if (!knows_position()) return;
+  trajectory_->step(time() - stepped_at_);
+  stepped_at_ = time();
+  if (move_to_.active() && trajectory_->under_way()) {
+    move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
+  }
+  write_desired();
+}
+
+/// From the first value that was measured since the start.
+bool AxesGeneratorPos::knows_position() {
+  if (position_known_) return true;
+  const auto measured = measured_.read();
+  if (!is_of_this_run(measured, started_)) return false;
+  const Trajectory::Answer answer = trajectory_->hold(measured.value);
+  stepped_at_ = time();
+  position_known_ = answer.accepted();
+  if (!position_known_) refuse_measured(answer.axis);
+  return position_known_;
+}
+
+Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, double time_s) {
+  if (!knows_position()) return component::refused(control::to_text(Refusal::kNoPosition));
+  if (!may_move()) return component::refused("the robot is not armed: arm first");
+  const Trajectory::Answer answer =
+      trajectory_->move_to(positions, time_s, limit_used_.bound() ? &peers_limit_ : nullptr);
+  if (!answer.accepted()) return component::refused(refusal_of(answer, positions, time_s));
+  stepped_at_ = time();
+  return component::accepted();
+}
+
+void AxesGeneratorPos::reset_position() {
+  if (state() != component::State::kRunning || !knows_position()) return;
+  begin_anew(trajectory_->stop_from(measured_.read().value, trajectory_->velocities()),
+             "resetPosition stopped the motion");
+}
+
+void AxesGeneratorPos::settle() {
+  if (!knows_position()) return;
+  begin_anew(trajectory_->hold(measured_.read().value), "the robot was disarmed or armed");
+}
+
+void AxesGeneratorPos::on_disarm() {
+  armed_ = false;
+  settle();
+}
+
+/// Where nobody arms, everything may move. An Arming that lives elsewhere is believed its events.
+bool AxesGeneratorPos::may_move() {
+  if (is_armed_.bound()) {
+    const auto answer = is_armed_();
+    if (answer.status != component::CallStatus::kWouldWait) return answer && answer.value;
+  }
+  if (!arm_.bound()) return true;
+  return armed_ && arm_.source()->owner().state() == component::State::kRunning;
+}
+
+void AxesGeneratorPos::PeersLimit::resize(std::size_t axes) {
+  positions_.assign(axes, 0.0);
+  velocities_.assign(axes, 0.0);
+}
+
+/// A peer that does not answer allows nothing.
+double AxesGeneratorPos::PeersLimit::used(std::span<const double> positions,
+                                          std::span<const double> velocities) {
+  std::ranges::copy(positions, positions_.begin());
+  std::ranges::copy(velocities, velocities_.begin());
+  const auto answer = generator_.limit_used_(positions_, velocities_);
+  const bool usable = answer && std::isfinite(answer.value);
+  return usable ? answer.value : std::numeric_limits<double>::infinity();
+}
+
+/// @param answer  of the trajectory, which begins where the axes are
+/// @param why     the motion before ended
+void AxesGeneratorPos::begin_anew(const Trajectory::Answer& answer, std::string_view why) {
+  stepped_at_ = time();
+  if (move_to_.active()) move_to_.fail(why);
+  if (!answer.accepted()) refuse_measured(answer.axis);
+}
+
+void AxesGeneratorPos::stop() {
+  trajectory_->stop();
+  if (move_to_.active()) move_to_.fail("stopped");
+}
+
+void AxesGeneratorPos::refuse_measured(std::size_t axis) {
+  Reason why("nAxesSensorPosition of axis ");
+  append_number(why, static_cast<double>(axis + 1)).append(" is ");
+  append_number(why, measured_.read().value[axis]).append(", expected a finite number");
+  fault(why);
+}
+
+Reason AxesGeneratorPos::refusal_of(const Trajectory::Answer& answer,
+                                    const std::vector<double>& positions, double time_s) const {
+  Reason why;
+  if (answer.axis != Trajectory::kNoAxis) {
+    why.append("axis ");
+    append_number(why, static_cast<double>(answer.axis + 1)).append(": ");
+  }
+  why.append(control::to_text(answer.refusal));
+  switch (answer.refusal) {
+    case Refusal::kWrongNumber:
+      why.append(": expected ");
+      append_number(why, axes_).append(", found ");
+      append_number(why, static_cast<double>(positions.size()));
+      break;
+    case Refusal::kOutsideLimits:
+      why.append(": ");
+      append_number(why, positions[answer.axis]).append(", expected ");
+      append_number(why, limit(lower_, answer.axis)).append(" to ");
+      append_number(why, limit(upper_, answer.axis));
+      break;
+    case Refusal::kNotFinite:
+      why.append(answer.axis == Trajectory::kNoAxis ? ": the time is " : ": ");
+      append_number(why, answer.axis == Trajectory::kNoAxis ? time_s : positions[answer.axis]);
+      break;
+    case Refusal::kTooFast:
+      why.append(": it takes ");
+      append_number(why, answer.shortest_s).append(" s at least, found ");
+      append_number(why, time_s).append(" s (0 asks for the shortest)");
+      break;
+    case Refusal::kNegativeTime:
+      why.append(": ");
+      append_number(why, time_s);
+      break;
+    default:
+      break;
+  }
+  return why;
+}
+
+void AxesGeneratorPos::write_desired() {
+  const auto write = [this](component::OutputPort<Vector>& port, std::span<const double> numbers) {
+    std::copy(numbers.begin(), numbers.end(), numbers_.begin());
+    port.write(numbers_);
+  };
+  write(position_, trajectory_->positions());
+  write(velocity_, trajectory_->velocities());
+  write(acceleration_, trajectory_->accelerations());
+}
+
+}  // namespace armature::controllers

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/control/trajectory.hpp"
+#include "armature/controllers/axes_generator/axes_check.hpp"
+#include "armature/controllers/base/changes.hpp"
+#include "armature/controllers/base/max_age.hpp"
+
+namespace armature::controllers {
+
+/// Moves N axes from rest to rest with trapezoidal velocities that begin and end together (paper 2,
+/// section 4.1, nAxesGeneratorPos): control::Trajectory. For a periodic activity; writes the three
+/// desired vectors in each cycle.
+///
+/// After a start, also one behind a fault, the desired position is the measured one, and nothing
+/// moves before `moveTo`. Refused with the reason, and nothing changes: another number of
+/// positions, a target outside the limits, a number that is not finite, a negative time, one in
+/// which the limits do not allow the motion, a motion or stop under way, a robot that is not armed
+/// (if Arming is a peer), and a moveTo before anything was measured. A peer that offers
+/// `motionLimitUsed` limits motions too, such as by the speed of the robot's tip. Cancelling a
+/// motion is a smooth deceleration to rest, where it then holds. So is Stop; Settle and Disarm make
+/// the measured position the desired one (see Arming). Limits are one number for each axis, or one
+/// for all.
+/// @rt nonblocking, no allocation, O(axes)
+class AxesGeneratorPos final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_start() override;
+  void on_update() override;
+
+  component::Outcome set_up();
+  bool knows_position();
+  component::Outcome begin_move(const std::vector<double>& positions, double time);
+  bool arrived() { return !trajectory_->under_way(); }
+  void brake() { trajectory_->stop(); }
+  void reset_position();
+  void settle();
+  void on_arm() { armed_ = true; }
+  void on_disarm();
+  bool may_move();
+  void begin_anew(const control::Trajectory::Answer& answer, std::string_view why);
+  void stop();
+  component::Reason refusal_of(const control::Trajectory::Answer& answer,
+                               const std::vector<double>& positions, double time) const;
+  void refuse_measured(std::size_t axis);
+  void write_desired();
+
+  using Vector = std::vector<double>;
+
+  /// What a peer says of it.
+  class PeersLimit final : public control::MotionLimit {
+   public:
+    explicit PeersLimit(AxesGeneratorPos& generator) : generator_(generator) {}
+    void resize(std::size_t axes);
+    double used(std::span<const double> positions, std::span<const double> velocities) override;
+
+   private:
+    AxesGeneratorPos& generator_;
+    Vector positions_;
+    Vector velocities_;
+  };
+  component::Property<int> axes_{
+      this, "num_axes", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+  component::Property<Vector> max_velocity_{
+      this, "max_vel", {}, "largest velocity of each axis, > 0", "rad/s", component::mandatory};
+  component::Property<Vector> max_acceleration_{this,      "max_acc",
+                                                {},        "largest acceleration of each axis, > 0",
+                                                "rad/s^2", component::mandatory};
+  component::Property<Vector> lower_{
+      this, "lower", {}, "smallest position of each axis", "rad", component::mandatory};
+  component::Property<Vector> upper_{
+      this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
+  component::InputPort<Vector> measured_{
+      this,  "nAxesSensorPosition",     "measured position of each axis",
+      "rad", component::size_of(axes_), component::max_age(kMaxAge)};
+  component::OutputPort<Vector> position_{this, "nAxesDesiredPosition",
+                                          "desired position of each axis", "rad",
+                                          component::size_of(axes_)};
+  component::OutputPort<Vector> velocity_{this, "nAxesDesiredVelocity",
+                                          "desired velocity of each axis", "rad/s",
+                                          component::size_of(axes_)};
+  component::OutputPort<Vector> acceleration_{this, "nAxesDesiredAcceleration",
+                                              "desired acceleration of each axis", "rad/s^2",
+                                              component::size_of(axes_)};
+  component::Command<const Vector&, double> move_to_{
+      this,
+      "moveTo",
+      component::serve<&AxesGeneratorPos::begin_move>,
+      "moves all axes to positions in a time; 0: as fast as the limits allow",
+      component::args("positions [rad]", "time [s]"),
+      component::done_when<&AxesGeneratorPos::arrived>,
+      component::cancelled_by<&AxesGeneratorPos::brake>};
+  component::Operation<void()> reset_position_{
+      this, "resetPosition", component::serve<&AxesGeneratorPos::reset_position>,
+      "desired := measured; a motion is braked smoothly from there, and its moveTo fails",
+      component::in_own_thread};
+  component::EventHandler<> settle_{this,
+                                    "Settle",
+                                    component::serve<&AxesGeneratorPos::settle>,
+                                    "desired := measured, at rest",
+                                    component::optional,
+                                    component::leads_to_nothing()};
+  component::EventHandler<> disarm_{this,
+                                    "Disarm",
+                                    component::serve<&AxesGeneratorPos::on_disarm>,
+                                    "desired := measured, at rest; nothing moves any more",
+                                    component::optional,
+                                    component::leads_to_nothing()};
+  component::EventHandler<> arm_{this,
+                                 "Arm",
+                                 component::serve<&AxesGeneratorPos::on_arm>,
+                                 "motions may begin",
+                                 component::optional,
+                                 component::leads_to_nothing()};
+  component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
+                                               component::optional};
+  component::OperationCaller<double(const Vector&, const Vector&)> limit_used_{
+      this, "motionLimitUsed", "the share that positions and velocities use of a limit",
+      component::optional};
+  component::EventHandler<> stop_{this,
+                                  "Stop",
+                                  component::serve<&AxesGeneratorPos::stop>,
+                                  "brakes smoothly, and holds where it comes to rest",
+                                  component::optional,
+                                  component::leads_to_nothing()};
+  AxesCheck check_{this, axes_, {position_, lower_, upper_, max_velocity_, max_acceleration_}};
+  Changes changes_{axes_, max_velocity_, max_acceleration_, lower_, upper_};
+
+  std::optional<control::Trajectory> trajectory_;
+  PeersLimit peers_limit_{*this};
+  base::Time started_{};
+  base::Time stepped_at_{};
+  bool position_known_ = false;
+  bool armed_ = false;
+  Vector numbers_;
+};
+
+}  // namespace armature::controllers

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/controllers/base/max_age.hpp"
+
+namespace armature::controllers {
+
+/// The actuators of a robot with N joints (paper 1, figure 4): to be extended by what drives them.
+class Actuator : public component::Component {
+ public:
+  using Component::Component;
+
+ protected:
+  /// A sampling period begins; by default that is noted, for `take_sample`.
+  /// Runs in real time: nonblocking, no allocation.
+  /// @thread the component's own
+  virtual void sample_now() {
+    if (std::exchange(sampled_, true)) samples_without_act_.assign(samples_without_act_ + 1);
+  }
+  /// Drives the joints.
+  /// @param act  one control signal per joint [V]
+  /// Runs in real time: nonblocking, no allocation.
+  /// @thread the component's own
+  virtual void actuate(const std::vector<double>& act) = 0;
+
+  /// Whether a sampling period began since this was asked last.
+  bool take_sample() { return std::exchange(sampled_, false); }
+
+  component::Outcome on_start() override {
+    sampled_ = false;
+    samples_without_act_.assign(0);
+    return component::accepted();
+  }
+
+  component::Property<int> joints_{
+      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+
+ private:
+  component::InputPort<std::vector<double>> act_{this,
+                                                 "act",
+                                                 "control signals [u1..uN]",
+                                                 "V",
+                                                 component::on_data<&Actuator::actuate>,
+                                                 component::size_of(joints_),
+                                                 component::max_age(kMaxAge)};
+  component::EventHandler<> sample_{this, "Sample", component::serve<&Actuator::sample_now>,
+                                    "a sampling period begins"};
+  component::Attribute<int> samples_without_act_{
+      this, "samples_without_act", 0,
+      "sampling periods since the start in which nothing was driven"};
+  bool sampled_ = false;
+};
+
+}  // namespace armature::controllers

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "armature/component/author.hpp"
+#include "armature/component/operators_word.hpp"
+#include "armature/controllers/base/limited_effort.hpp"
+
+namespace armature::controllers {
+
+/// The hardware of one joint, as Joint uses it (paper 1, section 3.1): to be extended by a driver.
+///
+/// It takes only a LimitedEffort, which is what a joint's limiter has let through: nothing else can
+/// be connected to it. It switches on and opens its brake for a DrivePermit only, which is what an
+/// armed limiter gives; it switches off and brakes for everybody, as long as it is configured. The
+/// functions answer false if the hardware did not take or do it, and each runs in real time:
+/// nonblocking but for the wait that the hardware's answer is worth, no allocation. Whenever it
+/// stops or faults, also because the joint did: effort 0, brake applied, actuator off.
+class JointHardware : public component::Component {
+ public:
+  using Component::Component;
+
+ protected:
+  virtual bool actuator_on() = 0;
+  virtual bool actuator_off() = 0;
+  /// @param effort  to apply from now on [V]
+  virtual bool actuator_set(control::LimitedEffort effort) = 0;
+  /// Reads the sensors and writes `displacement_` and `index_`.
+  virtual bool sensor_read() = 0;
+  virtual bool brake_apply() = 0;
+  virtual bool brake_release() = 0;
+
+  /// A sample was lost, and what moved meanwhile with it: where the joint is, is not known until
+  /// the operator has looked. It goes on if it is armed, and is not armed again before.
+  /// @rt nonblocking, no allocation
+  void lose_position() {
+    tell_exact(false);
+    position_confirmed_.withdraw();
+  }
+
+  /// That of the joint, from before it has the actuator switched on until after it is off: for
+  /// hardware that hands it on.
+  control::DrivePermit permit() const { return permit_; }
+
+  component::OutputPort<double> displacement_{
+      this, "DisplacementSensor", "of the motor's axis since the reading before", "rad"};
+  component::OutputPort<bool> index_{this, "IndexSensor", "the index switch is closed"};
+
+ private:
+  /// Uses up the operator's word, if it is needed.
+  bool position_known() {
+    tell_exact(is_exact_ || position_confirmed_.take());
+    return is_exact_;
+  }
+  void tell_exact(bool exact) {
+    is_exact_ = exact;
+    position_exact_.assign(exact);
+  }
+
+  /// Whatever it is that ends a run: a stop, a fault, an exception.
+  class Ending final : public component::Step {
+   public:
+    explicit Ending(JointHardware& hardware) : hardware_(hardware) {
+      hardware.add_step(*this, true);
+    }
+    void step() override {}
+    void halt(std::string_view /*reason*/) override {
+      hardware_.run(hardware_.context(), [this] { hardware_.make_safe(); });
+    }
+
+   private:
+    JointHardware& hardware_;
+  };
+
+  void make_safe() {
+    actuator_set({});
+    brake_apply();
+    switch_off();
+  }
+  bool switch_on(control::DrivePermit permit) {
+    permit_ = permit;
+    return permit && actuator_on();
+  }
+  bool switch_off() {
+    const bool off = actuator_off();
+    permit_ = {};
+    return off;
+  }
+  bool open_brake(control::DrivePermit permit) { return permit && brake_release(); }
+
+  void effort_arrived(control::LimitedEffort effort) { actuator_set(effort); }
+
+  component::InputPort<control::LimitedEffort> effort_{
+      this,
+      "VoltageActuator",
+      "to apply from now on",
+      "V",
+      component::on_data<&JointHardware::effort_arrived>,
+      component::leads_to_nothing()};
+  component::Operation<bool(control::DrivePermit)> actuator_on_{
+      this,
+      "actuatorOn",
+      component::serve<&JointHardware::switch_on>,
+      "switches the actuator on",
+      component::args("permit"),
+      component::in_own_thread};
+  component::Operation<bool()> actuator_off_{this,
+                                             "actuatorOff",
+                                             component::serve<&JointHardware::switch_off>,
+                                             "switches the actuator off",
+                                             component::in_own_thread,
+                                             component::in_any_state};
+  component::Operation<bool(control::LimitedEffort)> actuator_set_{
+      this,
+      "actuatorSet",
+      component::serve<&JointHardware::actuator_set>,
+      "applies an effort that a limiter let through",
+      component::args("effort [V]"),
+      component::in_own_thread};
+  component::Operation<bool()> sensor_read_{
+      this, "sensorRead", component::serve<&JointHardware::sensor_read>,
+      "reads the sensors and writes what they measured", component::in_own_thread};
+  component::Operation<bool()> position_known_{
+      this, "positionKnown", component::serve<&JointHardware::position_known>,
+      "nothing that moved was lost, or the operator has confirmed where the joint is",
+      component::in_own_thread};
+  bool is_exact_ = true;  ///< not the attribute, which tools may set
+  component::Attribute<bool> position_exact_{this, "position_exact", true,
+                                             "nothing that moved was lost"};
+  component::OperatorsWord position_confirmed_{
+      this, "position_confirmed",
+      "the operator has looked: the joint is where its Position says; counts for a sample that was "
+      "lost before"};
+  component::Operation<bool()> brake_apply_{this,
+                                            "brakeApply",
+                                            component::serve<&JointHardware::brake_apply>,
+                                            "applies the brake",
+                                            component::in_own_thread,
+                                            component::in_any_state};
+  component::Operation<bool(control::DrivePermit)> brake_release_{
+      this,
+      "brakeRelease",
+      component::serve<&JointHardware::open_brake>,
+      "releases the brake",
+      component::args("permit"),
+      component::in_own_thread};
+
+  control::DrivePermit permit_;
+  Ending ending_{*this};
+};
+
+}  // namespace armature::controllers

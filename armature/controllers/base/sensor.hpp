@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "armature/component/author.hpp"
+
+namespace armature::controllers {
+
+/// The sensors of a robot with N joints (paper 1, figure 4): to be extended by what reads them.
+class Sensor : public component::Component {
+ public:
+  using Component::Component;
+
+ protected:
+  /// A sampling period begins: reads the sensors, or has them read, and writes `sensor`.
+  /// Runs in real time: nonblocking, no allocation.
+  /// @thread the component's own
+  virtual void sample_now() = 0;
+
+  component::Property<int> joints_{
+      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+  component::OutputPort<std::vector<double>> sensor_{
+      this, "sensor",
+      "measured [q1..qN, d1..dN]: positions, then displacements since the sample before", "rad",
+      component::size_of(joints_, 2)};
+
+ private:
+  component::EventHandler<> sample_{this, "Sample", component::serve<&Sensor::sample_now>,
+                                    "a sampling period begins"};
+};
+
+}  // namespace armature::controllers

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "armature/component/author.hpp"
+#include "armature/control/arming/arming_sequence.hpp"
+#include "armature/control/arming/holding_watch.hpp"
+#include "armature/control/joint_limiter.hpp"
+#include "armature/controllers/base/changes.hpp"
+#include "armature/controllers/base/limited_effort.hpp"
+#include "armature/controllers/base/max_age.hpp"
+#include "armature/controllers/base/missing_answers.hpp"
+#include "armature/controllers/base/sample_watch.hpp"
+#include "armature/controllers/base/sampling_period.hpp"
+#include "armature/controllers/joint/joint_model.hpp"
+#include "armature/controllers/joint/joint_settings.hpp"
+
+namespace armature::controllers {
+
+/// A joint, independent of its hardware, which a peer represents (paper 1, section 3.1; what the
+/// peer offers is in JointHardware). Signs, ratio and offset are here, and so is the last step
+/// before the hardware: every effort passes a control::JointLimiter, and the hardware takes nothing
+/// else.
+///
+/// After a start, also one behind a fault, the joint is disarmed: motor off, brake applied, effort
+/// 0. Only Arm, an event of the component Arming, changes that, and only if the joint was measured
+/// just before. It is held before it is let go (control::ArmingSequence): the effort grows against
+/// the closed brake until it has settled, then the brake opens, and a joint that then moves by more
+/// than ArmingMotion is braked again and not armed. Without a brake the motor is switched on with
+/// the effort that holds. Disarm, a stop, a fault, data that is too old, motorOff and brakeApply
+/// disarm it. At Disarm a motor that turns is switched off when it has come to rest, after a second
+/// at the latest: with effort 0 it brakes itself, switched off it would coast.
+///
+/// Between Rest and Motion, events of Arming, the armed joint is to stand: beyond what the
+/// properties Holding... say it is braked, and faults (control::HoldingWatch).
+/// @rt nonblocking but for the hardware's answers, no allocation
+class Joint final : public component::Component, public DrivesJoints, public PassesSamples {
+ public:
+  using Component::Component;
+
+  std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
+                                         const component::Check& check) override;
+  std::vector<const component::InputPortBase*> samples_behind(
+      const component::OutputPortBase& /*output*/) const override {
+    return {&displacement_sensor_};
+  }
+
+ private:
+  static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
+
+  enum class Phase {
+    kDisarmed,
+    kTakingLoad,  ///< the brake is closed, or the motor off without one
+    kLetGo,       ///< and watched
+    kArmed,
+  };
+
+  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_start() override;
+  void on_stop() override { switch_off(); }
+
+  component::Outcome set_up();
+  control::JointLimiter::Config limits() const;
+  control::ArmingSequence::Config arming_steps() const;
+  control::HoldingWatch::Config holding() const;
+
+  // Measuring.
+  void on_sample();
+  bool is_in_time();
+  void on_displacement(double of_motor);
+  void on_index(bool closed) { index_.write(closed); }
+  bool sensor_read();
+  bool measured_lately() const;
+
+  // Driving.
+  void on_act();
+  bool apply(double voltage);
+
+  // Arming: joint_arming.cpp.
+  void on_arm();
+  void go_on_arming();
+  void let_go();
+  void be_armed();
+  void fail_to_arm(const component::Reason& why);
+  component::Reason not_held() const;
+  component::Reason moved_before() const;
+  component::Reason never_settled() const;
+
+  // Standing: joint_arming.cpp.
+  void watch();
+  void brake_because(const control::HoldingWatch::Finding& finding);
+  void on_rest();
+  void on_motion() { watch_->move(); }
+  void note_sinking(double displacement);
+
+  // Disarming: joint_arming.cpp.
+  bool disarm();
+  bool brake_at_once();
+  bool switch_off();
+  bool cut_power();
+  void cut_power_at_rest();
+  bool motor_on(control::DrivePermit permit) {
+    return limiter_->armed() && succeeds(actuator_on_, permit);
+  }
+  bool brake_apply() { return disarm() && brake_; }
+  bool brake_release(control::DrivePermit permit);
+  template <typename... Arguments>
+  static bool succeeds(component::OperationCaller<bool(Arguments...)>& call,
+                       Arguments... arguments) {
+    const component::CallResult<bool> answer = call(arguments...);
+    return answer.status == component::CallStatus::kDone && answer.value;
+  }
+
+  component::Property<std::string> peer_name_{
+      this, "PeerName", "", "the component of the joint's hardware", "", component::mandatory};
+  component::Property<bool> brake_{this, "Brake", false, "the joint has a brake"};
+  component::Property<bool> sampler_{this, "Sampler", true, "follows the events Sample and Act"};
+
+  JointProperties settings_{this};
+  SamplingPeriod period_{this};
+
+  JointModel model_{this, settings_};
+
+  component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
+                                                    component::from(peer_name_)};
+  component::OperationCaller<bool()> position_known_{
+      this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
+      component::optional};
+  component::OperationCaller<bool(control::DrivePermit)> actuator_on_{
+      this, "actuatorOn", "switches the actuator on", component::from(peer_name_)};
+  component::OperationCaller<bool()> actuator_off_{this, "actuatorOff", "switches the actuator off",
+                                                   component::from(peer_name_)};
+  component::OperationCaller<bool()> apply_brake_{this, "brakeApply", "applies the brake",
+                                                  component::from(peer_name_),
+                                                  component::only_if(brake_)};
+  component::OperationCaller<bool(control::DrivePermit)> release_brake_{
+      this, "brakeRelease", "releases the brake", component::from(peer_name_),
+      component::only_if(brake_)};
+  component::EventHandler<> sample_handler_{
+      this,
+      "Sample",
+      component::serve<&Joint::on_sample>,
+      "reads the sensors",
+      component::only_if(sampler_),
+      component::leads_to("Displacement", "Position", "Index")};
+  component::EventHandler<> act_handler_{this,
+                                         "Act",
+                                         component::serve<&Joint::on_act>,
+                                         "applies Voltage",
+                                         component::only_if(sampler_),
+                                         component::leads_to("VoltageActuator")};
+  component::EventHandler<> arm_handler_{this, "Arm", component::serve<&Joint::on_arm>,
+                                         "held by the motor, then let go",
+                                         component::leads_to("Armed", "VoltageActuator")};
+  component::EventHandler<> disarm_handler_{this, "Disarm", component::serve<&Joint::disarm>,
+                                            "effort 0, brake applied, motor off",
+                                            component::leads_to("Armed", "VoltageActuator")};
+  component::EventHandler<> rest_handler_{this,
+                                          "Rest",
+                                          component::serve<&Joint::on_rest>,
+                                          "the armed joint is to stand from now on",
+                                          component::optional,
+                                          component::leads_to_nothing()};
+  component::EventHandler<> motion_handler_{this,
+                                            "Motion",
+                                            component::serve<&Joint::on_motion>,
+                                            "it may move from now on",
+                                            component::optional,
+                                            component::leads_to_nothing()};
+  component::OperationCaller<void(const ComponentName&, const component::Reason&)> not_armed_{
+      this, "notArmed", "says why a joint does not arm", component::optional};
+
+  component::InputPort<double> displacement_sensor_{
+      this,
+      "DisplacementSensor",
+      "of the motor's axis",
+      "rad",
+      component::on_data<&Joint::on_displacement>,
+      component::leads_to("Displacement", "Position", "Armed", "VoltageActuator")};
+  component::InputPort<bool> index_sensor_{this,
+                                           "IndexSensor",
+                                           "the index switch is closed",
+                                           "",
+                                           component::on_data<&Joint::on_index>,
+                                           component::leads_to("Index")};
+  component::InputPort<double> voltage_{this,
+                                        "Voltage",
+                                        "to apply at Act; may stay open without Sampler",
+                                        "V",
+                                        component::max_age(kMaxAge),
+                                        component::may_stay_open};
+  component::OutputPort<control::LimitedEffort> voltage_actuator_{this, "VoltageActuator",
+                                                                  "for the hardware", "V"};
+  component::OutputPort<double> displacement_{this, "Displacement", "since the sample before",
+                                              "rad"};
+  component::OutputPort<double> position_{this, "Position", "of the joint", "rad"};
+  component::OutputPort<bool> index_{this, "Index", "the index switch is closed"};
+  component::OutputPort<bool> armed_{this, "Armed", "efforts are passed"};
+
+  component::Operation<bool(control::DrivePermit)> motor_on_{this,
+                                                             "motorOn",
+                                                             component::serve<&Joint::motor_on>,
+                                                             "switches the motor on",
+                                                             component::args("permit"),
+                                                             component::in_own_thread};
+  component::Operation<bool()> motor_off_{this,
+                                          "motorOff",
+                                          component::serve<&Joint::switch_off>,
+                                          "disarms, and switches the motor off",
+                                          component::in_own_thread,
+                                          component::in_any_state};
+  component::Operation<bool(double)> motor_set_{
+      this,
+      "motorSet",
+      component::serve<&Joint::apply>,
+      "applies a voltage until the next; false if the limiter did not pass it as it is",
+      component::args("voltage [V]"),
+      component::in_own_thread};
+  component::Operation<bool()> read_sensor_{this, "sensorRead",
+                                            component::serve<&Joint::sensor_read>,
+                                            "has the sensors read", component::in_own_thread};
+  component::Operation<bool()> brake_apply_{this,
+                                            "brakeApply",
+                                            component::serve<&Joint::brake_apply>,
+                                            "disarms, and applies the brake; false without one",
+                                            component::in_own_thread,
+                                            component::in_any_state};
+  component::Operation<bool(control::DrivePermit)> brake_release_{
+      this,
+      "brakeRelease",
+      component::serve<&Joint::brake_release>,
+      "releases the brake; false without one, or while disarmed",
+      component::args("permit"),
+      component::in_own_thread};
+
+  component::Attribute<double> arming_moved_{
+      this, "arming_moved", 0.0, "by how much it moved when it was armed last, or failed to [rad]"};
+  component::Attribute<double> sunk_{
+      this, "sunk", 0.0, "by how much it moved since it was disarmed, against its brake [rad]"};
+  component::Attribute<int> clipped_{this, "clipped", 0,
+                                     "efforts since the configuration that the limiter changed"};
+
+  Changes changes_{settings_, period_.property()};
+  const component::Component* arming_ = nullptr;  ///< who lets it move, and could take that back
+  std::optional<control::JointLimiter> limiter_;
+  std::optional<control::ArmingSequence> sequence_;
+  std::optional<control::HoldingWatch> watch_;
+  Phase phase_ = Phase::kDisarmed;
+  double commanded_ = 0.0;  ///< last, whatever became of it
+  double effort_ = 0.0;     ///< sent last
+  bool passed_ = false;     ///< it is what was commanded
+  control::JointLimiter::Measured measured_;
+  SampleWatch intervals_;
+  base::Time started_{};
+  base::Time measured_at_{};
+  bool measured_since_start_ = false;
+  bool told_of_sinking_ = false;
+  bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
+  base::Time disarmed_at_{};
+  double sensor_ratio_ = 1.0;
+};
+
+}  // namespace armature::controllers

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lets a joint move, what watches it while it is to stand, and what stops it.
+#include <chrono>
+#include <cmath>
+
+#include "armature/base/seconds.hpp"
+#include "armature/controllers/base/reason_text.hpp"
+#include "armature/controllers/joint/joint.hpp"
+
+namespace armature::controllers {
+
+using component::Reason;
+using control::ArmingSequence;
+using control::HoldingWatch;
+
+namespace {
+
+/// How long a motor that is to be switched off may brake itself first.
+constexpr base::Duration kLongestBraking = std::chrono::seconds(1);
+
+/// A measured number as it is told: with four digits behind the point.
+double told(double number) { return std::round(number * 1e4) / 1e4; }
+
+}  // namespace
+
+// --- arming ----------------------------------------------------------------------------------
+
+void Joint::on_arm() {
+  if (phase_ != Phase::kDisarmed) return;
+  if (position_known_.bound() && !succeeds(position_known_)) {
+    return fail_to_arm(
+        "a sample of it was lost for good: look whether it is where its Position says, then set "
+        "position_confirmed of its hardware");
+  }
+  if (!measured_lately()) {
+    return fail_to_arm("it was not measured in this sampling period");
+  }
+  if (brake_ && !limiter_->arm(measured_)) {
+    return fail_to_arm("its position is no finite number");
+  }
+  off_at_rest_ = false;
+  effort_ = 0.0;
+  passed_ = false;
+  phase_ = Phase::kTakingLoad;
+  sequence_->begin(measured_.position, time());
+  if (brake_ && !succeeds(actuator_on_, limiter_->permit())) {
+    fail_to_arm("its hardware does not switch on");
+  }
+}
+
+/// Once a sample.
+void Joint::go_on_arming() {
+  const bool waits_for_motor = !brake_ && !sequence_->let_go();
+  const double effort = waits_for_motor ? commanded_ : effort_;
+  const bool affordable = std::abs(effort) < settings_->max_effort;
+  const auto next = sequence_->step({.position = measured_.position,
+                                     .effort = effort,
+                                     .caught_up = affordable && (passed_ || waits_for_motor)},
+                                    time());
+  arming_moved_.assign(sequence_->moved());
+  switch (next) {
+    case ArmingSequence::Next::kWait:
+      return;
+    case ArmingSequence::Next::kLetGo:
+      return let_go();
+    case ArmingSequence::Next::kDone:
+      return be_armed();
+    case ArmingSequence::Next::kMovedBefore:
+      return fail_to_arm(moved_before());
+    case ArmingSequence::Next::kNeverSettled:
+      return fail_to_arm(never_settled());
+    case ArmingSequence::Next::kNotHeld:
+      return fail_to_arm(not_held());
+  }
+}
+
+/// The effort that holds the joint is there: the brake opens, or the motor is switched on with it.
+void Joint::let_go() {
+  phase_ = Phase::kLetGo;
+  bool done = false;
+  if (brake_) {
+    limiter_->end_rate_limit();
+    done = succeeds(release_brake_, limiter_->permit());
+  } else if (limiter_->arm(measured_, commanded_)) {
+    apply(commanded_);
+    done = phase_ == Phase::kLetGo && succeeds(actuator_on_, limiter_->permit());
+  }
+  if (!done) fail_to_arm("its hardware does not switch on");
+}
+
+void Joint::be_armed() {
+  phase_ = Phase::kArmed;
+  watch_->move();
+  armed_.write(true);
+  log_info("armed");
+}
+
+void Joint::fail_to_arm(const Reason& why) {
+  if (phase_ != Phase::kDisarmed) disarm();
+  log_error("not armed: {}", why.view());
+  armed_.write(false);
+  if (not_armed_.bound()) static_cast<void>(not_armed_.send(ComponentName(name()), why));
+}
+
+Reason Joint::not_held() const {
+  Reason why("it moved by ");
+  append_number(why, told(sequence_->moved())).append(" rad when ");
+  why.append(brake_ ? "its brake opened at " : "its motor was switched on at ");
+  append_number(why, told(effort_)).append(" V (ArmingMotion: ");
+  append_number(why, settings_->arming_motion);
+  why.append(brake_ ? "), so it is braked again" : "), so it is off again");
+  return why.append(
+      "; have a model of its weight compute what holds it, support it, or mend its ActuatorSign");
+}
+
+Reason Joint::moved_before() const {
+  Reason why("it moved by ");
+  append_number(why, told(sequence_->moved())).append(" rad ");
+  why.append(brake_ ? "against its closed brake" : "before its motor was on");
+  append_number(why.append(" (ArmingMotion: "), settings_->arming_motion);
+  return why.append("), expected that it rests");
+}
+
+Reason Joint::never_settled() const {
+  Reason why("what is to hold it did not settle: ");
+  append_number(why, told(brake_ ? effort_ : commanded_)).append(" V of ");
+  append_number(why, settings_->max_effort).append(" V at the position ");
+  append_number(why, told(measured_.position));
+  return why.append("; is its reference there, and within its limits?");
+}
+
+// --- standing --------------------------------------------------------------------------------
+
+void Joint::on_rest() {
+  if (phase_ == Phase::kArmed) watch_->stand();
+}
+
+void Joint::watch() {
+  const auto finding = watch_->step({.position = measured_.position,
+                                     .velocity = measured_.velocity,
+                                     .effort = effort_,
+                                     .driven = true});
+  if (finding.is_alarm()) brake_because(finding);
+}
+
+void Joint::brake_because(const HoldingWatch::Finding& finding) {
+  Reason why("is to stand, and ");
+  switch (finding.verdict) {
+    case HoldingWatch::Verdict::kMoved:
+      append_number(why.append("moved by "), told(finding.measured))
+          .append(" rad (HoldingMotion: ");
+      break;
+    case HoldingWatch::Verdict::kFast:
+      append_number(why.append("moves at "), told(finding.measured))
+          .append(" rad/s (HoldingVelocity: ");
+      break;
+    default:
+      append_number(why.append("its voltage changes its sign in a share of "),
+                    told(finding.measured))
+          .append(" of all samples (HoldingAlternation: ");
+      break;
+  }
+  append_number(why, finding.bound).append("): braked. Are its gains stable?");
+  switch_off();
+  fault(why);
+}
+
+/// A joint that nothing drives moves by its weight, or by a hand: there is nothing to brake it with
+/// but the brake that it has.
+void Joint::note_sinking(double displacement) {
+  if (!brake_) return;
+  sunk_.assign(sunk_ + displacement);
+  if (told_of_sinking_ || std::abs(sunk_) <= settings_->holding_motion) return;
+  told_of_sinking_ = true;
+  log_warning("sinks: it moved by {} rad since it was disarmed, although its brake is applied",
+              told(sunk_));
+}
+
+// --- disarming -------------------------------------------------------------------------------
+
+/// @return the brake is applied
+bool Joint::disarm() {
+  const bool turns = std::abs(measured_.velocity) > kRest;
+  if (limiter_->armed() && measured_lately() && turns) {
+    off_at_rest_ = true;
+    disarmed_at_ = time();
+  }
+  const bool braked = brake_at_once();
+  if (!off_at_rest_) cut_power();
+  return braked;
+}
+
+/// Effort 0 and brake.
+bool Joint::brake_at_once() {
+  const bool was_armed = phase_ == Phase::kArmed;
+  const bool was_driven = limiter_->armed();
+  if (phase_ != Phase::kDisarmed) {
+    sunk_.assign(0.0);
+    told_of_sinking_ = false;
+  }
+  phase_ = Phase::kDisarmed;
+  limiter_->disarm();
+  effort_ = 0.0;
+  voltage_actuator_.write({});
+  const bool braked = !brake_ || succeeds(apply_brake_);
+  armed_.write(false);
+  if (was_armed) log_info("disarmed");
+  if (was_driven && !braked) log_error("the hardware did not confirm that it brakes");
+  return braked;
+}
+
+/// The brake first, so that nothing falls between the two.
+bool Joint::switch_off() {
+  brake_at_once();
+  return cut_power();
+}
+
+bool Joint::cut_power() {
+  off_at_rest_ = false;
+  return succeeds(actuator_off_);
+}
+
+void Joint::cut_power_at_rest() {
+  const bool waited = time() - disarmed_at_ > kLongestBraking;
+  if (waited || std::abs(measured_.velocity) <= kRest) cut_power();
+}
+
+bool Joint::brake_release(control::DrivePermit permit) {
+  const bool held = phase_ == Phase::kLetGo || phase_ == Phase::kArmed;
+  return held && brake_ && succeeds(release_brake_, permit);
+}
+
+}  // namespace armature::controllers

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/controllers/joint/joint_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace armature::controllers {
+
+using control::JointLimits;
+
+namespace {
+
+/// [rad] that a limit may lie beyond the description's: a joint may rest at its stop.
+constexpr double kBeyond = 0.07;
+/// Of the description's velocity: commands are cut above what motions use.
+constexpr double kFaster = 1.25;
+constexpr double kRoundedFigures = 1.02;
+/// Of a gear that two properties tell.
+constexpr double kSameGear = 0.005;
+
+std::string versus(const std::string& what, double found, const std::string& unit,
+                   const std::string& whose, double expected) {
+  return what + " is " + figure(found) + " " + unit + ", " + whose + " " + figure(expected) + " " +
+         unit;
+}
+
+bool all_numbers(const JointSettings& limits) {
+  return !std::isnan(limits.lower) && !std::isnan(limits.upper) &&
+         !std::isnan(limits.max_velocity) && !std::isnan(limits.max_acceleration) &&
+         !std::isnan(limits.max_effort) && !std::isnan(limits.gear_ratio);
+}
+
+}  // namespace
+
+JointModel::JointModel(component::Component* owner, JointProperties& settings)
+    : Checked(owner),
+      owner_(*owner),
+      settings_(settings),
+      number_(owner, "RobotJoint", 0, "which joint of the Robot it is, from 1", "",
+              component::range(0, 100000)) {
+  settings.add_follower(*this);
+}
+
+/// A peer, or else the only one that there is, if the joint says that it is of one.
+const DescribesRobot* JointModel::robot(const component::Check& check) const {
+  for (const component::Component* const peer : check.peers()) {
+    if (const auto* robot = dynamic_cast<const DescribesRobot*>(peer)) return robot;
+  }
+  if (number_ == 0) return nullptr;
+  const DescribesRobot* only = nullptr;
+  for (const component::Component* const each : check.components()) {
+    const auto* const robot = dynamic_cast<const DescribesRobot*>(each);
+    if (robot == nullptr) continue;
+    if (only != nullptr) return nullptr;
+    only = robot;
+  }
+  return only;
+}
+
+void JointModel::check(component::Check& check) const {
+  known_.reset();
+  const JointSettings& limits = settings_.get();
+  if (!all_numbers(limits)) return check.error("one of its limits is no number");
+  const DescribesRobot* const model = robot(check);
+  if (number_ == 0 && model == nullptr) {
+    return check.warning(
+        "its limits and the gains of its controller are not checked against the robot: nobody says "
+        "what it moves and what its drive gives",
+        "add a component of the model Robot, and say with RobotJoint which joint of it this is");
+  }
+  if (model == nullptr)
+    return check.error("RobotJoint is given, but there is no Robot, or several");
+  auto found = find(*model);
+  if (!found) return check.error(found.error());
+  if (const std::string wrong = objection(found.value(), limits); !wrong.empty()) {
+    check.error(wrong);
+  }
+  known_ = std::move(found).value();
+}
+
+std::optional<DrivenJoint> JointModel::driven(const component::Check& check) const {
+  if (!known_ && number_ != 0) {
+    const DescribesRobot* const model = robot(check);
+    if (model == nullptr) return std::nullopt;
+    auto found = find(*model);
+    if (found) known_ = std::move(found).value();
+  }
+  return known_ ? std::optional(known_->joint) : std::nullopt;
+}
+
+base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) const {
+  if (number_ == 0) {
+    return base::Error{"RobotJoint is 0: say which joint of the Robot it is, from 1"};
+  }
+  const auto number = static_cast<std::size_t>(number_.get());
+  auto joint = robot.joint(number);
+  if (!joint) return base::Error{joint.error()};
+  Known known{.joint = std::move(joint).value(), .described = {}};
+  known.joint.name = owner_.name();
+  known.joint.most_effort = settings_->max_effort;
+  known.joint.lower = settings_->lower;
+  known.joint.upper = settings_->upper;
+  known.joint.max_velocity = settings_->max_velocity;
+  known.joint.max_acceleration = settings_->max_acceleration;
+  known.described = robot.limits(number);
+  return known;
+}
+
+std::string JointModel::objection(const Known& known, const JointSettings& limits) {
+  const JointLimits& described = known.described;
+  const double torque = known.joint.lightest.torque_per_effort * limits.max_effort;
+  const double braking =
+      known.joint.heaviest.inertia * limits.max_acceleration + known.joint.most_weight;
+  if (limits.lower < described.lower - kBeyond) {
+    return versus("PositionMin", limits.lower, "rad", "the joint ends at", described.lower);
+  }
+  if (limits.upper > described.upper + kBeyond) {
+    return versus("PositionMax", limits.upper, "rad", "the joint ends at", described.upper);
+  }
+  if (limits.max_velocity > kFaster * described.max_velocity) {
+    return versus("MaxVelocity", limits.max_velocity, "rad/s", "the description allows",
+                  described.max_velocity);
+  }
+  if (torque > kRoundedFigures * described.max_effort) {
+    return versus("MaxVoltage " + figure(limits.max_effort) + ": its torque", torque, "Nm",
+                  "the description allows", described.max_effort);
+  }
+  if (known.joint.most_weight > torque) {
+    return versus("MaxVoltage " + figure(limits.max_effort) + ": its torque", torque, "Nm",
+                  "the joint weighs up to", known.joint.most_weight);
+  }
+  if (braking > kRoundedFigures * torque) {
+    return versus("MaxAcceleration " + figure(limits.max_acceleration) + " rad/s^2: its torque",
+                  braking, "Nm", "MaxVoltage gives", torque);
+  }
+  return objection_to_gear(known, limits.gear_ratio);
+}
+
+/// What a joint takes for its position is what its drive moves: a sensor tells of the motor's axis.
+std::string JointModel::objection_to_gear(const Known& known, double gear_ratio) {
+  const double turns = known.joint.motor_turns;
+  if (turns == 0.0 || std::abs(gear_ratio * turns - 1.0) <= kSameGear) return {};
+  return "GearRatio is " + figure(gear_ratio) + ", expected " + figure(1.0 / turns) +
+         ": the Robot's motor_gear_ratio says " + figure(turns) +
+         " turns of the motor for one of "
+         "the joint, and DisplacementSensor is of the motor's axis";
+}
+
+std::string JointModel::objection_to(const component::PropertyBase& property,
+                                     const types::Value& value) const {
+  if (!known_) return {};
+  const JointSettings wanted = settings_.with(&property, value.data());
+  if (!all_numbers(wanted)) return "it is no number";
+  return objection(*known_, wanted);
+}
+
+}  // namespace armature::controllers

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "armature/component/author.hpp"
+#include "armature/control/joint_limits.hpp"
+#include "armature/controllers/base/driven_joint.hpp"
+#include "armature/controllers/joint/joint_settings.hpp"
+
+namespace armature::controllers {
+
+/// What a Joint is in its robot: checks its limits and its gear against what a Robot of the
+/// deployment says of links and drives, and tells whoever controls the joint what it drives.
+class JointModel final : public component::Checked, public component::PropertyFollower {
+ public:
+  JointModel(component::Component* owner, JointProperties& settings);
+
+  void check(component::Check& check) const override;
+
+  /// Nothing if no Robot says what it is.
+  /// @thread configuration only
+  std::optional<DrivenJoint> driven(const component::Check& check) const;
+
+  // For the properties.
+  void follow() override {}
+  std::string objection() const override { return {}; }
+  /// What the check would have said, had the property had this value.
+  std::string objection_to(const component::PropertyBase& property,
+                           const types::Value& value) const override;
+
+ private:
+  /// As the check found them.
+  struct Known {
+    DrivenJoint joint;
+    control::JointLimits described;
+  };
+
+  const DescribesRobot* robot(const component::Check& check) const;
+  base::Result<Known> find(const DescribesRobot& robot) const;
+  static std::string objection(const Known& known, const JointSettings& limits);
+  static std::string objection_to_gear(const Known& known, double gear_ratio);
+
+  component::Component& owner_;
+  JointProperties& settings_;
+  component::Property<int> number_;
+  mutable std::optional<Known> known_;
+};
+
+}  // namespace armature::controllers

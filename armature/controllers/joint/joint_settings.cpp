@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/controllers/joint/joint_settings.hpp"
+
+namespace armature::controllers {
+
+using component::mandatory;
+using component::member;
+using component::range;
+
+JointProperties::JointProperties(component::Component* owner)
+    : Properties(
+          owner, {},
+          member(&JointSettings::actuator_sign, "ActuatorSign",
+                 "-1 if a positive voltage moves the joint backwards"),
+          member(&JointSettings::sensor_sign, "SensorSign", "-1 if the sensor counts backwards"),
+          member(&JointSettings::gear_ratio, "GearRatio",
+                 "motion of the joint per motion of its sensor", "", mandatory),
+          member(&JointSettings::initial_position, "InitialPos",
+                 "where the joint is at the first start", "rad"),
+          member(&JointSettings::lower, "PositionMin", "nothing drives the joint beyond", "rad",
+                 mandatory),
+          member(&JointSettings::upper, "PositionMax", "nothing drives the joint beyond", "rad",
+                 mandatory),
+          member(&JointSettings::max_velocity, "MaxVelocity", "nothing drives it on at more",
+                 "rad/s", mandatory),
+          member(&JointSettings::max_acceleration, "MaxAcceleration",
+                 "with which it can brake, before its limits, too", "rad/s^2", mandatory),
+          member(&JointSettings::max_effort, "MaxVoltage", "the most that is applied", "V",
+                 mandatory),
+          member(&JointSettings::arming_time, "ArmingTime",
+                 "for which the voltage may only grow slowly after arming", "s", range(0.0, 60.0)),
+          member(&JointSettings::arming_motion, "ArmingMotion",
+                 "a joint that moves more when it is armed is braked again, and not armed", "rad",
+                 range(1e-6, 1.0)),
+          member(&JointSettings::holding_motion, "HoldingMotion",
+                 "a joint that is to stand and moves farther is braked, and faults", "rad",
+                 range(1e-6, 1e3)),
+          member(&JointSettings::holding_velocity, "HoldingVelocity",
+                 "a joint that is to stand and is faster in three samples is braked, and faults",
+                 "rad/s", range(1e-6, 1e3)),
+          member(&JointSettings::holding_alternation, "HoldingAlternation",
+                 "largest share of samples in which the effort that holds it changes its sign; 1: "
+                 "any",
+                 "", range(0.01, 1.0))) {}
+
+}  // namespace armature::controllers

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "armature/component/author.hpp"
+
+namespace armature::controllers {
+
+/// What a Joint is told of itself. Positions in rad, of the joint; efforts are voltages.
+struct JointSettings {
+  // Of the hardware; paper 1, section 3.1.
+  double actuator_sign = 1.0;
+  double sensor_sign = 1.0;
+  double gear_ratio = 1.0;
+  double initial_position = 0.0;
+
+  // Of the limiter.
+  double lower = 0.0;
+  double upper = 0.0;
+  double max_velocity = 0.0;
+  double max_acceleration = 0.0;
+  double max_effort = 0.0;
+
+  // Of arming.
+  double arming_time = 1.0;
+  double arming_motion = 0.01;
+
+  // Of the watch over the joint while it is to stand.
+  double holding_motion = 0.1;
+  double holding_velocity = 0.5;
+  double holding_alternation = 0.4;
+};
+
+/// They are the properties of a Joint.
+class JointProperties final : public component::Properties<JointSettings> {
+ public:
+  explicit JointProperties(component::Component* owner);
+};
+
+}  // namespace armature::controllers

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/controllers/joint/joint.hpp"
+
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/controllers/internal/test_joint.hpp"
+
+namespace armature::controllers {
+namespace {
+
+using namespace std::chrono_literals;
+using component::State;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST_F(JointTest, ReadsItsHardwareAtSample) {
+  start();
+  joint.advance(10ms);
+  joint.raise("Sample");
+  EXPECT_THAT(calls, ElementsAre("sensorRead"));
+}
+
+TEST_F(JointTest, PositionIsTheInitialOneAndAllDisplacementsInTheUnitsOfTheJoint) {
+  joint.set("SensorSign", -1.0);
+  start();
+  sample(-20.0);
+  EXPECT_DOUBLE_EQ(joint.output<double>("Displacement"), 0.2);
+  EXPECT_DOUBLE_EQ(position(), 1.2);
+  sample(5.0);
+  EXPECT_DOUBLE_EQ(joint.output<double>("Displacement"), -0.05);
+  EXPECT_DOUBLE_EQ(position(), 1.15);
+}
+
+TEST_F(JointTest, AStartDoesNotLoseThePosition) {
+  start();
+  sample(20.0);
+  joint.stop();
+  start();
+  EXPECT_DOUBLE_EQ(position(), 1.2);
+}
+
+TEST_F(JointTest, HandsTheIndexOn) {
+  start();
+  joint.write("IndexSensor", true);
+  EXPECT_TRUE(joint.output<bool>("Index"));
+}
+
+TEST_F(JointTest, AppliesVoltageAtActInTheDirectionOfTheHardware) {
+  joint.set("ActuatorSign", -1.0);
+  start_armed();
+  joint.write("Voltage", 3.0);
+  EXPECT_EQ(effort(), 0.0) << "before Act";
+  joint.raise("Act");
+  EXPECT_EQ(effort(), -3.0);
+}
+
+TEST_F(JointTest, AVoltageFromBeforeTheStartIsNotApplied) {
+  start();
+  act(5.0);
+  joint.stop();
+  sample();
+  start();
+  const auto before = joint.writes("VoltageActuator");
+  joint.raise("Act");
+  EXPECT_EQ(joint.writes("VoltageActuator"), before);
+}
+
+TEST_F(JointTest, DrivesNothingOnThatCouldNotStopBeforeItsLimit) {
+  start_armed();
+  sample(345.0);  // at 4.45 rad
+  sample(0.5);    // at 0.5 rad/s: 0.025 rad to stop
+  EXPECT_EQ(act(5.0), 5.0);
+  sample(2.5);  // at 4.48 rad with 2.5 rad/s
+  EXPECT_EQ(act(5.0), 0.0);
+  EXPECT_EQ(act(-5.0), -5.0) << "braking";
+  EXPECT_EQ(joint.get<int>("clipped"), 1);
+}
+
+TEST_F(JointTest, AVoltageThatIsNoNumberIsAFaultWithEffortZero) {
+  start_armed();
+  act(5.0);
+  EXPECT_EQ(act(std::numeric_limits<double>::quiet_NaN()), 0.0);
+  EXPECT_EQ(joint.state(), State::kException);
+  EXPECT_THAT(joint.reason(), HasSubstr("Voltage is nan at the position 1"));
+  EXPECT_FALSE(armed());
+  EXPECT_THAT(calls, ElementsAre("brakeApply", "actuatorOff"));
+}
+
+TEST_F(JointTest, RefusesToStartWithWhatCannotBe) {
+  joint.set("ActuatorSign", 2.0);
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("1 or -1"));
+  joint.set("ActuatorSign", 1.0);
+  joint.set("GearRatio", 0.0);
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("GearRatio"));
+  joint.set("GearRatio", 0.01);
+  joint.set("PositionMax", -1.0);
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("upper"));
+}
+
+TEST(UnconnectedJoint, IsRefusedAtStartUnlessItFollowsNoSampler) {
+  testing::Harness joint{std::make_unique<Joint>("Joint1")};
+  joint.set("PeerName", "Card");
+  joint.set("PositionMax", 1.0);
+  joint.set("MaxVelocity", 1.0);
+  joint.set("MaxAcceleration", 5.0);
+  joint.set("MaxVoltage", 12.0);
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("set Period"));
+  joint.set("Period", 0.01);
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("nobody writes the input Voltage"));
+  joint.set("Sampler", false);
+  EXPECT_TRUE(joint.start()) << joint.reason();
+}
+
+}  // namespace
+}  // namespace armature::controllers

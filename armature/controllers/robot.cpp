@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component library `robot`: the models of which a deployment makes the controller of a robot.
+#include "armature/component/registry.hpp"
+#include "armature/controllers/actuator_demux/actuator_demux.hpp"
+#include "armature/controllers/arming/arming.hpp"
+#include "armature/controllers/axes_generator/axes_generator.hpp"
+#include "armature/controllers/bridge/bridge.hpp"
+#include "armature/controllers/bridge_ref/bridge_ref.hpp"
+#include "armature/controllers/computed_torque/controller_computed_torque.hpp"
+#include "armature/controllers/controller_npid/controller_npid.hpp"
+#include "armature/controllers/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/controllers/gravity_pd/controller_gravity_pd.hpp"
+#include "armature/controllers/joint/joint.hpp"
+#include "armature/controllers/model/model.hpp"
+#include "armature/controllers/pid/pid.hpp"
+#include "armature/controllers/reference/reference.hpp"
+#include "armature/controllers/robot_model/robot_model.hpp"
+#include "armature/controllers/sampler/sampler.hpp"
+#include "armature/controllers/sensor_mux/sensor_mux.hpp"
+
+using namespace armature::controllers;
+
+ARMATURE_COMPONENT_LIBRARY(robot, registry) {
+  registry.add<Sampler>("Sampler", "begins each sampling period");
+  registry.add<Arming>("Arming", "lets the joints move, at the operator's word");
+  registry.add<Joint>("Joint", "a joint, with the limiter before its hardware");
+  registry.add<SensorNMux>("SensorNMux", "makes one vector of what N joints measured");
+  registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints");
+  registry.add<Pid>("PID", "the controller of one joint");
+  registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints");
+  registry.add<ControllerNPIDFF>("ControllerNPIDFF",
+                                 "N PIDs and feed-forward of the robot's dynamics");
+  registry.add<ControllerComputedTorque>("ControllerComputedTorque",
+                                         "torques by the robot's dynamics, as it moves now");
+  registry.add<ControllerGravityPD>("ControllerGravityPD",
+                                    "compensation of gravity, and N PD controllers");
+  registry.add<Model>("Model", "inverse dynamics, from the robot's description");
+  registry.add<RobotModel>("Robot", "what a robot weighs and its drives give, for the check");
+  registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
+  registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
+  registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest");
+  registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
+}
