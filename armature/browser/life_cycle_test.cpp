@@ -2,6 +2,7 @@
 // Starting and stopping components, on a robot that is none.
 #include "armature/browser/internal/life_cycle.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,42 +15,69 @@ namespace {
 
 using ::testing::ElementsAre;
 
+using component::State;
+using Texts = std::vector<std::string>;
+
 /// Its hardware takes so long to start that who reads it has stopped by then.
-class SlowRobot final : public Robot {
+class SlowRobot final : public inspect::View {
  public:
   std::vector<std::string> component_names() override { return {"Reader", "Hardware", "Other"}; }
-  std::string find(std::string_view text) override { return std::string(text); }
-  std::string spelled(const std::string& component) const override { return component; }
-  remote::ApplicationStatus status() override { return {}; }
-  std::vector<remote::ComponentStatus> components() override {
-    std::vector<remote::ComponentStatus> all;
-    for (const std::string& name : component_names()) {
-      remote::ComponentStatus status;
-      status.name = name;
-      status.state = states[name];
-      status.autostart = true;
-      status.start_order = static_cast<std::int32_t>(all.size());
-      all.push_back(status);
-    }
+  inspect::ApplicationStatus status() override { return {}; }
+  std::vector<inspect::ComponentStatus> components(const Which& which) override {
+    std::vector<inspect::ComponentStatus> all;
+    for (const std::string& name : component_names()) all.push_back(status_of(name));
+    std::erase_if(all, [&](const inspect::ComponentStatus& one) { return !which(one.name); });
     return all;
   }
-  remote::Faults faults() override { return {}; }
-  remote::ComponentDetails look_at(const std::string&) override { return {}; }
-  remote::ComponentDetails interface_of(const std::string&) override { return {}; }
-  std::vector<remote::ItemValue> read(const std::vector<std::string>&, std::size_t) override {
+  inspect::Faults faults(const Which&) override { return {}; }
+  inspect::ComponentDescription describe(const std::string&, inspect::Values) override {
     return {};
   }
-  Changed change(const std::string& component, const std::string&) override {
+  std::vector<inspect::ItemValue> read(const std::vector<std::string>&) override { return {}; }
+  inspect::ItemValue write(const std::string&, const std::string&) override { return {}; }
+  inspect::CallResult call(const std::string&, const std::string&, const Texts&) override {
+    return {};
+  }
+  inspect::CommandStatus begin(const std::string&, const std::string&, const Texts&) override {
+    return {};
+  }
+  inspect::CommandStatus follow(std::int32_t) override { return {}; }
+  inspect::CommandStatus cancel(std::int32_t) override { return {}; }
+  inspect::ComponentStatus change(const std::string& component, inspect::LifeCycleChange) override {
     changed.push_back(component);
-    if (component == "Other") return {"Other: it cannot", "Stopped"};
-    states[component] = "Running";
-    if (component == "Hardware") states["Reader"] = "Stopped";
-    return {"", "Running"};
+    if (component == "Other") throw inspect::Refusal("Other: it cannot");
+    states[component] = State::kRunning;
+    if (component == "Hardware") states["Reader"] = State::kStopped;
+    return status_of(component);
   }
 
-  std::map<std::string, std::string> states{
-      {"Reader", "Stopped"}, {"Hardware", "PreOperational"}, {"Other", "Stopped"}};
+  std::map<std::string, State> states{{"Reader", State::kStopped},
+                                      {"Hardware", State::kPreOperational},
+                                      {"Other", State::kStopped}};
   std::vector<std::string> changed;
+
+ private:
+  inspect::ComponentStatus status_of(const std::string& name) {
+    const std::vector<std::string> names = component_names();
+    inspect::ComponentStatus status;
+    status.name = name;
+    status.state = states[name];
+    status.autostart = true;
+    status.start_order = static_cast<int>(std::ranges::find(names, name) - names.begin());
+    return status;
+  }
+};
+
+/// Names are spelled as they are, and there is nothing to say.
+class NoLanguage final : public Language {
+ public:
+  const Vocabulary& vocabulary() const override { return plain_vocabulary(); }
+  bool goes_on(std::string_view) const override { return false; }
+  bool is_statement(std::string_view) const override { return false; }
+  void take(std::string_view) override {}
+  std::string plain(std::string_view text) const override { return std::string(text); }
+  std::string spelled(const std::string& component) const override { return component; }
+  std::vector<std::string> names_in(const std::string&) override { return {}; }
 };
 
 class Quiet final : public Surface {
@@ -70,10 +98,12 @@ TEST(LifeCycle, StartStartsThoseAgainThatStoppedWhileHardwareTookItsTime) {
   SlowRobot robot;
   Quiet quiet;
   Answers answers(quiet);
-  LifeCycle life_cycle(robot, answers);
+  const NoLanguage language;
+  SpelledView view(robot, language);
+  LifeCycle life_cycle(view, answers);
   life_cycle.start({});
   EXPECT_THAT(robot.changed, ElementsAre("Reader", "Hardware", "Other", "Reader"));
-  EXPECT_EQ(robot.states["Reader"], "Running");
+  EXPECT_EQ(robot.states["Reader"], State::kRunning);
   EXPECT_EQ(answers.mistakes(), 1u) << "who refused is not asked again";
 }
 

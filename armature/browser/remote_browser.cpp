@@ -22,15 +22,15 @@ std::size_t browse_remotely(const RemoteBrowserOptions& options, std::string& pr
   node_options.transports = options.transports;
   ride::Node node(node_options);
   ride::Peer& peer = node.connect(options.address);
-  internal::RemoteRobot robot(peer);
+  remote::PeerView view(peer);
   if (const auto there = peer.wait_until_connected(kConnectionLimit); !there) {
     problem = there.error();
     return 0;
   }
   internal::Console console;
-  internal::RemoteBrowsing remote(robot, console.surface(),
-                                  [](base::Duration time) { std::this_thread::sleep_for(time); });
-  return console.run(remote.browser, remote.language.vocabulary().quitting);
+  internal::RemoteBrowsing browsing(view, console.surface(),
+                                    [](base::Duration time) { std::this_thread::sleep_for(time); });
+  return console.run(browsing.browser, browsing.language.vocabulary().quitting);
 }
 
 }  // namespace armature::browser

@@ -40,35 +40,29 @@ using rt::LogLevel;
 /// Long enough to be "until stopped", short enough to be added to any time.
 constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
 
-/// No real-time thread ever runs any of this: what reads and checks deployments and descriptions of
-/// robots, what accompanies some runs, and what writes reports. What is used after all comes back.
-/// The program itself stays: the C++ library may use functions of `std::string` that were compiled
-/// into it.
-constexpr std::string_view kNeverRealTime[] = {"libarmature_deploy.so",
-                                               "libarmature_document.so",
-                                               "libarmature_orocos.so",
-                                               "libarmature_analysis.so",
-                                               "libarmature_inspect.so",
-                                               "libarmature_browser.so",
-                                               "libarmature_lua.so",
-                                               "libarmature_report.so",
-                                               "libyaml-cpp.so",
-                                               "libpugixml.so",
-                                               "liburdfdom_model.so",
-                                               "libtinyxml.so",
-                                               "libconsole_bridge.so",
-                                               "liblua5.4-c++.so",
-                                               "libedit.so",
-                                               "libtinfo.so",
-                                               "libbsd.so",
-                                               "libmd.so"};
+/// Reads and checks deployments and descriptions of robots, and writes reports. No real-time thread
+/// ever runs any of it, and it comes back when the run has ended. The program itself stays: the C++
+/// library may use functions of `std::string` that were compiled into it.
+constexpr std::string_view kNeverRealTime[] = {"libarmature_deploy.so", "libarmature_document.so",
+                                               "libarmature_orocos.so", "libarmature_analysis.so",
+                                               "libarmature_report.so", "libyaml-cpp.so",
+                                               "libpugixml.so",         "liburdfdom_model.so",
+                                               "libtinyxml.so",         "libconsole_bridge.so"};
+/// Has something done in the threads of components, where there is an operator, a script or another
+/// process.
+constexpr std::string_view kOfTools[] = {"libarmature_inspect.so", "libarmature_lua.so",
+                                         "liblua5.4-c++.so"};
+constexpr std::string_view kOfTheTerminal[] = {"libarmature_browser.so", "libedit.so",
+                                               "libtinfo.so", "libbsd.so", "libmd.so"};
 /// Components that stand for others, or write for them, run in real-time threads.
 constexpr std::string_view kOfTheNetwork[] = {"libarmature_remote.so", "libarmature_ride.so",
                                               "libarmature_tls.so", "libssl.so", "libcrypto.so"};
 
-void release_what_is_not_needed(bool networked) {
+void release_what_is_not_needed(bool networked, bool browsed, bool scripted) {
   platform::release_code(kNeverRealTime);
   if (!networked) platform::release_code(kOfTheNetwork);
+  if (!browsed) platform::release_code(kOfTheTerminal);
+  if (!networked && !browsed && !scripted) platform::release_code(kOfTools);
 }
 
 bool write_times_file(const std::string& path, const exec::Application& application,
@@ -206,7 +200,9 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
     };
   }
   const bool networked = network.wanted(deployment.document, arguments);
-  options.ready = [networked] { release_what_is_not_needed(networked); };
+  const bool scripted = companions.script != nullptr;
+  const bool browsed = companions.browser != nullptr;
+  options.ready = [=] { release_what_is_not_needed(networked, browsed, scripted); };
   if (networked) options.attend = [&network] { network.serve(); };
   return options;
 }

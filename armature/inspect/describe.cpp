@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/inspect/describe.hpp"
 
-#include "armature/component/events/event.hpp"
-#include "armature/component/operations/operation.hpp"
+#include <algorithm>
+#include <utility>
+
+#include "armature/base/alternatives.hpp"
+#include "armature/component/author.hpp"
 #include "armature/component/ports/port_array.hpp"
-#include "armature/component/properties/property.hpp"
-#include "armature/component/states/state_machine.hpp"
+#include "armature/inspect/internal/snapshot.hpp"
 #include "armature/types/elements.hpp"
 
 namespace armature::inspect {
@@ -13,170 +15,205 @@ namespace armature::inspect {
 using namespace component;
 namespace {
 
-std::string joined(const Component& component, std::string_view item) {
-  return component.name() + "." + std::string(item);
+std::string joined(const auto& member) {
+  return member.owner().name() + "." + std::string(member.name());
 }
 
-PropertyDescription describe_property(const PropertyBase& property, Values values) {
-  PropertyDescription description;
-  description.name = property.name();
-  description.doc = property.doc();
-  description.type = property.type().name;
-  description.values = types::enumerator_names(property.type());
-  description.unit = property.unit();
-  description.range = property.limits();
-  description.persistent = property.persistent();
-  description.changeable_while_running = property.changeable();
-  description.mandatory = property.is_mandatory();
-  description.was_set = property.was_set();
-  if (values == Values::kIncluded) {
-    description.value = types::to_text(property.type(), property.data());
+/// The structs that a type has in it, each once.
+void add_fields(const types::Type& type, std::vector<FieldDescription>& fields) {
+  if (types::is_list(type)) return add_fields(*type.element, fields);
+  if (type.kind != types::Kind::kStruct) return;
+  const bool known = std::any_of(fields.begin(), fields.end(), [&](const FieldDescription& field) {
+    return field.structure == type.name;
+  });
+  if (known) return;
+  for (const types::Field& field : type.fields) {
+    fields.push_back({std::string(type.name), std::string(field.name), field.type->name,
+                      std::string(field.unit), std::string(field.doc),
+                      types::enumerator_names(*field.type)});
   }
-  return description;
+  for (const types::Field& field : type.fields) add_fields(*field.type, fields);
 }
 
-void describe_port(const PortBase& port, Values values, PortDescription& description) {
-  description.name = port.name();
-  description.doc = port.doc();
-  description.type = port.type().name;
-  description.values = types::enumerator_names(port.type());
-  description.unit = port.unit();
-  if (port.declared_size().declared()) description.size = port.declared_size().value();
-  description.sequence = port.current_sequence();
-  if (values == Values::kIncluded) {
-    description.value = types::to_text(port.type(), port.current());
+/// Puts a component's members and what is known of their values into its description.
+class Describer {
+ public:
+  Describer(const internal::Snapshot* snapshot, Values values)
+      : snapshot_(snapshot), with_values_(values == Values::kIncluded) {}
+
+  ComponentDescription describe(const Interface& all) {
+    description_.answered = snapshot_ != nullptr;
+    for (std::size_t i = 0; i < all.properties.size(); ++i) add(*all.properties[i], i);
+    for (std::size_t i = 0; i < all.inputs.size(); ++i) add(*all.inputs[i], i);
+    for (std::size_t i = 0; i < all.outputs.size(); ++i) add(*all.outputs[i], i);
+    for (const auto* one : all.port_arrays) {
+      description_.port_arrays.push_back(
+          {std::string(one->name()), std::string(one->count().name())});
+    }
+    for (const auto* one : all.operations) add(*one);
+    for (std::size_t i = 0; i < all.events.size(); ++i) add(*all.events[i], i);
+    for (std::size_t i = 0; i < all.callers.size(); ++i) add(*all.callers[i], i);
+    for (std::size_t i = 0; i < all.handlers.size(); ++i) add(*all.handlers[i], i);
+    for (std::size_t i = 0; i < all.machines.size(); ++i) add(*all.machines[i], i);
+    return std::move(description_);
   }
-}
 
-InputDescription describe_input(const InputPortBase& port, Values values) {
-  InputDescription description;
-  describe_port(port, values, description);
-  for (const OutputPortBase* writer : port.writers()) {
-    description.peers.push_back(joined(writer->owner(), writer->name()));
+ private:
+  void add(const PropertyBase& from, std::size_t i) {
+    PropertyDescription to;
+    to.name = from.name();
+    to.doc = from.doc();
+    to.type = from.type().name;
+    to.values = types::enumerator_names(from.type());
+    to.unit = from.unit();
+    to.range = from.limits();
+    to.persistent = from.persistent();
+    to.changeable_while_running = from.changeable();
+    to.mandatory = from.is_mandatory();
+    to.was_set = from.was_set();
+    if (snapshot_ != nullptr && with_values_) to.value = snapshot_->properties[i].whole.text();
+    add_fields(from.type(), description_.fields);
+    description_.properties.push_back(std::move(to));
   }
-  description.triggers = port.triggers();
-  description.may_stay_open = port.stays_open();
-  description.allows_fan_in = port.allows_fan_in();
-  description.max_age = port.max_age();
-  description.when_stale = port.stale_reaction();
-  description.when_lost = port.lost_reaction();
-  description.counters = port.counters();
-  return description;
-}
 
-OutputDescription describe_output(const OutputPortBase& port, Values values) {
-  OutputDescription description;
-  describe_port(port, values, description);
-  for (const InputPortBase* reader : port.readers()) {
-    description.peers.push_back(joined(reader->owner(), reader->name()));
+  /// @param reading  nullptr: not known
+  void add(const PortBase& from, const Reading* reading, PortDescription& to) {
+    to.name = from.name();
+    to.doc = from.doc();
+    to.type = from.type().name;
+    to.values = types::enumerator_names(from.type());
+    to.unit = from.unit();
+    if (from.declared_size().declared()) to.size = from.declared_size().value();
+    add_fields(from.type(), description_.fields);
+    if (reading == nullptr) return;
+    to.written = reading->written;
+    to.age = reading->age;
+    to.sequence = reading->sequence;
+    if (reading->written && with_values_) to.value = reading->whole.text();
   }
-  description.counters = port.counters();
-  return description;
-}
 
-OperationDescription describe_operation(const OperationBase& operation) {
-  return {std::string(operation.name()), std::string(operation.doc()),
-          operation.signature().text(),  operation.runs_in_own_thread(),
-          operation.is_command(),        operation.is_by_operator()};
-}
-
-EventDescription describe_event(const EventBase& event) {
-  EventDescription description{std::string(event.name()),
-                               std::string(event.doc()),
-                               event.signature().text(),
-                               event.raised(),
-                               {}};
-  for (const EventHandlerBase* handler : event.subscribers()) {
-    description.subscribers.push_back(handler->owner().name());
+  void add(const InputPortBase& from, std::size_t i) {
+    InputDescription to;
+    add(from, snapshot_ == nullptr ? nullptr : &snapshot_->inputs[i], to);
+    for (const OutputPortBase* writer : from.writers()) to.peers.push_back(joined(*writer));
+    to.triggers = from.triggers();
+    to.may_stay_open = from.stays_open();
+    to.allows_fan_in = from.allows_fan_in();
+    to.max_age = from.max_age();
+    to.when_stale = from.stale_reaction();
+    to.when_lost = from.lost_reaction();
+    if (snapshot_ != nullptr) to.counters = snapshot_->input_counters[i];
+    description_.inputs.push_back(std::move(to));
   }
-  return description;
-}
 
-RequirementDescription describe_requirement(const Requirement& requirement,
-                                            const Signature& signature) {
-  RequirementDescription description;
-  description.name = requirement.name();
-  description.doc = requirement.doc();
-  description.signature = signature.text();
-  description.optional = requirement.is_optional();
-  description.wanted = requirement.wanted();
-  description.peer = requirement.peer_name();
-  return description;
-}
+  void add(const OutputPortBase& from, std::size_t i) {
+    OutputDescription to;
+    add(from, snapshot_ == nullptr ? nullptr : &snapshot_->outputs[i], to);
+    for (const InputPortBase* reader : from.readers()) to.peers.push_back(joined(*reader));
+    if (snapshot_ != nullptr) to.counters = snapshot_->output_counters[i];
+    description_.outputs.push_back(std::move(to));
+  }
 
-RequirementDescription describe_caller(const OperationCallerBase& caller) {
-  RequirementDescription description = describe_requirement(caller, caller.signature());
-  description.command = caller.needs_command();
-  description.not_taken = caller.refused();
-  if (const OperationBase* target = caller.target(); target != nullptr) {
-    description.bound_to = joined(target->owner(), target->name());
+  void add(const OperationBase& from) {
+    OperationDescription to;
+    to.name = from.name();
+    to.doc = from.doc();
+    const Signature& signature = from.signature();
+    to.signature = signature.text();
+    for (const auto& argument : signature.arguments) {
+      to.arguments.push_back({std::string(argument.name), argument.type->name});
+    }
+    if (signature.result != nullptr) to.result = signature.result->name;
+    to.own_thread = from.runs_in_own_thread();
+    to.command = from.is_command();
+    to.by_operator = from.is_by_operator();
+    description_.operations.push_back(std::move(to));
   }
-  return description;
-}
 
-RequirementDescription describe_handler(const EventHandlerBase& handler) {
-  RequirementDescription description = describe_requirement(handler, handler.signature());
-  description.event = true;
-  description.not_taken = handler.dropped();
-  if (const EventBase* source = handler.source(); source != nullptr) {
-    description.bound_to = joined(source->owner(), source->name());
+  void add(const EventBase& from, std::size_t i) {
+    EventDescription to;
+    to.name = from.name();
+    to.doc = from.doc();
+    to.signature = from.signature().text();
+    if (snapshot_ != nullptr) to.raised = snapshot_->raised[i];
+    for (const EventHandlerBase* handler : from.subscribers()) {
+      to.subscribers.push_back(handler->owner().name());
+    }
+    description_.events.push_back(std::move(to));
   }
-  return description;
-}
 
-MachineDescription describe_machine(const StateMachine& machine) {
-  MachineDescription description;
-  description.name = machine.name();
-  description.doc = machine.doc();
-  const MachineTable& table = machine.table();
-  for (std::size_t i = 0; i < table.states.size(); ++i) {
-    description.states.push_back(
-        {table.path(static_cast<int>(i)), table.states[i].doc, table.states[i].final});
+  /// @param now  nullptr: not known
+  RequirementDescription& add(const Requirement& from, const Signature& signature,
+                              const internal::Snapshot::Requirement* now) {
+    RequirementDescription& to = description_.requirements.emplace_back();
+    to.name = from.name();
+    to.doc = from.doc();
+    to.signature = signature.text();
+    to.optional = from.is_optional();
+    if (now == nullptr) return to;
+    to.wanted = now->wanted;
+    to.peer = now->peer;
+    to.not_taken = now->not_taken;
+    return to;
   }
-  for (const MachineTransition& transition : table.transitions) {
-    description.transitions.push_back(table.text(transition));
+
+  void add(const OperationCallerBase& from, std::size_t i) {
+    const auto* const now = snapshot_ == nullptr ? nullptr : &snapshot_->callers[i];
+    RequirementDescription& to = add(from, from.signature(), now);
+    to.command = from.needs_command();
+    if (from.target() != nullptr) to.bound_to = joined(*from.target());
   }
-  description.triggers = table.triggers;
-  description.problems = machine.problems();
-  description.current = machine.path();
-  return description;
-}
+
+  void add(const EventHandlerBase& from, std::size_t i) {
+    const auto* const now = snapshot_ == nullptr ? nullptr : &snapshot_->handlers[i];
+    RequirementDescription& to = add(from, from.signature(), now);
+    to.event = true;
+    if (from.source() != nullptr) to.bound_to = joined(*from.source());
+  }
+
+  void add(const StateMachine& from, std::size_t i) {
+    MachineDescription to;
+    to.name = from.name();
+    to.doc = from.doc();
+    const MachineTable& table = from.table();
+    for (std::size_t state = 0; state < table.states.size(); ++state) {
+      to.states.push_back({table.path(static_cast<int>(state)), table.states[state].doc,
+                           table.states[state].final});
+    }
+    for (const MachineTransition& transition : table.transitions) {
+      to.transitions.push_back(table.text(transition));
+    }
+    to.triggers = table.triggers;
+    to.problems = from.problems();
+    if (snapshot_ != nullptr) to.current = snapshot_->machines[i];
+    description_.machines.push_back(std::move(to));
+  }
+
+  const internal::Snapshot* snapshot_;
+  bool with_values_;
+  ComponentDescription description_;
+};
 
 }  // namespace
 
+std::string doc_with_values(const std::string& doc, const std::vector<std::string>& values) {
+  if (values.empty()) return doc;
+  return doc + (doc.empty() ? "(" : " (") + base::alternatives(values) + ")";
+}
+
+ComponentDescription internal::describe_interface(const Component& component,
+                                                  const Snapshot* snapshot, Values values) {
+  return Describer(snapshot, values).describe(component.interface());
+}
+
 ComponentDescription describe(const Component& component, std::string model, Values values) {
-  ComponentDescription description;
+  internal::Snapshot snapshot(component);
+  snapshot.take(base::Time{});
+  ComponentDescription description = internal::describe_interface(component, &snapshot, values);
   description.model = std::move(model);
   description.name = component.name();
   description.state = component.state();
   description.reason = component.reason();
-  const Interface& interface = component.interface();
-  for (const auto* each : interface.properties) {
-    description.properties.push_back(describe_property(*each, values));
-  }
-  for (const auto* each : interface.inputs) {
-    description.inputs.push_back(describe_input(*each, values));
-  }
-  for (const auto* each : interface.outputs) {
-    description.outputs.push_back(describe_output(*each, values));
-  }
-  for (const auto* each : interface.port_arrays) {
-    description.port_arrays.push_back(
-        {std::string(each->name()), std::string(each->count().name())});
-  }
-  for (const auto* each : interface.operations) {
-    description.operations.push_back(describe_operation(*each));
-  }
-  for (const auto* each : interface.events) description.events.push_back(describe_event(*each));
-  for (const auto* each : interface.callers) {
-    description.requirements.push_back(describe_caller(*each));
-  }
-  for (const auto* each : interface.handlers) {
-    description.requirements.push_back(describe_handler(*each));
-  }
-  for (const auto* each : interface.machines) {
-    description.machines.push_back(describe_machine(*each));
-  }
   return description;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What tools show of a component: plain structs with text, which outlive it.
+// What tools show of a component: plain structs with text, which outlive it. Of a component of
+// another process everything is known but what is marked "(here)".
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,8 @@
 #include "armature/component/component.hpp"
 #include "armature/component/ports/input_port.hpp"
 #include "armature/component/ports/output_port.hpp"
+#include "armature/component/properties/property.hpp"
+#include "armature/inspect/status.hpp"
 
 namespace armature::inspect {
 
@@ -21,14 +24,16 @@ struct PropertyDescription {
   std::string name;
   std::string doc;
   std::string type;
-  std::vector<std::string> values;  ///< of an enumeration: their names
+  std::vector<std::string> values;  ///< of an enumeration: their names (here; else in the doc)
   std::string unit;
   std::optional<component::Range> range;
   bool persistent = true;  ///< false: an attribute
   bool changeable_while_running = false;
   bool mandatory = false;
-  bool was_set = false;
-  std::string value;  ///< only if asked for
+  bool was_set = false;  ///< (here)
+  std::string value;     ///< only if asked for
+
+  bool operator==(const PropertyDescription&) const = default;
 };
 
 /// What input and output ports have in common, as tools show it.
@@ -36,36 +41,53 @@ struct PortDescription {
   std::string name;
   std::string doc;
   std::string type;
-  std::vector<std::string> values;  ///< of an enumeration: their names
+  std::vector<std::string> values;  ///< of an enumeration: their names (here; else in the doc)
   std::string unit;
   std::optional<std::size_t> size;  ///< declared number of elements of a vector
   std::vector<std::string> peers;   ///< `component.port` at the other end of each connection
-  std::string value;                ///< only if asked for
-  std::uint64_t sequence = 0;       ///< how many values were written; 0: none yet
+  std::string value;                ///< only if asked for and written
+  bool written = false;
+  base::Duration age{};        ///< of a written value, in an application
+  std::uint64_t sequence = 0;  ///< how many values were written (here)
 
   bool connected() const { return !peers.empty(); }
+  bool operator==(const PortDescription&) const = default;
 };
 
 /// An input port, as tools show it.
 struct InputDescription : PortDescription {
   bool triggers = false;
-  bool may_stay_open = false;
-  bool allows_fan_in = false;
-  base::Duration max_age{};  ///< 0: data does not age
+  bool may_stay_open = false;  ///< (here)
+  bool allows_fan_in = false;  ///< (here)
+  base::Duration max_age{};    ///< 0: data does not age
   component::Reaction when_stale = component::Reaction::kStop;
-  component::Reaction when_lost = component::Reaction::kStop;
-  component::InputCounters counters;
+  component::Reaction when_lost = component::Reaction::kStop;  ///< (here)
+  component::InputCounters counters;                           ///< (here)
+
+  bool operator==(const InputDescription&) const = default;
 };
 
 /// An output port, as tools show it.
 struct OutputDescription : PortDescription {
-  component::OutputCounters counters;
+  component::OutputCounters counters;  ///< (here)
+
+  bool operator==(const OutputDescription&) const = default;
 };
 
-/// An array of ports whose number a property says.
+/// An array of ports whose number a property says (here).
 struct PortArrayDescription {
   std::string name;
   std::string count;  ///< the property that says how many ports `name1..nameN` there are
+
+  bool operator==(const PortArrayDescription&) const = default;
+};
+
+/// An argument of an operation.
+struct ArgumentDescription {
+  std::string name;  ///< may be empty; with its unit: `target [m]`
+  std::string type;
+
+  bool operator==(const ArgumentDescription&) const = default;
 };
 
 /// An operation or a command, as tools show it.
@@ -73,9 +95,13 @@ struct OperationDescription {
   std::string name;
   std::string doc;
   std::string signature;  ///< `double(double position [rad])`
-  bool own_thread = false;
-  bool command = false;  ///< goes on after it was accepted
+  std::vector<ArgumentDescription> arguments;
+  std::string result;       ///< its type; empty if there is none
+  bool own_thread = false;  ///< (here)
+  bool command = false;     ///< goes on after it was accepted
   bool by_operator = false;
+
+  bool operator==(const OperationDescription&) const = default;
 };
 
 /// An event, as tools show it.
@@ -83,8 +109,10 @@ struct EventDescription {
   std::string name;
   std::string doc;
   std::string signature;
-  std::uint64_t raised = 0;
+  std::uint64_t raised = 0;              ///< (here)
   std::vector<std::string> subscribers;  ///< names of components
+
+  bool operator==(const EventDescription&) const = default;
 };
 
 /// An operation that is called, or an event that is handled.
@@ -95,10 +123,12 @@ struct RequirementDescription {
   bool event = false;
   bool command = false;
   bool optional = false;
-  bool wanted = true;           ///< false: a property says that it is not needed
-  std::string peer;             ///< that a property demands; empty: any
+  bool wanted = true;           ///< false: a property says that it is not needed (here)
+  std::string peer;             ///< that a property demands; empty: any (here)
   std::string bound_to;         ///< `component.operation`; empty: not bound
-  std::uint64_t not_taken = 0;  ///< calls or events that met a full queue
+  std::uint64_t not_taken = 0;  ///< calls or events that met a full queue (here)
+
+  bool operator==(const RequirementDescription&) const = default;
 };
 
 /// A state machine, as tools show it.
@@ -106,24 +136,38 @@ struct MachineDescription {
   /// A state; `path` names those around it.
   struct State {
     std::string path;
-    std::string doc;
-    bool final = false;
+    std::string doc;     ///< (here)
+    bool final = false;  ///< (here)
+
+    bool operator==(const State&) const = default;
   };
   std::string name;
   std::string doc;
   std::vector<State> states;
-  std::vector<std::string> transitions;  ///< `Idle -> Moving on drive [is_free] / note`
-  std::vector<std::string> triggers;
-  std::vector<std::string> problems;
+  std::vector<std::string> transitions;  ///< `Idle -> Moving on drive [is_free] / note` (here)
+  std::vector<std::string> triggers;     ///< (here)
+  std::vector<std::string> problems;     ///< (here)
   std::string current;  ///< path of the active states; empty while the component does not run
+
+  bool operator==(const MachineDescription&) const = default;
+};
+
+/// A member of a struct that is the type of one of a component's values.
+struct FieldDescription {
+  std::string structure;  ///< the type's name
+  std::string name;
+  std::string type;
+  std::string unit;
+  std::string doc;
+  std::vector<std::string> values;  ///< of an enumeration: their names (here; else in the doc)
+
+  bool operator==(const FieldDescription&) const = default;
 };
 
 /// A component: its whole interface, and how it stands now.
-struct ComponentDescription {
-  std::string model;
-  std::string name;
-  component::State state = component::State::kPreOperational;
-  std::string reason;
+struct ComponentDescription : ComponentStatus {
+  std::string activity;   ///< of its thread; empty outside of an application
+  bool answered = false;  ///< what changes as it works is known; else there are no values
   std::vector<PropertyDescription> properties;
   std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
@@ -132,7 +176,13 @@ struct ComponentDescription {
   std::vector<EventDescription> events;
   std::vector<RequirementDescription> requirements;
   std::vector<MachineDescription> machines;
+  std::vector<FieldDescription> fields;
+
+  bool operator==(const ComponentDescription&) const = default;
 };
+
+/// `doc` with the names of the values of an enumeration, if there are any.
+std::string doc_with_values(const std::string& doc, const std::vector<std::string>& values);
 
 /// Whether the values of properties and ports become text as well.
 enum class Values : std::uint8_t { kLeftOut, kIncluded };

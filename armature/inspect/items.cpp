@@ -34,36 +34,6 @@ auto find_in(const Items& items, std::string_view name) -> typename Items::value
   return nullptr;
 }
 
-std::vector<std::string> member_names(const component::Interface& interface) {
-  std::vector<std::string> names;
-  const auto add = [&](const auto& items) {
-    for (const auto* item : items) names.emplace_back(item->name());
-  };
-  add(interface.properties);
-  add(interface.inputs);
-  add(interface.outputs);
-  add(interface.operations);
-  add(interface.events);
-  return names;
-}
-
-Member member_of(const Component& component, std::string_view name) {
-  const component::Interface& interface = component.interface();
-  Member member;
-  member.component = &component;
-  member.property = find_in(interface.properties, name);
-  if (member.property != nullptr) return member;
-  member.input = find_in(interface.inputs, name);
-  if (member.input != nullptr) return member;
-  member.output = find_in(interface.outputs, name);
-  if (member.output != nullptr) return member;
-  member.operation = find_in(interface.operations, name);
-  if (member.operation != nullptr) return member;
-  member.event = find_in(interface.events, name);
-  if (member.event == nullptr) member.component = nullptr;
-  return member;
-}
-
 /// Finds the member that the rest of a text behind its component begins with, and takes it away.
 base::Result<Member> take_member(const Component& component, std::string_view& rest) {
   if (rest.size() < 2) return base::Error{"'" + component.name() + "' is a component"};
@@ -71,13 +41,13 @@ base::Result<Member> take_member(const Component& component, std::string_view& r
   std::size_t size = 0;
   while (size < rest.size() && is_name_character(rest[size])) ++size;
   const std::string_view name = rest.substr(0, size);
-  Member member = member_of(component, name);
-  if (member.component == nullptr) {
+  const std::optional<Member> member = member_of(component, name);
+  if (!member) {
     return base::Error{"'" + component.name() + "' has no '" + std::string(name) + "'" +
-                       hint(name, member_names(component.interface()))};
+                       hint(name, member_names(component))};
   }
   rest.remove_prefix(size);
-  return member;
+  return *member;
 }
 
 bool take_index(std::string_view& rest, Item& item) {
@@ -132,17 +102,33 @@ std::string no_component(const Application& application, std::string_view text) 
   return "unknown component '" + std::string(text) + "'" + hint(text, component_names(application));
 }
 
-const exec::ComponentEntry& entry_of(const Application& application, const Component& component) {
-  const auto& all = application.blueprint().components;
-  return *std::find_if(all.begin(), all.end(), [&](const exec::ComponentEntry& entry) {
-    return entry.component.get() == &component;
-  });
+std::vector<std::string> member_names(const Component& component) {
+  const component::Interface& interface = component.interface();
+  std::vector<std::string> names;
+  const auto add = [&](const auto& items) {
+    for (const auto* item : items) names.emplace_back(item->name());
+  };
+  add(interface.properties);
+  add(interface.inputs);
+  add(interface.outputs);
+  add(interface.operations);
+  add(interface.events);
+  return names;
 }
 
-const exec::ThreadPlan& thread_of(const Application& application, const Component& component) {
-  const auto index = &entry_of(application, component) - application.blueprint().components.data();
-  const exec::Plan& plan = application.plan();
-  return plan.threads[plan.thread_of[static_cast<std::size_t>(index)]];
+std::optional<Member> member_of(const Component& component, std::string_view name) {
+  const component::Interface& interface = component.interface();
+  Member member;
+  member.component = &component;
+  const auto found_in = [name](const auto& items, auto& place) {
+    place = find_in(items, name);
+    return place != nullptr;
+  };
+  const bool found =
+      found_in(interface.properties, member.property) || found_in(interface.inputs, member.input) ||
+      found_in(interface.outputs, member.output) ||
+      found_in(interface.operations, member.operation) || found_in(interface.events, member.event);
+  return found ? std::optional(member) : std::nullopt;
 }
 
 std::string Member::name() const {
@@ -208,21 +194,26 @@ base::Result<Item> find_item(const Application& application, std::string_view te
   return item;
 }
 
+Reading room_for(const Member& member) { return {types::Value(member.type())}; }
+
+void take_reading(const Member& member, base::Time now, Reading& to) {
+  const component::PortBase* const port = member.port();
+  const void* const data = port == nullptr ? member.property->data() : port->current();
+  to.whole.type().assign(to.whole.data(), data);
+  if (port == nullptr) return;
+  to.sequence = port->current_sequence();
+  to.written = to.sequence > 0;
+  to.age = to.written ? std::max(now - port->current_time(), base::Duration::zero())
+                      : base::Duration::zero();
+}
+
 std::optional<std::vector<Reading>> read_members(Application& application,
                                                  const std::vector<Member>& members) {
   auto readings = std::make_shared<std::vector<Reading>>();
   if (members.empty()) return *readings;
-  for (const Member& member : members) readings->push_back({types::Value(member.type()), true, {}});
+  for (const Member& member : members) readings->push_back(room_for(member));
   const auto read = [readings, members, now = application.now()] {
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      Reading& reading = (*readings)[i];
-      const component::PortBase* const port = members[i].port();
-      const void* const data = port == nullptr ? members[i].property->data() : port->current();
-      reading.whole.type().assign(reading.whole.data(), data);
-      if (port == nullptr) continue;
-      reading.written = port->current_sequence() > 0;
-      reading.age = std::max(now - port->current_time(), base::Duration::zero());
-    }
+    for (std::size_t i = 0; i < members.size(); ++i) take_reading(members[i], now, (*readings)[i]);
   };
   Component* const component = application.find(members.front().component->name());
   if (!application.run_in_thread_of(*component, read)) return std::nullopt;

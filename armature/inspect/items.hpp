@@ -28,13 +28,6 @@ component::Component* leading_component(const exec::Application& application, st
 /// Why there is none, with the nearest name.
 std::string no_component(const exec::Application& application, std::string_view text);
 
-const exec::ComponentEntry& entry_of(const exec::Application& application,
-                                     const component::Component& component);
-
-/// The thread that runs it.
-const exec::ThreadPlan& thread_of(const exec::Application& application,
-                                  const component::Component& component);
-
 /// A member of a component; one of the pointers is set.
 struct Member {
   const component::Component* component = nullptr;
@@ -42,7 +35,7 @@ struct Member {
   const component::InputPortBase* input = nullptr;
   const component::OutputPortBase* output = nullptr;
   const component::OperationBase* operation = nullptr;
-  const component::EventBase* event = nullptr;
+  component::EventBase* event = nullptr;
 
   std::string name() const;  ///< with its component
   bool has_value() const { return property != nullptr || port() != nullptr; }
@@ -50,6 +43,12 @@ struct Member {
   const types::Type& type() const;  ///< of its value
   std::string_view unit() const;
 };
+
+/// The names of a component's members, for suggestions.
+std::vector<std::string> member_names(const component::Component& component);
+
+/// The member of that name; nothing if there is none.
+std::optional<Member> member_of(const component::Component& component, std::string_view name);
 
 /// The member that `text` names, `Component.member` or `Component:member`; else why there is none.
 base::Result<Member> find_member(const exec::Application& application, std::string_view text);
@@ -70,7 +69,14 @@ struct Reading {
   types::Value whole;
   bool written = true;  ///< false: nobody wrote the port yet
   base::Duration age{};
+  std::uint64_t sequence = 0;  ///< of a port: how many values were written
 };
+/// A place for a member's value.
+Reading room_for(const Member& member);
+/// Copies a member's value into its place.
+/// @thread the component's own
+void take_reading(const Member& member, base::Time now, Reading& to);
+
 /// Reads values of one component, by its own thread, all at one moment; nothing if its thread does
 /// not answer.
 std::optional<std::vector<Reading>> read_members(exec::Application& application,

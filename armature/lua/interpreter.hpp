@@ -9,20 +9,11 @@
 #include <vector>
 
 #include "armature/base/time.hpp"
-#include "armature/component/operations/command.hpp"
 #include "armature/exec/application.hpp"
+#include "armature/inspect/status.hpp"
 #include "armature/lua/course.hpp"
 
 namespace armature::lua {
-
-/// A command that a typed line began, and how it fares.
-struct BegunCommand {
-  std::string name;  ///< `Generator.moveTo`
-  component::CommandStage stage{};
-  bool ended = false;
-  double progress = 0.0;  ///< 0 to 1
-  std::string reason;     ///< why it ended, unless it is done
-};
 
 /// Whoever types lines for an Interpreter, and reads what they give.
 /// @thread the controlling one
@@ -35,9 +26,9 @@ class Listener {
   /// A mistake or a loss: `error: ...`, `warning: ...`.
   virtual void complain(std::string_view text) = 0;
   /// A command was begun and is under way, or has ended.
-  virtual void tell(const BegunCommand& command) = 0;
+  virtual void tell(const inspect::CommandStatus& command) = 0;
   /// Commands that are under way while somebody waits; takes the place of what it showed before.
-  virtual void show_progress(const std::vector<BegunCommand>& commands) = 0;
+  virtual void show_progress(const std::vector<inspect::CommandStatus>& commands) = 0;
   /// Nobody waits any more.
   virtual void end_progress() = 0;
 

@@ -27,8 +27,8 @@ class Notes final : public Listener {
  public:
   void say(std::string_view line) override { lines.emplace_back(line); }
   void complain(std::string_view text) override { lines.emplace_back(text); }
-  void tell(const BegunCommand& command) override { commands.push_back(command); }
-  void show_progress(const std::vector<BegunCommand>& now) override {
+  void tell(const inspect::CommandStatus& command) override { commands.push_back(command); }
+  void show_progress(const std::vector<inspect::CommandStatus>& now) override {
     if (!now.empty()) shown.push_back(now.front().progress);
   }
   void end_progress() override { ++progress_ends; }
@@ -39,7 +39,7 @@ class Notes final : public Listener {
   bool take_interrupt() override { return std::exchange(interrupt, false); }
 
   std::vector<std::string> lines;
-  std::vector<BegunCommand> commands;
+  std::vector<inspect::CommandStatus> commands;
   std::vector<double> shown;
   int progress_ends = 0;
   mutable int asks_until_interrupt = 0;

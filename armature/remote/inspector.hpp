@@ -7,18 +7,19 @@
 #include <string>
 
 #include "armature/exec/application.hpp"
+#include "armature/inspect/application_view.hpp"
 #include "armature/remote/control_queue.hpp"
 #include "armature/ride/service.hpp"
 
 namespace armature::remote {
 
-/// What tools of other processes see of an application and do with it: the interface `Inspector` of
-/// inspection.idl, hosted under the name `armature`.
+/// An application's view (inspect::ApplicationView) for tools of other processes: the interface
+/// `Inspector` of inspection.idl, hosted under the name `armature`. It decides who may ask, and
+/// ends what goes on for a peer with the peer's connection.
 ///
 /// Requests are understood by the node's I/O thread, which also asks the node's policy, and done by
-/// the thread that controls the application, with the same functions that any program uses. So what
-/// others ask for costs the application's threads no more than a message between two cycles, and
-/// there is at most one at a time.
+/// the thread that controls the application. So what others ask for costs the application's threads
+/// no more than a message between two cycles, and there is at most one at a time.
 class Inspector {
  public:
   /// The name under which a node hosts it.
@@ -28,7 +29,7 @@ class Inspector {
   /// Values in one request.
   static constexpr std::size_t kMostItems = 256;
   /// Commands that it remembers; of those that have ended the oldest is forgotten.
-  static constexpr std::size_t kMostCommands = 256;
+  static constexpr std::size_t kMostCommands = inspect::ApplicationView::kMostCommands;
 
   /// Is told what the operator should know.
   using Tell = std::function<void(const std::string&)>;

@@ -68,12 +68,6 @@ std::string enumerator_values(const Type& type) {
 
 std::string enumerator_list(const Type& type) { return base::alternatives(enumerator_names(type)); }
 
-std::string doc_with_enumerators(std::string_view doc, const Type& type) {
-  std::string text(doc);
-  if (type.kind != Kind::kEnum) return text;
-  return text + (text.empty() ? "(" : " (") + enumerator_list(type) + ")";
-}
-
 std::string unknown_enumerator(const Type& type, std::string_view name) {
   return "expected " + enumerator_list(type) + ", found '" + std::string(name) + "'";
 }

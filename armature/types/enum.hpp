@@ -59,10 +59,6 @@ void set_enumerator(const Type& type, const Enumerator& enumerator, void* value)
 /// `skip, catch_up or fault`, for messages.
 std::string enumerator_list(const Type& type);
 
-/// The documentation of a member with the names that its values have, if they have names: `what a
-/// late cycle leads to (skip, catch_up or fault)`.
-std::string doc_with_enumerators(std::string_view doc, const Type& type);
-
 /// What is wrong with `name`, and which names there are: `expected skip, catch_up or fault, found
 /// 'skp'`.
 std::string unknown_enumerator(const Type& type, std::string_view name);

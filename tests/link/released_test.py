@@ -19,7 +19,7 @@ OF_THE_STANDARD_LIBRARY = re.compile(r"(_ZNSt|_ZNKSt|_ZSt|_ZN9__gnu_cxx)")
 
 def released():
     text = (SOURCE / "armature/cli/run.cpp").read_text(encoding="utf-8")
-    lists = re.findall(r"string_view k(?:NeverRealTime|OfTheNetwork)\[\] = \{(.*?)\};", text, re.S)
+    lists = re.findall(r"string_view k(?:NeverRealTime|OfTools|OfTheTerminal|OfTheNetwork)\[\] = \{(.*?)\};", text, re.S)
     return [name for each in lists for name in re.findall(r'"(libarmature_\w+\.so)"', each)]
 
 
@@ -33,11 +33,12 @@ def offered(library):
 class Released(unittest.TestCase):
     def test_there_are_some(self):
         self.assertIn("libarmature_deploy.so", released())
-        self.assertIn("libarmature_remote.so", released())
+        for name in ("inspect", "browser", "remote"):
+            self.assertIn(f"libarmature_{name}.so", released())
 
     def test_they_offer_nothing_of_the_standard_library(self):
         for name in released():
-            self.assertEqual(offered(BUILD / "lib" / name), [], f"{name}: call armature_not_in_real_time() in its CMakeLists.txt")
+            self.assertEqual(offered(BUILD / "lib" / name), [], f"{name}: call armature_not_in_every_run() in its CMakeLists.txt")
 
     def test_others_do(self):
         self.assertNotEqual(offered(BUILD / "lib/libarmature_exec.so"), [])

@@ -45,7 +45,7 @@ std::string_view command_before(const Vocabulary& vocabulary, std::string_view t
   return {};
 }
 
-void add_values(const remote::ComponentDetails& component, const std::string& before,
+void add_values(const inspect::ComponentDescription& component, const std::string& before,
                 std::set<std::string>& words) {
   for (const auto& one : component.properties) words.insert(before + one.name);
   for (const auto& one : component.inputs) words.insert(before + one.name);
@@ -53,22 +53,22 @@ void add_values(const remote::ComponentDetails& component, const std::string& be
   for (const auto& one : component.events) words.insert(before + one.name);
 }
 
-void add_operations(const remote::ComponentDetails& component, const std::string& before,
+void add_operations(const inspect::ComponentDescription& component, const std::string& before,
                     const char* behind, std::set<std::string>& words) {
   for (const auto& one : component.operations) words.insert(before + one.name + behind);
 }
 
 /// What may follow `Joint1.`, `Joint1:`, `left.`, `math.`, `motion:`.
-void add_members(Robot& robot, Language& language, const std::string& owner, char separator,
+void add_members(SpelledView& view, Language& language, const std::string& owner, char separator,
                  bool for_help, std::set<std::string>& words) {
   const std::string before = owner + separator;
-  const std::string component = robot.find(owner);
+  const std::string component = view.find(owner);
   if (!component.empty()) {
-    const remote::ComponentDetails details = robot.interface_of(component);
+    const inspect::ComponentDescription details = view.interface_of(component);
     if (separator == '.') add_values(details, before, words);
     if (separator == ':' || for_help) add_operations(details, before, for_help ? "" : "(", words);
   }
-  for (const std::string& name : robot.component_names()) {
+  for (const std::string& name : view.component_names()) {
     if (separator == '.' && name.starts_with(before)) {
       words.insert(name.substr(0, name.find('.', before.size())));
     }
@@ -83,9 +83,9 @@ void add_members(Robot& robot, Language& language, const std::string& owner, cha
   }
 }
 
-void add_components(Robot& robot, bool whole, std::set<std::string>& words) {
-  for (const std::string& name : robot.component_names()) {
-    words.insert(whole ? name : robot.spelled(name.substr(0, name.find('.'))));
+void add_components(SpelledView& view, bool whole, std::set<std::string>& words) {
+  for (const std::string& name : view.component_names()) {
+    words.insert(whole ? name : view.spelled(name.substr(0, name.find('.'))));
   }
 }
 
@@ -110,7 +110,7 @@ std::string Completion::common() const {
   return text;
 }
 
-Completion complete(Robot& robot, Language& language, std::string_view before_cursor) {
+Completion complete(SpelledView& view, Language& language, std::string_view before_cursor) {
   const Vocabulary& vocabulary = language.vocabulary();
   Completion completion;
   completion.begin = begin_of_word(vocabulary, before_cursor);
@@ -119,12 +119,12 @@ Completion complete(Robot& robot, Language& language, std::string_view before_cu
   const std::size_t separator = word.find_last_of(".:");
   std::set<std::string> words;
   if (names_components(command)) {
-    add_components(robot, true, words);
+    add_components(view, true, words);
   } else if (separator != std::string::npos) {
-    add_members(robot, language, word.substr(0, separator), word[separator], command == "help",
+    add_members(view, language, word.substr(0, separator), word[separator], command == "help",
                 words);
   } else {
-    add_components(robot, !command.empty(), words);
+    add_components(view, !command.empty(), words);
     const bool first = before_cursor.find_first_not_of(' ') >= completion.begin;
     if (first || command == "help") add_topics(vocabulary.commands, words);
     if (command == "help") add_topics(vocabulary.functions, words);

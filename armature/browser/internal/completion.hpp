@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/browser/internal/language.hpp"
-#include "armature/browser/internal/robot.hpp"
+#include "armature/browser/internal/spelled_view.hpp"
 
 namespace armature::browser::internal {
 
@@ -20,6 +20,6 @@ struct Completion {
   std::string common() const;
 };
 
-Completion complete(Robot& robot, Language& language, std::string_view before_cursor);
+Completion complete(SpelledView& view, Language& language, std::string_view before_cursor);
 
 }  // namespace armature::browser::internal

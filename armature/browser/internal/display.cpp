@@ -3,15 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
-#include <type_traits>
-
-#include "armature/types/elements.hpp"
 
 namespace armature::browser::internal {
 namespace {
-
-using types::Type;
 
 const char* code_of(Ink ink) {
   switch (ink) {
@@ -27,56 +21,6 @@ const char* code_of(Ink ink) {
       return "\x1b[2m";
   }
   return "";
-}
-
-std::string scalar_text(const Type& type, const void* value) {
-  if (type.kind == types::Kind::kEnum) return types::to_text(type, value);
-  return types::with_scalar(type.kind, [&]<typename T>(std::type_identity<T>) -> std::string {
-    T scalar{};
-    std::memcpy(&scalar, value, sizeof scalar);
-    if constexpr (std::is_same_v<T, bool>) {
-      return scalar ? "true" : "false";
-    } else if constexpr (std::is_floating_point_v<T>) {
-      constexpr int kDigits = std::is_same_v<T, float> ? 6 : 9;
-      char text[40];
-      std::snprintf(text, sizeof text, "%.*g", kDigits, static_cast<double>(scalar));
-      return text;
-    } else {
-      return std::to_string(scalar);
-    }
-  });
-}
-
-std::string plain_text(const Type& type, const void* value, std::size_t most_elements);
-
-std::string list_text(const Type& type, const void* value, std::size_t most_elements) {
-  const std::size_t count = types::element_count(type, value);
-  const std::byte* const first = types::elements(type, value);
-  const std::size_t shown = std::min(count, most_elements);
-  std::string text = "[";
-  for (std::size_t i = 0; i < shown; ++i) {
-    text += (i > 0 ? ", " : "") +
-            plain_text(*type.element, first + i * type.element->size, most_elements);
-  }
-  if (shown < count) text += ", ... " + std::to_string(count) + " elements";
-  return text + "]";
-}
-
-std::string struct_text(const Type& type, const void* value, std::size_t most_elements) {
-  std::string text = "{";
-  for (const types::Field& field : type.fields) {
-    text +=
-        (text.size() > 1 ? ", " : "") + std::string(field.name) + ": " +
-        value_text(*field.type, types::at_offset(value, field.offset), field.unit, most_elements);
-  }
-  return text + "}";
-}
-
-std::string plain_text(const Type& type, const void* value, std::size_t most_elements) {
-  if (types::is_text(type)) return in_quotes(type.text(value));
-  if (types::is_list(type)) return list_text(type, value, most_elements);
-  if (type.kind == types::Kind::kStruct) return struct_text(type, value, most_elements);
-  return scalar_text(type, value);
 }
 
 /// Counts columns, of colours none.
@@ -117,11 +61,6 @@ std::string number_text(const char* format, double number) {
 std::string inked(const Paper& paper, Ink ink, std::string_view text) {
   if (!paper.colour || text.empty()) return std::string(text);
   return code_of(ink) + std::string(text) + "\x1b[0m";
-}
-
-std::string value_text(const Type& type, const void* value, std::string_view unit,
-                       std::size_t most_elements) {
-  return with_unit(plain_text(type, value, most_elements), unit);
 }
 
 std::string in_quotes(std::string_view text) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// How the task browser writes: values, paragraphs, columns, colours.
+// How the task browser writes: paragraphs, columns, colours.
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "armature/types/type.hpp"
 
 namespace armature::browser::internal {
 
@@ -25,11 +23,6 @@ std::string inked(const Paper& paper, Ink ink, std::string_view text);
 inline constexpr std::size_t kUsualElements = 8;
 /// Of one that was asked for: all, unless they would fill the screen.
 inline constexpr std::size_t kAskedElements = 100;
-
-/// For people: `0.25 rad`, `[1, 2, 3] V`, `{kp: 1 V/rad, steps: 2}`, `"left"`; of a long list the
-/// first elements and how many there are.
-std::string value_text(const types::Type& type, const void* value, std::string_view unit,
-                       std::size_t most_elements = kUsualElements);
 
 /// One number as printf writes it.
 std::string number_text(const char* format, double number);

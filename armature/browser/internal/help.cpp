@@ -6,16 +6,17 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
+#include "armature/base/seconds.hpp"
 
 namespace armature::browser::internal {
 namespace {
 
-using remote::ComponentDetails;
-using remote::EventDetails;
-using remote::MachineDetails;
-using remote::OperationDetails;
-using remote::PortDetails;
-using remote::PropertyDetails;
+using inspect::ComponentDescription;
+using inspect::EventDescription;
+using inspect::MachineDescription;
+using inspect::OperationDescription;
+using inspect::PortDescription;
+using inspect::PropertyDescription;
 
 /// An entry of help: what it is about, and behind an indent what there is to say.
 std::string entry(const Paper& paper, const std::string& head, const std::string& text) {
@@ -40,13 +41,13 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string about(const PropertyDetails& property) {
-  std::string text = property.doc;
+std::string about(const PropertyDescription& property) {
+  std::string text = inspect::doc_with_values(property.doc, property.values);
   add_part(text, property.type);
-  if (property.limited) {
-    add_part(text, short_number(property.low) + " to " + short_number(property.high));
+  if (property.range) {
+    add_part(text, short_number(property.range->low) + " to " + short_number(property.range->high));
   }
-  if (property.changeable) {
+  if (property.changeable_while_running) {
     add_part(text, "may change while it runs");
   } else if (property.persistent) {
     add_part(text, "changes only while stopped");
@@ -54,32 +55,39 @@ std::string about(const PropertyDetails& property) {
   return text;
 }
 
-std::string about_port(const PortDetails& port, const char* direction) {
-  std::string text = port.doc;
-  const std::string size = port.size < 0 ? "" : " of " + std::to_string(port.size) + " elements";
+std::string about_port(const PortDescription& port, const char* direction) {
+  std::string text = inspect::doc_with_values(port.doc, port.values);
+  const std::string size = port.size ? " of " + std::to_string(*port.size) + " elements" : "";
   add_part(text, port.type + size);
   add_part(text, port.peers.empty() ? "not connected" : direction + joined(port.peers));
-  if (port.max_age > 0.0) {
-    add_part(text,
-             "at most " + short_number(1000.0 * port.max_age) + " ms old, else " + port.when_stale);
+  return text;
+}
+
+std::string about(const inspect::InputDescription& port) {
+  std::string text = about_port(port, "from ");
+  if (port.max_age > base::Duration::zero()) {
+    add_part(text, "at most " + short_number(1000.0 * base::to_seconds(port.max_age)) +
+                       " ms old, else " + std::string(component::name_of(port.when_stale)));
   }
   return text;
 }
 
-std::string call_text(const Robot& robot, const std::string& component,
-                      const OperationDetails& operation) {
-  std::string text = robot.spelled(component) + ":" + operation.name + "(";
-  for (const remote::ArgumentDetails& argument : operation.arguments) {
+std::string about(const inspect::OutputDescription& port) { return about_port(port, "to "); }
+
+std::string call_text(const SpelledView& view, const std::string& component,
+                      const OperationDescription& operation) {
+  std::string text = view.spelled(component) + ":" + operation.name + "(";
+  for (const inspect::ArgumentDescription& argument : operation.arguments) {
     text +=
         (text.back() == '(' ? "" : ", ") + (argument.name.empty() ? argument.type : argument.name);
   }
   return text + ")";
 }
 
-std::string about(const OperationDetails& operation) {
+std::string about(const OperationDescription& operation) {
   std::string text = operation.doc;
   std::string types;
-  for (const remote::ArgumentDetails& argument : operation.arguments) {
+  for (const inspect::ArgumentDescription& argument : operation.arguments) {
     types += (types.empty() ? "takes " : ", ") + argument.type;
   }
   if (!types.empty()) add_part(text, types);
@@ -89,19 +97,19 @@ std::string about(const OperationDetails& operation) {
   return text;
 }
 
-std::string about(const EventDetails& event) {
+std::string about(const EventDescription& event) {
   std::string text = event.doc;
   if (!event.subscribers.empty()) add_part(text, "told " + joined(event.subscribers));
   return text;
 }
 
 /// `Name = value unit` of a member with a value.
-std::string with_value(const PropertyDetails& property, bool answered) {
+std::string with_value(const PropertyDescription& property, bool answered) {
   return answered ? property.name + " = " + with_unit(property.value, property.unit)
                   : property.name;
 }
 
-std::string with_value(const PortDetails& port, bool answered) {
+std::string with_value(const PortDescription& port, bool answered) {
   if (!answered) return port.name;
   if (!port.written) return port.name + ", not yet written";
   return port.name + " = " + with_unit(port.value, port.unit);
@@ -111,63 +119,62 @@ std::string section(const Paper& paper, const char* heading, const std::string& 
   return entries.empty() ? entries : "\n" + inked(paper, Ink::kHeading, heading) + entries;
 }
 
-std::string properties(const Paper& paper, const ComponentDetails& component, bool persistent) {
+std::string properties(const Paper& paper, const ComponentDescription& component, bool persistent) {
   std::string text;
-  for (const PropertyDetails& one : component.properties) {
+  for (const PropertyDescription& one : component.properties) {
     if (one.persistent != persistent) continue;
     text += entry(paper, with_value(one, component.answered), about(one));
   }
   return section(paper, persistent ? "Properties" : "Attributes", text);
 }
 
-std::string ports(const Paper& paper, const ComponentDetails& component, bool inputs) {
+std::string ports(const Paper& paper, const char* heading, const auto& all, bool answered) {
   std::string text;
-  for (const PortDetails& one : inputs ? component.inputs : component.outputs) {
-    text += entry(paper, with_value(one, component.answered),
-                  about_port(one, inputs ? "from " : "to "));
-  }
-  return section(paper, inputs ? "Inputs" : "Outputs", text);
+  for (const auto& one : all) text += entry(paper, with_value(one, answered), about(one));
+  return section(paper, heading, text);
 }
 
-std::string operations(const Paper& paper, const Robot& robot, const ComponentDetails& component,
-                       bool commands) {
+std::string operations(const Paper& paper, const SpelledView& view,
+                       const ComponentDescription& component, bool commands) {
   std::string text;
-  for (const OperationDetails& one : component.operations) {
+  for (const OperationDescription& one : component.operations) {
     if (one.command != commands) continue;
-    text += entry(paper, call_text(robot, component.status.name, one), about(one));
+    text += entry(paper, call_text(view, component.name, one), about(one));
   }
   return section(paper, commands ? "Commands" : "Operations", text);
 }
 
-std::string events(const Paper& paper, const ComponentDetails& component) {
+std::string events(const Paper& paper, const ComponentDescription& component) {
   std::string text;
-  for (const EventDetails& one : component.events) {
+  for (const EventDescription& one : component.events) {
     text += entry(paper, one.name + ", " + one.signature, about(one));
   }
   return section(paper, "Events", text);
 }
 
-std::string state_machines(const Paper& paper, const ComponentDetails& component) {
+std::string state_machines(const Paper& paper, const ComponentDescription& component) {
   std::string text;
-  for (const MachineDetails& machine : component.machines) {
+  for (const MachineDescription& machine : component.machines) {
     std::string what = machine.doc;
-    if (!machine.states.empty()) add_part(what, "states " + joined(machine.states));
+    std::vector<std::string> states;
+    for (const auto& state : machine.states) states.push_back(state.path);
+    if (!states.empty()) add_part(what, "states " + joined(states));
     const std::string where = machine.current.empty() ? ", in no state" : ", in " + machine.current;
     text += entry(paper, machine.name + where, what);
   }
   return section(paper, "State machines", text);
 }
 
-std::string help_component(const Paper& paper, Robot& robot, const std::string& name) {
-  const ComponentDetails component = robot.look_at(name);
-  const remote::ComponentStatus& status = component.status;
-  const std::string head = inked(paper, Ink::kHeading, status.name) + ": " + status.model + ", " +
-                           status.state + ", in thread " + status.thread;
+std::string help_component(const Paper& paper, SpelledView& view, const std::string& name) {
+  const ComponentDescription component = view.look_at(name);
+  const std::string head = inked(paper, Ink::kHeading, component.name) + ": " + component.model +
+                           ", " + state_name(component) + ", in thread " + component.thread;
   std::string text = wrapped(paper, head, 2, 0);
-  if (!status.reason.empty()) text += "\n" + wrapped(paper, status.reason, 0, 0);
+  if (!component.reason.empty()) text += "\n" + wrapped(paper, component.reason, 0, 0);
   return text + properties(paper, component, true) + properties(paper, component, false) +
-         ports(paper, component, true) + ports(paper, component, false) +
-         operations(paper, robot, component, false) + operations(paper, robot, component, true) +
+         ports(paper, "Inputs", component.inputs, component.answered) +
+         ports(paper, "Outputs", component.outputs, component.answered) +
+         operations(paper, view, component, false) + operations(paper, view, component, true) +
          events(paper, component) + state_machines(paper, component);
 }
 
@@ -182,19 +189,18 @@ std::string paragraph(const Paper& paper, const std::string& head, const std::st
 }
 
 std::string help_port(const Paper& paper, const std::string& spelled,
-                      const ComponentDetails& component, const PortDetails& port,
-                      const char* direction) {
-  const std::string& owner = component.status.name;
-  std::string head = owner + "." + with_value(port, component.answered);
-  if (component.answered && port.written)
-    head += ", " + short_number(1000.0 * port.age) + " ms old";
-  return paragraph(paper, head, about_port(port, direction)) + "\n  type:\n      " + spelled + "." +
-         port.name + "\n      watch " + owner + "." + port.name + " every 0.2";
+                      const ComponentDescription& component, const auto& port) {
+  std::string head = component.name + "." + with_value(port, component.answered);
+  if (component.answered && port.written) {
+    head += ", " + short_number(1000.0 * base::to_seconds(port.age)) + " ms old";
+  }
+  return paragraph(paper, head, about(port)) + "\n  type:\n      " + spelled + "." + port.name +
+         "\n      watch " + component.name + "." + port.name + " every 0.2";
 }
 
-std::string help_member(const Paper& paper, Robot& robot, const MemberName& member) {
-  const ComponentDetails component = robot.look_at(member.component);
-  const std::string spelled = robot.spelled(member.component);
+std::string help_member(const Paper& paper, SpelledView& view, const MemberName& member) {
+  const ComponentDescription component = view.look_at(member.component);
+  const std::string spelled = view.spelled(member.component);
   if (const auto* const property = find_in(component.properties, member.member)) {
     const std::string head = member.component + "." + with_value(*property, component.answered);
     const std::string name = spelled + "." + property->name;
@@ -202,15 +208,15 @@ std::string help_member(const Paper& paper, Robot& robot, const MemberName& memb
            name + " = ...";
   }
   if (const auto* const port = find_in(component.inputs, member.member)) {
-    return help_port(paper, spelled, component, *port, "from ");
+    return help_port(paper, spelled, component, *port);
   }
   if (const auto* const port = find_in(component.outputs, member.member)) {
-    return help_port(paper, spelled, component, *port, "to ");
+    return help_port(paper, spelled, component, *port);
   }
   if (const auto* const operation = find_in(component.operations, member.member)) {
-    return paragraph(paper, call_text(robot, member.component, *operation), about(*operation));
+    return paragraph(paper, call_text(view, member.component, *operation), about(*operation));
   }
-  const EventDetails& event = *find_in(component.events, member.member);
+  const EventDescription& event = *find_in(component.events, member.member);
   return paragraph(paper, member.component + "." + event.name + ", " + event.signature,
                    about(event));
 }
@@ -238,14 +244,14 @@ std::string topics_text(const Paper& paper, std::string_view heading,
 }
 
 /// Operations of that name, whoever has them.
-std::string help_by_operation(const Paper& paper, Robot& robot, const std::string& name) {
+std::string help_by_operation(const Paper& paper, SpelledView& view, const std::string& name) {
   std::string text;
-  for (const std::string& component : robot.component_names()) {
-    const ComponentDetails details = robot.interface_of(component);
+  for (const std::string& component : view.component_names()) {
+    const ComponentDescription details = view.interface_of(component);
     const auto* const operation = find_in(details.operations, name);
     if (operation == nullptr) continue;
     text += (text.empty() ? "" : "\n") +
-            paragraph(paper, call_text(robot, component, *operation), about(*operation));
+            paragraph(paper, call_text(view, component, *operation), about(*operation));
   }
   return text;
 }
@@ -258,13 +264,13 @@ std::string help_overview(const Paper& paper, const Vocabulary& vocabulary) {
          topics_text(paper, "Functions", vocabulary.functions) + "Tab completes names.";
 }
 
-base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Vocabulary& vocabulary,
-                                  std::string_view subject) {
-  if (const std::string name = robot.find(subject); !name.empty()) {
-    return help_component(paper, robot, name);
+base::Result<std::string> help_on(const Paper& paper, SpelledView& view,
+                                  const Vocabulary& vocabulary, std::string_view subject) {
+  if (const std::string name = view.find(subject); !name.empty()) {
+    return help_component(paper, view, name);
   }
   std::string text;
-  std::vector<std::string> known = robot.component_names();
+  std::vector<std::string> known = view.component_names();
   for (const auto* topics : {&vocabulary.commands, &vocabulary.functions}) {
     for (const Topic& topic : *topics) {
       known.emplace_back(topic.name);
@@ -274,13 +280,13 @@ base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Vocabu
   }
   const bool of_a_component = subject.find_first_of(".:") != std::string_view::npos;
   const std::string operations =
-      of_a_component ? "" : help_by_operation(paper, robot, std::string(subject));
+      of_a_component ? "" : help_by_operation(paper, view, std::string(subject));
   if (!operations.empty()) text += (text.empty() ? "" : "\n") + operations;
   if (!text.empty()) return text;
   if (of_a_component) {
-    const base::Result<MemberName> member = member_in(robot, subject);
+    const base::Result<MemberName> member = view.member_in(subject);
     if (!member) return base::Error{member.error()};
-    if (member.value().rest.empty()) return help_member(paper, robot, member.value());
+    if (member.value().rest.empty()) return help_member(paper, view, member.value());
     return base::Error{"'" + member.value().component + "." + member.value().member + "' has no '" +
                        member.value().rest + "'"};
   }

@@ -29,6 +29,11 @@ class Language {
   virtual bool wants_more() const { return false; }
   virtual void forget_lines() {}
 
+  /// The name of a component or item that `text` spells.
+  virtual std::string plain(std::string_view text) const = 0;
+  /// How lines spell the name of a component.
+  virtual std::string spelled(const std::string& component) const = 0;
+
   /// The names in a table, such as `math`; the global ones for an empty name.
   virtual std::vector<std::string> names_in(const std::string& table) = 0;
   /// State machines that lines defined.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "armature/browser/internal/answers.hpp"
-#include "armature/browser/internal/robot.hpp"
+#include "armature/browser/internal/spelled_view.hpp"
 #include "armature/browser/internal/words.hpp"
 #include "armature/component/component.hpp"
 
@@ -13,8 +13,8 @@ namespace armature::browser::internal {
 /// The commands that start and stop components, and take them out of faults.
 class LifeCycle {
  public:
-  /// @param robot, answers  outlive it
-  LifeCycle(Robot& robot, Answers& answers) : robot_(robot), answers_(answers) {}
+  /// @param view, answers  outlive it
+  LifeCycle(SpelledView& view, Answers& answers) : view_(view), answers_(answers) {}
 
   /// These components; for no names all that rest and that the deployment starts.
   void start(const Words& names);
@@ -26,11 +26,11 @@ class LifeCycle {
 
  private:
   /// @return whose change was not refused
-  Words change(const Words& names, const std::string& change);
+  Words change(const Words& names, inspect::LifeCycleChange change);
   void start_those_that_stopped_again(const Words& started);
   Words all_in(component::State state);
 
-  Robot& robot_;
+  SpelledView& view_;
   Answers& answers_;
 };
 

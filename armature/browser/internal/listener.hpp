@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/browser/internal/surface.hpp"
+#include "armature/inspect/status.hpp"
 #include "armature/lua/interpreter.hpp"
 
 namespace armature::browser::internal {
@@ -17,8 +18,8 @@ class Listener final : public lua::Listener {
 
   void say(std::string_view line) override { surface_.say(line); }
   void complain(std::string_view text) override;
-  void tell(const lua::BegunCommand& command) override;
-  void show_progress(const std::vector<lua::BegunCommand>& commands) override;
+  void tell(const inspect::CommandStatus& command) override;
+  void show_progress(const std::vector<inspect::CommandStatus>& commands) override;
   void end_progress() override { surface_.show(""); }
   bool interrupted() const override { return surface_.interrupted(); }
   bool take_interrupt() override { return surface_.take_interrupt(); }

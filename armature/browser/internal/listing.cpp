@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/browser/internal/listing.hpp"
 
+#include <optional>
 #include <vector>
 
+#include "armature/browser/internal/spelled_view.hpp"
 #include "armature/component/component.hpp"
 
 namespace armature::browser::internal {
 namespace {
 
 using component::State;
-using remote::ComponentDetails;
-using remote::ComponentStatus;
-using remote::ThreadStatus;
+using inspect::ComponentDescription;
+using inspect::ComponentStatus;
+using inspect::ThreadStatus;
 using Rows = std::vector<std::vector<std::string>>;
 
-Ink ink_of(const std::string& state) {
-  if (state == component::name_of(State::kRunning)) return Ink::kGood;
-  const bool bad = state == component::name_of(State::kException) ||
-                   state == component::name_of(State::kRunTimeError);
+Ink ink_of(const std::optional<State>& state) {
+  if (state == State::kRunning) return Ink::kGood;
+  const bool bad = state == State::kException || state == State::kRunTimeError;
   return bad ? Ink::kBad : Ink::kFaint;
 }
 
 std::string state_text(const Paper& paper, const ComponentStatus& component) {
-  return inked(paper, ink_of(component.state), component.state);
+  return inked(paper, ink_of(component.state), state_name(component));
 }
 
 std::string microseconds(double us) { return number_text("%.1f us", us); }
@@ -35,13 +36,13 @@ std::string statistics_text(const ThreadStatus& thread) {
   std::string text =
       counted(thread.cycles, "cycle") + ", " + std::to_string(thread.skipped) + " skipped";
   if (thread.cycles == 0) return text;
-  text += "; a cycle takes " + microseconds(thread.cycle_median) + " (median), " +
-          microseconds(thread.cycle_high) + " (99.9 %), " + microseconds(thread.cycle_most) +
+  text += "; a cycle takes " + microseconds(thread.cycle_median_us) + " (median), " +
+          microseconds(thread.cycle_high_us) + " (99.9 %), " + microseconds(thread.cycle_most_us) +
           " at most";
-  if (thread.load > 0.0) text += "; load " + number_text("%.2g %%", thread.load);
-  if (thread.latency_most > 0.0) {
-    text += "; wakes " + microseconds(thread.latency_median) + " late (median), " +
-            microseconds(thread.latency_most) + " at most";
+  if (thread.load_percent > 0.0) text += "; load " + number_text("%.2g %%", thread.load_percent);
+  if (thread.latency_most_us > 0.0) {
+    text += "; wakes " + microseconds(thread.latency_median_us) + " late (median), " +
+            microseconds(thread.latency_most_us) + " at most";
   }
   if (thread.log_lines_dropped > 0) {
     text += "; " + counted(thread.log_lines_dropped, "log line") + " dropped";
@@ -59,24 +60,23 @@ std::string names_line(const Paper& paper, const char* label, const auto& items,
   return "\n" + std::string(label) + "  " + wrapped(paper, names, 12, 12);
 }
 
-void add_ports(const Paper& paper, const char* kind, const std::vector<remote::PortDetails>& ports,
-               Rows& rows) {
-  for (const remote::PortDetails& port : ports) {
+void add_ports(const Paper& paper, const char* kind, const auto& ports, Rows& rows) {
+  for (const inspect::PortDescription& port : ports) {
     rows.push_back({kind, inked(paper, Ink::kName, port.name),
                     port.written ? with_unit(port.value, port.unit) : "not yet written"});
   }
 }
 
-Rows rows_of(const Paper& paper, const ComponentDetails& component) {
+Rows rows_of(const Paper& paper, const ComponentDescription& component) {
   Rows rows;
-  for (const remote::PropertyDetails& property : component.properties) {
+  for (const inspect::PropertyDescription& property : component.properties) {
     rows.push_back({property.persistent ? "property" : "attribute",
                     inked(paper, Ink::kName, property.name),
                     with_unit(property.value, property.unit)});
   }
   add_ports(paper, "input", component.inputs, rows);
   add_ports(paper, "output", component.outputs, rows);
-  for (const remote::MachineDetails& machine : component.machines) {
+  for (const inspect::MachineDescription& machine : component.machines) {
     rows.push_back({"machine", inked(paper, Ink::kName, machine.name),
                     machine.current.empty() ? "in no state" : "in " + machine.current});
   }
@@ -104,13 +104,12 @@ std::string list_machines(const Paper& paper, const std::vector<lua::MachineStat
   return table(paper, rows);
 }
 
-std::string list_members(const Paper& paper, const ComponentDetails& component) {
-  const ComponentStatus& status = component.status;
-  const std::string head = inked(paper, Ink::kHeading, status.name) + ": " + status.model + ", " +
-                           state_text(paper, status) + ", in thread " + status.thread + " (" +
-                           component.activity + ")";
+std::string list_members(const Paper& paper, const ComponentDescription& component) {
+  const std::string head = inked(paper, Ink::kHeading, component.name) + ": " + component.model +
+                           ", " + state_text(paper, component) + ", in thread " + component.thread +
+                           " (" + component.activity + ")";
   std::string text = wrapped(paper, head, 2, 0);
-  if (!status.reason.empty()) text += "\n" + wrapped(paper, status.reason, 0, 0);
+  if (!component.reason.empty()) text += "\n" + wrapped(paper, component.reason, 0, 0);
   if (!component.answered) return text + "\nits thread does not answer";
   const Rows rows = rows_of(paper, component);
   if (!rows.empty()) text += "\n" + table(paper, rows);
@@ -126,14 +125,13 @@ std::string list_threads(const Paper& paper, const std::vector<ThreadStatus>& th
   std::string text;
   for (const ThreadStatus& thread : threads) {
     text += (text.empty() ? "" : "\n") + inked(paper, Ink::kName, thread.name) + ", " +
-            thread.activity + ", " +
-            counted(static_cast<std::uint64_t>(thread.components), "component") + "\n  " +
+            thread.activity + ", " + counted(thread.components, "component") + "\n  " +
             wrapped(paper, statistics_text(thread), 2, 2);
   }
   return text;
 }
 
-std::string list_faults(const Paper& paper, const remote::Faults& faults) {
+std::string list_faults(const Paper& paper, const inspect::Faults& faults) {
   Rows rows;
   for (const ComponentStatus& component : faults.components) {
     rows.push_back(

@@ -7,25 +7,25 @@
 #include <vector>
 
 #include "armature/browser/internal/display.hpp"
+#include "armature/inspect/describe.hpp"
 #include "armature/lua/interpreter.hpp"
-#include "inspection_types.hpp"
 
 namespace armature::browser::internal {
 
 /// Every component with model, state and thread.
 std::string list_components(const Paper& paper,
-                            const std::vector<remote::ComponentStatus>& components);
+                            const std::vector<inspect::ComponentStatus>& components);
 
 /// Every state machine of the script with its state.
 std::string list_machines(const Paper& paper, const std::vector<lua::MachineStatus>& machines);
 
 /// One component with its values.
-std::string list_members(const Paper& paper, const remote::ComponentDetails& component);
+std::string list_members(const Paper& paper, const inspect::ComponentDescription& component);
 
 /// Each thread's cycles, times and load.
-std::string list_threads(const Paper& paper, const std::vector<remote::ThreadStatus>& threads);
+std::string list_threads(const Paper& paper, const std::vector<inspect::ThreadStatus>& threads);
 
 /// Who is in an error, faulted or was stopped, and why.
-std::string list_faults(const Paper& paper, const remote::Faults& faults);
+std::string list_faults(const Paper& paper, const inspect::Faults& faults);
 
 }  // namespace armature::browser::internal

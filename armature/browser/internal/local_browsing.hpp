@@ -2,10 +2,10 @@
 #pragma once
 
 #include "armature/browser/internal/answers.hpp"
-#include "armature/browser/internal/local_robot.hpp"
 #include "armature/browser/internal/local_session.hpp"
 #include "armature/browser/internal/lua_language.hpp"
 #include "armature/browser/internal/task_browser.hpp"
+#include "armature/inspect/application_view.hpp"
 
 namespace armature::browser::internal {
 
@@ -14,13 +14,13 @@ struct LocalBrowsing {
   LocalBrowsing(exec::Application& application, base::Duration duration,
                 const platform::StopSignal* stop, bool simulated, Surface& surface)
       : answers(surface),
-        robot(application),
+        view(application),
         session(application, duration, stop, simulated, surface),
-        language(application, session.interpreter(), answers),
-        browser(robot, session, language, answers) {}
+        language(application, view, session.interpreter(), answers),
+        browser(view, session, language, answers) {}
 
   Answers answers;
-  LocalRobot robot;
+  inspect::ApplicationView view;
   LocalSession session;
   LuaLanguage language;
   TaskBrowser browser;

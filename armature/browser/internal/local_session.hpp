@@ -30,6 +30,7 @@ class LocalSession final : public Session {
   /// The interpreter tells of it.
   void end_line() override {}
   bool simulated() const override { return simulated_; }
+  bool tells_ages() const override { return false; }
   double stamp(base::Duration) const override { return seconds(); }
   std::string interrupted_text() const override;
   bool let_pass(base::Duration duration, const std::function<bool()>& also) override {

@@ -20,6 +20,12 @@ struct LuaLanguage::ItemAssignment : Assignment {
   std::optional<Item> item;
 };
 
+std::string LuaLanguage::plain(std::string_view text) const { return lua::without_lua(text); }
+
+std::string LuaLanguage::spelled(const std::string& component) const {
+  return lua::in_lua(component);
+}
+
 bool LuaLanguage::goes_on(std::string_view behind) const {
   return !behind.empty() &&
          std::string_view("=([.:+*/%<>~^,;").find(behind.front()) != std::string_view::npos;
@@ -27,7 +33,7 @@ bool LuaLanguage::goes_on(std::string_view behind) const {
 
 /// With what Lua needs for the component that it begins with, if that has a
 /// name which Lua would misread; `_G["aic-1"].Gain` for `aic-1.Gain`.
-std::string LuaLanguage::spelled(std::string_view text) const {
+std::string LuaLanguage::line_in_lua(std::string_view text) const {
   const component::Component* const component =
       inspect::leading_component(application_, text, ".:[ =");
   if (component == nullptr) return std::string(text);
@@ -37,8 +43,7 @@ std::string LuaLanguage::spelled(std::string_view text) const {
 /// What Lua would take without a word, or not at all: a part of a copy, a value
 /// with its unit.
 bool LuaLanguage::prepare(ItemAssignment& assignment) {
-  const base::Result<Item> item =
-      inspect::find_item(application_, lua::without_lua(assignment.target));
+  const base::Result<Item> item = inspect::find_item(application_, plain(assignment.target));
   if (!item) return true;
   assignment.item = item.value();
   const Member& member = item.value().member;
@@ -62,10 +67,10 @@ void LuaLanguage::take(std::string_view line) {
   const std::string text = wants_more() ? lines_ + "\n" + std::string(line) : std::string(line);
   lines_.clear();
   ItemAssignment assignment(text);
-  std::string lua = spelled(text);
+  std::string lua = line_in_lua(text);
   if (!assignment.target.empty()) {
     if (!prepare(assignment)) return;
-    if (assignment.item) lua = spelled(assignment.target) + " = " + assignment.value;
+    if (assignment.item) lua = line_in_lua(assignment.target) + " = " + assignment.value;
   }
   if (interpreter_.is_incomplete(lua)) {
     lines_ = text;
@@ -78,11 +83,8 @@ void LuaLanguage::take(std::string_view line) {
 
 /// What the item is now.
 void LuaLanguage::show(const ItemAssignment& assignment) {
-  const Item& item = *assignment.item;
-  const auto readings = inspect::read_members(application_, {item.member});
-  if (!readings) return;
-  answers_.say(item.text + " = " +
-               value_text(*item.type, readings->front().whole.data(), item.unit, kAskedElements));
+  const inspect::ItemValue now = view_.read({assignment.item->text}, kAskedElements).front();
+  if (now.error.empty()) answers_.say(now.item + " = " + with_unit(now.value, now.unit));
 }
 
 }  // namespace armature::browser::internal

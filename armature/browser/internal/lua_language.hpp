@@ -7,6 +7,7 @@
 
 #include "armature/browser/internal/answers.hpp"
 #include "armature/browser/internal/language.hpp"
+#include "armature/browser/internal/spelled_view.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/lua/interpreter.hpp"
 
@@ -18,8 +19,12 @@ namespace armature::browser::internal {
 class LuaLanguage final : public Language {
  public:
   /// All outlive it.
-  LuaLanguage(exec::Application& application, lua::Interpreter& interpreter, Answers& answers)
-      : application_(application), interpreter_(interpreter), answers_(answers) {}
+  LuaLanguage(exec::Application& application, inspect::View& view, lua::Interpreter& interpreter,
+              Answers& answers)
+      : application_(application),
+        view_(view, *this),
+        interpreter_(interpreter),
+        answers_(answers) {}
 
   const Vocabulary& vocabulary() const override { return lua_vocabulary(); }
   bool goes_on(std::string_view behind) const override;
@@ -28,6 +33,8 @@ class LuaLanguage final : public Language {
   void take(std::string_view line) override;
   bool wants_more() const override { return !lines_.empty(); }
   void forget_lines() override { lines_.clear(); }
+  std::string plain(std::string_view text) const override;
+  std::string spelled(const std::string& component) const override;
   std::vector<std::string> names_in(const std::string& table) override {
     return interpreter_.names_in(table);
   }
@@ -36,10 +43,11 @@ class LuaLanguage final : public Language {
  private:
   struct ItemAssignment;
   bool prepare(ItemAssignment& assignment);
-  std::string spelled(std::string_view text) const;
+  std::string line_in_lua(std::string_view text) const;
   void show(const ItemAssignment& assignment);
 
   exec::Application& application_;
+  SpelledView view_;
   lua::Interpreter& interpreter_;
   Answers& answers_;
   std::string lines_;  ///< of a statement that is not whole yet

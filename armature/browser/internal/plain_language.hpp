@@ -8,6 +8,7 @@
 #include "armature/browser/internal/answers.hpp"
 #include "armature/browser/internal/language.hpp"
 #include "armature/browser/internal/remote_session.hpp"
+#include "armature/browser/internal/spelled_view.hpp"
 #include "armature/browser/internal/words.hpp"
 
 namespace armature::browser::internal {
@@ -18,12 +19,14 @@ class PlainLanguage final : public Language {
  public:
   /// All outlive it.
   PlainLanguage(RemoteSession& session, Answers& answers)
-      : session_(session), robot_(session.robot()), answers_(answers) {}
+      : session_(session), view_(session.view(), *this), answers_(answers) {}
 
   const Vocabulary& vocabulary() const override { return plain_vocabulary(); }
   bool goes_on(std::string_view) const override { return false; }
   bool is_statement(std::string_view line) const override;
   void take(std::string_view line) override;
+  std::string plain(std::string_view text) const override;
+  std::string spelled(const std::string& component) const override { return component; }
   std::vector<std::string> names_in(const std::string&) override { return {}; }
 
  private:
@@ -32,7 +35,7 @@ class PlainLanguage final : public Language {
   void explain(const std::string& line);
 
   RemoteSession& session_;
-  RemoteRobot& robot_;
+  SpelledView view_;
   Answers& answers_;
 };
 

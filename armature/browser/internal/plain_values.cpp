@@ -11,7 +11,7 @@
 namespace armature::browser::internal {
 namespace {
 
-using remote::FieldDetails;
+using inspect::FieldDescription;
 
 struct Mistake {
   std::string text;
@@ -161,7 +161,7 @@ class TypedReader {
 /// Writes a value of another process for people.
 class Shortener {
  public:
-  Shortener(const std::vector<FieldDetails>& fields, std::size_t most_elements)
+  Shortener(const std::vector<FieldDescription>& fields, std::size_t most_elements)
       : fields_(fields), most_elements_(most_elements) {}
 
   std::string value(std::string_view& rest, const std::string& type, int depth = 0) const {
@@ -225,7 +225,7 @@ class Shortener {
       const std::string name(rest.substr(0, std::min(rest.find(':'), rest.size())));
       rest.remove_prefix(std::min(name.size() + 1, rest.size()));
       skip(rest, " ");
-      const FieldDetails* const field = find(type, name);
+      const FieldDescription* const field = find(type, name);
       text += (text.size() > 1 ? ", " : "") + name + ": " +
               with_unit(value(rest, field == nullptr ? "" : field->type, depth),
                         field == nullptr ? "" : field->unit);
@@ -246,14 +246,15 @@ class Shortener {
     return whole;
   }
 
-  const FieldDetails* find(const std::string& structure, const std::string& name) const {
-    const auto found = std::find_if(fields_.begin(), fields_.end(), [&](const FieldDetails& one) {
-      return one.structure == structure && one.name == name;
-    });
+  const FieldDescription* find(const std::string& structure, const std::string& name) const {
+    const auto found =
+        std::find_if(fields_.begin(), fields_.end(), [&](const FieldDescription& one) {
+          return one.structure == structure && one.name == name;
+        });
     return found == fields_.end() ? nullptr : &*found;
   }
 
-  const std::vector<FieldDetails>& fields_;
+  const std::vector<FieldDescription>& fields_;
   std::size_t most_elements_;
 };
 
@@ -299,23 +300,10 @@ base::Result<TypedCall> parse_call(std::string_view line) {
 }
 
 std::string for_people(std::string_view text, const std::string& type,
-                       const std::vector<FieldDetails>& fields, std::size_t most_elements) {
+                       const std::vector<FieldDescription>& fields, std::size_t most_elements) {
   const bool is_text = type == "text" || type.starts_with("text<");
   if (is_text) return in_quotes(text);
   return Shortener(fields, most_elements).value(text, type);
-}
-
-std::string harmless(std::string_view text) {
-  std::string safe;
-  bool continued = false;  // the second byte of U+0080 to U+009F, which are control characters too
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    const bool moves =
-        (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f || (continued && code < 0xa0);
-    continued = code == 0xc2;
-    safe += moves ? '?' : c;
-  }
-  return safe;
 }
 
 }  // namespace armature::browser::internal

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
-#include "inspection_types.hpp"
+#include "armature/inspect/describe.hpp"
 
 namespace armature::browser::internal {
 
@@ -33,9 +33,7 @@ base::Result<TypedCall> parse_call(std::string_view line);
 /// @param type    its name
 /// @param fields  of the structs that may be in it
 std::string for_people(std::string_view text, const std::string& type,
-                       const std::vector<remote::FieldDetails>& fields, std::size_t most_elements);
-
-/// What another process says, without characters that would move a terminal's cursor.
-std::string harmless(std::string_view text);
+                       const std::vector<inspect::FieldDescription>& fields,
+                       std::size_t most_elements);
 
 }  // namespace armature::browser::internal

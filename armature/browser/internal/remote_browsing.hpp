@@ -12,11 +12,11 @@ namespace armature::browser::internal {
 
 /// A task browser with all that it needs for an application of another process.
 struct RemoteBrowsing {
-  RemoteBrowsing(RemoteRobot& robot, Surface& surface, RemoteSession::Pause pause)
+  RemoteBrowsing(remote::PeerView& view, Surface& surface, RemoteSession::Pause pause)
       : answers(surface),
-        session(robot, answers, std::move(pause)),
+        session(view, answers, std::move(pause)),
         language(session, answers),
-        browser(robot, session, language, answers) {}
+        browser(view, session, language, answers) {}
 
   Answers answers;
   RemoteSession session;

@@ -7,14 +7,13 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/browser/internal/command_texts.hpp"
-#include "armature/browser/internal/plain_values.hpp"
 #include "armature/platform/clock.hpp"
 
 namespace armature::browser::internal {
 namespace {
 
 using namespace std::chrono_literals;
-using remote::CommandStatus;
+using inspect::CommandStatus;
 
 /// Of commands that are under way.
 constexpr base::Duration kFollowPeriod = 100ms;
@@ -26,9 +25,9 @@ constexpr base::Duration kReconnectionLimit = 3s;
 
 }  // namespace
 
-RemoteSession::RemoteSession(RemoteRobot& robot, Answers& answers, Pause pause)
-    : robot_(robot), answers_(answers), pause_(std::move(pause)), name_(robot.address()) {
-  robot_.take_changes();
+RemoteSession::RemoteSession(remote::PeerView& view, Answers& answers, Pause pause)
+    : view_(view), answers_(answers), pause_(std::move(pause)), name_(view.address()) {
+  view_.take_changes();
   greet();
 }
 
@@ -37,33 +36,33 @@ RemoteSession::RemoteSession(RemoteRobot& robot, Answers& answers, Pause pause)
 /// Whoever may not read the application's own name still sees where it is.
 void RemoteSession::greet() {
   try {
-    has_application_ = robot_.has_application();
+    has_application_ = view_.has_application();
     if (!has_application_ && !had_application_) {
-      answers_.surface().complain("note: a node answers at " + robot_.address() +
+      answers_.surface().complain("note: a node answers at " + view_.address() +
                                   ", but no application that can be browsed; "
                                   "`list` shows what it hosts");
     }
     if (!has_application_) return;
     had_application_ = true;
     if (std::exchange(was_lost_, false)) {
-      answers_.surface().complain("connected to " + robot_.address() + " again");
+      answers_.surface().complain("connected to " + view_.address() + " again");
     }
-    name_ = robot_.status().name;
-  } catch (const NoAnswer& problem) {
+    name_ = view_.status().name;
+  } catch (const inspect::NoAnswer& problem) {
     answers_.surface().complain("warning: " + std::string(problem.what()));
   }
 }
 
 void RemoteSession::note_connection() {
   bool back = false;
-  for (const ride::PeerChange& change : robot_.take_changes()) {
+  for (const ride::PeerChange& change : view_.take_changes()) {
     back = change.connected;
-    robot_.forget();
+    view_.forget();
     if (change.connected) continue;
     was_lost_ = is_another_ = true;
     has_application_ = false;
-    answers_.surface().complain("the connection to " + robot_.address() +
-                                " is lost: " + harmless(change.text) + "; trying again");
+    answers_.surface().complain("the connection to " + view_.address() +
+                                " is lost: " + change.text + "; trying again");
   }
   if (back) greet();
 }
@@ -75,9 +74,9 @@ bool RemoteSession::is_ready() {
     note_connection();
   }
   if (!is_away()) return true;
-  const auto there = robot_.wait_until_connected(base::Duration::zero());
-  answers_.mistake(there ? "the process at " + robot_.address() + " has no application now"
-                         : harmless(there.error()));
+  const auto there = view_.wait_until_connected(base::Duration::zero());
+  answers_.mistake(there ? "the process at " + view_.address() + " has no application now"
+                         : there.error());
   return false;
 }
 
@@ -105,7 +104,7 @@ void RemoteSession::stop() {
   note_connection();
   ended_ = true;
   for (const CommandStatus& command : begun_) {
-    answers_.say(command.command +
+    answers_.say(command.name +
                  ": cancelled, because the connection of the client that began it has ended");
   }
 }
@@ -114,10 +113,10 @@ void RemoteSession::stop() {
 
 void RemoteSession::begin(const std::string& component, const std::string& command,
                           const std::vector<std::string>& arguments) {
-  CommandStatus begun = robot_.begin(component, command, arguments);
+  CommandStatus begun = view_.begin(component, command, arguments);
   for (base::Duration passed{}; !begun.ended && passed < kSoon; passed += kStep) {
     pause_(kStep);
-    begun = robot_.follow(begun.handle);
+    begun = view_.follow(begun.handle);
   }
   if (!begun.ended) begun_.push_back(begun);
   answers_.say(fate_text(answers_.paper(), begun));
@@ -136,7 +135,7 @@ void RemoteSession::wait_for_commands() {
 }
 
 bool RemoteSession::cancel_commands() {
-  for (const CommandStatus& command : begun_) robot_.cancel(command.handle);
+  for (const CommandStatus& command : begun_) view_.cancel(command.handle);
   return !begun_.empty();
 }
 
@@ -159,11 +158,11 @@ void RemoteSession::follow_commands() {
 
 bool RemoteSession::follow(CommandStatus& command) {
   try {
-    command = robot_.follow(command.handle);
-  } catch (const NoAnswer& problem) {
+    command = view_.follow(command.handle);
+  } catch (const inspect::NoAnswer& problem) {
     if (!is_another_ || is_away()) return false;
     answers_.surface().show("");
-    answers_.say(command.command + ": how it ended is not known: " + problem.what());
+    answers_.say(command.name + ": how it ended is not known: " + problem.what());
     return true;
   }
   if (!command.ended) return false;

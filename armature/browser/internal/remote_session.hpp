@@ -7,8 +7,8 @@
 
 #include "armature/base/time.hpp"
 #include "armature/browser/internal/answers.hpp"
-#include "armature/browser/internal/remote_robot.hpp"
 #include "armature/browser/internal/session.hpp"
+#include "armature/remote/peer_view.hpp"
 
 namespace armature::browser::internal {
 
@@ -19,8 +19,8 @@ class RemoteSession final : public Session {
   /// Lets time pass.
   using Pause = std::function<void(base::Duration)>;
 
-  /// @param robot, answers  outlive it
-  RemoteSession(RemoteRobot& robot, Answers& answers, Pause pause);
+  /// @param view, answers  outlive it
+  RemoteSession(remote::PeerView& view, Answers& answers, Pause pause);
 
   std::string prompt() const override { return name_ + "> "; }
   bool keep_up() override;
@@ -28,6 +28,7 @@ class RemoteSession final : public Session {
   bool is_ready() override;
   void end_line() override;
   bool simulated() const override { return false; }
+  bool tells_ages() const override { return true; }
   double stamp(base::Duration passed) const override;
   std::string interrupted_text() const override { return "interrupted"; }
   bool let_pass(base::Duration duration, const std::function<bool()>& also) override;
@@ -36,7 +37,7 @@ class RemoteSession final : public Session {
   void stop() override;
   bool has_ended() const override { return ended_; }
 
-  RemoteRobot& robot() { return robot_; }
+  remote::PeerView& view() { return view_; }
   /// Begins a command, whose end is told whenever it comes.
   void begin(const std::string& component, const std::string& command,
              const std::vector<std::string>& arguments);
@@ -45,19 +46,19 @@ class RemoteSession final : public Session {
   void note_connection();
   /// Finds out who answers there.
   void greet();
-  /// A robot that was there is not there now.
-  bool is_away() const { return !robot_.connected() || (had_application_ && !has_application_); }
+  /// An application that was there is not there now.
+  bool is_away() const { return !view_.connected() || (had_application_ && !has_application_); }
   /// Asks how the commands fare that were begun, and tells of those that have ended.
   void follow_commands();
   /// Likewise of one; true if it has ended.
-  bool follow(remote::CommandStatus& command);
+  bool follow(inspect::CommandStatus& command);
   void show_progress();
 
-  RemoteRobot& robot_;
+  remote::PeerView& view_;
   Answers& answers_;
   Pause pause_;
   std::string name_;  ///< of the application
-  std::vector<remote::CommandStatus> begun_;
+  std::vector<inspect::CommandStatus> begun_;
   base::Time next_look_{};  ///< at the commands
   bool has_application_ = false;
   bool had_application_ = false;

@@ -25,6 +25,9 @@ class Session {
 
   /// Whether time passes only as lines let it.
   virtual bool simulated() const = 0;
+  /// Whether the age of an old value is told: of an application that somebody looks at from another
+  /// process, beside whom no log runs.
+  virtual bool tells_ages() const = 0;
   /// What a watch that has gone on for `passed` writes beside its values, in seconds.
   virtual double stamp(base::Duration passed) const = 0;
   /// `interrupted`, and when if time is the application's.

@@ -2,8 +2,10 @@
 #include "armature/browser/internal/task_browser.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 
+#include "armature/base/seconds.hpp"
 #include "armature/browser/internal/help.hpp"
 #include "armature/browser/internal/listing.hpp"
 #include "armature/browser/internal/watch.hpp"
@@ -12,7 +14,7 @@ namespace armature::browser::internal {
 namespace {
 
 /// An older value is told with its age.
-constexpr double kOldSeconds = 1.0;
+constexpr base::Duration kOld = std::chrono::seconds(1);
 
 std::string_view first_word(std::string_view line) {
   return line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
@@ -22,7 +24,7 @@ std::string behind_first_word(std::string_view line) {
   return trimmed(line.substr(first_word(line).size()));
 }
 
-bool has_value(const remote::ComponentDetails& component, const std::string& member) {
+bool has_value(const inspect::ComponentDescription& component, const std::string& member) {
   const auto is_it = [&](const auto& one) { return one.name == member; };
   return std::ranges::any_of(component.properties, is_it) ||
          std::ranges::any_of(component.inputs, is_it) ||
@@ -52,8 +54,8 @@ struct TaskBrowser::Command {
 
 Completion TaskBrowser::complete(std::string_view before_cursor) {
   try {
-    return internal::complete(robot_, language_, before_cursor);
-  } catch (const NoAnswer&) {
+    return internal::complete(view_, language_, before_cursor);
+  } catch (const inspect::NoAnswer&) {
     return {};
   }
 }
@@ -69,7 +71,7 @@ void TaskBrowser::take(std::string_view line) {
   if (!leaves && !session_.is_ready()) return;
   try {
     take_whole(text);
-  } catch (const NoAnswer& problem) {
+  } catch (const inspect::NoAnswer& problem) {
     surface().end_keys();
     surface().show("");
     answers_.mistake(problem.what());
@@ -119,25 +121,26 @@ const TaskBrowser::Command* TaskBrowser::command_of(std::string_view line) const
 
 /// `Joint1`, `Joint1.Position`, `Sensor.sensor[2]`: what it is now, with its unit.
 bool TaskBrowser::take_item(const std::string& line) {
-  if (!robot_.find(line).empty()) {
+  if (!view_.find(line).empty()) {
     list({line});
     return true;
   }
-  const base::Result<MemberName> member = member_in(robot_, line);
+  const base::Result<MemberName> member = view_.member_in(line);
   if (!member || !names_part(member.value().rest)) return false;
-  if (!has_value(robot_.interface_of(member.value().component), member.value().member)) {
+  if (!has_value(view_.interface_of(member.value().component), member.value().member)) {
     if (member.value().rest.empty()) help({line});
     return member.value().rest.empty();
   }
-  const remote::ItemValue value = robot_.read({line}, kAskedElements).at(0);
+  const inspect::ItemValue value = view_.read({line}, kAskedElements).at(0);
   if (value.type.empty()) return false;
   if (!value.error.empty()) {
     answers_.mistake(value.error);
   } else if (!value.written) {
     answers_.say("not yet written");
   } else {
+    const bool is_old = session_.tells_ages() && value.age >= kOld;
     answers_.say(with_unit(value.value, value.unit) +
-                 (value.age >= kOldSeconds ? number_text(", %.3g s old", value.age) : ""));
+                 (is_old ? number_text(", %.3g s old", base::to_seconds(value.age)) : ""));
   }
   return true;
 }
@@ -152,14 +155,14 @@ bool TaskBrowser::takes_nothing(std::string_view command, const Words& arguments
 
 void TaskBrowser::list(const Words& names) {
   if (names.empty()) {
-    answers_.say(list_components(paper(), robot_.components()));
+    answers_.say(list_components(paper(), view_.components()));
     const std::vector<lua::MachineStatus> machines = language_.machines();
     if (!machines.empty()) answers_.say(list_machines(paper(), machines));
   }
   for (const std::string& name : names) {
-    if (const std::string component = robot_.find(name); !component.empty()) {
-      answers_.say(list_members(paper(), robot_.look_at(component)));
-    } else if (const auto member = member_in(robot_, name); member) {
+    if (const std::string component = view_.find(name); !component.empty()) {
+      answers_.say(list_members(paper(), view_.look_at(component)));
+    } else if (const auto member = view_.member_in(name); member) {
       help({name});
     } else {
       answers_.mistake(member.error());
@@ -170,29 +173,29 @@ void TaskBrowser::list(const Words& names) {
 void TaskBrowser::help(const Words& subjects) {
   if (subjects.empty()) answers_.say(help_overview(paper(), vocabulary()));
   for (const std::string& subject : subjects) {
-    const base::Result<std::string> text = help_on(paper(), robot_, vocabulary(), subject);
+    const base::Result<std::string> text = help_on(paper(), view_, vocabulary(), subject);
     text ? answers_.say(text.value()) : answers_.mistake(text.error());
   }
 }
 
 void TaskBrowser::threads(const Words& arguments) {
   if (takes_nothing("threads", arguments)) {
-    answers_.say(list_threads(paper(), robot_.status().threads));
+    answers_.say(list_threads(paper(), view_.status().threads));
   }
 }
 
 void TaskBrowser::faults(const Words& arguments) {
-  if (takes_nothing("faults", arguments)) answers_.say(list_faults(paper(), robot_.faults()));
+  if (takes_nothing("faults", arguments)) answers_.say(list_faults(paper(), view_.faults()));
 }
 
 void TaskBrowser::watch(const Words& words) {
-  const base::Result<Watch> watch = Watch::parse(robot_, words);
+  const base::Result<Watch> watch = Watch::parse(view_, words);
   if (!watch) return answers_.mistake(watch.error());
   surface().begin_keys();
   if (surface().live() && !session_.simulated()) {
-    watch_in_place(watch.value(), robot_, session_, surface());
+    watch_in_place(watch.value(), view_, session_, surface());
   } else {
-    watch_by_lines(watch.value(), robot_, session_, surface());
+    watch_by_lines(watch.value(), view_, session_, surface());
   }
   surface().end_keys();
   surface().take_interrupt();

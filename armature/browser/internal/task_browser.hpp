@@ -10,8 +10,8 @@
 #include "armature/browser/internal/console.hpp"
 #include "armature/browser/internal/language.hpp"
 #include "armature/browser/internal/life_cycle.hpp"
-#include "armature/browser/internal/robot.hpp"
 #include "armature/browser/internal/session.hpp"
+#include "armature/browser/internal/spelled_view.hpp"
 #include "armature/browser/internal/words.hpp"
 
 namespace armature::browser::internal {
@@ -23,12 +23,12 @@ class Watch;
 class TaskBrowser final : public LineTaker {
  public:
   /// All outlive it.
-  TaskBrowser(Robot& robot, Session& session, Language& language, Answers& answers)
-      : robot_(robot),
+  TaskBrowser(inspect::View& view, Session& session, Language& language, Answers& answers)
+      : view_(view, language),
         session_(session),
         language_(language),
         answers_(answers),
-        life_cycle_(robot, answers) {}
+        life_cycle_(view_, answers) {}
 
   void take(std::string_view line) override;
   bool idle() override { return session_.keep_up(); }
@@ -68,7 +68,7 @@ class TaskBrowser final : public LineTaker {
   Surface& surface() { return answers_.surface(); }
   Paper paper() const { return answers_.paper(); }
 
-  Robot& robot_;
+  SpelledView view_;
   Session& session_;
   Language& language_;
   Answers& answers_;

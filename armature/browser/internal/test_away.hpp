@@ -26,15 +26,15 @@ class Away {
   Away() : inspector_(bench.application(), queue_), controller_([this] { control(); }) {
     EXPECT_TRUE(node_.add(remote::Inspector::kName, inspector_.service()).ok());
     ride::Peer& peer = client_.connect(node_.listen("tcp://127.0.0.1:0").value().text());
-    robot_ = std::make_unique<internal::RemoteRobot>(peer);
+    view_ = std::make_unique<remote::PeerView>(peer);
     EXPECT_TRUE(peer.wait_until_connected(20s).ok());
     remote_ = std::make_unique<internal::RemoteBrowsing>(
-        *robot_, screen, [this](base::Duration time) { pass(time); });
+        *view_, screen, [this](base::Duration time) { pass(time); });
     browser = &remote_->browser;
   }
   ~Away() {
     remote_.reset();
-    robot_.reset();
+    view_.reset();
     node_.remove(inspector_.service());
     over_ = true;
     controller_.join();
@@ -81,7 +81,7 @@ class Away {
   std::thread controller_;
   ride::Node node_;
   ride::Node client_;
-  std::unique_ptr<internal::RemoteRobot> robot_;
+  std::unique_ptr<remote::PeerView> view_;
   std::unique_ptr<internal::RemoteBrowsing> remote_;
 };
 

@@ -39,7 +39,7 @@ std::optional<base::Duration> seconds_in(std::string_view text) {
   return base::from_seconds(seconds.value());
 }
 
-base::Result<Watch> Watch::parse(Robot& robot, const std::vector<std::string>& words) {
+base::Result<Watch> Watch::parse(SpelledView& view, const std::vector<std::string>& words) {
   Watch watch;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] != "every" && words[i] != "for") {
@@ -56,7 +56,7 @@ base::Result<Watch> Watch::parse(Robot& robot, const std::vector<std::string>& w
   if (watch.items_.empty()) {
     return base::Error{"watch takes the items to show: watch Joint1.Position every 0.2"};
   }
-  const std::vector<remote::ItemValue> values = watch.read(robot);
+  const std::vector<inspect::ItemValue> values = watch.read(view);
   for (std::size_t i = 0; i < values.size(); ++i) {
     // Without a type it is nothing that could ever be looked at.
     if (values[i].type.empty()) return base::Error{values[i].error};
@@ -65,15 +65,15 @@ base::Result<Watch> Watch::parse(Robot& robot, const std::vector<std::string>& w
   return watch;
 }
 
-std::vector<remote::ItemValue> Watch::read(Robot& robot) const {
+std::vector<inspect::ItemValue> Watch::read(SpelledView& view) const {
   std::vector<std::string> items;
   for (const Item& item : items_) items.push_back(item.text);
-  return robot.read(items, kFewElements);
+  return view.read(items, kFewElements);
 }
 
-std::vector<std::string> Watch::values(Robot& robot) const {
+std::vector<std::string> Watch::values(SpelledView& view) const {
   std::vector<std::string> texts;
-  for (const remote::ItemValue& value : read(robot)) {
+  for (const inspect::ItemValue& value : read(view)) {
     const bool answered = value.written || value.error.empty();
     texts.push_back(!answered              ? "no answer"
                     : !value.written       ? "not yet"
@@ -87,8 +87,8 @@ std::string Watch::name_of(const Item& item) {
   return item.unit.empty() ? item.text : item.text + " [" + item.unit + "]";
 }
 
-std::string Watch::picture(const Paper& paper, Robot& robot) const {
-  const std::vector<std::string> texts = values(robot);
+std::string Watch::picture(const Paper& paper, SpelledView& view) const {
+  const std::vector<std::string> texts = values(view);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::string& unit = items_[i].unit;
@@ -113,8 +113,8 @@ std::string Watch::heading(const Paper& paper) const {
   return inked(paper, Ink::kHeading, text);
 }
 
-std::string Watch::line(const Paper& paper, Robot& robot, double seconds) const {
-  const std::vector<std::string> texts = values(robot);
+std::string Watch::line(const Paper& paper, SpelledView& view, double seconds) const {
+  const std::vector<std::string> texts = values(view);
   std::string text = padded(time_text(seconds), kTimeColumns);
   const bool columns = fits(paper);
   for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -129,7 +129,7 @@ std::string Watch::line(const Paper& paper, Robot& robot, double seconds) const 
   return text;
 }
 
-void watch_in_place(const Watch& watch, Robot& robot, Session& session, Surface& surface) {
+void watch_in_place(const Watch& watch, SpelledView& view, Session& session, Surface& surface) {
   const base::Duration limit = watch.limit().value_or(base::Duration::max());
   bool key = false;
   const auto key_came = [&] { return key = key || surface.take_key(); };
@@ -140,14 +140,14 @@ void watch_in_place(const Watch& watch, Robot& robot, Session& session, Surface&
     passed += step;
     step = std::min(watch.every(), limit - passed);
     const Paper paper = surface.paper();
-    picture = watch.picture(paper, robot);
+    picture = watch.picture(paper, view);
     surface.show(picture + "\n" + inked(paper, Ink::kFaint, "any key ends it"));
   } while (session.let_pass(step, key_came) && passed + step < limit);
   surface.show("");
   surface.say(picture);
 }
 
-void watch_by_lines(const Watch& watch, Robot& robot, Session& session, Surface& surface) {
+void watch_by_lines(const Watch& watch, SpelledView& view, Session& session, Surface& surface) {
   constexpr int kUsualLines = 10;
   const base::Duration limit = watch.limit().value_or(kUsualLines * watch.every());
   bool key = false;
@@ -158,7 +158,7 @@ void watch_by_lines(const Watch& watch, Robot& robot, Session& session, Surface&
     const base::Duration step = std::min(watch.every(), limit - passed);
     if (!session.let_pass(step, key_came)) return;
     passed += step;
-    surface.say(watch.line(surface.paper(), robot, session.stamp(passed)));
+    surface.say(watch.line(surface.paper(), view, session.stamp(passed)));
   }
 }
 

@@ -39,6 +39,8 @@ struct InputCounters {
   std::uint64_t missed = 0;  ///< values that were overwritten or dropped before they were read
   std::uint64_t stale = 0;   ///< how often the data became older than declared
   std::uint64_t lost = 0;    ///< how often a writer faulted
+
+  bool operator==(const InputCounters&) const = default;
 };
 
 /// Option of an input port: a write runs the component's update.

@@ -21,6 +21,8 @@ struct OutputCounters {
   std::uint64_t refused = 0;     ///< values that a full FIFO did not take
   std::uint64_t dropped = 0;     ///< values that were dropped from a full FIFO to make room
   std::uint64_t wrong_size = 0;  ///< writes of a vector of another size
+
+  bool operator==(const OutputCounters&) const = default;
 };
 
 /// What output ports of all types have in common.

@@ -20,6 +20,8 @@ namespace armature::component {
 struct Range {
   double low;
   double high;
+
+  bool operator==(const Range&) const = default;
 };
 
 /// Options of a property, given behind its unit.

@@ -3,12 +3,15 @@
 
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/inspect/acts.hpp"
+#include "armature/inspect/items.hpp"
 #include "armature/lua/internal/subscriptions.hpp"
 #include "armature/lua/internal/table_reader.hpp"
 #include "armature/lua/internal/values.hpp"
@@ -18,7 +21,7 @@ namespace {
 
 using component::CommandHandle;
 using component::Component;
-using component::OperationBase;
+using inspect::Member;
 
 constexpr const char* kComponent = "component";
 constexpr const char* kCommand = "command";
@@ -33,56 +36,18 @@ Component& component_at(lua_State* lua, int index) {
   return **static_cast<Component**>(luaL_checkudata(lua, index, kComponent));
 }
 
-template <typename Items>
-auto find_in(const Items& items, std::string_view name) -> typename Items::value_type {
-  for (auto* item : items) {
-    if (item->name() == name) return item;
-  }
-  return nullptr;
-}
-
-bool is_port(const Component& component, std::string_view name) {
-  return find_in(component.interface().inputs, name) != nullptr ||
-         find_in(component.interface().outputs, name) != nullptr;
-}
-
-std::vector<std::string> members_of(const Component& component) {
-  std::vector<std::string> names;
-  const auto add = [&](const auto& items) {
-    for (const auto* item : items) names.emplace_back(item->name());
-  };
-  add(component.interface().properties);
-  add(component.interface().operations);
-  add(component.interface().inputs);
-  add(component.interface().outputs);
-  add(component.interface().events);
-  return names;
-}
-
-/// Errors of the application name the object themselves when they begin with it in quotes.
-std::string with_name(const std::string& name, const std::string& error) {
-  return error.rfind('\'', 0) == 0 ? error : name + ": " + error;
-}
-
 // --- calling operations and commands -------------------------------------------------------------
 
-std::vector<types::Value> arguments_of(lua_State* lua, const OperationBase& operation,
-                                       const std::string& name) {
-  const auto& wanted = operation.signature().arguments;
+std::vector<types::Value> arguments_of(lua_State* lua, const Member& operation) {
   const auto given = static_cast<std::size_t>(lua_gettop(lua) - 1);
-  if (given != wanted.size()) {
-    refuse(lua, name + " takes " + std::to_string(wanted.size()) +
-                    (wanted.size() == 1 ? " argument" : " arguments") + ", not " +
-                    std::to_string(given) + ": it is " + operation.signature().text());
+  if (const auto right = inspect::check_count(operation, given); !right) {
+    refuse(lua, right.error());
   }
+  const auto& wanted = operation.operation->signature().arguments;
   std::vector<types::Value> values;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     base::Result<types::Value> value = value_at(lua, static_cast<int>(i + 2), *wanted[i].type);
-    if (!value) {
-      const std::string label =
-          wanted[i].name.empty() ? "" : " (" + std::string(wanted[i].name) + ")";
-      refuse(lua, name + ": argument " + std::to_string(i + 1) + label + value.error());
-    }
+    if (!value) refuse(lua, inspect::argument_name(operation, i) + value.error());
     values.push_back(std::move(value).value());
   }
   return values;
@@ -106,19 +71,17 @@ int call_operation(lua_State* lua) {
   if (lua_rawequal(lua, 1, lua_upvalueindex(2)) == 0) {
     refuse(lua, name + " is called with a colon: " + owner.name() + ":" + operation_name + "(...)");
   }
-  const OperationBase& operation = *find_in(owner.interface().operations, operation_name);
-  std::vector<types::Value> arguments = arguments_of(lua, operation, name);
-  if (operation.is_command()) {
-    auto begun =
-        application.begin(owner.name(), operation_name, std::move(arguments), access.caller);
-    if (!begun) refuse(lua, with_name(name, begun.error()));
+  const Member operation = *inspect::member_of(owner, operation_name);
+  std::vector<types::Value> arguments = arguments_of(lua, operation);
+  if (operation.operation->is_command()) {
+    auto begun = inspect::begin(application, operation, std::move(arguments), access.caller);
+    if (!begun) refuse(lua, begun.error());
     push_command(lua, std::move(begun).value(), name);
     if (access.begun) access.begun(lua, name);
     return 1;
   }
-  const auto answer =
-      application.call(owner.name(), operation_name, std::move(arguments), access.caller);
-  if (!answer) refuse(lua, with_name(name, answer.error()));
+  const auto answer = inspect::call(application, operation, std::move(arguments), access.caller);
+  if (!answer) refuse(lua, answer.error());
   if (!answer.value()) return 0;
   push_value(lua, answer.value()->type(), answer.value()->data());
   return 1;
@@ -129,20 +92,20 @@ int call_operation(lua_State* lua) {
 int read_member(lua_State* lua) {
   const Component& component = component_at(lua, 1);
   const std::string name = text_at(lua, 2);
-  const component::Interface& interface = component.interface();
-  if (find_in(interface.properties, name) != nullptr || is_port(component, name)) {
+  const std::optional<Member> member = inspect::member_of(component, name);
+  if (!member) {
+    refuse(lua, "'" + component.name() + "' has no property, port, operation or event '" + name +
+                    "'" + hint(name, inspect::member_names(component)));
+  }
+  if (member->has_value()) {
     const auto value = application_of(lua).value_of(component.name(), name);
     if (!value) refuse(lua, value.error());
     push_value(lua, value.value().type(), value.value().data());
     return 1;
   }
-  if (component::EventBase* const event = find_in(interface.events, name)) {
-    push_event(lua, *event);
+  if (member->event != nullptr) {
+    push_event(lua, *member->event);
     return 1;
-  }
-  if (find_in(interface.operations, name) == nullptr) {
-    refuse(lua, "'" + component.name() + "' has no property, port, operation or event '" + name +
-                    "'" + hint(name, members_of(component)));
   }
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_pushvalue(lua, 1);
@@ -154,21 +117,19 @@ int read_member(lua_State* lua) {
 int write_member(lua_State* lua) {
   const Component& component = component_at(lua, 1);
   const std::string name = text_at(lua, 2);
-  const auto& properties = component.interface().properties;
-  const component::PropertyBase* const property = find_in(properties, name);
-  if (property == nullptr) {
-    if (is_port(component, name)) {
-      refuse(lua, "'" + component.name() + "." + name + "' is a port: only components write it");
+  const std::optional<Member> member = inspect::member_of(component, name);
+  if (!member || member->property == nullptr) {
+    if (member) {
+      if (const auto right = inspect::check_no_port(*member); !right) refuse(lua, right.error());
     }
     std::vector<std::string> known;
-    for (const auto* one : properties) known.emplace_back(one->name());
+    for (const auto* one : component.interface().properties) known.emplace_back(one->name());
     refuse(lua, "'" + component.name() + "' has no property '" + name + "'" + hint(name, known));
   }
-  const auto value = value_at(lua, 3, property->type());
+  const auto value = value_at(lua, 3, member->type());
   if (!value) refuse(lua, component.name() + "." + name + value.error());
   const Access& access = access_of(lua);
-  const auto set =
-      access.application.set_property(component.name(), name, value.value(), access.caller);
+  const auto set = inspect::set(access.application, *member, value.value(), access.caller);
   if (!set) refuse(lua, set.error());
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/inspect/acts.hpp"
 #include "armature/lua/internal/machines.hpp"
 #include "armature/lua/internal/standard.hpp"
 #include "armature/lua/internal/values.hpp"
@@ -63,10 +64,6 @@ LuaInterpreter::~LuaInterpreter() {
   for (const base::Diagnostic& mistake : mistakes.all()) tell(mistake);
 }
 
-BegunCommand LuaInterpreter::status_of(const std::string& name, const CommandHandle& command) {
-  return {name, command.stage(), command.ended(), command.progress(), reason_of(command)};
-}
-
 std::vector<MachineStatus> LuaInterpreter::machines() const {
   std::vector<MachineStatus> all;
   for (const auto& machine : schedule_.machines().all()) {
@@ -97,7 +94,7 @@ void LuaInterpreter::show_command(const std::string& name, const CommandHandle& 
   course_.pass(soon, [&] { return command.ended(); });
   const bool known = std::any_of(begun_.begin(), begun_.end(),
                                  [&](const Begun& one) { return one.command == &command; });
-  if (!command.ended() || !known) listener_.tell(status_of(name, command));
+  if (!command.ended() || !known) listener_.tell(inspect::status_of(name, command));
 }
 
 void LuaInterpreter::note_begun(lua_State* lua, const std::string& name) {
@@ -112,7 +109,7 @@ void LuaInterpreter::tell_ended() {
       ++i;
       continue;
     }
-    listener_.tell(status_of(begun_[i].name, *begun_[i].command));
+    listener_.tell(inspect::status_of(begun_[i].name, *begun_[i].command));
     luaL_unref(sandbox_.lua(), LUA_REGISTRYINDEX, begun_[i].reference);
     begun_.erase(begun_.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -122,8 +119,8 @@ void LuaInterpreter::show_progress() {
   const base::Time now = platform::monotonic_now();
   if (quiet_ || now < next_progress_) return;
   next_progress_ = now + kProgressPeriod;
-  std::vector<BegunCommand> commands;
-  for (const Begun& one : begun_) commands.push_back(status_of(one.name, *one.command));
+  std::vector<inspect::CommandStatus> commands;
+  for (const Begun& one : begun_) commands.push_back(inspect::status_of(one.name, *one.command));
   listener_.show_progress(commands);
 }
 

@@ -38,7 +38,6 @@ class LuaInterpreter final : public Interpreter {
     component::CommandHandle* command;
     int reference;  ///< keeps it
   };
-  static BegunCommand status_of(const std::string& name, const component::CommandHandle& command);
 
   static int show_results(lua_State* lua);
   void note_begun(lua_State* lua, const std::string& name);

@@ -68,7 +68,7 @@ TEST(Roster, FindsComponentsByNameAndSaysWhichMayBeMeant) {
   PlannedParts parts(one_thread());
   EXPECT_EQ(parts.roster.find("Gain"), &parts.component(0));
   EXPECT_EQ(parts.roster.find("Grain"), nullptr);
-  EXPECT_EQ(parts.roster.unknown("Gian"), "there is no component 'Gian' (did you mean 'Gain'?)");
+  EXPECT_EQ(parts.roster.unknown("Gian"), "unknown component 'Gian' (did you mean 'Gain'?)");
   EXPECT_EQ(&parts.roster.entry_of(parts.component(0)), &parts.blueprint.components[0]);
 }
 
