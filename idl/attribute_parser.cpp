@@ -39,7 +39,7 @@ class AttributeParser {
     } else if (name.text == "later") {
       take_later(name);
     } else {
-      reader_.fail(name, "there is no attribute " + TokenReader::shown(name),
+      reader_.fail(name, "unknown attribute " + TokenReader::shown(name),
                    base::suggestion(name.text, {"unit", "range", "access", "later"}));
     }
   }

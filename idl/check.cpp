@@ -121,10 +121,9 @@ class Checker {
                                          to_text(each.value));
     }
     if (first.contains(Whole{})) return;
-    diagnostics_.error(enumeration.where,
-                       whole +
-                           " has no enumerator of the value 0; expected the one that a value "
-                           "has before it is set");
+    diagnostics_.error(
+        enumeration.where,
+        whole + " has no enumerator with the value 0, which every value has before it is set");
   }
 
   void check_enumerator(const Enumerator& enumerator, const Enumeration& enumeration) {
@@ -147,15 +146,13 @@ class Checker {
         "enumerator " + in_quotes(enumerator.name) + " is " + to_text(enumerator.value) +
             "; expected a number that " + in_quotes(name_of(enumeration.underlying)) + " holds, " +
             to_text(limits.least) + " to " + to_text(limits.greatest),
-        is_largest
-            ? ""
-            : "a larger type can stand behind the name: 'enum " + enumeration.name + " : long'");
+        is_largest ? "" : "give it a larger type: 'enum " + enumeration.name + " : long'");
   }
 
   void check_structure(const Structure& structure) {
     const std::string whole = kind_of(structure) + " " + in_quotes(structure.name);
     if (structure.members.empty() && structure.complete) {
-      diagnostics_.error(structure.where, whole + " has no member; at least one was expected");
+      diagnostics_.error(structure.where, whole + " has no member; expected at least one");
     }
     refuse_more_than(kMostMembers, structure.members.size(), whole, "members", structure.where);
     Names names(diagnostics_);
@@ -174,9 +171,8 @@ class Checker {
     const std::string whole = "interface " + in_quotes(interface.name);
     const std::size_t count = interface.operations.size() + interface.events.size();
     if (count == 0 && interface.complete && complete_) {
-      diagnostics_.error(
-          interface.where,
-          whole + " has no operation and raises no event; at least one was expected");
+      diagnostics_.error(interface.where,
+                         whole + " has no operation and raises no event; expected at least one");
     }
     refuse_more_than(kMostDeclarations, count, whole, "operations and events", interface.where);
     Names operations(diagnostics_);
@@ -243,7 +239,7 @@ class Checker {
   void check_field(const Field& field, const std::string& what) {
     check_type(field.type);
     if (!is_number(field.type.basic) && !field.unit.empty()) {
-      diagnostics_.error(field.where, what + " is no number, and has no unit; its type is " +
+      diagnostics_.error(field.where, what + " has a unit but is not a number; its type is " +
                                           in_quotes(to_text(field.type)));
     }
     if (field.range) check_range(*field.range, field.type, what);
@@ -262,12 +258,11 @@ class Checker {
                                          : base::suggestion(name, names_[kind]);
     for (const std::string other : {"struct", "event", "enum"}) {
       if (module != nullptr || module_of(name, other) == nullptr) continue;
-      hint = in_quotes(name) + " is of the other kind: " + other;
+      hint = in_quotes(name) + " is defined as " + other;
     }
     diagnostics_.error(where,
-                       "there is no " + kind + " " + in_quotes(name) +
-                           "; expected one that is "
-                           "defined in this file or imported",
+                       "unknown " + kind + " " + in_quotes(name) +
+                           "; expected one that this file defines or imports",
                        std::move(hint));
   }
 
@@ -285,7 +280,7 @@ class Checker {
   void check_range(const Range& range, const Type& type, const std::string& what) {
     if (is_whole_number(type.basic)) return check_whole_range(range, type.basic, what);
     if (is_number(type.basic)) return check_real_range(range, type.basic, what);
-    diagnostics_.error(range.where, what + " is no number, and has no range; its type is " +
+    diagnostics_.error(range.where, what + " has a range but is not a number; its type is " +
                                         in_quotes(to_text(type)));
   }
 

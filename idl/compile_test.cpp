@@ -110,7 +110,7 @@ TEST_F(Compile, WhereOneFileCannotBeWrittenNoneIs) {
   fs::remove(fs::path(options_.output_folder) / "chassis_service.cpp");
   fs::create_directory(fs::path(options_.output_folder) / "chassis_service.cpp");
   files_["robot/chassis.idl"] = "interface Chassis { void stop(); };";
-  EXPECT_THAT(compiled(), HasSubstr("chassis_service.cpp': it is no file"));
+  EXPECT_THAT(compiled(), HasSubstr("chassis_service.cpp': it is not a file"));
   EXPECT_EQ(content("chassis_client.hpp"), before);
   EXPECT_EQ(written().size(), 5u);
 }

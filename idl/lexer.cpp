@@ -89,7 +89,7 @@ class Lexer {
   void skip_block_comment() {
     const std::size_t end = text_.find("*/", at_ + 2);
     if (end == std::string_view::npos) {
-      error(at_, "this comment has no end; '*/' was expected", "close it");
+      error(at_, "this comment has no end; expected '*/'", "close it");
       at_ = text_.size();
     } else {
       at_ = end + 2;
@@ -148,7 +148,7 @@ class Lexer {
       tokens_.back().end = at_;
       return;
     }
-    error(at_, "this text has no end; '\"' was expected in the same line", "close it");
+    error(at_, "this text has no end; expected '\"' in the same line", "close it");
     at_ = end;
   }
 
@@ -156,11 +156,11 @@ class Lexer {
     const auto character = base::code_point_at(text_, at_);
     const std::size_t end = character ? character->end : at_ + 1;
     if (is_control(peek())) {
-      error(at_, "a control character is no part of the language", "remove it");
+      error(at_, "a control character is not part of the language", "remove it");
     } else {
       error(at_, "'" + std::string(text_.substr(at_, end - at_)) +
-                     "' is no part of the language; a name, a number, a text in '\"' or one of "
-                     "{ } ( ) < > [ ] , ; : = was expected");
+                     "' is not part of the language; expected a name, a number, a text in '\"' or "
+                     "one of { } ( ) < > [ ] , ; : =");
     }
     at_ = end;
   }
@@ -186,7 +186,7 @@ class Lexer {
 std::vector<Token> tokenize(const Source& source, base::Diagnostics& diagnostics) {
   const std::size_t valid = base::valid_utf8_length(source.text());
   if (valid == source.text().size()) return Lexer(source, diagnostics).run();
-  diagnostics.error(source.location(valid), "this byte is not UTF-8, which was expected",
+  diagnostics.error(source.location(valid), "this byte is not valid UTF-8",
                     "save the file as UTF-8");
   return {Token{}};
 }

@@ -101,7 +101,7 @@ class Loader {
 base::Result<std::string> read_file(const std::string& path) {
   std::error_code failure;
   if (!fs::is_regular_file(path, failure)) {
-    return base::Error{"there is no file '" + path + "'"};
+    return base::Error{"file '" + path + "' does not exist"};
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) return base::Error{"cannot read '" + path + "'"};

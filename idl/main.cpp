@@ -18,16 +18,19 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "rcidl " ARMATURE_VERSION);
   armature::idl::CompileOptions options;
   app.add_option("file", options.file, "the interface definition, NAME.idl")->required();
-  app.add_option("--out", options.output_folder, "where files are written; made if need be")
+  app.add_option("--out", options.output_folder,
+                 "folder for the generated files; created if it is missing")
       ->type_name("FOLDER")
       ->required();
   std::string name_space;
   const CLI::Option* const has_name_space =
       app.add_option("--namespace", name_space,
-                     "of the generated C++, also of imported files; otherwise each file's name")
+                     "namespace of the generated C++, also of imported files; default: the name of "
+                     "each file")
           ->type_name("NAME");
-  app.add_flag("--json", options.json, "writes the interface as NAME.json, too");
-  app.add_option("--depends", options.depends, "writes which files were read, for ninja and make")
+  app.add_flag("--json", options.json, "also writes the interface as NAME.json");
+  app.add_option("--depends", options.depends,
+                 "writes a list of the files that were read, for ninja and make")
       ->type_name("FILE");
   try {
     app.parse(argc, argv);

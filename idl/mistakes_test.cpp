@@ -65,7 +65,7 @@ TEST(Mistakes, EveryExpectedTextHasItsFile) {
 TEST(Mistakes, AFileThatIsNotThereIsNamed) {
   CompileOptions options;
   options.file = "/nowhere/x.idl";
-  EXPECT_EQ(compile(options), "/nowhere/x.idl: error: there is no file '/nowhere/x.idl'\n");
+  EXPECT_EQ(compile(options), "/nowhere/x.idl: error: file '/nowhere/x.idl' does not exist\n");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class Change {
   base::Result<void> prepare() {
     std::error_code failure;
     if (fs::exists(place_, failure) && !fs::is_regular_file(place_, failure)) {
-      return base::Error{"cannot write '" + place_.string() + "': it is no file"};
+      return base::Error{"cannot write '" + place_.string() + "': it is not a file"};
     }
     std::ofstream file(beside_, std::ios::binary | std::ios::trunc);
     prepared_ = file.is_open();

@@ -33,7 +33,7 @@ class Source {
 /// All findings ordered by their places, each followed by its source line, a caret below the place
 /// and the hint:
 ///
-///     vision.idl:3:5: error: there is no type 'strin'
+///     vision.idl:3:5: error: unknown type 'strin'
 ///         strin name;
 ///         ^~~~~
 ///         hint: did you mean 'String'?

@@ -44,7 +44,7 @@ Size StructureSizes::of(const Structure& structure) {
   if (open_.size() >= kDeepestNesting) {
     diagnostics_.error(open_.front()->where, "'" + open_.front()->name + "' has more than " +
                                                  std::to_string(kDeepestNesting) +
-                                                 " structs in one another");
+                                                 " levels of nested structs");
     return {};
   }
   open_.push_back(&structure);

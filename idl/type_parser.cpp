@@ -58,7 +58,7 @@ Basic TypeParser::parse_underlying(const std::string& of_what) {
   const bool holds = is_whole_number(type.basic) && type.basic != Basic::kUnsignedLong;
   if (holds && !type.is_array()) return type.basic;
   reader_.error(first,
-                "expected the integers of " + of_what +
+                "expected an integer type for " + of_what +
                     ": char, byte, short, unsigned short, int, unsigned int or long; found " +
                     in_quotes(to_text(type)));
   return Basic::kLong;
@@ -152,7 +152,7 @@ Type TypeParser::unknown(const std::string& of_what) {
   known.insert(known.end(), enums_.begin(), enums_.end());
   for (const Basic basic : kWords) known.emplace_back(name_of(basic));
   for (const Foreign& foreign : kForeign) {
-    if (token.text == foreign.name) hint = "here it is " + std::string(foreign.ours);
+    if (token.text == foreign.name) hint = "write " + std::string(foreign.ours);
   }
   for (const std::string& name : structs_) {
     if (token.text == name) hint = "write 'struct " + name + "'";
@@ -161,9 +161,9 @@ Type TypeParser::unknown(const std::string& of_what) {
     if (token.text == name) hint = "write 'enum " + name + "'";
   }
   if (hint.empty()) hint = base::suggestion(token.text, known);
-  reader_.error(
-      token, "there is no type " + TokenReader::shown(token) + "; expected the type of " + of_what,
-      hint);
+  reader_.error(token,
+                "unknown type " + TokenReader::shown(token) + "; expected the type of " + of_what,
+                hint);
   const Token& after = reader_.ahead(1);
   const bool plausible = after.kind == Token::Kind::kWord || TokenReader::is(after, ",") ||
                          TokenReader::is(after, ")") || TokenReader::is(after, ">");

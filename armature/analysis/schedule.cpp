@@ -273,7 +273,7 @@ void note_unknown(const std::vector<ThreadLoad>& threads, base::Diagnostics& dia
     if (!load.known()) unknown += (unknown.empty() ? "" : ", ") + load.name;
   }
   if (!any_known || unknown.empty()) return;
-  diagnostics.note({}, "the load of these threads is not known and was not checked: " + unknown,
+  diagnostics.note({}, "the load of these threads is unknown and was not checked: " + unknown,
                    "declare budget: in their activities, or measure with armature run --times");
 }
 

@@ -72,8 +72,7 @@ TEST_P(Mistyping, IsToldAndTheBrowserGoesOn) {
 INSTANTIATE_TEST_SUITE_P(
     Each, Mistyping,
     ::testing::Values(
-        Line{"Axsi.Position",
-             "there is no component and no variable 'Axsi' (did you mean 'Axis'?)"},
+        Line{"Axsi.Position", "unknown component or variable 'Axsi' (did you mean 'Axis'?)"},
         Line{"Axis.Positoin",
              "'Axis' has no property, port, operation or event 'Positoin' (did you mean "
              "'Position'?)"},
@@ -94,18 +93,19 @@ INSTANTIATE_TEST_SUITE_P(
         Line{"Settings:fail()", "Settings.fail: fail: failed: exception: it broke"},
         Line{"for i = 1, 2 do\nerror('no')\nend", "no (in line 2)"},
         Line{"foo bar", "syntax error near 'bar'"},
-        Line{"start Axsi", "there is no component 'Axsi' (did you mean 'Axis'?)"},
-        Line{"ls Axsi", "there is no component 'Axsi' (did you mean 'Axis'?)"},
+        Line{"start Axsi", "unknown component 'Axsi' (did you mean 'Axis'?)"},
+        Line{"ls Axsi", "unknown component 'Axsi' (did you mean 'Axis'?)"},
         Line{"stop",
              "stop takes the name of a component: stop Joint1; `quit` stops the "
              "application"},
         Line{"run", "run takes the seconds to let pass, above 0: run 5"},
         Line{"run -1", "run takes the seconds to let pass, above 0: run 5"},
-        Line{"watch", "watch takes what to look at: watch Joint1.Position every 0.2"},
-        Line{"watch Axis.Position every", "every takes seconds above 0, like 0.2, found nothing"},
+        Line{"watch", "watch takes the items to show: watch Joint1.Position every 0.2"},
+        Line{"watch Axis.Position every",
+             "every takes seconds above 0, for example 0.2, found nothing"},
         Line{"watch Axis:moveTo", "'Axis:moveTo' has no value"},
-        Line{"threads 3", "threads takes nothing, found '3'"},
-        Line{"help Axsi", "there is no help on 'Axsi' (did you mean 'Axis'?)"},
+        Line{"threads 3", "threads takes no arguments, found '3'"},
+        Line{"help Axsi", "no help on 'Axsi' (did you mean 'Axis'?)"},
         Line{"help Axis.Positoin", "'Axis' has no 'Positoin' (did you mean 'Position'?)"}));
 
 TEST(BrowserLines, ComeFromTheOperatorWhoMayArm) {

@@ -91,7 +91,7 @@ TEST(ValuesForPeople, BrokenTextEndsSomewhere) {
 TEST(ValuesForPeople, DepthCostsNoStack) {
   const std::string deep(1u << 20, '[');
   EXPECT_LE(for_people(deep, "vector<double>", {}, 8).size(), 2 * deep.size());
-  EXPECT_EQ(in_files(deep), "mistake: too many lists and structs in one another");
+  EXPECT_EQ(in_files(deep), "mistake: lists and structs are nested too deep");
 }
 
 TEST(HarmlessText, MovesNoCursor) {

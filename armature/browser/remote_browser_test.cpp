@@ -82,7 +82,7 @@ TEST(RemoteBrowser, CallsOperations) {
   EXPECT_THAT(away.type("Settings:fail()"), HasSubstr("it broke"));
   EXPECT_THAT(away.type("Settings:sum(1)"),
               HasSubstr("Settings.sum takes 2 arguments, not 1: it is double("));
-  EXPECT_EQ(away.type("Settings:Gain()"), "error: 'Settings.Gain' is no operation");
+  EXPECT_EQ(away.type("Settings:Gain()"), "error: 'Settings.Gain' is not an operation");
   EXPECT_EQ(away.type("Settings:som()"), "error: 'Settings' has no 'som' (did you mean 'sum'?)");
 }
 
@@ -168,10 +168,10 @@ TEST(RemoteBrowser, WhatTheRobotSaysMovesNoCursor) {
 TEST(RemoteBrowser, ExplainsWhatNamesNothing) {
   Away away;
   EXPECT_EQ(away.type("Setings"),
-            "error: there is no command and no component 'Setings' (did you mean 'Settings'?)");
+            "error: unknown command or component 'Setings' (did you mean 'Settings'?)");
   EXPECT_EQ(away.type("thraeds"),
-            "error: there is no command and no component 'thraeds' (did you mean 'threads'?)");
-  EXPECT_EQ(away.type("run 5"), "error: there is no command and no component 'run 5'");
+            "error: unknown command or component 'thraeds' (did you mean 'threads'?)");
+  EXPECT_EQ(away.type("run 5"), "error: unknown command or component 'run 5'");
   EXPECT_EQ(away.type("Settings.Gian"), "error: 'Settings' has no 'Gian' (did you mean 'Gain'?)");
   EXPECT_EQ(away.type("Settings.Gain[3]"), "error: 'Settings.Gain' is a double and has no '[3]'");
   EXPECT_EQ(away.type("Settings.Offsets[3]"),
@@ -201,7 +201,7 @@ TEST(RemoteBrowser, QuitLeavesAndTheApplicationGoesOn) {
   Away away;
   away.type("Axis:moveTo(1000)");
   EXPECT_EQ(away.type("quit"),
-            "Axis.moveTo: cancelled, since it ends with the connection of who began it");
+            "Axis.moveTo: cancelled, because the connection of the client that began it has ended");
   EXPECT_TRUE(away.browser->has_ended());
   away.screen.lines.clear();
   away.browser->stop();

@@ -51,7 +51,7 @@ TEST(BusLink, ABusThatIsNotThereIsNamed) {
   BusLink link("virtual:" + folder.file("bus"), 1'000'000);
   base::Diagnostics diagnostics;
   EXPECT_FALSE(link.open({}, diagnostics));
-  EXPECT_NE(diagnostics.to_text().find("nobody serves there"), std::string::npos);
+  EXPECT_NE(diagnostics.to_text().find("no process serves there"), std::string::npos);
 }
 
 }  // namespace

@@ -136,13 +136,12 @@ LogPlayer::LogPlayer(std::string name, std::vector<LogEntry> log, Clock clock)
 
 bool LogPlayer::open(const BusOptions& options, base::Diagnostics& diagnostics) {
   if (open_) {
-    diagnostics.error({}, "bus '" + name() + "' is expected to be closed, but is open already",
-                      "close it first");
+    diagnostics.error({}, "bus '" + name() + "' is open already", "close it first");
     return false;
   }
   if (!check_options(name(), options, diagnostics)) return false;
   if (log_.empty()) {
-    diagnostics.error({}, "bus '" + name() + "' is expected to be in the log, but is not",
+    diagnostics.error({}, "bus '" + name() + "' is not in the log",
                       "look for the buses' names behind the times");
     return false;
   }

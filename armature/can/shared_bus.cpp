@@ -62,7 +62,7 @@ SharedBus::~SharedBus() { close(); }
 
 bool SharedBus::open(const BusOptions& options, base::Diagnostics& diagnostics) {
   if (socket_ != nullptr) {
-    diagnostics.error({}, "bus '" + name() + "' is expected to be closed, but is open already",
+    diagnostics.error({}, "bus '" + name() + "' is open already",
                       "close it first, or give each driver a SharedBus of its own");
     return false;
   }
@@ -103,8 +103,9 @@ bool SharedBus::is_welcome(base::Diagnostics& diagnostics) {
   FromBusMessage message;
   std::size_t size = 0;
   if (socket_->send(hello_) != PacketSent::kYes || !socket_->wait_for_packet(deadline)) {
-    diagnostics.error({}, "bus '" + name() + "': the process that serves there does not answer",
-                      "it may be stopped (SIGCONT lets it go on) or no bus at all");
+    diagnostics.error(
+        {}, "bus '" + name() + "': the process that serves there does not answer",
+        "resume it with SIGCONT if it is stopped; otherwise start a process that has the bus");
     return false;
   }
   const auto received = socket_->receive(std::as_writable_bytes(std::span(&message, 1)), size);

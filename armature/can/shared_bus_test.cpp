@@ -53,7 +53,7 @@ TEST_F(SharedBuses, WithoutAServerOpeningNamesThePathAndAWayOut) {
   SharedBus bus(path, kBitRate);
   EXPECT_FALSE(open(bus));
   EXPECT_THAT(said, HasSubstr("bus 'virtual:" + path + "'"));
-  EXPECT_THAT(said, HasSubstr("nobody serves there"));
+  EXPECT_THAT(said, HasSubstr("no process serves there"));
   EXPECT_THAT(said, HasSubstr("start what has the bus first"));
   EXPECT_EQ(bus.state(), BusState::kClosed);
   SharedBus too_long(std::string(200, 'x'), kBitRate);
@@ -162,7 +162,7 @@ TEST_F(SharedBuses, AServerTakesThePlaceOfOneThatDied) {
   base::Diagnostics diagnostics;
   VirtualBus bus("bus", kBitRate, platform::monotonic_now);
   EXPECT_EQ(BusServer::open(bus, folder.file("file"), diagnostics), nullptr);
-  EXPECT_THAT(diagnostics.to_text(), HasSubstr("is no socket file"));
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("is not a socket file"));
   ServedBus served(path);
   EXPECT_EQ(BusServer::open(bus, path, diagnostics), nullptr);
   EXPECT_THAT(diagnostics.to_text(), HasSubstr("another process serves there"));

@@ -79,7 +79,7 @@ SocketCan::~SocketCan() { close(); }
 
 bool SocketCan::open(const BusOptions& options, base::Diagnostics& diagnostics) {
   if (socket_ != nullptr) {
-    diagnostics.error({}, "bus '" + name() + "' is expected to be closed, but is open already",
+    diagnostics.error({}, "bus '" + name() + "' is open already",
                       "close it first, or give each driver a SocketCan of its own");
     return false;
   }

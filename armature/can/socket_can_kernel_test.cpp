@@ -225,7 +225,7 @@ TEST_F(SocketCanOnVirtualInterface, WhatWaitsWhenItIsClosedIsCountedAsLost) {
 
 TEST(SocketCanMistakes, AnInterfaceThatIsNotThere) {
   EXPECT_THAT(error_of_opening("can7"),
-              testing::AllOf(HasSubstr("CAN interface 'can7': there is no such interface"),
+              testing::AllOf(HasSubstr("CAN interface 'can7': this interface does not exist"),
                              HasSubstr("'ip link' lists them")));
 }
 

@@ -338,7 +338,7 @@ TEST_F(SocketCanErrors, AnAdapterThatIsUnpluggedIsDownForGood) {
   first_.close();
   base::Diagnostics diagnostics;
   EXPECT_FALSE(first_.open({}, diagnostics));
-  EXPECT_THAT(diagnostics.to_text(), HasSubstr("there is no such interface"));
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("this interface does not exist"));
 }
 
 }  // namespace

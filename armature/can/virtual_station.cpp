@@ -22,7 +22,7 @@ VirtualStation::VirtualStation(VirtualBus& bus, std::string name, SendOrder orde
 
 bool VirtualStation::open(const BusOptions& options, base::Diagnostics& diagnostics) {
   if (state() != BusState::kClosed) {
-    diagnostics.error({}, "bus '" + name() + "' is expected to be closed, but is open already",
+    diagnostics.error({}, "bus '" + name() + "' is open already",
                       "close it first, or give each driver a station of its own");
     return false;
   }

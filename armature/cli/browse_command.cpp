@@ -28,7 +28,8 @@ std::string wrong_use(const BrowseArguments& arguments) {
   for (const char* scheme : kSchemes) known |= arguments.address.starts_with(scheme);
   if (!known) {
     return "'" + arguments.address +
-           "' is no address: expected one such as tcp://127.0.0.1:4242, unix:/run/robot.sock or "
+           "' is not an address: expected one such as tcp://127.0.0.1:4242, unix:/run/robot.sock "
+           "or "
            "tls://robot:4243";
   }
   const bool tls = arguments.address.starts_with(kTls);
@@ -65,16 +66,23 @@ int browse(const BrowseArguments& arguments, const Console& console) {
 
 void add_browse(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand(
-      "browse", "commands a running application of another process or host line by line");
+      "browse",
+      "commands, line by line, an application that runs in another process or on another host");
   const auto arguments = arguments_of(*command, to, browse);
   command
       ->add_option("address", arguments->address,
-                   "where it listens: tcp://127.0.0.1:4242, unix:/run/robot.sock, tls://robot:4243")
+                   "the address of the application: tcp://127.0.0.1:4242, unix:/run/robot.sock, "
+                   "tls://robot:4243")
       ->required();
-  command->add_option("--certificate", arguments->certificate, "of this side, for tls://")
+  command
+      ->add_option("--certificate", arguments->certificate,
+                   "the certificate of this side, for tls://")
       ->type_name("FILE");
-  command->add_option("--key", arguments->key, "the certificate's private key")->type_name("FILE");
-  command->add_option("--authority", arguments->authority, "whose certificates are taken")
+  command->add_option("--key", arguments->key, "the private key of that certificate")
+      ->type_name("FILE");
+  command
+      ->add_option("--authority", arguments->authority,
+                   "the authority that must have signed the other side's certificate")
       ->type_name("FILE");
 }
 

@@ -16,7 +16,7 @@ CLI::Validator folder() {
   const auto check = [](const std::string& text) {
     std::error_code ignored;
     if (std::filesystem::is_directory(text, ignored)) return std::string();
-    return "there is no folder '" + text + "'";
+    return "folder '" + text + "' does not exist";
   };
   return CLI::Validator(check, "");
 }
@@ -37,13 +37,13 @@ void add_load_options(CLI::App& command, LoadArguments& load) {
       .add_option("--set", load.overrides, "changes a parameter or property: Joint1.GearRatio=0.02")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--mode", load.mode, "the mode in which it starts")->type_name("NAME");
+  command.add_option("--mode", load.mode, "the mode to start in")->type_name("NAME");
   add_folders(command, load.library_folders);
-  command.add_option("--times", load.times_file, "measured execution times, for the load");
+  command.add_option("--times", load.times_file, "file of measured execution times, for the load");
 }
 
 void add_folders(CLI::App& command, std::vector<std::string>& folders) {
-  command.add_option("-L,--library-path", folders, "where component libraries are looked for")
+  command.add_option("-L,--library-path", folders, "folder to search for component libraries")
       ->type_name("FOLDER")
       ->check(folder())
       ->allow_extra_args(false);

@@ -21,8 +21,9 @@ struct ConvertArguments {
 int convert(const ConvertArguments& arguments, const Console& console) {
   const auto& [from, to] = arguments;
   if (!to.ends_with(".xml") && !to.ends_with(".yaml") && !to.ends_with(".yml")) {
-    console.say(rt::LogLevel::kError, "the name of the file to write says its format: '" + to +
-                                          "' must end in .yaml, .yml or .xml");
+    console.say(
+        rt::LogLevel::kError,
+        "'" + to + "' must end in .yaml, .yml or .xml: the ending chooses the format to write");
     return kWrongUse;
   }
   base::Diagnostics diagnostics;

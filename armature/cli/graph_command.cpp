@@ -57,15 +57,15 @@ void add_graph(const CommandLine& to) {
   add_load_options(*command, arguments->load);
   command->add_option("--format", arguments->format, "svg (default), dot or mermaid")
       ->check(one_of({"svg", "dot", "mermaid"}));
-  command->add_option("-o,--output", arguments->output, "file to write; standard output otherwise");
+  command->add_option("-o,--output", arguments->output, "file to write; default: standard output");
   command
       ->add_option("--only", arguments->only,
-                   "these components, as Arming,Joint{1..7}, and their neighbours")
+                   "draws only these components and their neighbours: Arming,Joint{1..7}")
       ->type_name("COMPONENT[,COMPONENT]")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_flag("--each-line", arguments->each_line,
-                    "every connection by itself, none bundled");
+                    "draws every connection by itself, none bundled");
 }
 
 }  // namespace armature::cli

@@ -45,10 +45,10 @@ void add_models(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("models", "lists component models, or describes one");
   const auto arguments = arguments_of(*command, to, models);
   command->add_option("name", arguments->name, "the model to describe");
-  command->add_option("-l,--library", arguments->libraries, "component library to look into")
+  command->add_option("-l,--library", arguments->libraries, "component library to search")
       ->allow_extra_args(false);
   add_folders(*command, arguments->library_folders);
-  command->add_flag("--json", arguments->json, "for machines");
+  command->add_flag("--json", arguments->json, "prints JSON, for machines");
 }
 
 }  // namespace armature::cli

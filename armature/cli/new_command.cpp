@@ -27,11 +27,11 @@ int new_component(const std::string& name, const Console& console) {
 }  // namespace
 
 void add_new(const CommandLine& to) {
-  CLI::App* command = to.app.add_subcommand("new", "makes something to start from");
+  CLI::App* command = to.app.add_subcommand("new", "creates something to start from");
   command->require_subcommand(1);
   CLI::App* made = command->add_subcommand("component", "a component library that builds");
   const auto name = arguments_of(*made, to, new_component);
-  made->add_option("name", *name, "of the component, like GripperDriver")->required();
+  made->add_option("name", *name, "the name of the component, such as GripperDriver")->required();
 }
 
 }  // namespace armature::cli

@@ -69,9 +69,9 @@ std::string problem_of(std::string_view name) {
   };
   const bool identifier = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
                           std::all_of(name.begin(), name.end(), allowed);
-  if (!identifier) return "has to begin with a letter, and have letters, digits and '_' only";
+  if (!identifier) return "must begin with a letter and have only letters, digits and '_'";
   if (name.find("__") != std::string_view::npos || name.back() == '_') {
-    return "has a '_' that separates nothing";
+    return "has a '_' at its end or two in a row; put each between two words";
   }
   if (name.size() > kLongestName) {
     return "is longer than " + std::to_string(kLongestName) + " letters";
@@ -79,7 +79,7 @@ std::string problem_of(std::string_view name) {
   const std::string library = snake_case(name);
   if (!is_taken(library)) return {};
   return "would make a library " + base::quoted(library) +
-         ", which is a word of C++, of CMake or of Armature; add what it is for, as in " +
+         ", which is a word of C++, CMake or Armature; choose a longer name, such as " +
          base::quoted(camel_case(name) + "Driver");
 }
 

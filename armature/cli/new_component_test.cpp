@@ -64,18 +64,18 @@ TEST_F(NewComponentTest, EitherSpellingOfANameWillDo) {
 
 TEST_F(NewComponentTest, ANameThatIsNoIdentifierIsRefused) {
   for (const char* name : {"", "1st", "my-driver", "my driver", "../up", "a.b", "_x", "Übung"}) {
-    EXPECT_THAT(folder_of(name), HasSubstr("has to begin with a letter")) << name;
+    EXPECT_THAT(folder_of(name), HasSubstr("must begin with a letter")) << name;
   }
-  EXPECT_THAT(folder_of("a__b"), HasSubstr("separates nothing"));
-  EXPECT_THAT(folder_of("a_"), HasSubstr("separates nothing"));
+  EXPECT_THAT(folder_of("a__b"), HasSubstr("has a '_' at its end or two in a row"));
+  EXPECT_THAT(folder_of("a_"), HasSubstr("has a '_' at its end or two in a row"));
   EXPECT_THAT(folder_of(std::string(65, 'a')), HasSubstr("is longer than 64 letters"));
   EXPECT_TRUE(fs::is_empty(parent_));
 }
 
 TEST_F(NewComponentTest, AWordThatIsTakenIsRefused) {
   EXPECT_EQ(folder_of("Switch"),
-            "the name 'Switch' would make a library 'switch', which is a word of C++, of CMake or "
-            "of Armature; add what it is for, as in 'SwitchDriver'");
+            "the name 'Switch' would make a library 'switch', which is a word of C++, CMake or "
+            "Armature; choose a longer name, such as 'SwitchDriver'");
   for (const char* name : {"class", "Test", "Component", "install", "InputPort", "Source"}) {
     EXPECT_THAT(folder_of(name), HasSubstr("is a word of")) << name;
   }

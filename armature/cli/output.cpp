@@ -36,8 +36,8 @@ bool is_no_source(const std::string& path, const document::Document& document,
   for (const auto& each : document.libraries) sources.insert(each.where.file);
   for (const std::string& source : sources) {
     if (!platform::is_same_file(path, source)) continue;
-    console.say(LogLevel::kError,
-                "'" + path + "' is what is read ('" + source + "'): name another file to write");
+    console.say(LogLevel::kError, "'" + path + "' is the file that is read ('" + source +
+                                      "'): name another file to write");
     return false;
   }
   return true;

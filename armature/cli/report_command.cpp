@@ -18,7 +18,7 @@ struct ReportArguments {
 int report(const ReportArguments& arguments, const Console& console) {
   if (!arguments.page.empty() && !arguments.page.ends_with(".html")) {
     console.say(rt::LogLevel::kError,
-                "--out is the page, whose name ends in .html, not '" + arguments.page + "'");
+                "--out must name a page that ends in .html, found '" + arguments.page + "'");
     return kWrongUse;
   }
   base::Diagnostics diagnostics;
@@ -35,8 +35,11 @@ int report(const ReportArguments& arguments, const Console& console) {
 void add_report(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("report", "shows recorded runs as one HTML page");
   const auto arguments = arguments_of(*command, to, report);
-  command->add_option("folder", arguments->folder, "of a run, or of folders of runs")->required();
-  command->add_option("--out", arguments->page, "the page; report.html in that folder otherwise")
+  command->add_option("folder", arguments->folder, "the folder of a run, or of several runs")
+      ->required();
+  command
+      ->add_option("--out", arguments->page,
+                   "the page to write; default: report.html in that folder")
       ->type_name("FILE");
 }
 

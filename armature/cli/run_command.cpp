@@ -48,26 +48,28 @@ void add_run(const CommandLine& to) {
   const auto options = std::make_shared<RunOptions>();
   RunArguments& run = options->run;
   add_load_options(*command, run.load);
-  command->add_flag("--sim", run.simulated, "in simulated time, as fast as possible");
+  command->add_flag("--sim", run.simulated, "runs in simulated time, as fast as possible");
   command
       ->add_option_function<std::string>(
           "--for",
           [options](const std::string& text) {
             options->run.duration = parse_duration(text);
             if (!options->run.duration) {
-              throw CLI::ValidationError("--for", "'" + text + "' is no time above 0, like 10s");
+              throw CLI::ValidationError(
+                  "--for", "'" + text + "' must be a duration above 0, for example 10s");
             }
           },
-          "how long, for example 10s or 500ms")
+          "how long it runs, for example 10s or 500ms")
       ->type_name("TIME");
   CLI::Option* const script =
-      command->add_option("--script", run.script, "commands it by a script in Lua");
+      command->add_option("--script", run.script, "commands it with a script in Lua");
   script->type_name("FILE");
   command->add_flag("--browse", run.browse, "commands it line by line: the task browser")
       ->excludes(script);
   command
-      ->add_option("--listen", run.listen,
-                   "where other processes reach it: tcp://127.0.0.1:4242, unix:/run/robot.sock")
+      ->add_option(
+          "--listen", run.listen,
+          "address at which other processes reach it: tcp://127.0.0.1:4242, unix:/run/robot.sock")
       ->type_name("ADDRESS")
       ->allow_extra_args(false);
   command->add_option("--realtime", options->realtime, "off, prefer (default) or require")
@@ -79,7 +81,9 @@ void add_run(const CommandLine& to) {
                  "the first")
       ->check(one_of({"report", "abort"}));
   command->add_option("--write-times", run.write_times, "writes measured execution times");
-  command->add_option("--out", run.output_folder, "the folder for recordings; made if need be")
+  command
+      ->add_option("--out", run.output_folder,
+                   "the folder for recordings; created if it is missing")
       ->type_name("FOLDER");
   command->add_option("--trace", run.trace, "writes the timeline of all threads, for Perfetto")
       ->type_name("FILE");

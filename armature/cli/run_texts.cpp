@@ -72,9 +72,9 @@ void tell_statistics(const exec::Application& application, bool all, const Conso
 void tell_lost_lines(const Console& console) {
   const std::uint64_t lost = platform::lost_lines();
   if (lost == 0) return;
-  console.say(LogLevel::kWarning, std::to_string(lost) +
-                                      " lines of output were lost: whoever reads them is gone, or "
-                                      "reads too slowly");
+  console.say(LogLevel::kWarning,
+              std::to_string(lost) +
+                  " lines of output were lost: their reader has ended, or reads too slowly");
 }
 
 void tell_casualties(const exec::Application& application, const Console& console) {

@@ -251,7 +251,7 @@ void Component::contain(ExecutionContext& where) noexcept {
     fault_from(where, Reason(kExceptionBegin).append(known.what()));
     for (std::string_view rest = rest_of(known.what()); !rest.empty();) {
       const std::string_view line = rest.substr(0, rt::LogRecord::kTextRoom);
-      log_error("the exception goes on: {}", line);
+      log_error("rest of the exception: {}", line);
       rest.remove_prefix(line.size());
     }
   } catch (...) {
@@ -260,8 +260,8 @@ void Component::contain(ExecutionContext& where) noexcept {
 }
 
 void Component::refuse_depth(ExecutionContext& where) noexcept {
-  Reason why("handlers and operations nest too deeply in thread '");
-  fault_from(where, why.append(where.name).append("': do they call each other without end?"));
+  Reason why("handlers and operations nest too deeply in the thread '");
+  fault_from(where, why.append(where.name).append("': look for calls that go in a circle"));
 }
 
 /// Faults at once in the component's own thread, else by a message to it: its state, its commands

@@ -165,8 +165,8 @@ TEST_F(Reentrance, OperationsThatCallEachOtherWithoutEndFaultBeforeTheStackIsUse
   EXPECT_EQ(first.calls + second.calls, kLeastDepthLimit);
   EXPECT_EQ(first.state(), State::kException);
   EXPECT_EQ(first.reason(),
-            "handlers and operations nest too deeply in thread 'thread': do they call each other "
-            "without end?");
+            "handlers and operations nest too deeply in the thread 'thread': look for calls that "
+            "go in a circle");
   EXPECT_EQ(thread_.context.next_hook, thread_.context.hooks.get());
 }
 

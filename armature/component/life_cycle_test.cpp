@@ -360,7 +360,7 @@ TEST_F(Containment, TheLogHasAllOfAnExceptionThatIsLongerThanAReason) {
   std::string told;
   while (const rt::LogRecord* record = log.pop()) {
     const std::string line = record->message();
-    for (const char* begin : {"fault: exception: ", "the exception goes on: "}) {
+    for (const char* begin : {"fault: exception: ", "rest of the exception: "}) {
       if (line.starts_with(begin)) told += line.substr(std::string(begin).size());
     }
   }

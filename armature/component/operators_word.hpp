@@ -17,7 +17,8 @@ namespace armature::component {
 ///
 ///     component::OperatorsWord at_home_{this, "at_home", "the operator has put the arm at home"};
 ///     ...
-///     if (!at_home_.take()) return component::refused("put the arm at home, then say at_home");
+///     if (!at_home_.take()) return component::refused("put the arm at home, then set at_home =
+///     true");
 class OperatorsWord final : public Property<bool> {
  public:
   static constexpr base::Duration kLasts = std::chrono::minutes(10);

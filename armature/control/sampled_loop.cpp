@@ -218,7 +218,7 @@ bool has_margin(const JointPlant& plant, const SampledController& controller, do
 
 std::string objection_to_loop(const LoopStability& loop) {
   if (loop.has_margin()) return {};
-  if (!loop.finite) return "gains or robot are no finite numbers";
+  if (!loop.finite) return "the gains or the robot's numbers are not finite";
   std::array<char, 256> text{};
   if (loop.gain_margin < kUseless) {
     std::snprintf(

@@ -226,7 +226,7 @@ TEST(SampledLoop, WhatIsNoNumberHasNoMargin) {
     gains.kp = wrong;
     const LoopStability loop = judge_loop({.inertia = 0.3}, SampledController::of(gains), kPeriod);
     EXPECT_FALSE(loop.has_margin());
-    EXPECT_EQ(objection_to_loop(loop), "gains or robot are no finite numbers");
+    EXPECT_EQ(objection_to_loop(loop), "the gains or the robot's numbers are not finite");
     EXPECT_FALSE(judge_loop({.inertia = wrong}, SampledController::of(good), kPeriod).has_margin());
   }
   EXPECT_FALSE(judge_loop({.inertia = 0.0}, SampledController::of(good), kPeriod).has_margin());

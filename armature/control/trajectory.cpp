@@ -22,7 +22,7 @@ std::string_view to_text(Refusal refusal) {
     case Refusal::kNone:
       return "accepted";
     case Refusal::kWrongNumber:
-      return "there has to be one number for each axis";
+      return "expected one number for each axis";
     case Refusal::kNotFinite:
       return "a number is not finite";
     case Refusal::kOutsideLimits:
@@ -36,7 +36,7 @@ std::string_view to_text(Refusal refusal) {
     case Refusal::kUnderWay:
       return "a motion is under way";
     case Refusal::kNoPosition:
-      return "where the axes are is not known yet";
+      return "the positions of the axes are not known yet: try again in the next cycle";
   }
   return "unknown";
 }

@@ -67,7 +67,7 @@ component::InputPortBase* find_input(const exec::Blueprint& blueprint, const End
     return nullptr;
   }
   if (blueprint.absent.count(end.component) == 0) {
-    diagnostics.error(end.where, "there is no component " + in_quotes(end.component),
+    diagnostics.error(end.where, "unknown component " + in_quotes(end.component),
                       base::suggestion(end.component, names));
   }
   return nullptr;
@@ -84,15 +84,17 @@ void add_inlets(const Document& document, const BuildOptions& options, exec::Blu
     if (input == nullptr) continue;
     inputs.push_back(input);
     if (connection.policy.max_age || input->ages()) continue;
-    diagnostics.error(connection.where,
-                      in_quotes(to_text(connection.to)) +
-                          " is written by other processes, which may stop at any time, but its "
-                          "data may be as old as it likes",
-                      "for example {to: " + to_text(connection.to) + ", max_age: 100 ms}");
+    diagnostics.error(
+        connection.where,
+        in_quotes(to_text(connection.to)) +
+            " is written by other processes, which may stop at any time, but has no max_age",
+        "add one, for example {to: " + to_text(connection.to) + ", max_age: 100 ms}");
   }
   const base::Location& where = document.network.inputs.front().where;
   if (!options.make_inlets) {
-    diagnostics.error(where, "inputs are for other processes, and this program reaches none");
+    diagnostics.error(
+        where, "network inputs come from other processes, and this program does not connect to any",
+        "run it with armature run, or leave out inputs");
     return;
   }
   auto inlets = options.make_inlets(inputs);
@@ -132,7 +134,7 @@ void check_operations(const std::vector<OperationOf>& wanted, const exec::Bluepr
     if (blueprint.absent.count(one.component) > 0) continue;
     const auto found = made.find(one.component);
     if (found == made.end()) {
-      diagnostics.error(one.where, "there is no component " + in_quotes(one.component),
+      diagnostics.error(one.where, "unknown component " + in_quotes(one.component),
                         base::suggestion(one.component, names));
       continue;
     }

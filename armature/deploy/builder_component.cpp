@@ -74,8 +74,8 @@ bool may_be_given(const component::PropertyBase& property, const Value& written,
   const std::string item = property.owner().name() + "." + std::string(property.name());
   diagnostics.error(
       written.where,
-      in_quotes(item) + " is the operator's word, which counts once: no file gives it",
-      "say it for this run, --set " + item + "=" + written.text);
+      in_quotes(item) + " is the operator's word, which counts once, so a file cannot give it",
+      "set it for this run: --set " + item + "=" + written.text);
   return false;
 }
 
@@ -129,21 +129,23 @@ std::unique_ptr<component::Component> ComponentBuilder::settle(
   if (written.remote.name.empty()) return component;
   const Activity& activity = written.activity;
   if (activity.kind != Activity::Kind::kSequential) {
-    diagnostics_.error(activity.where,
-                       in_quotes(written.name) + " lives in another process: its activity is there",
-                       "leave out activity");
+    diagnostics_.error(
+        activity.where,
+        in_quotes(written.name) + " lives in another process, which has its activity",
+        "leave out activity");
   }
   if (!options_.make_placeholder) {
-    diagnostics_.error(written.remote.where, in_quotes(written.name) +
-                                                 " lives in another process, and this program "
-                                                 "reaches none");
+    diagnostics_.error(written.remote.where,
+                       in_quotes(written.name) +
+                           " lives in another process, and this program does not connect to any");
     return nullptr;
   }
   for (const component::PropertyBase* property : component->interface().mandatory) {
     if (property->was_set() || !shapes_ports(*property)) continue;
-    diagnostics_.error(written.where, in_quotes(written.name) + " needs the property " +
-                                          in_quotes(property->name()) +
-                                          ", which its ports here follow, too");
+    diagnostics_.error(written.where,
+                       in_quotes(written.name) + " needs the property " +
+                           in_quotes(property->name()) + ", which determines its ports",
+                       "give it the value that it has in the other process");
   }
   auto placeholder = options_.make_placeholder(written, std::move(component));
   if (placeholder) return std::move(placeholder).value();
@@ -169,7 +171,7 @@ std::unique_ptr<component::Component> ComponentBuilder::make(const Component& wr
   } catch (const std::exception& exception) {
     problem = std::string("throws: ") + exception.what();
   } catch (...) {
-    problem = "throws something that is no std::exception";
+    problem = "throws an object that is not a std::exception";
   }
   diagnostics_.error(written.where, in_quotes(written.name) +
                                         " cannot be made: the constructor of model " +
@@ -203,10 +205,10 @@ void ComponentBuilder::report_unknown_model(const Component& written) {
       options_.models_missing && base::near_name(written.model, model_names_).empty();
   if (may_be_missing) return;
   std::string hint = base::suggestion(written.model, model_names_);
-  if (hint.empty()) hint = "is its library among the libraries?";
+  if (hint.empty()) hint = "list its library under libraries:";
   diagnostics_.error(
       written.model_where,
-      "component " + in_quotes(written.name) + ": there is no model " + in_quotes(written.model),
+      "component " + in_quotes(written.name) + ": unknown model " + in_quotes(written.model),
       std::move(hint));
 }
 
@@ -231,9 +233,10 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
     missing += (missing.empty() ? "" : ", ") + std::string(property->name());
   }
   if (!missing.empty()) {
-    diagnostics_.error(file.where, "property file " + path_in_quotes(file.path) + " of " +
-                                       in_quotes(written.name) + " must be complete, but lacks " +
-                                       missing);
+    diagnostics_.error(file.where,
+                       "property file " + path_in_quotes(file.path) + " of " +
+                           in_quotes(written.name) + " must be complete, but lacks " + missing,
+                       "add what is missing, or leave out complete");
   }
   return apply(written, *properties, component);
 }
@@ -268,8 +271,8 @@ const std::vector<Property>* ComponentBuilder::read(const PropertyFile& file, bo
   std::error_code ignored;
   const bool from_disk = options_.read == nullptr;
   if (from_disk && may_be_missing && !std::filesystem::exists(path, ignored)) {
-    diagnostics_.note(file.where,
-                      "there is no " + path_in_quotes(path) + " yet; it is written at stop");
+    diagnostics_.note(file.where, "property file " + path_in_quotes(path) +
+                                      " does not exist yet; it is written at stop");
     return nullptr;
   }
   const base::Result<std::string> text =

@@ -89,10 +89,10 @@ void ConnectionBuilder::report_end(const NamedConnection& named, const Endpoint&
     for (const exec::ComponentEntry& entry : blueprint_.components) {
       names.push_back(entry.component->name());
     }
-    diagnostics_.error(end.where,
-                       "connection " + in_quotes(named.name) + ": there is no component " +
-                           in_quotes(end.component),
-                       base::suggestion(end.component, names));
+    diagnostics_.error(
+        end.where,
+        "connection " + in_quotes(named.name) + ": unknown component " + in_quotes(end.component),
+        base::suggestion(end.component, names));
     return;
   }
   const component::Interface& interface = components_.at(end.component)->interface();
@@ -122,10 +122,11 @@ void ConnectionBuilder::apply_delays() {
     for (const Reference& delay : component.delays) {
       const bool used = delays[component.name][delay.name];
       if (used || blueprint_.absent.count(delay.name) > 0) continue;
-      diagnostics_.error(delay.where,
-                         in_quotes(component.name) + " is to use the previous cycle's data of " +
-                             in_quotes(delay.name) + ", but nothing connects them",
-                         "connect an output of " + in_quotes(delay.name) + " or remove the delay");
+      diagnostics_.error(
+          delay.where,
+          in_quotes(component.name) + " delays the data of " + in_quotes(delay.name) +
+              ", but reads none of its outputs",
+          "connect an output of " + in_quotes(delay.name) + " to it, or remove the delay");
     }
   }
 }

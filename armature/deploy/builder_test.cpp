@@ -65,7 +65,7 @@ TEST(Builder, CommandsBeforeTheStopAreCommandsWithoutArguments) {
       deploy("components: {A: {model: Source}}\nbefore_stop: [A.home, B.home]\n");
   EXPECT_THAT(deployment.diagnostics.to_text(),
               AllOf(HasSubstr("2:15: error: 'A' has no command 'home' without arguments"),
-                    HasSubstr("2:23: error: there is no component 'B'")));
+                    HasSubstr("2:23: error: unknown component 'B'")));
   ASSERT_EQ(deployment.options.before_stop.size(), 2u);
   EXPECT_EQ(deployment.options.before_stop[0].component, "A");
   EXPECT_EQ(deployment.options.before_stop[0].command, "home");
@@ -326,7 +326,8 @@ TEST_F(PropertyFiles, AutosaveKeepsPersistentPropertiesForTheNextRun) {
       "  A: {model: Source, property_file: a.cpf, autosave: true, activity: {periodic: 1 s}}\n";
   const Deployment first = load(yaml);
   ASSERT_TRUE(first.ok()) << first.diagnostics.to_text();
-  EXPECT_THAT(first.diagnostics.to_text(), HasSubstr("a.cpf' yet; it is written at stop"));
+  EXPECT_THAT(first.diagnostics.to_text(),
+              HasSubstr("a.cpf' does not exist yet; it is written at stop"));
   get<test::Source>(first, "A").rate.assign(0.1);
   get<test::Source>(first, "A").label.assign("<&>");
   base::Diagnostics diagnostics;

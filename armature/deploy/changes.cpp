@@ -25,7 +25,8 @@ void remove_entry(Value& base, const Property& removal, base::Diagnostics& diagn
   const auto gone = std::erase_if(
       base.entries, [&](const Property& entry) { return entry.name == removal.name; });
   if (gone > 0) return;
-  diagnostics.error(removal.where, in_quotes(removal.name) + " is to be removed but is not there");
+  diagnostics.error(removal.where,
+                    in_quotes(removal.name) + " is marked remove: true but does not exist");
 }
 
 /// Erases each element for which `gone` holds, and its neighbour in `scopes`.
@@ -57,8 +58,8 @@ bool is_removal(const Value& value) { return is_marked(value, "remove"); }
 
 void check_change(const std::string& name, const Value& body, base::Diagnostics& diagnostics) {
   if (!is_removal(body) || body.entries.size() == 1) return;
-  diagnostics.error(body.where, "component " + in_quotes(name) + " is removed and changed, too",
-                    "leave out remove, or everything else");
+  diagnostics.error(body.where, "component " + in_quotes(name) + " is both removed and changed",
+                    "write either remove: true or the changes");
 }
 
 bool take_removal(ChangesByName& changes, const std::string& name) {
@@ -130,12 +131,12 @@ void Removals::apply(Document& document, Scopes& scopes, base::Diagnostics& diag
     diagnostics.error(wanted.where,
                       "connection " +
                           in_quotes(to_text(wanted.from) + " -> " + to_text(wanted.to)) +
-                          " is to be removed but is not there");
+                          " is marked remove: true but does not exist");
   }
   for (std::size_t i = 0; i < found_named.size(); ++i) {
     if (found_named[i]) continue;
     diagnostics.error(named_[i].what.where, "connection " + in_quotes(named_[i].what.name) +
-                                                " is to be removed but is not there");
+                                                " is marked remove: true but does not exist");
   }
 }
 

@@ -82,22 +82,21 @@ TEST(Removal, OfAPropertyLeavesItsDefault) {
 
 TEST(Removal, OfWhatIsNotThereIsAMistake) {
   EXPECT_THAT(arm_with("components: {Lgo: {remove: true}}\n").messages(),
-              HasSubstr("component 'Lgo' is to be removed but is not there"));
+              HasSubstr("component 'Lgo' is marked remove: true but does not exist"));
   EXPECT_THAT(arm_with("connections: [{from: C.Load, to: J1.Load, remove: true}]\n").messages(),
-              HasSubstr("own.yaml:2:15: error: connection 'C.Load -> J1.Load' is to be removed but "
-                        "is not there"));
+              HasSubstr("own.yaml:2:15: error: connection 'C.Load -> J1.Load' is marked remove: "
+                        "true but does not exist"));
   EXPECT_THAT(arm_with("connections: [{name: bsu, remove: true}]\n").messages(),
-              HasSubstr("connection 'bsu' is to be removed but is not there"));
+              HasSubstr("connection 'bsu' is marked remove: true but does not exist"));
   EXPECT_THAT(arm_with("components: {J2: {override: true, properties: {Sgin: {remove: true}}}}\n")
                   .messages(),
-              HasSubstr("'Sgin' is to be removed but is not there"));
+              HasSubstr("'Sgin' is marked remove: true but does not exist"));
 }
 
 TEST(Removal, SaysNothingElseOfAComponent) {
-  EXPECT_THAT(
-      arm_with("components: {Log: {remove: true, model: Joint}}\n").messages(),
-      HasSubstr("component 'Log' is removed and changed, too (leave out remove, or everything "
-                "else)"));
+  EXPECT_THAT(arm_with("components: {Log: {remove: true, model: Joint}}\n").messages(),
+              HasSubstr("component 'Log' is both removed and changed (write either remove: true or "
+                        "the changes)"));
 }
 
 }  // namespace

@@ -39,9 +39,9 @@ void warn_of_idle_components(const Deployment& deployment, base::Diagnostics& di
     const component::Interface& interface = entry.component->interface();
     if (interface.inputs.empty() && interface.outputs.empty()) continue;  // tools may call it
     diagnostics.warning(entry.where,
-                        "nothing ever runs '" + entry.component->name() +
-                            "': it has no activity, and nothing triggers or calls it",
-                        "give it one, for example activity: {periodic: 10 ms}");
+                        "'" + entry.component->name() +
+                            "' never runs: it has no activity, and nothing triggers or calls it",
+                        "give it an activity, for example activity: {periodic: 10 ms}");
   }
 }
 
@@ -69,12 +69,12 @@ void refuse_grants_on_hardware(Deployment& deployment) {
   if (document.script_grants.empty() || document.grants_on_hardware) return;
   for (const exec::HardwarePlan& hardware : deployment.plan.hardware) {
     const OperationOf& grant = document.script_grants.front();
-    deployment.diagnostics.error(
-        grant.where,
-        "scripts are granted '" + grant.component + "." + grant.operation + "', but '" +
-            hardware.component->name() + "' drives a real robot by " + hardware.bus,
-        "take it back in the file of this robot, grants: {script: []}, or say that it is meant, "
-        "grants: {on_hardware: true}");
+    deployment.diagnostics.error(grant.where,
+                                 "scripts are granted '" + grant.component + "." + grant.operation +
+                                     "', but '" + hardware.component->name() +
+                                     "' drives a real robot by " + hardware.bus,
+                                 "revoke it in the file of this robot with grants: {script: []}, "
+                                 "or confirm it with grants: {on_hardware: true}");
     return;
   }
 }
@@ -95,7 +95,8 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
       diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
   if (diagnostics.ok() && deployment.blueprint.components.empty()) {
-    diagnostics.error({document.file, 0, 0}, "the file has no components");
+    diagnostics.error({document.file, 0, 0}, "the file has no components",
+                      "add them under components:");
   }
   const analysis::ExecutionTimes times = read_times(options.times_file, diagnostics);
   refuse_grants_on_hardware(deployment);

@@ -87,7 +87,7 @@ TEST(LoadDeployment, AFileThatIsNotThereIsNamedWithTheReason) {
 TEST(LoadDeployment, AFileWithoutComponentsIsAMistake) {
   for (const char* text : {"", "# nothing yet\n", "application: empty\n"}) {
     EXPECT_EQ(parse_deployment(text, "robot.yaml").diagnostics.to_text(),
-              "robot.yaml: error: the file has no components\n");
+              "robot.yaml: error: the file has no components (add them under components:)\n");
   }
 }
 
@@ -104,9 +104,9 @@ connections: [S.Out -> A.In]
 )",
                                                  "robot.yaml", options);
   EXPECT_THAT(deployment.diagnostics.to_text(),
-              ::testing::HasSubstr("robot.yaml:3:3: warning: nothing ever runs 'A': it has no "
-                                   "activity, and nothing triggers or calls it (give it one, for "
-                                   "example activity: {periodic: 10 ms})\n"));
+              ::testing::HasSubstr("robot.yaml:3:3: warning: 'A' never runs: it has no "
+                                   "activity, and nothing triggers or calls it (give it an "
+                                   "activity, for example activity: {periodic: 10 ms})\n"));
 }
 
 base::Diagnostics with_threads(const std::string& how_many, const std::string& head) {

@@ -155,7 +155,7 @@ TEST(Include, MayNameAnOrocosFile) {
       "a.yaml", {{"a.yaml", "include: b.xml\n"},
                  {"b.xml", "<properties><struct name=\"B{1..2}\" type=\"M\"/></properties>"}});
   EXPECT_EQ(loaded.messages(),
-            "b.xml:1:13: error: component 'B{1..2}': this is not a name (a name has letters, "
+            "b.xml:1:13: error: component 'B{1..2}' is not a valid name (a name has letters, "
             "digits, '_' and '-' and begins with a letter)\n")
       << "no ranges in OROCOS files";
 }
@@ -174,17 +174,17 @@ TEST_P(IncludeMistake, IsReportedWithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Each, IncludeMistake,
     testing::Values(
-        Mistake{{}, "error: there is no file 'a.yaml'\n"},
+        Mistake{{}, "error: file 'a.yaml' does not exist\n"},
         Mistake{{{"a.yaml", "include: b.yaml\n"}},
-                "a.yaml:1:10: error: there is no file 'b.yaml'\n"},
+                "a.yaml:1:10: error: file 'b.yaml' does not exist\n"},
         Mistake{{{"a.yaml", "include: b.yaml\n"}, {"b.yaml", "include: a.yaml\n"}},
-                "b.yaml:1:10: error: 'a.yaml' includes itself\n"},
+                "b.yaml:1:10: error: 'a.yaml' includes itself (remove it from include)\n"},
         Mistake{{{"a.yaml", "include: {file: b.yaml}\n"}},
                 "a.yaml:1:10: error: include takes the path of a file or a list of them\n"},
         Mistake{{{"a.yaml", "include: b.yaml\ncomponents: {J: {model: M}}\n"},
                  {"b.yaml", "components: {J: {model: M}}\n"}},
-                "a.yaml:2:14: error: component 'J' is given twice (first at b.yaml:1:14; to change "
-                "that one write override: true, to leave it out remove: true)\n"},
+                "a.yaml:2:14: error: component 'J' is given twice (first at b.yaml:1:14; write "
+                "override: true to change that one, remove: true to leave it out)\n"},
         Mistake{{{"a.yaml", "include: [b.yaml, c.yaml]\n"},
                  {"b.yaml", "parameters: {n: 1}\n"},
                  {"c.yaml", "parameters: {n: 2}\n"}},

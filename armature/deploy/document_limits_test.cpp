@@ -69,8 +69,8 @@ TEST(Limits, NestedRangesAreRefused) {
   EXPECT_EQ(messages("components:\n"
                      "  A{1..1000}: {model: M, peers: [\"B{1..1000}\"]}\n",
                      limits),
-            "a.yaml:2:34: error: ranges, parameters and composites expand to more values than "
-            "possible (check the bounds of ranges)\n");
+            "a.yaml:2:34: error: ranges, parameters and composites expand to too many values (make "
+            "the ranges smaller)\n");
 }
 
 TEST(Limits, CompositesInCompositesAreRefused) {
@@ -82,7 +82,7 @@ TEST(Limits, CompositesInCompositesAreRefused) {
   Limits limits;
   limits.expanded_nodes = 100'000;
   const std::string found = messages(text, limits);
-  EXPECT_NE(found.find("expand to more values than possible"), std::string::npos) << found;
+  EXPECT_NE(found.find("expand to too many values"), std::string::npos) << found;
 }
 
 TEST(Limits, ComponentsOfCompositesAreCountedBeforeTheyAreMade) {
@@ -94,8 +94,8 @@ TEST(Limits, ComponentsOfCompositesAreCountedBeforeTheyAreMade) {
   base::Diagnostics diagnostics;
   const Document document = parse_document(text, "a.yaml", {}, diagnostics);
   EXPECT_EQ(diagnostics.to_text(),
-            "a.yaml:4:21: error: with 'p{1..10}' there are more than 200000 components and "
-            "connections (composites inside each other multiply: check their ranges)\n");
+            "a.yaml:4:21: error: 'p{1..10}' brings the deployment to more than 200000 components "
+            "and connections (nested composites multiply: make their ranges smaller)\n");
   EXPECT_TRUE(document.components.empty()) << "nothing is built of it";
   EXPECT_TRUE(document.composites.empty());
 }
@@ -106,8 +106,8 @@ TEST(Limits, ConnectionsOfCompositesAreCountedToo) {
   EXPECT_EQ(messages("components: {A: {model: M}}\n"
                      "connections: [\"A.Out{1..60} -> A.In{i}\", \"A.Out{1..60} -> A.On{i}\"]\n",
                      limits),
-            "a.yaml:2:42: error: with this connection there are more than 100 components and "
-            "connections (composites inside each other multiply: check their ranges)\n");
+            "a.yaml:2:42: error: this connection brings the deployment to more than 100 components "
+            "and connections (nested composites multiply: make their ranges smaller)\n");
 }
 
 TEST(Limits, NamesThatAreRepeatedWithoutEndAreToldAHundredTimes) {
@@ -198,7 +198,7 @@ TEST(Limits, LongChainsOfParametersAreRefused) {
                 "  p" + std::to_string(i) + ": ${p" + std::to_string(i - 1) + "}\n");
   }
   const std::string found = messages(text, {});
-  EXPECT_NE(found.find("needs too long a chain of others"), std::string::npos) << found;
+  EXPECT_NE(found.find("refers to others in too long a chain"), std::string::npos) << found;
 }
 
 TEST(Limits, TenThousandComponentsAreFarWithinThem) {

@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unknown_anchor", "libraries: *all\n",
                 "robot.yaml:1:12: error: this is not YAML: the referenced anchor is not defined\n"},
         Mistake{"alias_of_itself", "libraries: &a [x, *a]\n",
-                "robot.yaml:1:19: error: the alias stands for what contains it\n"},
+                "robot.yaml:1:19: error: the alias refers to the value that contains it\n"},
         Mistake{"key_that_is_a_list", "{[a]: b}\n", "robot.yaml:1:2: error: a key must be text\n"},
         Mistake{"merge_of_text", "{<<: a}\n",
                 "robot.yaml:1:2: error: '<<' takes a map or a list of maps\n"},
@@ -86,11 +86,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"library_as_map", "libraries: [{a: b}]\n",
                 "robot.yaml:1:13: error: document: library must be text, found a map\n"},
         Mistake{"script", "scripts: a.lua\n",
-                "robot.yaml:1:10: error: document: scripts are named when the application starts "
-                "(armature run FILE --script SCRIPT)\n"},
+                "robot.yaml:1:10: error: document: 'scripts' is not a section of a deployment: "
+                "scripts are given at start (armature run FILE --script SCRIPT)\n"},
         Mistake{"recorder", "recorder: {to: x.csv}\n",
-                "robot.yaml:1:11: error: document: a component of the model Reporter records "
-                "(docs/recording.md)\n"}),
+                "robot.yaml:1:11: error: document: 'recorder' is not a section of a deployment: a "
+                "component of the model Reporter records (see docs/recording.md)\n"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -107,15 +107,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.yaml:1:28: error: component 'A': unknown key 'propertys' (did you mean "
                 "'properties'?)\n"},
         Mistake{"name", "components: {1A: {model: M}}\n",
-                "robot.yaml:1:14: error: component '1A': this is not a name (a name has letters, "
+                "robot.yaml:1:14: error: component '1A' is not a valid name (a name has letters, "
                 "digits, '_' and '-' and begins with a letter)\n"},
         Mistake{"flag", "components: {A: {model: M, autostart: yes}}\n",
                 "robot.yaml:1:39: error: component 'A': autostart must be true or false, found "
                 "'yes'\n"},
         Mistake{"start_without_configure", "components: {A: {model: M, autoconf: false}}\n",
-                "robot.yaml:1:14: error: component 'A': autostart needs autoconf\n"},
+                "robot.yaml:1:14: error: component 'A': autostart needs autoconf (set autoconf: "
+                "true, or autostart: false)\n"},
         Mistake{"save_without_file", "components: {A: {model: M, autosave: true}}\n",
-                "robot.yaml:1:14: error: component 'A': autosave needs a property_file\n"},
+                "robot.yaml:1:14: error: component 'A': autosave needs a property_file (for "
+                "example property_file: properties.cpf)\n"},
         Mistake{"properties_as_list", "components: {A: {model: M, properties: [x]}}\n",
                 "robot.yaml:1:40: error: component 'A': properties must be a map, found a list\n"},
         Mistake{"property_without_value", "components: {A: {model: M, properties: {x: }}}\n",
@@ -126,9 +128,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.yaml:1:45: error: component 'A': property 'n' has no value (braces of {i} "
                 "and ${name} need quotes; an empty text is \"\")\n"},
         Mistake{"property_name", "components: {A: {model: M, properties: {a b: 1}}}\n",
-                "robot.yaml:1:41: error: component 'A': property 'a b' is not a name\n"},
+                "robot.yaml:1:41: error: component 'A': property 'a b' is not a valid name\n"},
         Mistake{"peer_name", "components: {A: {model: M, peers: [B C]}}\n",
-                "robot.yaml:1:36: error: component 'A': peer 'B C' is not a name (a name has "
+                "robot.yaml:1:36: error: component 'A': peer 'B C' is not a valid name (a name has "
                 "letters, digits, '_' and '-' and begins with a letter)\n"},
         Mistake{"binding", "components: {A: {model: M, bind: {read: [x]}}}\n",
                 "robot.yaml:1:41: error: component 'A': bind read must be text, found a list\n"},
@@ -138,10 +140,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "complete)\n"},
         Mistake{"twice_by_range", "components:\n  J2: {model: M}\n  J{1..2}: {model: M}\n",
                 "robot.yaml:3:3: error: component 'J2' is given twice (first at robot.yaml:2:3; "
-                "to change that one write override: true, "
-                "to leave it out remove: true)\n"},
-        Mistake{"override_of_nothing", "components: {A: {override: true}}\n",
-                "robot.yaml:1:14: error: component 'A' is to be overridden but is not there\n"}),
+                "write override: true to change that one, remove: true to leave it out)\n"},
+        Mistake{
+            "override_of_nothing", "components: {A: {override: true}}\n",
+            "robot.yaml:1:14: error: component 'A' is marked override: true but does not exist\n"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -156,9 +158,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"two_kinds",
                 "components: {A: {model: M, activity: {periodic: 1 ms, triggered: true}}}\n",
                 "robot.yaml:1:38: error: component 'A': an activity is either periodic, triggered "
-                "or sequential\n"},
+                "or sequential (keep one of these keys)\n"},
         Mistake{"triggered_false", "components: {A: {model: M, activity: {triggered: false}}}\n",
-                "robot.yaml:1:50: error: component 'A': triggered can only be true\n"},
+                "robot.yaml:1:50: error: component 'A': triggered can only be true (leave it out, "
+                "or choose another activity)\n"},
         Mistake{"period_without_unit", "components: {A: {model: M, activity: {periodic: 10}}}\n",
                 "robot.yaml:1:49: error: component 'A': periodic must be a duration with its unit, "
                 "found '10' (for example 10 ms)\n"},
@@ -198,11 +201,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "1 to 1000000, found '0'\n"},
         Mistake{"priority_without_thread",
                 "components: {A: {model: M, activity: {sequential: true, priority: 9}}}\n",
-                "robot.yaml:1:57: error: component 'A': priority is not for a sequential activity, "
-                "which runs in the thread of whoever triggers it\n"},
+                "robot.yaml:1:57: error: component 'A': priority does not apply to a sequential "
+                "activity, "
+                "which runs in the thread of the component that triggers it\n"},
         Mistake{"overrun_without_period",
                 "components: {A: {model: M, activity: {triggered: true, overrun: skip}}}\n",
-                "robot.yaml:1:56: error: component 'A': overrun is not for a triggered activity, "
+                "robot.yaml:1:56: error: component 'A': overrun does not apply to a triggered "
+                "activity, "
                 "which has no period\n"},
         Mistake{"unknown_setting",
                 "components: {A: {model: M, activity: {periodic: 1 ms, prio: 9}}}\n",
@@ -251,7 +256,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.yaml:1:61: error: connection: on_old must be hold, zero, stop or fault, "
                 "found 'halt'\n"},
         Mistake{"reaction_to_nothing", "connections: [{from: A.Out, to: B.In, on_old: stop}]\n",
-                "robot.yaml:1:47: error: connection: on_old has no effect without max_age\n"},
+                "robot.yaml:1:47: error: connection: on_old has no effect without max_age (for "
+                "example max_age: 100 ms)\n"},
         Mistake{"delay", "connections: [{from: A.Out, to: B.In, delay: 2}]\n",
                 "robot.yaml:1:46: error: connection: delay must be one_cycle, found '2'\n"},
         Mistake{"given_twice", "connections:\n- A.Out -> B.In\n- {from: A.Out, to: B.In}\n",
@@ -292,17 +298,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "components:\n  J{1..2}: {model: M}\n  A{1..3}: {model: M}\n"
                 "connections:\n  - A{i}.Out -> J{i}.In\n",
                 "robot.yaml:5:17: error: connection: J{i} runs over {1..2} but A{i} over {1..3} "
-                "(write the range that is meant: {1..3} in place of {i})\n"},
+                "(write the range that is meant, for example {1..3}, in place of {i})\n"},
         Mistake{"number_of_no_range",
                 "components:\n  Joint{1..2}: {model: M}\nconnections:\n  - Jont{i}.Out -> S.In\n",
-                "robot.yaml:4:5: error: connection: nothing tells the range of {i} in "
-                "'Jont{i}.Out' (did you mean 'Joint{i}'?)\n"},
+                "robot.yaml:4:5: error: connection: {i} in 'Jont{i}.Out' has no range (did you "
+                "mean 'Joint{i}'?)\n"},
         Mistake{"number_in_ports_only", "connections:\n  - A.Out{i} -> S.In{i}\n",
-                "robot.yaml:2:5: error: connection: nothing tells the range of {i} in 'A.Out{i}' "
-                "(write it: {1..3} in place of {i})\n"},
+                "robot.yaml:2:5: error: connection: {i} in 'A.Out{i}' has no range (write a range, "
+                "for example {1..3}, in place of {i})\n"},
         Mistake{"chain_longer_than_the_range",
                 "components:\n  J{1..2}: {model: M}\nconnections:\n  - J{i}.Out -> J{i+5}.In\n",
-                "robot.yaml:4:5: error: connection: there is no {i} for which both ends exist\n"},
+                "robot.yaml:4:5: error: connection: no {i} exists at both ends\n"},
         Mistake{"unknown_parameter",
                 "parameters: {joints: 2}\ncomponents: {A: {model: M, peers: [\"x${jonts}\"]}}\n",
                 "robot.yaml:2:36: error: the document has no parameter 'jonts' (did you mean "
@@ -310,7 +316,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"parameter_without_value", "parameters: {bus: }\n",
                 "robot.yaml:1:14: error: the document: parameter 'bus' has no value\n"},
         Mistake{"parameter_of_itself", "parameters: {a: \"${b}\", b: \"${a}\"}\n",
-                "robot.yaml:1:14: error: parameter 'a' needs its own value\n"},
+                "robot.yaml:1:14: error: parameter 'a' refers to itself (give one parameter of the "
+                "circle a value of its own)\n"},
         Mistake{"list_in_a_text",
                 "parameters: {v: [1]}\ncomponents: {A: {model: M, properties: {x: \"v${v}\"}}}\n",
                 "robot.yaml:2:44: error: parameter 'v' is a list and cannot be part of a text\n"}),

@@ -45,7 +45,7 @@ TEST(CommandLine, SetsAPropertyOfEachComponentOfARange) {
 
 TEST(CommandLine, RefusesARangeThatLeadsBeyondWhatIsThere) {
   EXPECT_EQ(set({"Joint{2..3}.GearRatio=0.02"}).messages(),
-            "<command line>: error: there is no component 'Joint3' to set 'Joint3.GearRatio' (did "
+            "<command line>: error: unknown component 'Joint3' in 'Joint3.GearRatio' (did "
             "you mean 'Joint1'?)\n");
 }
 
@@ -55,8 +55,8 @@ TEST(CommandLine, RefusesRangesThatCannotBe) {
       "<command line>: error: 'Joint{2..1}.GearRatio': the range is empty, its last number is "
       "below its first\n");
   EXPECT_EQ(set({"Joint{1..2}.Gain{1..2}=0.02"}).messages(),
-            "<command line>: error: 'Joint{1..2}.Gain{1..2}' has more than one range (set each of "
-            "one of them by itself)\n");
+            "<command line>: error: 'Joint{1..2}.Gain{1..2}' has more than one range (write "
+            "numbers in place of all but one)\n");
 }
 
 TEST(CommandLine, SetsAPropertyOfOneComponent) {
@@ -156,12 +156,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "<command line>: error: the document has no parameter 'Brake' (known: joints, bus; "
                 "properties are set as Component.Property=value)\n"},
         Mistake{"Joint3.x=1",
-                "<command line>: error: there is no component 'Joint3' to set "
-                "'Joint3.x' (did you mean 'Joint1'?)\n"},
+                "<command line>: error: unknown component 'Joint3' in 'Joint3.x' (did you mean "
+                "'Joint1'?)\n"},
         Mistake{"Joint1.x=[1", "<command line>: error: this is not YAML: the [ is not closed\n"},
         Mistake{"Joint1.a b=1",
-                "<command line>: error: component 'Joint1': property 'a b' is not "
-                "a name\n"},
+                "<command line>: error: component 'Joint1': property 'a b' is not a valid name\n"},
         Mistake{
             "Joint1.activity.periodic=5",
             "<command line>: error: component 'Joint1': periodic must be a duration with its unit, "

@@ -223,7 +223,7 @@ TEST(WriteXml, RefusesWhatXmlCannotSay) {
   write_xml(load_yaml("components: {A: {model: M, properties: {x: \"\\x01\"}}}\n").document,
             diagnostics);
   EXPECT_EQ(diagnostics.to_text(),
-            "robot.yaml: error: a text has control characters, which XML cannot say\n");
+            "robot.yaml: error: a text has control characters, which XML cannot contain\n");
 }
 
 TEST(WriteXml, RefusesPortsOfNoComponent) {
@@ -231,7 +231,7 @@ TEST(WriteXml, RefusesPortsOfNoComponent) {
   write_xml(load_yaml("components: {A: {model: M}}\nconnections: [A.Out -> B.In]\n").document,
             diagnostics);
   EXPECT_EQ(diagnostics.to_text(),
-            "robot.yaml:2:24: error: port 'B.In' cannot be written: there is no component 'B'\n");
+            "robot.yaml:2:24: error: port 'B.In' cannot be written: unknown component 'B'\n");
 }
 
 }  // namespace

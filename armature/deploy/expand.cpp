@@ -97,9 +97,12 @@ class ParameterResolver {
     const Property& property = unresolved_[index];
     const bool circular = states_[index] == State::kBusy;
     if (circular || depth > kDeepestParameter) {
-      diagnostics_.error(property.where, "parameter " + in_quotes(property.name) +
-                                             (circular ? " needs its own value"
-                                                       : " needs too long a chain of others"));
+      diagnostics_.error(
+          property.where,
+          "parameter " + in_quotes(property.name) +
+              (circular ? " refers to itself" : " refers to others in too long a chain"),
+          circular ? "give one parameter of the circle a value of its own"
+                   : "give it a value with fewer references");
       scope_.parameters.push_back({property.name, make_text(""), {}, property.where});
       return;
     }
@@ -139,8 +142,8 @@ bool Expander::spend(std::size_t nodes, const base::Location& where,
     return true;
   }
   exhausted_ = true;
-  diagnostics.error(where, "ranges, parameters and composites expand to more values than possible",
-                    "check the bounds of ranges");
+  diagnostics.error(where, "ranges, parameters and composites expand to too many values",
+                    "make the ranges smaller");
   return false;
 }
 
@@ -153,9 +156,9 @@ bool Expander::spend_entries(std::size_t count, const std::string& what,
   }
   exhausted_ = true;
   diagnostics.error(where,
-                    "with " + what + " there are more than " + std::to_string(most_entries_) +
+                    what + " brings the deployment to more than " + std::to_string(most_entries_) +
                         " components and connections",
-                    "composites inside each other multiply: check their ranges");
+                    "nested composites multiply: make their ranges smaller");
   return false;
 }
 

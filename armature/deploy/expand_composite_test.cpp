@@ -59,9 +59,10 @@ TEST(Composite, InAModeStandsForItsParts) {
   const Loaded loaded = load_chassis(
       "components: {b: {model: Chassis, properties: {top_speed: 1}}, c: {model: Card}}\n"
       "modes: {one: [b], two: [\"{c}\", c]}\nmode: two\n");
-  EXPECT_EQ(loaded.messages(),
-            "robot.yaml:2:25: error: document: mode 'two' '{c}' is not a name (a name has letters, "
-            "digits, '_' and '-' and begins with a letter)\n");
+  EXPECT_EQ(
+      loaded.messages(),
+      "robot.yaml:2:25: error: document: mode 'two' '{c}' is not a valid name (a name has letters, "
+      "digits, '_' and '-' and begins with a letter)\n");
   ASSERT_EQ(loaded.document.modes.size(), 2u);
   ASSERT_EQ(loaded.document.modes[0].components.size(), 3u);
   EXPECT_EQ(loaded.document.modes[0].components[1].name, "b.wheel2");
@@ -194,7 +195,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"composites: {C: {components: []}}\n",
                 "robot.yaml:1:30: error: composite 'C': components must be a map, found a list\n"},
         Mistake{"composites: {C: {components: {x: {model: C}}}}\ncomponents: {a: {model: C}}\n",
-                "robot.yaml:1:31: error: composite 'C' contains itself\n"},
+                "robot.yaml:1:31: error: composite 'C' contains itself (remove it from the "
+                "composites inside it)\n"},
         Mistake{"composites: {C: {components: {left: {model: M}}, exports: {ports: {P: lft.O}}}}\n"
                 "components: {a: {model: C}}\n",
                 "robot.yaml:1:71: error: composite 'C' has no part 'lft' to export 'P' from (did "

@@ -74,9 +74,9 @@ void refuse_pattern(const Value& end, const RangesByPattern& ranges,
   for (const auto& [name, all] : ranges) known.push_back(name);
   const auto pattern = pattern_of(end.text);
   const std::string near = pattern ? base::near_name(pattern->name, known) : "";
-  diagnostics.error(
-      end.where, "connection: nothing tells the range of {i} in " + in_quotes(end.text),
-      near.empty() ? "write it: {1..3} in place of {i}" : "did you mean '" + near + "'?");
+  diagnostics.error(end.where, "connection: {i} in " + in_quotes(end.text) + " has no range",
+                    near.empty() ? "write a range, for example {1..3}, in place of {i}"
+                                 : "did you mean '" + near + "'?");
 }
 
 /// Where the components that the ends name with `{i}` all exist.
@@ -90,10 +90,9 @@ std::optional<Repetition> implied_repetition(const std::vector<const Value*>& en
     const auto found = pattern ? ranges.find(pattern->name) : ranges.end();
     if (found == ranges.end()) continue;
     if (found->second.size() > 1) {
-      diagnostics.error(
-          end->where,
-          "connection: " + in_quotes(pattern->component) + " has several ranges; which is meant?",
-          "write it: {1..3} in place of {i}");
+      diagnostics.error(end->where,
+                        "connection: " + in_quotes(pattern->component) + " has several ranges",
+                        "write the one that is meant, for example {1..3}, in place of {i}");
       return std::nullopt;
     }
     const Range own = found->second.front();
@@ -102,7 +101,7 @@ std::optional<Repetition> implied_repetition(const std::vector<const Value*>& en
       diagnostics.error(end->where,
                         "connection: " + pattern->name + " runs over " + range_text(own) + " but " +
                             whole->first + " over " + range_text(whole->second),
-                        "write the range that is meant: {1..3} in place of {i}");
+                        "write the range that is meant, for example {1..3}, in place of {i}");
       return std::nullopt;
     }
     if (pattern->offset == 0) whole = {pattern->name, own};
@@ -119,7 +118,7 @@ std::optional<Repetition> implied_repetition(const std::vector<const Value*>& en
   }
   common->first = std::max(common->first, 0);
   if (common->last < common->first) {
-    diagnostics.error(ends.front()->where, "connection: there is no {i} for which both ends exist");
+    diagnostics.error(ends.front()->where, "connection: no {i} exists at both ends");
     return std::nullopt;
   }
   return Repetition{*common, true};

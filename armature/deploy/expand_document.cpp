@@ -168,18 +168,19 @@ class DocumentBuilder {
       check_change(name, body, found);
       level.changes[name].push_back({std::move(body), entry.where, false});
     } else if (!is_dotted_name(name)) {
-      found.error(entry.where, "component " + in_quotes(name) + ": this is not a name",
+      found.error(entry.where, "component " + in_quotes(name) + " is not a valid name",
                   "a name has letters, digits, '_' and '-' and begins with a letter");
     } else if (full == kModesName) {
-      found.error(entry.where,
-                  "the name " + in_quotes(full) + " is that of the component that switches modes",
-                  "give the component another name");
+      found.error(
+          entry.where,
+          "the name " + in_quotes(full) + " is reserved for the component that switches modes",
+          "give the component another name");
     } else if (take_removal(level.changes, name)) {
       removals_.add_component(level.instance, name);
     } else if (!names_.add(full, level.instance, entry.where)) {
       found.error(entry.where, "component " + in_quotes(full) + " is given twice",
                   "first at " + place_text(names_.place_of(full)) +
-                      "; to change that one write override: true, to leave it out remove: true");
+                      "; write override: true to change that one, remove: true to leave it out");
     } else {
       apply_changes(level, name, body, found);
       add_named(full, entry.where, body, level, found);
@@ -200,9 +201,9 @@ class DocumentBuilder {
     for (const auto& [name, changes] : level.changes) {
       if (changes.front().exported) continue;  // its export is refused
       found.error(changes.front().where,
-                  "component " + in_quotes(name) + " is to be " +
-                      (is_removal(changes.front().body) ? "removed" : "overridden") +
-                      " but is not there");
+                  "component " + in_quotes(name) + " is marked " +
+                      (is_removal(changes.front().body) ? "remove" : "override") +
+                      ": true but does not exist");
     }
     reports_.add(found);
   }
@@ -257,8 +258,11 @@ class DocumentBuilder {
     const bool circular = std::find(entered_.begin(), entered_.end(), model) != entered_.end();
     const bool deep = entered_.size() >= static_cast<std::size_t>(depth_limit_);
     if (circular || deep) {
-      found.error(where, "composite " + in_quotes(model) +
-                             (circular ? " contains itself" : " is nested too deep"));
+      found.error(
+          where,
+          "composite " + in_quotes(model) + (circular ? " contains itself" : " is nested too deep"),
+          circular ? "remove it from the composites inside it"
+                   : "use fewer composites inside each other");
       return false;
     }
     entered_.push_back(model);
@@ -360,7 +364,7 @@ class DocumentBuilder {
     if (auto* directed = std::get_if<Connection>(&*connection)) {
       removals_.add_connection(level.instance, std::move(*directed));
     } else {
-      found.error(map.where, "a connection that is removed needs its name alone, or from and to");
+      found.error(map.where, "a connection with remove: true takes only its name, or from and to");
     }
   }
 

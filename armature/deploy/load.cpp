@@ -87,7 +87,8 @@ class Sources {
     }
     const std::string path = path_of(name.text, includer);
     if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
-      diagnostics_.error(name.where, path_in_quotes(path) + " includes itself");
+      diagnostics_.error(name.where, path_in_quotes(path) + " includes itself",
+                         "remove it from include");
       return;
     }
     if (std::find(seen_.begin(), seen_.end(), path) != seen_.end()) return;

@@ -108,12 +108,14 @@ base::Result<const component::LibraryDescription*> describe(const std::string& f
   using Entry = const component::LibraryDescription* (*)();
   const auto entry = reinterpret_cast<Entry>(loaded.value().symbol(component::kLibraryEntry));
   if (entry == nullptr) {
-    return base::Error{path_in_quotes(file) + " is no component library: it does not export " +
+    return base::Error{path_in_quotes(file) + " is not a component library: it does not export " +
                        component::kLibraryEntry +
                        "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
   }
   const component::LibraryDescription* const description = entry();
-  const base::Error undescribed{path_in_quotes(file) + " does not describe itself"};
+  const base::Error undescribed{
+      path_in_quotes(file) +
+      " has an empty library description: rebuild it with this program's headers and compiler"};
   if (description == nullptr || description->abi == nullptr) return undescribed;
   const std::string_view theirs = description->abi;
   const std::string_view ours = component::abi_tag();
@@ -167,14 +169,13 @@ base::Result<std::string> find_library(std::string_view name,
     const fs::path folder = folders.empty() ? "." : folders.back();
     const std::string file = (folder / fs::path(name).lexically_normal()).string();
     if (is_there(file)) return file;
-    return base::Error{what + " was not found: there is no " + path_in_quotes(file)};
+    return base::Error{what + " was not found: no " + path_in_quotes(file)};
   }
   for (const std::string& folder : folders) {
     const std::string file = (fs::path(folder) / file_name(name)).string();
     if (is_there(file)) return file;
   }
-  std::string text =
-      what + " was not found: there is no " + file_name(name) + " in " + joined(folders);
+  std::string text = what + " was not found: no " + file_name(name) + " in " + joined(folders);
   const std::string near = base::near_name(name, available_libraries(folders));
   text += near.empty() ? "; build it, or name its folder with -L or " + std::string(kPathVariable)
                        : "; did you mean " + in_quotes(near) + "?";
@@ -191,7 +192,7 @@ base::Result<void> load_library(const std::string& file, component::Registry& re
   } catch (const std::exception& exception) {
     thrown = exception.what();
   } catch (...) {
-    thrown = "something that is no std::exception";
+    thrown = "an object that is not a std::exception";
   }
   const std::string problems = registry.end_library();
   if (!thrown.empty())

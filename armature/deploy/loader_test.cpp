@@ -95,13 +95,13 @@ TEST(Loader, ALibraryThatCallsWhatThisRuntimeDoesNotHaveIsToBeRebuilt) {
 }
 
 TEST(Loader, ALibraryWithoutTheFunctionIsNoComponentLibrary) {
-  EXPECT_THAT(why_not("no_entry"), AllOf(HasSubstr("libno_entry.so' is no component library"),
+  EXPECT_THAT(why_not("no_entry"), AllOf(HasSubstr("libno_entry.so' is not a component library"),
                                          HasSubstr("armature_component_library"),
                                          HasSubstr("write ARMATURE_COMPONENT_LIBRARY")));
 }
 
 TEST(Loader, ALibraryWithoutADescriptionIsRefused) {
-  EXPECT_THAT(why_not("no_description"), HasSubstr("does not describe itself"));
+  EXPECT_THAT(why_not("no_description"), HasSubstr("has an empty library description"));
 }
 
 TEST(Loader, AnExceptionOutOfALibraryIsReported) {
@@ -158,23 +158,23 @@ TEST(FindLibrary, ANameWithASlashIsAFileBesideTheDeployment) {
   EXPECT_EQ(find_library(file, {TEST_LIBRARIES}).value(), file);
   EXPECT_EQ(find_library("./mine.so", {TEST_LIBRARIES, folder.path()}).value(),
             folder.path() + "/mine.so");
-  EXPECT_EQ(find_library("build/mine.so", {TEST_LIBRARIES, folder.path()}).error(),
-            "component library 'build/mine.so' was not found: there is no '" + folder.path() +
-                "/build/mine.so'");
+  EXPECT_EQ(
+      find_library("build/mine.so", {TEST_LIBRARIES, folder.path()}).error(),
+      "component library 'build/mine.so' was not found: no '" + folder.path() + "/build/mine.so'");
 }
 
 TEST(FindLibrary, AMissingOneListsWhereItWasLookedForAndTheNearestName) {
   const Folder folder;
   EXPECT_EQ(find_library("godo", {folder.path(), TEST_LIBRARIES}).error(),
-            "component library 'godo' was not found: there is no libgodo.so in " + folder.path() +
-                ", " + TEST_LIBRARIES + "; did you mean 'good'?");
+            "component library 'godo' was not found: no libgodo.so in " + folder.path() + ", " +
+                TEST_LIBRARIES + "; did you mean 'good'?");
 }
 
 TEST(FindLibrary, WithoutANearNameTheHintSaysHowFoldersAreNamed) {
   const Folder folder;
   EXPECT_EQ(find_library("elsewhere", {folder.path()}).error(),
-            "component library 'elsewhere' was not found: there is no libelsewhere.so in " +
-                folder.path() + "; build it, or name its folder with -L or ARMATURE_LIBRARY_PATH");
+            "component library 'elsewhere' was not found: no libelsewhere.so in " + folder.path() +
+                "; build it, or name its folder with -L or ARMATURE_LIBRARY_PATH");
 }
 
 TEST(FindLibrary, FoldersComeFromCallerEnvironmentProgramAndDocument) {

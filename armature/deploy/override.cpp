@@ -54,8 +54,7 @@ void refuse_target(const Document& document, const std::string& path,
     return;
   }
   for (const Component& component : document.components) known.push_back(component.name);
-  diagnostics.error(kCommandLine,
-                    "there is no component " + in_quotes(name) + " to set " + in_quotes(path),
+  diagnostics.error(kCommandLine, "unknown component " + in_quotes(name) + " in " + in_quotes(path),
                     base::suggestion(name, known));
 }
 
@@ -102,7 +101,7 @@ void set_in(std::vector<Property>& properties, std::string_view path, Value valu
 void set_property(Component& component, const std::string& path, const Value& value,
                   const ValueReader& reader) {
   if (find(component.properties, path) == nullptr && !is_dotted_name(path)) {
-    reader.error(value.where, "property " + in_quotes(path) + " is not a name");
+    reader.error(value.where, "property " + in_quotes(path) + " is not a valid name");
     return;
   }
   if (Property* whole = find(component.properties, path)) {
@@ -124,7 +123,7 @@ void add_each(const std::string& path, const Value& value, std::vector<Override>
   const std::string after = path.substr(range->end);
   if (has_range(after)) {
     diagnostics.error(kCommandLine, in_quotes(path) + " has more than one range",
-                      "set each of one of them by itself");
+                      "write numbers in place of all but one");
     return;
   }
   for (int number = range->range.first; number <= range->range.last; ++number) {

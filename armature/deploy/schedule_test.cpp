@@ -207,8 +207,8 @@ TEST(ExecutionTimes, MeasuredOnesAreUsedWhereNoneIsDeclared) {
   EXPECT_EQ(schedule.threads[0].source, ThreadLoad::Source::kMeasured);
   EXPECT_EQ(schedule.threads[0].cost, 1200us);
   EXPECT_EQ(schedule.threads[1].source, ThreadLoad::Source::kUnknown);
-  EXPECT_THAT(diagnostics.to_text(), HasSubstr("note: the load of these threads is not known and "
-                                               "was not checked: T1"));
+  EXPECT_THAT(diagnostics.to_text(),
+              HasSubstr("note: the load of these threads is unknown and was not checked: T1"));
 }
 
 TEST(ExecutionTimes, ThoseOfComponentsAreUsedWhenTheyRunInOtherThreads) {

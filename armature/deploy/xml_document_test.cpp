@@ -252,8 +252,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"simple", "<simple name=\"Imports\" type=\"string\"><value>x</value></simple>",
                 "robot.xml:2:1: error: unknown simple 'Imports' (did you mean 'Import'?)\n"},
         Mistake{"path", "<simple name=\"Path\" type=\"string\"><value>/lib</value></simple>",
-                "robot.xml:2:1: error: Path '/lib': a file names no folders to look into (remove "
-                "it, and say armature run -L '/lib', or import the libraries by their own "
+                "robot.xml:2:1: error: Path '/lib' is not supported: folders of libraries are "
+                "given at start (remove it, and write armature run -L '/lib', or import the "
+                "libraries by their own "
                 "paths)\n"},
         Mistake{"nameless", "<struct type=\"M\"/>",
                 "robot.xml:2:1: error: a component's struct needs a name (add name=\"...\")\n"},
@@ -286,14 +287,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.xml:3:1: error: component 'A': autosave must be true or false, found "
                 "'maybe'\n"},
         Mistake{"service", COMPONENT(SIMPLE("Service", "string", "marshalling")),
-                "robot.xml:3:1: warning: component 'A': service 'marshalling' is left out: there "
-                "are no services\n"},
+                "robot.xml:3:1: warning: component 'A': service 'marshalling' is left out: "
+                "Armature has no services\n"},
         Mistake{"script", COMPONENT(SIMPLE("RunScript", "string", "a.ops")),
-                "robot.xml:3:1: error: component 'A': OROCOS script 'a.ops' cannot be run "
-                "(remove it here; what it does is written in Lua and started by armature run "
-                "--script)\n"},
+                "robot.xml:3:1: error: component 'A': OROCOS script 'a.ops' cannot run here "
+                "(remove it, rewrite it in Lua and start that with armature run --script)\n"},
         Mistake{"autoconnect", COMPONENT(SIMPLE("AutoConnect", "boolean", "1")),
-                "robot.xml:3:1: error: component 'A': AutoConnect is not possible (list the ports "
+                "robot.xml:3:1: error: component 'A': AutoConnect is not supported (list the ports "
                 "under Ports)\n"},
         Mistake{"load", COMPONENT(SIMPLE("LoadProperties", "string", "a.cpf")),
                 "robot.xml:3:1: note: component 'A': LoadProperties is read as UpdateProperties: "
@@ -329,8 +329,8 @@ INSTANTIATE_TEST_SUITE_P(
             "activity has none\n"},
         Mistake{"port_without_connection",
                 COMPONENT(STRUCT("Ports", "PropertyBag", SIMPLE("x", "string", ""))),
-                "robot.xml:4:1: error: component 'A': an entry of Ports needs a port's name and a "
-                "connection's as value\n"},
+                "robot.xml:4:1: error: component 'A': an entry of Ports needs the name of a port, "
+                "and the name of a connection as its value\n"},
         Mistake{"single_port",
                 COMPONENT(STRUCT("Ports", "PropertyBag", SIMPLE("x", "string", "c"))),
                 "robot.xml:4:1: error: connection 'c': only one port has this name; nothing is "
@@ -351,14 +351,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "robot.xml:2:1: error: connection: fifo must be a whole number from 1 to 1000000, "
                 "found '0'\n"},
         Mistake{"transport", POLICY("", SIMPLE("transport", "long", "1")),
-                "robot.xml:3:1: error: connection 'c': transport 1 is not possible (connections "
-                "inside the process have transport 0)\n"},
+                "robot.xml:3:1: error: connection 'c': transport 1 is not supported (write 0: "
+                "connections stay inside the process)\n"},
         Mistake{"lock", POLICY("", SIMPLE("lock_policy", "long", "1")),
                 "robot.xml:3:1: note: connection 'c': lock_policy is left out: it has no effect "
                 "here\n"},
         Mistake{"buffer", POLICY("", SIMPLE("buffer_policy", "long", "4")),
-                "robot.xml:3:1: note: connection 'c': buffer_policy is left out: there is no "
-                "buffer\n"},
+                "robot.xml:3:1: note: connection 'c': buffer_policy is left out: the connection "
+                "has no buffer\n"},
         Mistake{"field", POLICY("", SIMPLE("sise", "long", "4")),
                 "robot.xml:3:1: error: connection 'c': unknown field 'sise' (did you mean "
                 "'size'?)\n"},

@@ -64,7 +64,7 @@ TEST(OrocosForms, AYamlFileIncludesOnlyRelativeToItself) {
   EXPECT_EQ(load_files("data/robot.yaml", {{"data/robot.yaml", "include: part.yaml\n"},
                                            {"part.yaml", "components: {A: {model: M}}\n"}})
                 .messages(),
-            "data/robot.yaml:1:10: error: there is no file 'data/part.yaml'\n");
+            "data/robot.yaml:1:10: error: file 'data/part.yaml' does not exist\n");
 }
 
 TEST(OrocosForms, EntriesOfOneNameAreAList) {
@@ -155,8 +155,8 @@ TEST(OrocosForms, ABufferPolicyWithoutBufferIsLeftOut) {
                           simple("buffer_policy", "long", "4") + simple("type", "long", "0") +
                           "</struct>")
                 .messages(),
-            "robot.xml:2:42: note: connection 'Default': buffer_policy is left out: there is no "
-            "buffer\n");
+            "robot.xml:2:42: note: connection 'Default': buffer_policy is left out: the connection "
+            "has no buffer\n");
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ std::optional<std::string> ValueReader::text(const Value& value, std::string_vie
 std::optional<std::string> ValueReader::name(const Value& value, std::string_view what) const {
   std::optional<std::string> found = text(value, what);
   if (!found || is_name(*found)) return found;
-  error(value.where, std::string(what) + " " + in_quotes(*found) + " is not a name", kNameRule);
+  error(value.where, std::string(what) + " " + in_quotes(*found) + " is not a valid name",
+        kNameRule);
   return std::nullopt;
 }
 
@@ -76,7 +77,8 @@ std::optional<std::string> ValueReader::dotted_name(const Value& value,
                                                     std::string_view what) const {
   std::optional<std::string> found = text(value, what);
   if (!found || is_dotted_name(*found)) return found;
-  error(value.where, std::string(what) + " " + in_quotes(*found) + " is not a name", kNameRule);
+  error(value.where, std::string(what) + " " + in_quotes(*found) + " is not a valid name",
+        kNameRule);
   return std::nullopt;
 }
 

@@ -163,9 +163,11 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
   const auto refuse = [&](const char* key, const char* message, const char* hint) {
     if (const Value* given = fields.take(key)) reader.error(given->where, message, hint);
   };
-  refuse("scripts", "scripts are named when the application starts",
+  refuse("scripts", "'scripts' is not a section of a deployment: scripts are given at start",
          "armature run FILE --script SCRIPT");
-  refuse("recorder", "a component of the model Reporter records", "docs/recording.md");
+  refuse("recorder",
+         "'recorder' is not a section of a deployment: a component of the model Reporter records",
+         "see docs/recording.md");
   for (const auto& [key, kind] : kKinds) require_kind(take(key), kind, key, reader);
   fields.refuse_others();
   std::erase_if(tree.entries, [&](const Property& entry) {

@@ -46,8 +46,9 @@ std::optional<unsigned> read_mode(const Value& value, const ValueReader& reader)
   const char* const end = text->data() + text->size();
   const auto [last, problem] = std::from_chars(text->data(), end, mode, 8);
   if (problem == std::errc{} && last == end && mode <= kMost && text->size() >= 3) return mode;
-  reader.error(value.where, "socket_mode is '" + *text + "'",
-               "it must be the permissions of a file as chmod has them, such as 0600 or 0660");
+  reader.error(value.where,
+               "socket_mode must be file permissions as chmod has them, found '" + *text + "'",
+               "for example 0600 or 0660");
   return std::nullopt;
 }
 

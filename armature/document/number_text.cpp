@@ -146,7 +146,7 @@ std::string parse_number(std::string_view text, const types::Type& type, std::st
     case Kind::kDouble:
       return store_real<double>(text, unit, at);
     default:
-      return type.name + " is no number type";
+      return type.name + " is not a number type";
   }
 }
 

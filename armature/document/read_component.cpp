@@ -58,7 +58,8 @@ void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Ac
   const Value* sequential = fields.take("sequential");
   const int given = (periodic != nullptr) + (triggered != nullptr) + (sequential != nullptr);
   if (given > 1) {
-    reader.error(value.where, "an activity is either periodic, triggered or sequential");
+    reader.error(value.where, "an activity is either periodic, triggered or sequential",
+                 "keep one of these keys");
     return;
   }
   if (periodic != nullptr) {
@@ -70,7 +71,8 @@ void read_kind(Fields& fields, const Value& value, const ValueReader& reader, Ac
     activity.kind = kind;
     activity.period = {};
     if (reader.flag(*flag, name_of(kind)) == false) {
-      reader.error(flag->where, std::string(name_of(kind)) + " can only be true");
+      reader.error(flag->where, std::string(name_of(kind)) + " can only be true",
+                   "leave it out, or choose another activity");
     }
   };
   choose(triggered, Activity::Kind::kTriggered);
@@ -93,14 +95,14 @@ void check_activity(const Value& value, const ValueReader& reader, const Activit
   const auto given = [&](std::string_view key) { return find(value.entries, key) != nullptr; };
   const auto refuse = [&](std::string_view key, const char* reason) {
     if (given(key)) {
-      reader.error(find(value.entries, key)->where, std::string(key) + " is not for a " +
+      reader.error(find(value.entries, key)->where, std::string(key) + " does not apply to a " +
                                                         std::string(name_of(activity.kind)) +
                                                         " activity, " + reason);
     }
   };
   if (activity.kind == Activity::Kind::kSequential) {
     for (const char* key : {"priority", "scheduler", "cpus"}) {
-      refuse(key, "which runs in the thread of whoever triggers it");
+      refuse(key, "which runs in the thread of the component that triggers it");
     }
   }
   if (activity.kind != Activity::Kind::kPeriodic) {
@@ -147,7 +149,7 @@ void read_peer(const Value& value, const ValueReader& reader, std::vector<Peer>&
   for (const Property& entry : value.entries) {
     const Value& component = entry.value;
     if (!is_dotted_name(entry.name)) {
-      reader.error(entry.where, "peer " + in_quotes(entry.name) + " is not a name");
+      reader.error(entry.where, "peer " + in_quotes(entry.name) + " is not a valid name");
     } else if (component.kind == Value::Kind::kText && is_dotted_name(component.text)) {
       peers.push_back({entry.name, component.text, component.where});
     } else {
@@ -178,7 +180,7 @@ void read_bindings(const Value& value, const ValueReader& reader, Component& com
   for (const Property& entry : value.entries) {
     const auto target = reader.dotted_name(entry.value, "bind " + entry.name);
     if (!is_dotted_name(entry.name)) {
-      reader.error(entry.where, "bind " + in_quotes(entry.name) + " is not a name");
+      reader.error(entry.where, "bind " + in_quotes(entry.name) + " is not a valid name");
     }
     if (!target) continue;
     auto [peer, member] = split_last_dot(*target);
@@ -213,7 +215,7 @@ void read_properties(const Value& value, const ValueReader& reader, Component& c
   }
   for (const Property& property : value.entries) {
     if (!is_dotted_name(property.name)) {
-      reader.error(property.where, "property " + in_quotes(property.name) + " is not a name");
+      reader.error(property.where, "property " + in_quotes(property.name) + " is not a valid name");
     }
     check_values("property " + in_quotes(property.name), property.value, reader);
   }
@@ -236,10 +238,12 @@ void check_component(const Value& body, const ValueReader& reader, const Compone
     reader.error(component.where, "it has no model", "write model: and a component model's name");
   }
   if (component.autostart && !component.autoconf) {
-    reader.error(component.where, "autostart needs autoconf");
+    reader.error(component.where, "autostart needs autoconf",
+                 "set autoconf: true, or autostart: false");
   }
   if (component.autosave && component.property_files.empty()) {
-    reader.error(component.where, "autosave needs a property_file");
+    reader.error(component.where, "autosave needs a property_file",
+                 "for example property_file: properties.cpf");
   }
 }
 

@@ -70,7 +70,8 @@ ConnectionPolicy read_policy(Fields& fields, const ValueReader& reader) {
   if (const Value* on_old = fields.take("on_old")) {
     policy.on_old = reader.choice<Reaction>(*on_old, "on_old");
     if (fields.take("max_age") == nullptr) {
-      reader.error(on_old->where, "on_old has no effect without max_age");
+      reader.error(on_old->where, "on_old has no effect without max_age",
+                   "for example max_age: 100 ms");
     }
   }
   if (const Value* on_lost = fields.take("on_lost")) {

@@ -73,7 +73,8 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) abandon(place(mark), "the alias stands for what contains it");
+    if (found == anchors_.end())
+      abandon(place(mark), "the alias refers to the value that contains it");
     if (open_.size() + depth_of(found->second.value) > static_cast<std::size_t>(limits_.depth)) {
       refuse_depth(place(mark));
     }
@@ -274,8 +275,8 @@ Value parse(std::string_view text, const std::string& file,
             base::Diagnostics& diagnostics) {
   if (!check_source_text(text, file, limits.file_bytes, diagnostics)) return {};
   if (!fixed && is_xml(text)) {
-    diagnostics.error({file, 1, 1}, "this is XML, but the name of the file is one of YAML",
-                      "OROCOS files are called .xml or .cpf");
+    diagnostics.error({file, 1, 1}, "this is XML, but the file has the name of a YAML file",
+                      "OROCOS files end in .xml or .cpf");
     return {};
   }
   TreeBuilder builder(file, fixed, limits, diagnostics);

@@ -121,9 +121,9 @@ base::Diagnostics Application::start() {
   if (running()) return {};
   if (hangs()) {
     base::Diagnostics refusal;
-    refusal.error({},
-                  base::quoted(blueprint().name) + " cannot be started again: a hook of it hangs",
-                  "end the process");
+    refusal.error(
+        {}, base::quoted(blueprint().name) + " cannot be started again: one of its hooks hangs",
+        "end the process");
     return refusal;
   }
   base::Diagnostics diagnostics = check();

@@ -224,7 +224,7 @@ TEST_P(Holding, WhatIsHeldIsHeldUntilTheTimeIsOverAndThatIsAnErrorThatNamesIt) {
   EXPECT_EQ(application_->run_before_stop(RunEnd::kTimeUp).to_text(), "");
   const base::Time begin = application_->now();
   EXPECT_THAT(application_->hold_until_told().to_text(),
-              HasSubstr("error: 'Load' lets go, since nobody answered: it held a load; say "
+              HasSubstr("error: 'Load' lets go, since no answer came: it held a load; say "
                         "`put_down`, or hold it"));
   EXPECT_GE(application_->now() - begin, 300ms);
   EXPECT_EQ(state(), component::State::kRunning) << "it is stopped by whoever asked";
@@ -326,7 +326,7 @@ TEST_P(Holding, WhoKeepsItHoldingIsNotStoppedEither) {
     const auto refused = application_->stop_component(name);
     EXPECT_FALSE(refused);
     EXPECT_EQ(refused.reason(), "'" + std::string(name) +
-                                    "' was not stopped, since 'Load' needs it: that holds a load; "
+                                    "' was not stopped, since 'Load' needs it and holds a load; "
                                     "say `put_down`, or hold it; or stop 'Load' first");
     EXPECT_EQ(application_->find(name)->state(), component::State::kRunning);
   }

@@ -124,7 +124,7 @@ TEST_P(Commands, ARefusalIsTheAnswer) {
             "'Axis' has no operation 'mve' (did you mean 'move'?)");
   const CommandHandle handle = move(1e6);
   EXPECT_EQ(application().begin("Axis", "move", {Value::of(1.0)}).error(),
-            "the command before is still under way");
+            "the previous command is still under way");
 }
 
 TEST_P(Commands, AHandleOutlivesTheApplication) {
@@ -147,8 +147,8 @@ TEST_P(Commands, AHandleThatWasLetGoOfCancelsNothing) {
 
 TEST_P(Commands, AScriptMayNotDoAnActOfTheOperator) {
   EXPECT_EQ(application().begin("Axis", "arm", {}, Caller::kScript).error(),
-            "'Axis.arm' is an act of the operator: a script may do it only where the deployment "
-            "says so (grants: {script: [Axis.arm]})");
+            "'Axis.arm' is an act of the operator: a script may use it only if the deployment "
+            "grants it (grants: {script: [Axis.arm]})");
   EXPECT_THAT(application().call("Axis", "arm", {}, Caller::kScript).error(),
               ::testing::StartsWith("'Axis.arm' is an act of the operator"));
   EXPECT_THAT(application().call("Axis", "where", {}, Caller::kScript).error(),
@@ -164,10 +164,9 @@ TEST_P(Commands, AScriptMayDoWhatTheDeploymentGrants) {
 }
 
 TEST_P(Commands, AScriptSaysNoWordOfTheOperatorUnlessItIsGranted) {
-  EXPECT_EQ(
-      application().set_property("Axis", "at_home", Value::of(true), Caller::kScript).error(),
-      "'Axis.at_home' is an act of the operator: a script may do it only where the deployment "
-      "says so (grants: {script: [Axis.at_home]})");
+  EXPECT_EQ(application().set_property("Axis", "at_home", Value::of(true), Caller::kScript).error(),
+            "'Axis.at_home' is an act of the operator: a script may use it only if the deployment "
+            "grants it (grants: {script: [Axis.at_home]})");
   EXPECT_FALSE(application().set_property("Axis", "at_home", Value::of(true), Caller::kRemote));
   EXPECT_TRUE(application().set_property("Axis", "at_home", Value::of(true)));
   start({{Caller::kScript, "Axis", "at_home"}});

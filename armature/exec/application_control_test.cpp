@@ -75,7 +75,7 @@ TEST_P(Control, AnOperationIsCalledWithValues) {
 }
 
 TEST_P(Control, UnknownNamesAreAnsweredWithTheNearest) {
-  const std::string component = "there is no component 'Gian' (did you mean 'Gain'?)";
+  const std::string component = "unknown component 'Gian' (did you mean 'Gain'?)";
   EXPECT_EQ(application().value_of("Gian", "Out").error(), component);
   EXPECT_EQ(application().set_property("Gian", "Factor", Value::of(1.0)).error(), component);
   EXPECT_EQ(application().call("Gian", "scale", {}).error(), component);
@@ -103,7 +103,7 @@ TEST_P(Control, OneComponentStopsAndStartsWhileTheOthersRun) {
 
 TEST_P(Control, AComponentThatWasCleanedUpIsConfiguredAnewByItsStart) {
   EXPECT_THAT(std::string(application().clean_up_component("Gain").reason()),
-              ::testing::HasSubstr("not stopped"));
+              ::testing::HasSubstr("stop it first"));
   ASSERT_TRUE(application().stop_component("Gain"));
   ASSERT_TRUE(application().clean_up_component("Gain"));
   EXPECT_EQ(gain_->state(), State::kPreOperational);

@@ -178,8 +178,9 @@ TEST_P(Hang, InCleanupIsNamedAndTheOthersAreCleanedUp) {
 TEST_P(Hang, AnApplicationThatHangsDoesNotStartAgain) {
   Application application = make_application("configure");
   EXPECT_FALSE(application.start().ok());
-  EXPECT_EQ(application.start().to_text(),
-            "error: 'application' cannot be started again: a hook of it hangs (end the process)\n");
+  EXPECT_EQ(
+      application.start().to_text(),
+      "error: 'application' cannot be started again: one of its hooks hangs (end the process)\n");
   EXPECT_FALSE(application.start_component("Stuck"));
 }
 
@@ -280,8 +281,9 @@ TEST(HangOfLeftovers, IsNamedAndTheStopEnds) {
   options.stop_limit = 500ms;
   Application application(std::move(blueprint), options);
   ASSERT_EQ(application.start().to_text(), "");
-  EXPECT_EQ(application.stop().to_text(),
-            "error: what was sent to the thread 'Sleeper' after its end hangs in 'Sleeper'\n");
+  EXPECT_EQ(
+      application.stop().to_text(),
+      "error: a message to the thread 'Sleeper', handled after its end, hangs in 'Sleeper'\n");
   EXPECT_TRUE(application.hangs());
   trap.open();
   wait_for_their_end();

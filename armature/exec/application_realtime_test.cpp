@@ -100,7 +100,7 @@ TEST(Realtime, RequiredStartsNothingWithoutAllOfIt) {
   probe.journal = &journal;
   Application application(std::move(blueprint), with(RealtimeMode::kRequire));
   const std::string text = application.start().to_text();
-  EXPECT_THAT(text, HasSubstr("error: real time was required and is not to be had:\n"));
+  EXPECT_THAT(text, HasSubstr("error: real time is required but not available:\n"));
   EXPECT_THAT(text, HasSubstr("A: asked for SCHED_FIFO priority 10 on CPU 1000, got "));
   EXPECT_THAT(text, HasSubstr("refused: CPU 1000: "));
   EXPECT_FALSE(application.running());

@@ -45,7 +45,7 @@ std::string sentence(const platform::Death& death) {
   const std::string worker(death.worker);
   const std::string thread(death.thread_name);
   const std::string who =
-      worker.empty() ? std::string("no component, but the program itself,") : "'" + worker + "'";
+      worker.empty() ? std::string("the program itself, not a component,") : "'" + worker + "'";
   const std::string where = thread.empty() ? " in thread " + std::to_string(death.thread)
                                            : " in the thread '" + thread + "'";
   const bool called = death.kind == platform::Death::Kind::kExit;

@@ -69,8 +69,8 @@ std::size_t Modes::find(std::string_view name) const {
 }
 
 Outcome Modes::unknown(std::string_view name) const {
-  Reason why("there is no mode '");
-  why.append(name).append("', there are ");
+  Reason why("unknown mode '");
+  why.append(name).append("', known: ");
   for (const Mode& mode : modes_) {
     why.append(&mode == &modes_.front() ? "" : ", ").append(mode.name);
   }

@@ -286,12 +286,12 @@ TEST_P(InModes, ACommandThatCannotBeIsRefusedOrFailsWithTheReason) {
   second->refusals["start"] = "no ink";
   start();
   EXPECT_THAT(application->call("Modes", "switch", {Value::of(ModeName("c"))}).error(),
-              HasSubstr("there is no mode 'c', there are a, b"));
+              HasSubstr("unknown mode 'c', known: a, b"));
   const auto handle = application->begin("Modes", "switch", {Value::of(ModeName("b"))});
   ASSERT_TRUE(handle) << handle.error();
   if (GetParam()) {
     const auto again = application->begin("Modes", "switch", {Value::of(ModeName("a"))});
-    EXPECT_THAT(again.error(), HasSubstr("the command before is still under way"));
+    EXPECT_THAT(again.error(), HasSubstr("the previous command is still under way"));
   }
   EXPECT_TRUE(run_until(*application, [&] { return handle.value().ended(); }));
   EXPECT_EQ(handle.value().stage(), component::CommandStage::kFailed);

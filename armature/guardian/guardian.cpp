@@ -164,7 +164,7 @@ std::string problem_of(const Orders& orders) {
   if (packets.address.size() >= sizeof(internal::Orders::address))
     return "the bus's name is too long";
   if (orders.period <= base::Duration{}) return "the period is not above 0";
-  if (orders.safe.empty()) return "no frame is given that switches drives off";
+  if (orders.safe.empty()) return "no frame to switch the drives off is given";
   if (orders.safe.size() > internal::kMostSafe) {
     return packet_problem("frames that switch off", orders.safe.size(), internal::kMostSafe);
   }
@@ -179,7 +179,7 @@ std::string problem_of(const Orders& orders) {
   };
   if (!std::ranges::all_of(orders.safe, is_plain) ||
       !std::ranges::all_of(orders.questions, is_plain)) {
-    return "a frame is none with 11 bits and data";
+    return "a frame must have an identifier of 11 bits and data";
   }
   for (const IdleAnswer& answer : orders.answers) {
     if (answer.device >= internal::kMostDevices) {
@@ -194,14 +194,14 @@ base::Result<std::unique_ptr<Guardian>> Guardian::start(const Orders& orders) {
   if (const std::string problem = problem_of(orders); !problem.empty()) return base::Error{problem};
   const std::string path = program_path();
   if (path.empty()) {
-    return base::Error{std::string(kProgram) + " does not lie beside the program armature"};
+    return base::Error{std::string(kProgram) + " is missing beside the program armature"};
   }
   int descriptor = -1;
   Page* const page = make_page(descriptor);
   if (page == nullptr) {
     const int error = errno;
     if (descriptor >= 0) ::close(descriptor);
-    return base::Error{"there is no memory to share with it: " + why(error)};
+    return base::Error{"cannot allocate memory to share with it: " + why(error)};
   }
   write_orders(orders, page->orders);
   const base::Result<int> process = spawn(path, descriptor);

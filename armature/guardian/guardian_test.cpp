@@ -242,14 +242,14 @@ std::string refusal_of(const std::function<void(Orders&)>& change) {
 TEST(GuardiansOrders, AreRefusedIfTheyAreNoneThatItCanFollow) {
   EXPECT_EQ(problem_of(orders_for("/tmp/some.bus")), "");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.safe.clear(); }),
-            "no frame is given that switches drives off");
+            "no frame to switch the drives off is given");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.period = {}; }), "the period is not above 0");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.safe.resize(65, kOff); }),
             "65 frames that switch off, expected at most 64");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.safe[0].extended = true; }),
-            "a frame is none with 11 bits and data");
+            "a frame must have an identifier of 11 bits and data");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.questions[0].size = 9; }),
-            "a frame is none with 11 bits and data");
+            "a frame must have an identifier of 11 bits and data");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.answers[0].frame.id = 0x202; }),
             "an answer does not pass the filter");
   EXPECT_EQ(refusal_of([](Orders& orders) { orders.bus = "virtual:" + std::string(200, 'x'); }),

@@ -210,7 +210,7 @@ class Guardian {
     } else {
       line.add(" has run no cycle for ").add(watch_.silence() / kMillisecond).add(" ms");
     }
-    line.add(bus_.is_open() ? "; switches the drives off on " : "; there is no bus ")
+    line.add(bus_.is_open() ? "; switches the drives off on " : "; cannot reach the bus ")
         .add(orders_.address)
         .say();
   }
@@ -265,7 +265,7 @@ class Guardian {
         .add("armature-guardian: the drives on ")
         .add(orders_.address)
         .add(bus_.is_open() ? " do not say that they are idle: press E-stop"
-                            : " are not to be reached: press E-stop")
+                            : " cannot be reached: press E-stop")
         .say();
     return kFailed;
   }
@@ -341,7 +341,7 @@ int guard() {
   void* const mapped =
       ::mmap(nullptr, sizeof(Page), PROT_READ | PROT_WRITE, MAP_SHARED, kPageDescriptor, 0);
   if (mapped == MAP_FAILED) {
-    Line().add("armature-guardian: is started by armature run, not by people").say();
+    Line().add("armature-guardian: is a part of armature run; do not start it by hand").say();
     return kWrongUse;
   }
   Page& page = *static_cast<Page*>(mapped);

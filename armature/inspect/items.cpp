@@ -129,8 +129,7 @@ std::vector<std::string> component_names(const Application& application) {
 }
 
 std::string no_component(const Application& application, std::string_view text) {
-  return "there is no component '" + std::string(text) + "'" +
-         hint(text, component_names(application));
+  return "unknown component '" + std::string(text) + "'" + hint(text, component_names(application));
 }
 
 const exec::ComponentEntry& entry_of(const Application& application, const Component& component) {

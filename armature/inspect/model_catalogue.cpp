@@ -138,7 +138,7 @@ base::Result<ComponentDescription> describe_model(const Registry::Model& model) 
   } catch (const std::exception& exception) {
     problem = std::string("throws: ") + exception.what();
   } catch (...) {
-    problem = "throws something that is no std::exception";
+    problem = "throws an object that is not a std::exception";
   }
   return base::Error{"the constructor of model " + base::quoted(model.name) + " " + problem};
 }
@@ -146,7 +146,7 @@ base::Result<ComponentDescription> describe_model(const Registry::Model& model) 
 base::Result<const Registry::Model*> find_model(const Registry& registry, std::string_view name) {
   if (const Registry::Model* model = registry.find(name)) return model;
   const std::string suggestion = base::suggestion(name, registry.names());
-  return base::Error{"there is no model " + base::quoted(name) +
+  return base::Error{"unknown model " + base::quoted(name) +
                      (suggestion.empty() ? "" : "; " + suggestion)};
 }
 

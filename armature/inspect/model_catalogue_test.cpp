@@ -153,9 +153,9 @@ TEST(ModelCatalogue, DescribesModelsForMachines) {
 
 TEST(ModelCatalogue, AnUnknownModelIsAnsweredWithANearOne) {
   EXPECT_EQ(describe_model(registry(), "Evrything").error(),
-            "there is no model 'Evrything'; did you mean 'Everything'?");
+            "unknown model 'Evrything'; did you mean 'Everything'?");
   EXPECT_EQ(models_as_json(registry(), {"Evrything"}).error(),
-            "there is no model 'Evrything'; did you mean 'Everything'?");
+            "unknown model 'Evrything'; did you mean 'Everything'?");
 }
 
 TEST(ModelCatalogue, AModelThatCannotBeMadeSaysWhy) {

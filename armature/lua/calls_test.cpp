@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"Axis:moveTo(-1)", "Axis.moveTo: the target is outside the axis"},
         Refusal{"Axis:moveTo(5); Axis:moveTo(6)",
-                "Axis.moveTo: the command before is still under way"},
+                "Axis.moveTo: the previous command is still under way"},
         Refusal{"Axis:moveTo()",
                 "Axis.moveTo takes 1 argument, not 0: it is void(double target [m])"},
         Refusal{"Axis:moveTo(1, 2)",
@@ -99,13 +99,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{
             "Axis:moveto(1)",
             "'Axis' has no property, port, operation or event 'moveto' (did you mean 'moveTo'?)"},
-        Refusal{"Axsi:moveTo(1)",
-                "there is no component and no variable 'Axsi' (did you mean 'Axis'?)"},
+        Refusal{"Axsi:moveTo(1)", "unknown component or variable 'Axsi' (did you mean 'Axis'?)"},
         Refusal{"Settings:sum({1, {}}, 1)",
                 "Settings.sum: argument 1 (values [rad])[2] must be a number, found a table"},
         Refusal{"Axis:arm()",
-                "'Axis.arm' is an act of the operator: a script may do it only where the "
-                "deployment says so (grants: {script: [Axis.arm]})"},
+                "'Axis.arm' is an act of the operator: a script may use it only if the deployment "
+                "grants it (grants: {script: [Axis.arm]})"},
         Refusal{"local ok, why = pcall(function() Axis:moveTo(-1) end)\nerror(why, 0)",
                 "Axis.moveTo: the target is outside the axis"},
         Refusal{"error('I give up')", "I give up"}, Refusal{"error({code = 5})", "{code: 5}"},

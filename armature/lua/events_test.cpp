@@ -109,7 +109,8 @@ TEST_F(Events, BeyondTheQueueAreLostAndTold) {
 
 TEST_F(Events, AreListenedToByAThousandAtMost) {
   EXPECT_EQ(run("for i = 1, 1001 do on(Bell.Struck, print) end"),
-            "robot.lua:1: error: 1000 functions and waits for events are there already\n");
+            "robot.lua:1: error: a script has at most 1000 functions and waits for events at once: "
+            "cancel some\n");
 }
 
 TEST_F(Events, DoNotReachAScriptThatIsOver) {

@@ -65,7 +65,7 @@ TEST(Interpreter, SaysWhatIsPrintedAndWhatAnExpressionGives) {
 TEST(Interpreter, ComplainsOfAMistakeAndGoesOn) {
   Typist typist;
   EXPECT_FALSE(typist.lua->run("Axsi.Position"));
-  EXPECT_THAT(typist.notes.lines, ElementsAre(HasSubstr("error: there is no component")));
+  EXPECT_THAT(typist.notes.lines, ElementsAre(HasSubstr("error: unknown component")));
   EXPECT_TRUE(typist.lua->run("1"));
 }
 

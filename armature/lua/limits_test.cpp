@@ -71,7 +71,7 @@ TEST(Limits, LeaveOutWhatLeadsOutOfTheSandbox) {
                            "collectgarbage", "coroutine", "xpcall"}) {
     Bench bench;
     EXPECT_THAT(bench.run(std::string("return ") + name),
-                StartsWith("robot.lua:1: error: there is no component and no variable '" +
+                StartsWith("robot.lua:1: error: unknown component or variable '" +
                            std::string(name) + "'"));
   }
   Bench bench;

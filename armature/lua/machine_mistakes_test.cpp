@@ -30,18 +30,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Idle = true", ": state 'Idle' must be a table, found true"},
         Mistake{"Idle = {}, 5", ": 1 of its values have no name"},
         Mistake{"idle = {}, Moving = {}",
-                ": 'idle' means nothing here (known: doc, initial, name, period); names of states "
+                ": 'idle' is not a key here (known: doc, initial, name, period); names of states "
                 "begin with a capital letter"},
         Mistake{"A = {}, B = {on = {go = 'A'}}",
                 ": initial is missing: which of its states comes first, A, B?"},
         Mistake{"initial = 'Movin', Idle = {on = {go = 'Moving'}}, Moving = {}",
-                ": initial: there is no state 'Movin' in it (did you mean 'Moving'?)"},
+                ": initial: unknown state 'Movin' (did you mean 'Moving'?)"},
         Mistake{"initial = 'Idle', Idle = {on = {go = 'Moveing'}}, Moving = {}",
-                ": state 'Idle': on 'go': there is no state 'Moveing' to go to from here (did you "
+                ": state 'Idle': on 'go': unknown state 'Moveing' to go to from here (did you "
                 "mean 'Moving'?)"},
         Mistake{"initial = 'Idle', Idle = {}, Moving = {}", ": state 'Moving' is never entered"},
         Mistake{"Idle = {enrty = print}",
-                ": state 'Idle': 'enrty' means nothing here (did you mean 'entry'?); names of "
+                ": state 'Idle': 'enrty' is not a key here (did you mean 'entry'?); names of "
                 "states begin with a capital letter"},
         Mistake{"Idle = {entry = 5}", ": state 'Idle': entry must be a function, found 5"},
         Mistake{"Idle = {final = 'yes'}", ": state 'Idle': final must be true, found 'yes'"},
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                 ": state 'Idle': on 'go': must be \"Idle\", a function, or {\"Idle\", guard = ..., "
                 "action = ...}, found 5"},
         Mistake{"Idle = {on = {go = {'Idle', gaurd = print}}}",
-                ": state 'Idle': on 'go': 'gaurd' means nothing here (did you mean 'guard'?)"},
+                ": state 'Idle': on 'go': 'gaurd' is not a key here (did you mean 'guard'?)"},
         Mistake{"Idle = {on = {go = {'Idle', guard = 5}}}",
                 ": state 'Idle': on 'go': guard must be a function, found 5"},
         Mistake{"Idle = {on = {go = {{'Idle'}, {'Idle', guard = print}}}}",
@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Idle = {after = {{1, 'Idle'}, {2, 'Idle'}}}",
                 ": state 'Idle': after[2]: it is never taken: the one before it always is"},
         Mistake{"Idle = {after = {5}}",
-                ": transition 'Idle after 5000 ms': it needs a target state; for what happens all "
-                "the time there is `during`"},
+                ": transition 'Idle after 5000 ms': it needs a target state; put what happens all "
+                "the time into `during`"},
         Mistake{"Idle = {when = 'Idle'}",
                 ": state 'Idle': when: must be {function() return ... end, \"Idle\"}, found "
                 "'Idle'"},
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
                 ": transition 'Idle -> Idle when done': state 'Idle' has no final substate, so it "
                 "is never done"},
         Mistake{"Idle = {run = print, Inner = {}}",
-                ": state 'Idle': run is for states without states in them"},
+                ": state 'Idle': only a state without substates may have run"},
         Mistake{"Idle = {run = print, final = true}", ": state 'Idle': a final state has no run"},
         Mistake{"Idle = {final = true, on = {go = 'Idle'}}",
                 ": transition 'Idle -> Idle on go': a final state is never left"},
@@ -108,14 +108,14 @@ TEST(Definition, TellsAllItsMistakesAtOnce) {
             "  state 'Moving': after: must begin with a number of seconds above 0, {5.0, "
             "\"Idle\"}, found -1\n"
             "  state 'Moving/Out': run must be a function, found 'x'\n"
-            "  state 'Idle': on 'go': there is no state 'Movin' to go to from here (did you mean "
+            "  state 'Idle': on 'go': unknown state 'Movin' to go to from here (did you mean "
             "'Moving'?)\n");
 }
 
 TEST(Definition, ThatContainsItselfIsRefused) {
   Bench bench;
   EXPECT_THAT(bench.run("local a = {} a.A = a\nmachine {A = a}"),
-              HasSubstr("is one too many: 1000 in all, 32 within one another"));
+              HasSubstr("is one too many: a machine has at most 1000, nested at most 32 deep"));
 }
 
 TEST(Definition, OfTooManyStatesIsRefused) {
@@ -127,10 +127,11 @@ TEST(Definition, OfTooManyStatesIsRefused) {
 
 TEST(Definition, OfTooManyTransitionsIsRefused) {
   Bench bench;
-  EXPECT_THAT(bench.run("local all = {}\n"
-                        "for i = 1, 100000 do all[i] = {'A', guard = function() end} end\n"
-                        "machine {A = {on = {go = all}}}"),
-              HasSubstr("on 'go'[5001]: it is one too many: there may be 5000 transitions"));
+  EXPECT_THAT(
+      bench.run("local all = {}\n"
+                "for i = 1, 100000 do all[i] = {'A', guard = function() end} end\n"
+                "machine {A = {on = {go = all}}}"),
+      HasSubstr("on 'go'[5001]: it is one too many: a machine has at most 5000 transitions"));
 }
 
 TEST(Definition, WithMoreMistakesThanAnybodyReadsTellsTheFirst) {
@@ -144,8 +145,8 @@ TEST(Definition, WithMoreMistakesThanAnybodyReadsTellsTheFirst) {
 TEST(Definition, OfTooManyMachinesIsRefused) {
   Bench bench;
   EXPECT_EQ(bench.run("for i = 1, 101 do machine {A = {}} end"),
-            "robot.lua:1: error: there are 100 machines already; one may be started again and "
-            "again\n");
+            "robot.lua:1: error: a script has at most 100 machines: start one of them again "
+            "instead of defining another\n");
 }
 
 class Using : public ::testing::TestWithParam<Mistake> {};
@@ -173,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"m:is_in('Idel')", "machine 'Work' has no state 'Idel' (did you mean 'Idle'?)"},
         Mistake{"m:stat()", "a machine has no 'stat' (did you mean 'start'?)"},
         Mistake{"m.state = 'Idle'",
-                "nothing of a machine can be set: it goes on by machine:send(...)"}));
+                "a machine has nothing to set: send it a text with machine:send(\"go\")"}));
 
 }  // namespace
 }  // namespace armature::lua::test

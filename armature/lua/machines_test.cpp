@@ -269,8 +269,8 @@ TEST_F(MachineOfAScript, WhoseActionNeverEndsIsEndedWithItsLine) {
 
 TEST_F(MachineOfAScript, CannotWaitInAnAction) {
   EXPECT_EQ(run("machine {A = {entry = function()\n  wait(1)\nend}}:start()"),
-            "robot.lua:2: error: an action of a machine cannot wait: what takes time belongs into "
-            "its `run`\n");
+            "robot.lua:2: error: an action of a machine cannot wait: put what takes time into its "
+            "`run`\n");
 }
 
 TEST_F(MachineOfAScript, OfTwoSimulatedRunsGoesTheSameWay) {

@@ -54,7 +54,7 @@ class LuaScript final : public Script {
 
 void LuaScript::parse(std::string_view text, base::Diagnostics& diagnostics) {
   if (sandbox_.lua() == nullptr) {
-    diagnostics.error({sources_.path(), 0, 0}, "there is not enough memory for a script");
+    diagnostics.error({sources_.path(), 0, 0}, "not enough memory to load the script");
     return;
   }
   const base::Result<void> read = sandbox_.run_protected([&](lua_State* lua) {

@@ -28,8 +28,7 @@ TEST(Time, OfACommandsEndIsTheInstantAtWhichItEnded) {
   Bench bench;
   EXPECT_EQ(bench.run("Axis:moveTo(5)\n"
                       "local move = Axis:moveTo(0)\n"),
-            "robot.lua:2: error: Axis.moveTo: the "
-            "command before is still under way\n");
+            "robot.lua:2: error: Axis.moveTo: the previous command is still under way\n");
   Bench other;
   EXPECT_EQ(other.run("assert(wait(Axis:moveTo(5)))\nprint(now())\nstop()"), "");
   EXPECT_THAT(other.lines, ElementsAre("0.05")) << "a step at each of 10, 20, 30, 40, 50 ms";
@@ -91,10 +90,9 @@ TEST(Time, IsOverWhenTheScriptStops) {
 
 TEST(Time, StandingStillByAtIsRefused) {
   Bench bench;
-  EXPECT_EQ(
-      bench.run("local function again() at(now(), again) end again()"),
-      "robot.lua: error: the script goes on by `at`, events or machines without end, while its "
-      "time stands still\n");
+  EXPECT_EQ(bench.run("local function again() at(now(), again) end again()"),
+            "robot.lua: error: `at`, events or machines call each other without end at one "
+            "instant: let time pass between them\n");
 }
 
 TEST(Time, CannotPassInAFunctionThatLuaItselfCalls) {

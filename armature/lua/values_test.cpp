@@ -93,9 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
             "print(Settings.Gian)",
             "'Settings' has no property, port, operation or event 'Gian' (did you mean 'Gain'?)"},
         Refusal{"print(Setings.Gain)",
-                "there is no component and no variable 'Setings' (did you mean 'Settings'?)"},
-        Refusal{"prnt(1)",
-                "there is no component and no variable 'prnt' (did you mean 'print'?)"}));
+                "unknown component or variable 'Setings' (did you mean 'Settings'?)"},
+        Refusal{"prnt(1)", "unknown component or variable 'prnt' (did you mean 'print'?)"}));
 
 TEST(Values, OfEnumerationsAreTheirNames) {
   Bench bench;
@@ -109,7 +108,7 @@ TEST(Values, OfAPartOfACompositeAreReachedByItsName) {
   EXPECT_EQ(bench.run("left.hand.Finger.Gain = 8\n"
                       "print(left.hand.Finger.Gain, left.hand.Finger)\n"
                       "print(left.hand.Fingr.Gain)"),
-            "robot.lua:3: error: there is no component and no variable 'Fingr' (did you mean "
+            "robot.lua:3: error: unknown component or variable 'Fingr' (did you mean "
             "'Finger'?)\n");
   EXPECT_THAT(bench.lines, ElementsAre("8.0\tleft.hand.Finger"));
 }

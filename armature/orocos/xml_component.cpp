@@ -80,9 +80,9 @@ class ComponentReader {
     } else if (name == "AutoSave") {
       add_entry(body_, "autosave", value_of(child, diagnostics_));
     } else if (name == "Service" || name == "Plugin" || name == "Provides") {
-      warn(child, "service " + in_quotes(child.text) + " is left out: there are no services");
+      warn(child, "service " + in_quotes(child.text) + " is left out: Armature has no services");
     } else if (name == "Server" || name == "UseNamingService") {
-      warn(child, name + " is left out: there is no CORBA");
+      warn(child, name + " is left out: Armature does not use CORBA");
     } else if (name == "AutoConnect" && value_of(child, diagnostics_).text == "false") {
       return;
     } else {
@@ -100,13 +100,13 @@ class ComponentReader {
   void refuse_script(const XmlElement& child) {
     for (const XmlElement& each : child.children) refuse_script(each);
     if (!child.is_simple()) return;
-    error(child.where, "OROCOS script " + in_quotes(child.text) + " cannot be run",
-          "remove it here; what it does is written in Lua and started by armature run --script");
+    error(child.where, "OROCOS script " + in_quotes(child.text) + " cannot run here",
+          "remove it, rewrite it in Lua and start that with armature run --script");
   }
 
   void refuse(const XmlElement& child) {
     if (child.name == "AutoConnect") {
-      error(child.where, "AutoConnect is not possible", "list the ports under Ports");
+      error(child.where, "AutoConnect is not supported", "list the ports under Ports");
     } else {
       error(
           child.where,
@@ -167,7 +167,9 @@ class ComponentReader {
   void read_ports(const XmlElement& list) {
     for (const XmlElement& child : list.children) {
       if (!child.is_simple() || child.name.empty() || child.text.empty()) {
-        error(child.where, "an entry of Ports needs a port's name and a connection's as value");
+        error(child.where,
+              "an entry of Ports needs the name of a port, and the name of a connection as its "
+              "value");
         continue;
       }
       ports_.push_back({child.text, element_.name, child.name, child.where});

@@ -158,14 +158,15 @@ class ConnectionReader {
                     const std::string& type) {
     const std::string owner = "connection " + in_quotes(policy.name) + ": ";
     if (field.name == "transport" && text != "0") {
-      diagnostics_.error(field.where, owner + "transport " + text + " is not possible",
-                         "connections inside the process have transport 0");
+      diagnostics_.error(field.where, owner + "transport " + text + " is not supported",
+                         "write 0: connections stay inside the process");
     } else if (field.name == "buffer_policy" && text != "0" && text != "1" &&
                (type == "0" || type == "DATA")) {
-      diagnostics_.note(field.where, owner + "buffer_policy is left out: there is no buffer");
+      diagnostics_.note(field.where,
+                        owner + "buffer_policy is left out: the connection has no buffer");
     } else if (field.name == "buffer_policy" && text != "0" && text != "1") {
-      diagnostics_.error(field.where, owner + "buffer_policy " + text + " is not possible",
-                         "each connection has its own buffer: 1");
+      diagnostics_.error(field.where, owner + "buffer_policy " + text + " is not supported",
+                         "write 1: each connection has its own buffer");
     } else if (field.name == "lock_policy" || field.name == "init" || field.name == "pull" ||
                field.name == "data_size" || field.name == "max_threads" ||
                field.name == "mandatory") {

@@ -79,8 +79,9 @@ class DocumentReader {
     } else if (child.name == "Path") {
       // Without it another library of the same name would be found.
       diagnostics_.error(child.where,
-                         "Path " + in_quotes(child.text) + ": a file names no folders to look into",
-                         "remove it, and say armature run -L " + in_quotes(child.text) +
+                         "Path " + in_quotes(child.text) +
+                             " is not supported: folders of libraries are given at start",
+                         "remove it, and write armature run -L " + in_quotes(child.text) +
                              ", or import the libraries by their own paths");
     } else {
       diagnostics_.error(child.where, "unknown simple " + in_quotes(child.name),

@@ -76,7 +76,7 @@ class SlaveReader {
       XmlElement* const leader = find(named->text);
       if (leader == nullptr) {
         refuse(master,
-               owner + "its Master " + in_quotes(named->text) + " is no component of this file");
+               owner + "its Master " + in_quotes(named->text) + " is not a component of this file");
         return nullptr;
       }
       XmlElement* const activity = child_of(*leader, "Activity");
@@ -86,7 +86,7 @@ class SlaveReader {
       }
       if (activity != nullptr && is_periodic(*activity)) return leader;
       refuse(master, owner + "its Master " + in_quotes(leader->name) +
-                         " is not periodic, so nothing says when the slave runs");
+                         " is not periodic, so the slave has no period");
       return nullptr;
     }
     refuse(master, owner + "it is its own Master");

@@ -186,7 +186,7 @@ std::optional<XmlElement> parse_orocos_xml(std::string_view text, const std::str
   const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
   if (first != text.npos && text[first] != '<') {
     diagnostics.error(lines.at(first), "this is not XML: an OROCOS file begins with <",
-                      "a deployment in YAML is called .yaml");
+                      "a deployment in YAML ends in .yaml");
     return std::nullopt;
   }
   if (!check_character_references(text, lines, diagnostics)) return std::nullopt;

@@ -66,7 +66,7 @@ class DeployerWriter {
     const bool possible = std::none_of(text.begin(), text.end(), is_forbidden_control);
     if (!possible) {
       diagnostics_.error({document_.file, 0, 0},
-                         "a text has control characters, which XML cannot say");
+                         "a text has control characters, which XML cannot contain");
     }
     return text;
   }
@@ -107,7 +107,7 @@ class DeployerWriter {
     const auto check = [&](const Endpoint& endpoint) {
       if (known.count(endpoint.component) > 0) return;
       diagnostics_.error(endpoint.where, "port " + in_quotes(text_of(endpoint)) +
-                                             " cannot be written: there is no component " +
+                                             " cannot be written: unknown component " +
                                              in_quotes(endpoint.component));
     };
     for (const Connection& one : document_.connections) {

@@ -18,14 +18,14 @@ base::Error ChannelList::refusal(ChannelId id, const std::string& what) const {
 
 base::Result<ChannelId> ChannelList::add(Channel channel) {
   constexpr std::size_t kMost = std::numeric_limits<ChannelId>::max();
-  if (channel.name.empty()) return refusal("a channel is expected to have a name, but has none");
+  if (channel.name.empty()) return refusal("a channel needs a name");
   for (const std::string* text : {&channel.name, &channel.unit, &channel.doc}) {
     if (base::is_utf8(*text)) continue;
     return refusal("channel '" + channel.name +
                    "' is expected to have name, unit and documentation in UTF-8");
   }
   if (ids_.contains(channel.name)) {
-    return refusal("channel '" + channel.name + "' is expected once, but was added before");
+    return refusal("channel '" + channel.name + "' is added already");
   }
   if (channels_.size() == kMost) {
     return refusal("at most " + std::to_string(kMost) + " channels are expected; '" + channel.name +
@@ -51,7 +51,7 @@ base::Result<const types::Value*> ChannelList::decode(const Sample& sample) {
   types::Value& value = values_[id];
   const auto used =
       types::decode(value.type(), sample.value.data(), sample.value.size(), value.data());
-  if (!used) return refusal(id, "has a sample that is none: " + used.error());
+  if (!used) return refusal(id, "has an invalid sample: " + used.error());
   if (used.value() != sample.value.size()) {
     return refusal(id, "is expected to have samples of " + std::to_string(used.value()) +
                            " bytes, but one has " + std::to_string(sample.value.size()));

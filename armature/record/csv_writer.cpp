@@ -105,7 +105,7 @@ CsvWriter::~CsvWriter() { static_cast<void>(CsvWriter::close().ok()); }
 
 base::Result<void> CsvWriter::check_usable() const {
   if (failure_) return *failure_;
-  if (closed_) return base::Error{"'" + file_.path() + "' is expected to be open, but was closed"};
+  if (closed_) return base::Error{"'" + file_.path() + "' is closed already"};
   return {};
 }
 

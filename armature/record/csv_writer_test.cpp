@@ -174,7 +174,7 @@ TEST_F(Csv, RefusesToWriteOnceItIsClosed) {
   ASSERT_TRUE(writer_->add_channel(channel_of("A", 0)));
   EXPECT_THAT(closed_content(), HasSubstr("time_s,A\n"));
   EXPECT_TRUE(writer_->close());
-  EXPECT_THAT(write(*writer_, 0, 0, 0).error(), HasSubstr("to be open, but was closed"));
+  EXPECT_THAT(write(*writer_, 0, 0, 0).error(), HasSubstr("is closed already"));
   EXPECT_FALSE(writer_->flush());
   EXPECT_FALSE(writer_->add_channel(channel_of("B", 0)));
 }

@@ -254,8 +254,8 @@ TEST(McapWriter, RefusesAChannelAndContinues) {
   const auto writer = make_writer(temporary("channels.mcap"));
   ASSERT_TRUE(writer->add_channel(channel_of("A", 0)));
   EXPECT_THAT(writer->add_channel(channel_of("A", 0.0)).error(),
-              AllOf(HasSubstr("channels.mcap"), HasSubstr("channel 'A' is expected once")));
-  EXPECT_THAT(writer->add_channel(channel_of("", 0)).error(), HasSubstr("to have a name"));
+              AllOf(HasSubstr("channels.mcap"), HasSubstr("channel 'A' is added already")));
+  EXPECT_THAT(writer->add_channel(channel_of("", 0)).error(), HasSubstr("a channel needs a name"));
   EXPECT_THAT(writer->add_channel(channel_of("\xff", 0)).error(), HasSubstr("UTF-8"));
   EXPECT_EQ(writer->add_channel(channel_of("B", 0)).value(), 1);
 }
@@ -267,8 +267,7 @@ TEST(McapWriter, RefusesASampleAndContinues) {
   EXPECT_THAT(write(*writer, 1, 0, 0).error(), HasSubstr("one of 1 channels, but is of number 1"));
   EXPECT_THAT(write(*writer, 0, -1, 0).error(), HasSubstr("a time from 0 on, but has -1 ns"));
   EXPECT_THAT(write(*writer, 0, 0, 0.0).error(), HasSubstr("samples of 4 bytes, but one has 8"));
-  EXPECT_THAT(write(*writer, 0, 0, false).error(),
-              HasSubstr("channel 'A' has a sample that is none"));
+  EXPECT_THAT(write(*writer, 0, 0, false).error(), HasSubstr("channel 'A' has an invalid sample"));
   EXPECT_TRUE(write(*writer, 0, 0, 5));
   ASSERT_TRUE(writer->close());
   EXPECT_EQ(load_mcap(path).value().samples.size(), 1u);
@@ -279,7 +278,7 @@ TEST(McapWriter, RefusesToWriteOnceItIsClosed) {
   ASSERT_TRUE(writer->add_channel(channel_of("A", 0)));
   ASSERT_TRUE(writer->close());
   EXPECT_TRUE(writer->close());
-  EXPECT_THAT(write(*writer, 0, 0, 0).error(), HasSubstr("to be open, but was closed"));
+  EXPECT_THAT(write(*writer, 0, 0, 0).error(), HasSubstr("is closed already"));
   EXPECT_FALSE(writer->flush());
   EXPECT_FALSE(writer->add_channel(channel_of("B", 0)));
 }

@@ -97,7 +97,7 @@ base::Result<void> McapWriter::begin() {
 
 base::Result<void> McapWriter::check_usable() const {
   if (failure_) return *failure_;
-  if (closed_) return base::Error{"'" + file_.path() + "' is expected to be open, but was closed"};
+  if (closed_) return base::Error{"'" + file_.path() + "' is closed already"};
   return {};
 }
 

@@ -76,7 +76,7 @@ ride::Executed ExportedComponent::execute(ride::Number number, ride::Decoder& pa
     Incoming place{type, value.data()};
     if (!parameters.take(place)) {
       throw ride::Malformed("parameter " + std::to_string(request->arguments.size() + 1) +
-                            " is no " + type->name);
+                            " is not of the type " + type->name);
     }
     request->arguments.push_back(std::move(value));
   }
@@ -88,7 +88,7 @@ ride::Executed ExportedComponent::execute(ride::Number number, ride::Decoder& pa
     try {
       perform(*request);
     } catch (const std::bad_alloc&) {
-      request->reply.fail("there is no memory for it");
+      request->reply.fail("not enough memory for it");
     }
   }));
   return ride::Executed::kDone;
@@ -127,7 +127,7 @@ void ExportedComponent::call(Request& request) {
 void ExportedComponent::begin(Request& request) {
   const auto& operation = *component_.interface().operations[request.member.index];
   if (request.origin.lost()) {
-    return fail(request.reply, operation.name(), "who asked for it has gone");
+    return fail(request.reply, operation.name(), "the client that asked for it has gone");
   }
   auto begun = application_.begin(component_.name(), operation.name(), std::move(request.arguments),
                                   exec::Caller::kRemote);

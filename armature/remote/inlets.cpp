@@ -23,10 +23,8 @@ Inlets::Inlets(const std::vector<component::InputPortBase*>& inputs)
 }
 
 base::Error Inlets::not_open(const component::InputPortBase& input) {
-  return {
-      "'" + path_of(input) +
-      "' is not open to other processes: its deployment says network: {inputs: [...]} for those "
-      "that are"};
+  return {"'" + path_of(input) +
+          "' is not open to other processes: list it in its deployment, network: {inputs: [...]}"};
 }
 
 base::Result<void> Inlets::write(exec::Application& application,
@@ -44,10 +42,11 @@ base::Result<void> Inlets::write(exec::Application& application,
       *this, [writing, &writer] { writing->status = writer.write_from(writing->value.data()); });
   if (!done) return base::Error{"the thread that writes '" + path_of(input) + "' does not answer"};
   if (writing->status == component::WriteStatus::kWrongSize) {
-    return base::Error{"the value for '" + path_of(input) + "' has not the size that it takes"};
+    return base::Error{"the value for '" + path_of(input) +
+                       "' has another size than the input takes"};
   }
   if (writing->status == component::WriteStatus::kFull) {
-    return base::Error{"'" + path_of(input) + "' has not taken what was written before"};
+    return base::Error{"'" + path_of(input) + "' has not yet taken the previous value"};
   }
   return {};
 }

@@ -256,7 +256,7 @@ class Inspector::Service final : public InspectorService {
     if (!member) throw Failure(member.error());
     const std::string name = component_name + "." + operation_name;
     if (member.value().operation == nullptr) {
-      throw Failure("'" + name + "' is no operation and no command");
+      throw Failure("'" + name + "' is neither an operation nor a command");
     }
     const component::Signature& signature = member.value().operation->signature();
     const auto& wanted = signature.arguments;
@@ -278,7 +278,7 @@ class Inspector::Service final : public InspectorService {
   CommandStatus begin(const std::string& component, const std::string& command,
                       const std::vector<std::string>& arguments, const ride::Origin& origin) {
     const std::string name = component + "." + command;
-    if (origin.lost()) throw Failure(name + ": who asked for it has gone");
+    if (origin.lost()) throw Failure(name + ": the client that asked for it has gone");
     std::vector<types::Value> values = arguments_of(component, command, arguments);
     if (!commands_.make_room()) {
       throw Failure(name + ": " + std::to_string(kMostCommands) +
@@ -303,8 +303,8 @@ class Inspector::Service final : public InspectorService {
   }
 
   static std::string unknown_handle(std::int32_t handle) {
-    return "there is no command with the handle " + std::to_string(handle) +
-           ": it was never begun, or has ended and is forgotten";
+    return "unknown command handle " + std::to_string(handle) +
+           ": it never began, or has ended and its result is no longer kept";
   }
 
   static CommandStatus status_of_command(const internal::BegunCommand& command) {

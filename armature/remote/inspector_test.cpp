@@ -124,7 +124,7 @@ TEST_F(InspectorTest, ReadsValuesAndPartsOfThem) {
   EXPECT_EQ(values[2].error, "");
   EXPECT_EQ(values[3].value, "2.5");
   EXPECT_EQ(values[4].error, "'Axis.Both' is a array<double,2> and has no '[3]'");
-  EXPECT_EQ(values[5].error, "there is no component 'Axsi' (did you mean 'Axis'?)");
+  EXPECT_EQ(values[5].error, "unknown component 'Axsi' (did you mean 'Axis'?)");
 }
 
 TEST_F(InspectorTest, ReadsSoManyValuesAtOnceAndNoMore) {
@@ -171,7 +171,8 @@ TEST_F(InspectorTest, CallsOperations) {
               HasSubstr("Axis.sum takes 2 arguments, not 1: it is double("));
   EXPECT_THAT(call("sum", {"1", "2"}).error(), HasSubstr("Axis.sum: argument 1 (values): "));
   EXPECT_THAT(call("smu", {}).error(), HasSubstr("did you mean 'sum'?"));
-  EXPECT_THAT(call("Gain", {}).error(), HasSubstr("'Axis.Gain' is no operation and no command"));
+  EXPECT_THAT(call("Gain", {}).error(),
+              HasSubstr("'Axis.Gain' is neither an operation nor a command"));
 }
 
 TEST_F(InspectorTest, BeginsACommandAndFollowsIt) {
@@ -188,7 +189,7 @@ TEST_F(InspectorTest, BeginsACommandAndFollowsIt) {
   EXPECT_EQ(motion.stage + motion.reason, "done");
   EXPECT_THAT(begin("-1").error(), HasSubstr("the target is below the axis"));
   EXPECT_THAT(ask(&InspectorPlaceholder::follow, std::int32_t{77}).error(),
-              HasSubstr("there is no command with the handle 77"));
+              HasSubstr("unknown command handle 77"));
 }
 
 TEST_F(InspectorTest, CancelsACommand) {
@@ -226,8 +227,9 @@ TEST_F(InspectorTest, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOt
     std::this_thread::sleep_for(1ms);
   }
   EXPECT_EQ(follow().stage, "cancelled");
-  EXPECT_THAT(robot_.told(), HasSubstr("'Axis.moveTo' is cancelled: the connection to local, who "
-                                       "began it, is lost"));
+  EXPECT_THAT(
+      robot_.told(),
+      HasSubstr("'Axis.moveTo' is cancelled: the connection to local, which began it, is lost"));
 }
 
 TEST_F(InspectorTest, SoIsTheWayToAStopThatItAskedFor) {
@@ -266,8 +268,8 @@ TEST_F(InspectorTest, AnActOfTheOperatorIsNotForOtherProcesses) {
   EXPECT_THAT(ask(&InspectorPlaceholder::begin, std::string("Axis"), std::string("arm"),
                   std::vector<std::string>{})
                   .error(),
-              HasSubstr("'Axis.arm' is an act of the operator: another process may do it only where"
-                        " the deployment says so (grants: {remote: [Axis.arm]})"));
+              HasSubstr("'Axis.arm' is an act of the operator: another process may use it only if "
+                        "the deployment grants it (grants: {remote: [Axis.arm]})"));
 }
 
 TEST_F(InspectorTest, ChangesTheStateOfAComponent) {

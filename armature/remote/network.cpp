@@ -86,7 +86,7 @@ class RideNetwork final : public Network {
         diagnostics.error(each.where, known.error());
       } else if (address.value().scheme == "tls" && document.network.certificate.name.empty()) {
         diagnostics.error(each.where, "'" + each.name + "' needs certificates",
-                          "network has to have tls: {certificate: ..., key: ..., authority: ...}");
+                          "add tls: {certificate: ..., key: ..., authority: ...} to network");
       }
     }
   }

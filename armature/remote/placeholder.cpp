@@ -234,8 +234,9 @@ void Placeholder::handle_sample(const Arrival& arrival) {
   const component::WriteStatus written = output.port->write_from(arrival.values.front().data());
   if (written != component::WriteStatus::kWrongSize) return;
   if (!std::exchange(output.misfit, true)) {
-    log_error("'{}' has another size at {}: give the properties that shape it here, too",
-              output.port->name(), address.get());
+    log_error(
+        "'{}' has another size at {}: set the properties that shape it to the same values here",
+        output.port->name(), address.get());
   }
   count(missed);
 }
@@ -251,7 +252,7 @@ void Placeholder::handle_connection(const std::string& text) {
     found.raise();
     return;
   }
-  const std::string problem = reachable ? "there is no such component of this model" : text;
+  const std::string problem = reachable ? "no component of this name has this model" : text;
   log_warning("'{}' at {} cannot be used: {}", remote_name_, address.get(), problem);
   error("'" + remote_name_ + "' at " + address.get() + " cannot be used: " + problem);
   if (!was_connected) return;
@@ -303,7 +304,7 @@ component::Outcome Placeholder::begin(component::CommandBase& command,
   const rt::PermitScope permit;
   if (link_ == nullptr || !connected.get()) {
     return component::refused("'" + remote_name_ + "' lives at " + address.get() +
-                              ", in another process, which is not there");
+                              ", in another process, which cannot be reached");
   }
   Operation& operation = operation_of(command);
   const std::uint64_t run = ++operation.run;

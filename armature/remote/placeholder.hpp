@@ -45,8 +45,7 @@ class Placeholder final : public component::StandIn {
   component::Attribute<int> unsent{this, "PeerUnsent", 0,
                                    "values and commands that could not be sent"};
   component::Event<> found{this, "PeerFound", "the process where it lives was reached"};
-  component::Event<> lost{this, "PeerLost",
-                          "the process where it lives cannot be reached any more"};
+  component::Event<> lost{this, "PeerLost", "the process where it lives can no longer be reached"};
 
   void pass_on(component::InputPortBase& input, const void* value) override;
   component::CallStatus call(component::OperationBase& operation, const void* const* arguments,

@@ -92,7 +92,7 @@ bool belongs_to(const Moment& later, const Moment& moment) {
 
 /// Of a moment that nobody has logged.
 std::string what_changed(MomentKind kind) {
-  return kind == MomentKind::kArmed ? "all joints are armed" : "not all joints are armed any more";
+  return kind == MomentKind::kArmed ? "all joints are armed" : "not all joints are armed";
 }
 
 std::vector<Moment> joined(const std::vector<Moment>& moments) {

@@ -100,7 +100,7 @@ TEST(Moments, ThatAreLoggedAndInTheSignalsAreOne) {
   EXPECT_THAT(kinds(moments), ElementsAre(std::pair(1.99, MomentKind::kArmed),
                                           std::pair(4.0, MomentKind::kDisarmed)));
   EXPECT_THAT(moments.all[0].told, ElementsAre("Joint1: armed"));
-  EXPECT_THAT(moments.all[1].told, ElementsAre("not all joints are armed any more"));
+  EXPECT_THAT(moments.all[1].told, ElementsAre("not all joints are armed"));
 }
 
 TEST(Moments, OfASummaryThatHasNoneOrOtherThingsAreNone) {

@@ -100,10 +100,10 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
   }
   run.cut_off = !loaded.value().closed;
   if (run.cut_off) {
-    diagnostics.warning({path, 0, 0},
-                        "the recording has no end, as after a crash: the report has what is whole "
-                        "of it, " +
-                            std::to_string(loaded.value().samples.size()) + " samples");
+    diagnostics.warning(
+        {path, 0, 0},
+        "the recording has no end, as after a crash: the report shows its intact part, " +
+            std::to_string(loaded.value().samples.size()) + " samples");
   }
   run.signals = signals_of(loaded.value());
   const double zero_s = was_simulated(run) ? 0.0 : begin_at_zero(run.signals);
@@ -113,10 +113,9 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
   run.efforts = efforts_of(run.signals);
   run.moments = moments_of(run.summary, run.signals, zero_s);
   if (run.joints.empty()) {
-    diagnostics.warning(
-        {path, 0, 0},
-        std::string("there are no positions to show; looked for ") + what_is_looked_for(),
-        "name them in the Reporter's property `what`");
+    diagnostics.warning({path, 0, 0},
+                        std::string("no positions to show; looked for ") + what_is_looked_for(),
+                        "record them: name them in the Reporter's property `what`");
   }
 }
 

@@ -120,7 +120,7 @@ TEST_F(NodeMemory, AnswersThatNobodyReadsKeepToTheBoundAndWhoDoesNotReadIsEnded)
     honest.send({}, Type::kRequest, 1, kEcho, 2u, "small");
     ASSERT_EQ(honest.receive_reply<std::string>(2), "small");
     ended = std::ranges::any_of(
-        log(), [](const auto& line) { return line.find("others want") != line.npos; });
+        log(), [](const auto& line) { return line.find("other connections need") != line.npos; });
   }
   EXPECT_TRUE(ended);
 }
@@ -147,7 +147,7 @@ TEST_F(NodeMemory, SubscriptionsAreCounted) {
   EXPECT_GT(count, 100);
   EXPECT_LT(count, 1000);
   EXPECT_LE(used(), 2 * kMiB);
-  EXPECT_THAT(log(), Contains(HasSubstr("there is no memory for it")));
+  EXPECT_THAT(log(), Contains(HasSubstr("not enough memory for it")));
 }
 
 TEST_F(NodeMemory, AConnectionThatThereIsNoMemoryForIsSentAway) {
@@ -157,7 +157,7 @@ TEST_F(NodeMemory, AConnectionThatThereIsNoMemoryForIsSentAway) {
   auto second = client();
   wait_for_all_of(second);
   EXPECT_FALSE(client().receive().has_value());
-  EXPECT_THAT(log(), Contains(HasSubstr("have all the memory that there is")));
+  EXPECT_THAT(log(), Contains(HasSubstr("use all the memory of this node")));
 }
 
 }  // namespace

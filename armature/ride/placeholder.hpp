@@ -67,7 +67,7 @@ class Placeholder {
 
   /// Sends a command: at once, or, when another message went out a moment ago, with those that
   /// follow within some microseconds. Never waits for the other side.
-  /// @return kQueueFull if the other side has not taken what was sent before; kNotConnected also
+  /// @return kQueueFull if the other side has not yet taken earlier messages; kNotConnected also
   ///   while the component has not been found there
   /// @thread any, several at a time
   template <typename... Parameters>

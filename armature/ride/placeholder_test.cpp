@@ -226,7 +226,7 @@ TEST_P(PlaceholderTest, AnAnswerThatIsLetGoIsAFailure) {
   VisionPlaceholder camera(peer(), "forgetful");
   const auto answer = camera.later(kPatient);
   EXPECT_EQ(answer.code(), Code::kFailed);
-  EXPECT_THAT(answer.error(), HasSubstr("has let the request go without an answer"));
+  EXPECT_THAT(answer.error(), HasSubstr("dropped the request without an answer"));
   server_->remove(forgetful);
 }
 

@@ -67,7 +67,7 @@ class Line {
     if (words[0].text != "allow") {
       const std::string near = base::suggestion(words[0].text, {"allow"});
       wrong(words[0], "expected a rule, " + std::string(kForm) + ", found " + quoted(words[0].text),
-            words[0].text == "deny" ? "leave it out: what no rule allows is not allowed" : near);
+            words[0].text == "deny" ? "leave it out: only what a rule allows is allowed" : near);
       return std::nullopt;
     }
     PolicyRule rule;
@@ -77,7 +77,7 @@ class Line {
     if (words.size() < 4) tell_what_is_missing(words);
     if (words.size() > 4) {
       wrong(words[4], "expected the end of the rule, found " + quoted(words[4].text),
-            "a list is written with commas and no space: Vision,Arm");
+            "write a list with commas and no space: Vision,Arm");
     }
     return ok_ ? std::optional(std::move(rule)) : std::nullopt;
   }
@@ -91,11 +91,10 @@ class Line {
   base::Location place(const Word& word) const { return {file_, number_, word.column}; }
 
   void tell_what_is_missing(const std::vector<Word>& words) {
-    constexpr std::array<std::string_view, 4> kParts{"", "who it is for", "what may be done",
-                                                     "the components that it is about"};
+    constexpr std::array<std::string_view, 4> kParts{"", "its WHO", "its ACCESS", "its COMPONENTS"};
     const Word& last = words.back();
     const Word end{{}, last.column + static_cast<int>(last.text.size())};
-    wrong(end, "the rule does not say " + std::string(kParts[words.size()]),
+    wrong(end, "the rule lacks " + std::string(kParts[words.size()]),
           "a rule is " + std::string(kForm) + ", " + std::string(kExample));
   }
 
@@ -125,7 +124,7 @@ class Line {
       if (access && !rule.covers(*access)) {
         rule.access[static_cast<std::size_t>(*access)] = true;
       } else if (access) {
-        wrong(part, quoted(part.text) + " is there twice", "once is enough");
+        wrong(part, quoted(part.text) + " is given twice", "leave one out");
       } else {
         wrong(part, "expected read, command or configure, found " + quoted(part.text),
               base::suggestion(part.text, {"read", "command", "configure"}));
@@ -139,7 +138,7 @@ class Line {
       if (part.text.empty()) {
         wrong(part, "expected a component's name at the comma", "write Vision,Arm or *");
       } else if (std::ranges::find(rule.components, part.text) != rule.components.end()) {
-        wrong(part, quoted(part.text) + " is there twice", "once is enough");
+        wrong(part, quoted(part.text) + " is given twice", "leave one out");
       } else {
         rule.components.emplace_back(part.text);
       }
@@ -147,7 +146,7 @@ class Line {
     const bool all = std::ranges::find(rule.components, "*") != rule.components.end();
     if (all && rule.components.size() > 1) {
       wrong(word, "expected names or *, found both in " + quoted(word.text),
-            "* alone is all components");
+            "write * alone for all components");
     }
   }
 
@@ -206,7 +205,7 @@ void Policy::check(const std::vector<std::string>& components,
   for (const PolicyRule& rule : rules_) {
     for (const std::string& name : rule.components) {
       if (name == "*" || std::ranges::find(components, name) != components.end()) continue;
-      diagnostics.warning(rule.where, "there is no component " + quoted(name),
+      diagnostics.warning(rule.where, "unknown component " + quoted(name),
                           base::suggestion(name, components));
     }
   }

@@ -116,7 +116,7 @@ TEST(Policy, TellsAllMistakesInOneRunWithTheirPlaces) {
       "policy.txt:1:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'alow' "
       "(did you mean 'allow'?)\n"
       "policy.txt:2:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'deny' "
-      "(leave it out: what no rule allows is not allowed)\n"
+      "(leave it out: only what a rule allows is allowed)\n"
       "policy.txt:3:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'opertor' "
       "(did you mean 'opertor@tls'?)\n"
       "policy.txt:4:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'anna@tsl' "
@@ -130,16 +130,16 @@ TEST(Policy, TellsAllMistakesInOneRunWithTheirPlaces) {
       "policy.txt:7:25: error: expected a component's name at the comma "
       "(write Vision,Arm or *)\n"
       "policy.txt:7:26: error: expected the end of the rule, found 'Arm' "
-      "(a list is written with commas and no space: Vision,Arm)\n"
-      "policy.txt:8:17: error: the rule does not say the components that it is about "
+      "(write a list with commas and no space: Vision,Arm)\n"
+      "policy.txt:8:17: error: the rule lacks its COMPONENTS "
       "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
       "Vision)\n"
-      "policy.txt:9:6: error: the rule does not say who it is for "
+      "policy.txt:9:6: error: the rule lacks its WHO "
       "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
       "Vision)\n"
-      "policy.txt:10:18: error: 'read' is there twice (once is enough)\n"
+      "policy.txt:10:18: error: 'read' is given twice (leave one out)\n"
       "policy.txt:10:23: error: expected names or *, found both in 'Vision,*' "
-      "(* alone is all components)\n");
+      "(write * alone for all components)\n");
 }
 
 TEST(Policy, WithOneMistakeNothingIsAllowed) {
@@ -162,7 +162,7 @@ TEST(Policy, WarnsOfComponentsThatAreNotThere) {
   policy_of("allow local read Vison,Arm\nallow * read *\n").check({"Vision", "Arm"}, diagnostics);
   EXPECT_TRUE(diagnostics.ok());
   EXPECT_EQ(diagnostics.to_text(),
-            "policy.txt:1:18: warning: there is no component 'Vison' (did you mean 'Vision'?)\n");
+            "policy.txt:1:18: warning: unknown component 'Vison' (did you mean 'Vision'?)\n");
 }
 
 TEST(Policy, WrittenAndReadItIsTheSame) {
@@ -268,7 +268,8 @@ TEST(PolicyOfANode, WhereOtherMachinesReachItANodeNeedsOne) {
   NodeOptions options;
   options.transports.push_back(std::make_shared<Proving>());
   Node open(options);
-  EXPECT_THAT(open.listen("proving://0.0.0.0:1").error(), HasSubstr("nothing says what they may"));
+  EXPECT_THAT(open.listen("proving://0.0.0.0:1").error(),
+              HasSubstr("no policy says what they may"));
   EXPECT_EQ(open.listen("proving://127.0.0.1:1").error(), "this one never listens");
   options.allows = [](const AccessQuestion&) { return false; };
   Node with_policy(options);

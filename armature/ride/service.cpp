@@ -29,7 +29,7 @@ PendingReply& PendingReply::operator=(PendingReply&& other) noexcept {
   return *this;
 }
 
-PendingReply::~PendingReply() { fail("the component has let the request go without an answer"); }
+PendingReply::~PendingReply() { fail("the component dropped the request without an answer"); }
 
 void PendingReply::answer(const Fields& result) {
   if (link_ == nullptr) return;

@@ -189,7 +189,7 @@ class ReplyOf {
 /// For generated code, behind an operation that is declared `[later]`: one that has neither
 /// answered nor kept its reply has failed.
 inline void expect_settled(const Reply& reply) {
-  if (!reply.settled()) throw Failure("the component has let the request go without an answer");
+  if (!reply.settled()) throw Failure("the component dropped the request without an answer");
 }
 
 /// The frame of a component that others use through a node. rcidl derives one from it for each

@@ -45,7 +45,7 @@ TEST(UnixTransport, LeavesAFileAloneThatIsNoSocket) {
   std::ofstream(path) << "precious";
   const auto listener = make_unix_transport()->listen({"unix", path, 0});
   ASSERT_FALSE(listener.ok());
-  EXPECT_NE(listener.error().find("is no socket file"), std::string::npos) << listener.error();
+  EXPECT_NE(listener.error().find("is not a socket file"), std::string::npos) << listener.error();
   EXPECT_TRUE(std::filesystem::remove(path));
 }
 

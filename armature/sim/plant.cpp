@@ -213,7 +213,7 @@ Plant::~Plant() = default;
 base::Result<Plant> Plant::load(const std::string& file, const Options& options) {
   std::error_code problem;  // A pipe would be waited for.
   if (std::filesystem::exists(file, problem) && !std::filesystem::is_regular_file(file, problem)) {
-    return base::Error{file + ": is no file, expected a URDF file"};
+    return base::Error{file + ": is not a file, expected a URDF file"};
   }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;

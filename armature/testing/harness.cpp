@@ -144,7 +144,7 @@ void Harness::check_signature(std::string_view item, const component::Signature&
 void Harness::check_command(std::string_view item, const component::OperationBase* command) const {
   if (command != nullptr) return;
   throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(item) +
-                              " is no command that takes vectors and text as const references");
+                              " is not a command that takes vectors and text as const references");
 }
 
 }  // namespace armature::testing

@@ -83,7 +83,7 @@ TEST_F(Credentials, AnExpiredCertificateSaysWhenItExpired) {
 
 TEST_F(Credentials, ACertificateOfTheFutureAsksForTheClock) {
   issue_own({.from_s = 3600, .until_s = 7200});
-  EXPECT_THAT(findings(), HasSubstr("(is this machine's clock right?)"));
+  EXPECT_THAT(findings(), HasSubstr("(check this machine's clock)"));
 }
 
 TEST_F(Credentials, ACertificateHasToNameSomebody) {
@@ -95,7 +95,7 @@ TEST_F(Credentials, ACertificateHasToNameSomebody) {
 
 TEST_F(Credentials, AnAuthorityHasToBeOne) {
   options_.authority = options_.certificate;
-  EXPECT_THAT(findings(), HasSubstr("robot.pem: error: 'robot' is no authority"));
+  EXPECT_THAT(findings(), HasSubstr("robot.pem: error: 'robot' is not an authority"));
 }
 
 TEST(Identity, IsTheCommonNameOrElseTheFirstDnsName) {

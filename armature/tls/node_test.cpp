@@ -323,7 +323,7 @@ TEST_F(TlsNode, ATlsClientAtAPlainPortSaysThatThereIsNoTls) {
   address_.scheme = "tls";
   dial_as("operator");
   EXPECT_TRUE(client_log_.tells("cannot be reached: what it sent is not TLS"));
-  EXPECT_TRUE(server_log_.tells("what came is no message: no 'RIDE'"));
+  EXPECT_TRUE(server_log_.tells("the data is not a RIDE message: it does not begin with 'RIDE'"));
 }
 
 TEST_F(TlsNode, AHandshakeThatDoesNotEndIsEnded) {
@@ -355,7 +355,8 @@ TEST_F(TlsNode, ManyHalfOpenHandshakesKeepNobodyOut) {
     send(*half_open.back(), "\x16\x03\x01");
   }
   the_operator_is_served();
-  EXPECT_TRUE(server_log_.tells("was refused: others came before its handshake was done"));
+  EXPECT_TRUE(
+      server_log_.tells("was refused: newer connections came before its handshake was done"));
   EXPECT_LE(server_->statistics().connections, 4u);
   EXPECT_EQ(server_->statistics().connections_refused, 47u);
 }

@@ -13,7 +13,7 @@ class Greeter final : public Component {
 
  private:
   Outcome on_configure() override {
-    if (whom_.get().empty()) return refused("there is nobody to greet: set the property Whom");
+    if (whom_.get().empty()) return refused("the property Whom is empty: set it to a name");
     return accepted();
   }
 

@@ -14,7 +14,7 @@ using TestFiles = std::map<std::string, std::string>;
 inline ReadFile reader_of(const TestFiles& files) {
   return [&files](const std::string& path) -> base::Result<std::string> {
     const auto found = files.find(path);
-    if (found == files.end()) return base::Error{"there is no file '" + path + "'"};
+    if (found == files.end()) return base::Error{"file '" + path + "' does not exist"};
     return found->second;
   };
 }

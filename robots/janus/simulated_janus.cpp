@@ -17,7 +17,7 @@ base::Result<std::unique_ptr<can::Link>> SimulatedJanus::make_link() {
   for (const int number : cards()) {
     if (number >= 1 && number <= static_cast<int>(kJoints)) continue;
     return base::Error{"cards has " + std::to_string(number) +
-                       ", expected 1 or 2: so many has the head"};
+                       ", expected 1 or 2: the head has two"};
   }
   const Head::Config head{.urdf_file = urdf_, .inner_step = base::from_seconds(inner_step_)};
   const bool simulated = context().simulated;

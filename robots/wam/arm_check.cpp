@@ -134,8 +134,8 @@ std::string ArmCheck::objection_to(const component::PropertyBase& property,
   if (!arm_) return {};
   if (parameters_.says_who_holds_the_weight(property) &&
       value.text() != types::to_text(property.type(), property.data())) {
-    return "controllers were checked for the weight that it leaves to them; say it in the "
-           "deployment, which is checked anew";
+    return "controllers were checked for the weight that it leaves to them; set it in the "
+           "deployment, which is checked again";
   }
   return objection({.property = &property, .data = value.data()});
 }

@@ -102,7 +102,8 @@ void WamHardware::on_check(component::Check& check) const {
   if (period == base::Duration::zero() || within_its_reach(period)) return;
   component::Reason why("it is sampled every ");
   controllers::append_duration(why, period);
-  check.error(std::string(why.append(kReach).view()), "2 ms is what its controllers are made for");
+  check.error(std::string(why.append(kReach).view()),
+              "use 2 ms, for which its controllers are made");
 }
 
 /// The emulated arm outlives a configuration, as a real one does.
@@ -250,9 +251,9 @@ void WamHardware::drive_or_hold() {
   if (armed()) {
     without_command_ = std::exchange(commanded_, false) ? 0 : without_command_ + 1;
     if (without_command_ > 0) cycles_without_command_.assign(cycles_without_command_() + 1);
-    if (without_command_ >= kMostWithoutCommand) disarm("no torques come any more");
+    if (without_command_ >= kMostWithoutCommand) disarm("torques have stopped coming");
     if (arming_ != nullptr && arming_->state() == component::State::kException) {
-      disarm("who armed it is out of service");
+      disarm("the component that armed it is out of service");
     }
     watch_driven();
   }
@@ -290,7 +291,7 @@ void WamHardware::on_torque(const Vector& torques) {
   if (!armed() || std::exchange(commanded_, true)) return;
   const auto result = path_->step_drive(torques, link_->now());
   clipped_.assign(path_->clipped());
-  if (result == TorquePath::Result::kNotFinite) disarm("a torque is no finite number");
+  if (result == TorquePath::Result::kNotFinite) disarm("a torque is not a finite number");
   send_torques();
 }
 

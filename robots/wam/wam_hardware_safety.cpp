@@ -69,7 +69,7 @@ void WamHardware::note_last_safety_state() {
   told.append(", said last ").append({room, static_cast<std::size_t>(end.ptr - room)});
   const bool silent = safety_state_age_() > base::to_seconds(kSilentBoardTime);
   told.append(silent ? " s before it was found silent"
-                     : " s before it was not listened to any more");
+                     : " s before this process stopped listening to it");
   safety_state_.assign(told);
 }
 
@@ -126,7 +126,7 @@ void WamHardware::leave_service() {
   path_->go_off();
   followed_ = base::Time::min();
   tell_armed(false);
-  if (move_home_.active()) move_home_.fail("the arm is not active any more");
+  if (move_home_.active()) move_home_.fail("the arm is no longer active");
 }
 
 /// Pucks that are idle brake their motors.
@@ -157,10 +157,10 @@ component::Reason WamHardware::held() {
   if (held_by_hand_.said() || from_home() < kAtHome) return {};
   component::Reason what("the arm's weight away from home: ");
   what.append(armed() ? "" : "arm it, then ")
-      .append("say ")
+      .append("call ")
       .append(name())
       .append(":moveHome(); or ");
-  return what.append("hold it, and say ").append(name()).append(".held_by_hand = true");
+  return what.append("hold it, and set ").append(name()).append(".held_by_hand = true");
 }
 
 }  // namespace armature::wam

@@ -27,7 +27,7 @@ def broken_links(source, page):
         path, _, anchor = link.partition("#")
         target = (page.parent / path).resolve() if path else page
         if not target.exists():
-            yield f"{page.relative_to(source)}: there is no '{link}'"
+            yield f"{page.relative_to(source)}: unknown target '{link}'"
         elif anchor and target.suffix == ".md" and anchor not in anchors(target.read_text()):
             yield f"{page.relative_to(source)}: '{target.name}' has no heading for '#{anchor}'"
 

@@ -228,7 +228,7 @@ class Run:
     def was_spoilt(self):
         """It failed since the machine stood still, by which a puck or a cycle was late."""
         said = self.controller.text() if self.controller else ""
-        late = any(sign in said for sign in ("silent", "no cycle was run", "the tip gets faster", "was too fast"))
+        late = any(sign in said for sign in ("silent", "no cycle was run", "the tip gets too fast", "was too fast"))
         return self.says_nothing() or late and self.stalls.end() > LATE_MS
 
     def begin(self, *more):

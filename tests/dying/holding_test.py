@@ -36,7 +36,7 @@ class Piped(unittest.TestCase):
             with self.subTest(lines=lines):
                 done = self.run_with(*lines)
                 self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertIn("'Weight' lets go, since nobody answered: it held a weight", done.stderr)
+                self.assertIn("'Weight' lets go, since no answer came: it held a weight", done.stderr)
 
     def test_what_a_pipe_says_of_it_counts(self):
         done = self.run_with("Weight.in_hand = true", "quit")

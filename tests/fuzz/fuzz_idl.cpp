@@ -29,10 +29,10 @@ base::Result<std::string> part(std::string_view bytes, const std::string& path) 
   std::size_t index = path.size() == 5 && path.ends_with(".idl")
                           ? static_cast<std::size_t>(path.front() - 'a')
                           : std::size_t{26};
-  if (index >= 26) return base::Error{"there is no file '" + path + "'"};
+  if (index >= 26) return base::Error{"file '" + path + "' does not exist"};
   for (; index > 0; --index) {
     const std::size_t end = bytes.find('\f');
-    if (end == std::string_view::npos) return base::Error{"there is no file '" + path + "'"};
+    if (end == std::string_view::npos) return base::Error{"file '" + path + "' does not exist"};
     bytes.remove_prefix(end + 1);
   }
   return std::string(bytes.substr(0, bytes.find('\f')));

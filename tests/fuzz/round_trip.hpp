@@ -21,7 +21,7 @@ inline deploy::LoadOptions options() {
   options.read = [](const std::string& path) -> base::Result<std::string> {
     if (path == "part.yaml") return std::string("components: {Part: {model: Part}}");
     if (path == "part.xml") return std::string("<properties/>");
-    return base::Error{"there is no file '" + path + "'"};
+    return base::Error{"file '" + path + "' does not exist"};
   };
   return options;
 }

@@ -383,7 +383,7 @@ TEST_F(LaterTest, WhoForgetsToAnswerHasFailed) {
   for (const double limit : {1.0, 4.0}) {
     const auto answer = wheels->whereItStands(limit, kPatient);
     EXPECT_EQ(answer.code(), ride::Code::kFailed);
-    EXPECT_THAT(answer.error(), HasSubstr("has let the request go without an answer"));
+    EXPECT_THAT(answer.error(), HasSubstr("dropped the request without an answer"));
   }
 }
 

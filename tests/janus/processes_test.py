@@ -297,7 +297,7 @@ class Processes(unittest.TestCase):
         controller = self.start_controller()
         self.assertEqual(controller.process.wait(timeout=LONG), 1)
         controller.end()
-        self.assertIn("nobody serves there", controller.text())
+        self.assertIn("no process serves there", controller.text())
         self.assertIn("start what has the bus first: armature-janus-plant", controller.text())
 
     def test_wrong_use_of_the_plant_says_what_is_wrong(self):

@@ -327,9 +327,9 @@ TEST_F(Switching, WhileTheControllerBrakesForWantOfAReferenceItGoesOnBraking) {
 
 TEST_F(Switching, ToAModeThatThereIsNotSaysWhichThereAre) {
   EXPECT_EQ(head.switch_to("feedforward"),
-            "there is no mode 'feedforward' (did you mean 'feed_forward'?)");
+            "unknown mode 'feedforward' (did you mean 'feed_forward'?)");
   EXPECT_THAT(head.send("feedforward"),
-              HasSubstr("there is no mode 'feedforward', there are pid, feed_forward"));
+              HasSubstr("unknown mode 'feedforward', known: pid, feed_forward"));
 }
 
 TEST_F(Switching, AComponentOfAnotherModeIsNotStartedByItself) {
@@ -362,7 +362,7 @@ TEST_F(Switching, AScriptDoesItWithoutAGrant) {
       "switch.lua", options, diagnostics);
   script->run(head.robot.application(), 1s, nullptr, diagnostics);
   EXPECT_EQ(lines, std::vector<std::string>{"feed_forward"});
-  EXPECT_THAT(diagnostics.to_text(), HasSubstr("there is no mode 'fed'"));
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("unknown mode 'fed'"));
   EXPECT_EQ(head.mode(), kFeedForward);
 }
 

@@ -90,7 +90,7 @@ class Pipe(unittest.TestCase):
         done = browse("Sourse.Frequency\n1 + 1\n", "--sim")
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout, "2\n")
-        self.assertIn("error: there is no component and no variable 'Sourse' "
+        self.assertIn("error: unknown component or variable 'Sourse' "
                       "(did you mean 'Source'?)\n", done.stderr)
 
     def test_input_that_ends_within_a_statement_is_a_mistake(self):

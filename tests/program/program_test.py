@@ -62,7 +62,7 @@ class WrongUse(unittest.TestCase):
         self.assert_wrong_use("check", WAVE, "--ordr", says="did you mean '--order'?")
 
     def test_a_library_folder_that_is_not_there(self):
-        self.assert_wrong_use("check", WAVE, "-L", "/nowhere", says="there is no folder '/nowhere'")
+        self.assert_wrong_use("check", WAVE, "-L", "/nowhere", says="folder '/nowhere' does not exist")
 
     def test_help_is_no_mistake(self):
         done = armature("run", "--help")
@@ -102,7 +102,7 @@ class Checking(unittest.TestCase):
     def test_mode_that_is_not_there(self):
         done = armature("check", WAVE, "--mode", "fast")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("<command line>: error: there is no mode 'fast', as there are no modes", done.stderr)
+        self.assertIn("<command line>: error: unknown mode 'fast': the deployment has no modes", done.stderr)
 
     def test_run_refuses_what_check_refuses(self):
         done = armature("run", "--sim", "--for", "1s", WAVE, "--set", "Source.Frequency=100 Hz")
@@ -126,7 +126,7 @@ class Running(unittest.TestCase):
     def test_refusal_to_configure(self):
         done = armature("run", "--sim", "--for", "1s", HELLO, "--set", "Greeter.Whom=''")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("there is nobody to greet: set the property Whom", done.stderr)
+        self.assertIn("the property Whom is empty: set it to a name", done.stderr)
 
     def test_required_real_time_that_is_not_to_be_had(self):
         with open("/proc/version", encoding="utf-8") as version:
@@ -396,9 +396,9 @@ class Files(unittest.TestCase):
             file.write("include: a.yaml\n")
         before = open(source, "rb").read()
         for name in ("a.yaml", "soft.yaml", "hard.yaml"):
-            self.assert_fails(armature("convert", source, self.path(name)), "is what is read", 2)
-            self.assert_fails(armature("convert", self.path("including.yaml"), self.path(name)), "is what is read", 2)
-            self.assert_fails(armature("graph", source, "-o", self.path(name)), "is what is read", 2)
+            self.assert_fails(armature("convert", source, self.path(name)), "is the file that is read", 2)
+            self.assert_fails(armature("convert", self.path("including.yaml"), self.path(name)), "is the file that is read", 2)
+            self.assert_fails(armature("graph", source, "-o", self.path(name)), "is the file that is read", 2)
             self.assert_fails(armature("run", source, "--sim", "--write-times", self.path(name)), "is the deployment")
         self.assertEqual(open(source, "rb").read(), before)
         self.assert_fails(armature("report", self.folder, "--out", source), "ends in .html", 2)

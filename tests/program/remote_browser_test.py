@@ -139,7 +139,7 @@ class Pipe(WithARobot):
     def test_commands_of_who_leaves_are_cancelled(self):
         done = self.browse("Lift:travel(3)\nquit\nnothing\n")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("Lift.travel: cancelled, since it ends with the connection of who began it\n",
+        self.assertIn("Lift.travel: cancelled, because the connection of the client that began it has ended\n",
                       done.stdout)
         self.assertIsNone(self.robot.process.poll(), "the robot goes on")
         again = self.browse("Lift:travel(0)\nwait\n")
@@ -148,9 +148,9 @@ class Pipe(WithARobot):
 
     def test_mistakes_say_what_was_expected(self):
         lines = {
-            "Lfit.Top": "there is no component 'Lfit' (did you mean 'Lift'?)",
+            "Lfit.Top": "unknown component 'Lfit' (did you mean 'Lift'?)",
             "Lift.Topp": "'Lift' has no 'Topp' (did you mean 'Top'?)",
-            "lst": "there is no command and no component 'lst' (did you mean 'ls'?)",
+            "lst": "unknown command or component 'lst' (did you mean 'ls'?)",
             "Lift:travel()": "Lift.travel takes 1 argument, not 0: it is ",
             "Lift:travel('up')": "Lift.travel: argument 1 (target [m]): expected a double",
             "Lift:travel(30)": "the target is outside the shaft",
@@ -158,7 +158,7 @@ class Pipe(WithARobot):
             "Lift:fly(3)": "'Lift' has no 'fly'",
             "Lift.Top[1]": "'Lift.Top' is a double and has no '[1]'",
             "wait never": "wait takes the seconds to wait, above 0: wait 5",
-            "watch": "watch takes what to look at",
+            "watch": "watch takes the items to show",
             "stop": "stop takes the name of a component",
         }
         done = self.browse("\n".join(lines) + "\n")
@@ -196,7 +196,7 @@ class Pipe(WithARobot):
         self.assertIn("connected to " + self.robot.address + " again", browser.stderr.readline())
         # An orderly stop cancels it; whether that is heard before the connection ends is not said.
         self.assertRegex(browser.stdout.readline(), "Lift.travel: (cancelled|how it ended is not known: "
-                                                    "there is no command with the handle)")
+                                                    "unknown command handle)")
         ask("Lift.Speed")
         self.assertEqual(browser.stdout.readline(), "1 m/s\n")
         browser.stdin.close()
@@ -239,7 +239,7 @@ class Addresses(unittest.TestCase):
     def test_what_is_no_address_is_wrong_use(self):
         done = self.browse("robot")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("'robot' is no address: expected one such as tcp://127.0.0.1:4242",
+        self.assertIn("'robot' is not an address: expected one such as tcp://127.0.0.1:4242",
                       done.stderr)
 
     def test_tls_needs_its_files(self):

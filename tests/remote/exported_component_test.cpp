@@ -143,8 +143,9 @@ TEST_F(RemotePeer, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOther
     EXPECT_TRUE(serve_until({robot.get()}, [&] { return !travels(); }));
     EXPECT_TRUE(serve_until({robot.get()},
                             [&] { return robot->log.find("is cancelled") != std::string::npos; }));
-    EXPECT_THAT(robot->log, HasSubstr("'Axis.travel' is cancelled: the connection to local, who "
-                                      "began it, is lost"));
+    EXPECT_THAT(
+        robot->log,
+        HasSubstr("'Axis.travel' is cancelled: the connection to local, which began it, is lost"));
     peer = std::make_unique<Peer>(robot->address(), numbers.interface());
     ASSERT_TRUE(peer->link.peer().wait_until_connected(10s));
   }

@@ -24,11 +24,11 @@ components:
   const std::string text = wrong.deployment.diagnostics.to_text();
   EXPECT_THAT(text,
               HasSubstr("test.yaml:4:28: error: 'A', remote: 'tcp://127.0.0.1:4242' must be"));
-  EXPECT_THAT(text, HasSubstr("'B' lives in another process: its activity is there"));
+  EXPECT_THAT(text, HasSubstr("'B' lives in another process, which has its activity"));
   EXPECT_THAT(text, HasSubstr("test.yaml:6:28: error: 'C', remote: "));
   EXPECT_THAT(text, HasSubstr("'Axis' has no input 'Wich'"));
   EXPECT_THAT(text, HasSubstr("did you mean 'Wish'?"));
-  EXPECT_THAT(text, HasSubstr("there is no component 'Axes'"));
+  EXPECT_THAT(text, HasSubstr("unknown component 'Axes'"));
   EXPECT_THAT(text, HasSubstr("max_age: 100 ms"));
 }
 

@@ -407,7 +407,7 @@ class Mistakes(unittest.TestCase):
         self.run_short(os.path.join(self.folder, "run"), "--set", "Reporter.what=[PID1.Out]")
         done = armature("report", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("there are no positions to show; looked for of each joint", done.stderr)
+        self.assertIn("no positions to show; looked for of each joint", done.stderr)
         self.assertIn("PID1.Ref and PID1.Sen", done.stderr)
         with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
             self.assertIn('"name":"PID1.Out"', file.read())

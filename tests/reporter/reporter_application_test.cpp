@@ -81,7 +81,7 @@ TEST_F(Reporting, AnInputIsRecordedAsItsWriterWritesIt) {
   ASSERT_EQ(recording.channels.size(), 1u);
   EXPECT_EQ(recording.channels[0].name, "Reader.In");
   EXPECT_EQ(recording.samples.size(), 5u);
-  EXPECT_THAT(log, Contains(HasSubstr("nobody writes Reader.Open")));
+  EXPECT_THAT(log, Contains(HasSubstr("Reader.Open has no writer")));
 }
 
 TEST_F(Reporting, PropertiesAreRecordedAtTheStartAndWhenTheyChange) {
@@ -110,7 +110,7 @@ TEST_F(Reporting, PropertiesAreRecordedAtTheStartAndWhenTheyChange) {
 TEST_F(Reporting, ANameThatStandsForNothingIsFoundByCheck) {
   record({"Writer.Numbr", "Writer.Vector"});
   EXPECT_THAT(make().check().to_text(),
-              AllOf(HasSubstr("'Reporter': 'Writer.Numbr' is nothing that can be recorded"),
+              AllOf(HasSubstr("'Reporter': 'Writer.Numbr' cannot be recorded"),
                     HasSubstr("did you mean 'Writer.Number'?")));
 }
 
@@ -134,7 +134,7 @@ TEST_F(Reporting, TwoRecordingsInOneFileAreFoundByCheck) {
 TEST_F(Reporting, AReporterNeedsAPeriod) {
   record({"Writer"});
   blueprint.components.back().activity = exec::Activity::triggered();
-  EXPECT_THAT(make().check().to_text(), HasSubstr("'Reporter' looks at others in a period"));
+  EXPECT_THAT(make().check().to_text(), HasSubstr("'Reporter' watches others and needs a period"));
 }
 
 TEST_F(Reporting, TheSameRunGivesTheSameBytes) {

@@ -210,8 +210,8 @@ TEST_F(Recorded, ANameThatStandsForNothingIsAnErrorOfTheFileWithItsPlace) {
   options.document.overrides = {"Reporter.what=[Sorce, Filter.Filtred]"};
   const auto deployment = deploy::load_deployment(DEPLOYMENT, options);
   EXPECT_THAT(deployment.diagnostics.to_text(),
-              AllOf(HasSubstr("recorded_wave.yaml:5:3: error: 'Reporter': 'Sorce' is nothing that "
-                              "can be recorded (did you mean 'Source'?)"),
+              AllOf(HasSubstr("recorded_wave.yaml:5:3: error: 'Reporter': 'Sorce' cannot be "
+                              "recorded (did you mean 'Source'?)"),
                     HasSubstr("did you mean 'Filter.Filtered'?")));
 }
 

@@ -63,7 +63,7 @@ TEST(WamHome, AfterAMistakeItComesToRestAndDoesNotGoHome) {
   const Vector rest = arm.positions();
   EXPECT_GT(largest_apart(rest, wam7().home), 0.1);
   EXPECT_THAT(application.hold_until_told().to_text(),
-              HasSubstr("'WAM' lets go, since nobody answered: it held the arm's weight away from "
+              HasSubstr("'WAM' lets go, since no answer came: it held the arm's weight away from "
                         "home"));
   EXPECT_LT(largest_apart(arm.positions(), rest), 0.002) << "held for 3 s";
   EXPECT_TRUE(arm.armed());
@@ -85,8 +85,9 @@ TEST(WamHome, HeldUnarmedAwayFromHomeItIsHeldUntilTheOperatorAnswers) {
   };
   EXPECT_EQ(application.hold_until_told(nullptr, answer_late).to_text(), "");
   EXPECT_LT(application.now() - begin, 25s);
-  EXPECT_THAT(arm.log, HasSubstr("arm it, then say WAM:moveHome(); or hold it, and say "
-                                 "WAM.held_by_hand = true"));
+  EXPECT_THAT(
+      arm.log,
+      HasSubstr("arm it, then call WAM:moveHome(); or hold it, and set WAM.held_by_hand = true"));
 }
 
 TEST(WamHome, AtHomeOrIdleNobodyIsAsked) {
@@ -125,7 +126,7 @@ TEST(WamHome, WhoSamplesTheArmIsNotStoppedWhileItIsHeldAwayFromHome) {
     const auto refused = arm.application().stop_component("Sampler");
     EXPECT_FALSE(refused);
     EXPECT_THAT(std::string(refused.reason()),
-                HasSubstr("'Sampler' was not stopped, since 'WAM' needs it: that holds the arm's "
+                HasSubstr("'Sampler' was not stopped, since 'WAM' needs it and holds the arm's "
                           "weight away from home"));
     const Vector rest = arm.positions();
     arm.run_for(1s);

@@ -37,7 +37,7 @@ TEST(WamSafety, PositionsAreWrittenOnlyIfTheOperatorSaysThatTheArmIsAtHome) {
   arm.emulator().board().shift_idle();
   const auto started = arm.application().start();
   EXPECT_THAT(started.to_text(), HasSubstr("put the arm at home (0, -2, 0, 3.13, 0, 0, 0) rad, "
-                                           "say so, WAM.at_home = true"));
+                                           "set WAM.at_home = true"));
   EXPECT_FALSE(arm.emulator().board().zeroed());
 }
 
@@ -57,7 +57,7 @@ TEST(WamSafety, ThatTheArmIsAtHomeIsBelievedOnce) {
   ASSERT_TRUE(application.clean_up_component("WAM"));
   const auto refused = application.start_component("WAM");
   EXPECT_FALSE(refused);
-  EXPECT_THAT(std::string(refused.reason()), HasSubstr("say so, WAM.at_home = true"));
+  EXPECT_THAT(std::string(refused.reason()), HasSubstr("set WAM.at_home = true"));
   EXPECT_FALSE(arm.emulator().board().zeroed());
   arm.set("WAM", "at_home", true);
   EXPECT_TRUE(application.start_component("WAM")) << arm.reason("WAM");
@@ -79,7 +79,8 @@ TEST(WamSafety, NoFileSaysThatTheArmIsAtHomeAndNoScriptWithoutAGrant) {
   std::filesystem::remove(path);
   EXPECT_THAT(
       deployment.diagnostics.to_text(),
-      HasSubstr("'WAM.at_home' is the operator's word, which counts once: no file gives it"));
+      HasSubstr(
+          "'WAM.at_home' is the operator's word, which counts once, so a file cannot give it"));
 }
 
 TEST(WamSafety, IdleItIsReadAndSendsTorquesOfZeroInEachCycleUntilItIsActivated) {
@@ -227,7 +228,7 @@ TEST_F(WamInMotion, ATorqueReferenceThatStaysAwayDisarmsItAndItIsBrakedSmoothlyA
   EXPECT_LT(largest_step_of(1000), 0.1) << "of 1.8 Nm that a motor may have";
   EXPECT_EQ(arm.state("WAM"), State::kRunning);
   EXPECT_FALSE(arm.armed());
-  EXPECT_THAT(arm.log, HasSubstr("no torques come any more"));
+  EXPECT_THAT(arm.log, HasSubstr("torques have stopped coming"));
   EXPECT_LT(largest_apart(arm.positions(), at), 0.05);
   expect_rests();
 }

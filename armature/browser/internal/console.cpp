@@ -204,7 +204,7 @@ void Console::run_at_terminal(LineTaker& taker, const std::string& quitting) {
                      [&](std::string_view before) { return taker.complete(before); }},
                     history_file());
   terminal_->set_editor(&editor);
-  terminal_->say("`help` says what there is to type; `quit` or Ctrl-D " + quitting);
+  terminal_->say("`help` lists what you can type; `quit` or Ctrl-D " + quitting);
   bool warned = false;
   while (!taker.has_ended()) {
     std::string line;

@@ -285,7 +285,7 @@ base::Result<std::string> help_on(const Paper& paper, Robot& robot, const Vocabu
                        member.value().rest + "'"};
   }
   const std::string near = base::near_name(subject, known);
-  return base::Error{"there is no help on '" + std::string(subject) + "'" +
+  return base::Error{"no help on '" + std::string(subject) + "'" +
                      (near.empty() ? "" : " (did you mean '" + near + "'?)")};
 }
 

@@ -30,8 +30,8 @@ void PlainLanguage::take_call(std::string_view line) {
       std::ranges::find(details.operations, call.operation, &remote::OperationDetails::name);
   if (operation == details.operations.end()) {
     const auto member = member_in(robot_, component + ":" + call.operation);
-    return answers_.mistake(member ? "'" + component + "." + call.operation + "' is no operation"
-                                   : member.error());
+    return answers_.mistake(
+        member ? "'" + component + "." + call.operation + "' is not an operation" : member.error());
   }
   if (operation->command) return session_.begin(component, call.operation, call.arguments);
   const std::string result = robot_.call(component, call.operation, call.arguments);
@@ -53,7 +53,7 @@ void PlainLanguage::explain(const std::string& line) {
   std::vector<std::string> known = robot_.component_names();
   for (const Topic& topic : vocabulary().commands) known.emplace_back(topic.name);
   const std::string near = base::near_name(line, known);
-  answers_.mistake("there is no command and no component '" + line + "'" +
+  answers_.mistake("unknown command or component '" + line + "'" +
                    (near.empty() ? "" : " (did you mean '" + near + "'?)"));
 }
 

@@ -33,7 +33,7 @@ class TypedReader {
 
   /// @param inside  of a list or struct, where texts are in quotes
   std::string value(bool inside) {
-    if (++depth_ > kDeepest) throw Mistake{"too many lists and structs in one another"};
+    if (++depth_ > kDeepest) throw Mistake{"lists and structs are nested too deep"};
     std::string text = one_value(inside);
     --depth_;
     return text;

@@ -63,7 +63,7 @@ void RemoteSession::note_connection() {
     was_lost_ = is_another_ = true;
     has_application_ = false;
     answers_.surface().complain("the connection to " + robot_.address() +
-                                " is lost: " + harmless(change.text) + "; it is tried again");
+                                " is lost: " + harmless(change.text) + "; trying again");
   }
   if (back) greet();
 }
@@ -106,7 +106,7 @@ void RemoteSession::stop() {
   ended_ = true;
   for (const CommandStatus& command : begun_) {
     answers_.say(command.command +
-                 ": cancelled, since it ends with the connection of who began it");
+                 ": cancelled, because the connection of the client that began it has ended");
   }
 }
 

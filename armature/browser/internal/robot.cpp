@@ -30,7 +30,7 @@ std::vector<std::string> member_names(const remote::ComponentDetails& component)
 }  // namespace
 
 std::string no_component(Robot& robot, std::string_view text) {
-  return "there is no component '" + std::string(text) + "'" + hint(text, robot.component_names());
+  return "unknown component '" + std::string(text) + "'" + hint(text, robot.component_names());
 }
 
 base::Result<MemberName> member_in(Robot& robot, std::string_view text) {

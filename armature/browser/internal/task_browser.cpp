@@ -144,7 +144,7 @@ bool TaskBrowser::take_item(const std::string& line) {
 
 bool TaskBrowser::takes_nothing(std::string_view command, const Words& arguments) {
   if (arguments.empty()) return true;
-  answers_.mistake(std::string(command) + " takes nothing, found '" + arguments.front() + "'");
+  answers_.mistake(std::string(command) + " takes no arguments, found '" + arguments.front() + "'");
   return false;
 }
 

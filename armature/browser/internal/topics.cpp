@@ -13,7 +13,7 @@ std::vector<Topic> lua_examples() {
           {"", "Joint1.GearRatio = 0.02", "sets a property", ""},
           {"", "Generator:moveTo(array(1.0, 1.0), 10)",
            "calls an operation or begins a command; `wait` waits for its end", ""},
-          {"", "for i = 1, 3 do print(i) end", "any Lua; Ctrl-C interrupts it", ""}};
+          {"", "for i = 1, 3 do print(i) end", "runs any Lua; Ctrl-C interrupts it", ""}};
 }
 
 std::vector<Topic> lua_commands() {
@@ -25,15 +25,16 @@ std::vector<Topic> lua_commands() {
        "help watch\nhelp moveTo\nhelp Joint1\nhelp Joint1.Position\nhelp Generator:moveTo"},
       {"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
        "shows values as they change, until a key",
-       "In simulated time, and where there is no terminal, it lets that time pass and writes a "
-       "line for each step: ten of them unless `for` says more.\n"
+       "In simulated time, and without a terminal, it lets time pass and writes a line for each "
+       "step: ten unless `for` sets a time.\n"
        "watch Joint1.Position Joint2.Position every 0.2\n"
        "watch Sensor.sensor[1] every 0.01 for 1"},
-      {"threads", "threads", "how often each thread ran, how long its cycles take, its load", ""},
-      {"faults", "faults", "who does not run, and why", ""},
-      {"start", "start [COMPONENT ...]", "starts a component, and configures it before if need be",
+      {"threads", "threads",
+       "lists how often each thread ran, how long its cycles take, and its load", ""},
+      {"faults", "faults", "lists the components that do not run, and why", ""},
+      {"start", "start [COMPONENT ...]", "starts a component, configuring it first if necessary",
        "start Joint1\nWithout a name: every component that does not run, writers before readers, "
-       "but for those that the deployment does not start."},
+       "except those that the deployment does not start."},
       {"stop", "stop COMPONENT ...", "stops a component; `quit` stops the application",
        "stop Joint1"},
       {"reset", "reset [COMPONENT ...]", "takes a component out of its exception, to stopped",
@@ -42,11 +43,11 @@ std::vector<Topic> lua_commands() {
        "takes a component out of its run-time error, to running",
        "recover Joint1\nWithout a name: every component that is in an error."},
       {"cleanup", "cleanup COMPONENT ...",
-       "has a component that is stopped forget its configuration; `start` configures it anew",
+       "clears the configuration of a stopped component; `start` configures it again",
        "reset WAM\ncleanup WAM\nstart WAM"},
       {"run", "run SECONDS", "lets simulated time pass; in real time the same as wait",
        "run 5\nCtrl-C ends it early."},
-      {"wait", "wait [SECONDS]", "waits so long, or until the commands that were begun have ended",
+      {"wait", "wait [SECONDS]", "waits that long, or until the commands begun here have ended",
        "Generator:moveTo(array(1.0, 1.0), 10)\nwait\n"
        "Ctrl-C cancels the commands; a second one ends the waiting. As a function it takes a "
        "command, an event or a machine: wait(motion) is true, or false and why."},
@@ -57,21 +58,21 @@ std::vector<Topic> lua_commands() {
 
 std::vector<Topic> lua_functions() {
   return {
-      {"at", "at(seconds, function)", "calls a function at a time, counted from the begin",
+      {"at", "at(seconds, function)", "calls a function at a time, counted from the start",
        "at(now() + 5, function() Generator:moveTo(array(1, 1), 10) end)"},
       {"on", "on(event, function)", "calls a function each time that an event is raised",
        "watching = on(Arming.Stop, function() print(now()) end)\nwatching:cancel()"},
       {"machine", "machine {...}", "defines a state machine",
        "m = machine {initial = \"Idle\", Idle = {on = {go = \"Moving\"}}, Moving = {after = {5, "
        "\"Idle\"}}}\nm:start()\nm:send(\"go\")\nm.state\nm:stop()"},
-      {"now", "now()", "seconds since the begin", ""},
+      {"now", "now()", "seconds since the start", ""},
       {"stop", "stop()", "stops the application in order", ""},
       {"print", "print(...)", "writes a line", "print(Joint1.Position, Joint2.Position)"},
       {"array", "array(...)", "a list: array(1, 2) is {1, 2}", ""},
       {"require", "require(\"name\")", "runs name.lua in the working directory, once", ""},
       {"done", "motion:done()", "whether a command has ended in any way",
        "motion = Generator:moveTo(array(1, 1), 10)\nmotion:done()"},
-      {"progress", "motion:progress()", "how far a command is, 0 to 1", ""},
+      {"progress", "motion:progress()", "how far a command has come, 0 to 1", ""},
       {"reason", "motion:reason()", "why a command failed or was cancelled, else \"\"", ""}};
 }
 
@@ -92,11 +93,11 @@ std::vector<Topic> plain_commands() {
   }
   all.push_back({"watch", "watch ITEM ... [every SECONDS] [for SECONDS]",
                  "shows values as they change, until a key",
-                 "Where there is no terminal it writes a line for each step: ten of them unless "
-                 "`for` says more.\nwatch Joint1.Position Joint2.Position every 0.2"});
+                 "Without a terminal it writes a line for each step: ten unless `for` sets a "
+                 "time.\nwatch Joint1.Position Joint2.Position every 0.2"});
   all.push_back({"stop", "stop COMPONENT ...", "stops a component", "stop Joint1"});
   all.push_back({"wait", "wait [SECONDS]",
-                 "waits so long, or until the commands that were begun have ended",
+                 "waits that long, or until the commands begun here have ended",
                  "Generator:moveTo({1.0, 1.0}, 10)\nwait\n"
                  "Ctrl-C cancels the commands; a second one ends the waiting."});
   all.push_back({"quit", "quit", "leaves; the application goes on; also Ctrl-D, exit", ""});

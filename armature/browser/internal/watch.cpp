@@ -48,12 +48,13 @@ base::Result<Watch> Watch::parse(Robot& robot, const std::vector<std::string>& w
     }
     const std::string found = i + 1 < words.size() ? words[i + 1] : "nothing";
     const auto time = seconds_in(found);
-    if (!time) return base::Error{words[i] + " takes seconds above 0, like 0.2, found " + found};
+    if (!time)
+      return base::Error{words[i] + " takes seconds above 0, for example 0.2, found " + found};
     (words[i] == "every" ? watch.every_ : watch.limit_.emplace()) = *time;
     ++i;
   }
   if (watch.items_.empty()) {
-    return base::Error{"watch takes what to look at: watch Joint1.Position every 0.2"};
+    return base::Error{"watch takes the items to show: watch Joint1.Position every 0.2"};
   }
   const std::vector<remote::ItemValue> values = watch.read(robot);
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -60,7 +60,7 @@ CommandBase::CommandBase(Component& owner, std::string_view name, std::string_vi
 }
 
 /// Components that are stopped have no command under way; of one that was not, nobody hears again.
-CommandBase::~CommandBase() { end(CommandStage::kCancelled, "its component is gone"); }
+CommandBase::~CommandBase() { end(CommandStage::kCancelled, "its component has been destroyed"); }
 
 base::Result<std::optional<types::Value>> CommandBase::invoke(
     const std::vector<types::Value>& arguments) {
@@ -127,7 +127,7 @@ Outcome CommandBase::admit(CommandTicket* ticket) {
     phase_ = Phase::kBeginning;
     return accepted();
   }
-  Reason why(active() ? "the command before is still under way" : "the component is not running");
+  Reason why(active() ? "the previous command is still under way" : "the component is not running");
   if (!active() && !owner().reason().empty()) why.append(": ").append(owner().reason());
   const Outcome refusal = refused(why);
   note(owner(), Noted::kRefused, name(), refusal.reason());

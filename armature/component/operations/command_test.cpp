@@ -99,7 +99,7 @@ TEST_F(Commands, OneAtATime) {
   const CommandHandle first = send(1.0);
   const CommandHandle second = send(2.0);
   EXPECT_EQ(second.stage(), CommandStage::kRefused);
-  EXPECT_EQ(second.reason(), "the command before is still under way");
+  EXPECT_EQ(second.reason(), "the previous command is still under way");
   EXPECT_EQ(first.stage(), CommandStage::kAccepted);
   EXPECT_THAT(axis_.targets, ElementsAre(1.0));
 }
@@ -234,7 +234,7 @@ TEST_F(Commands, OfAComponentThatGoesAreOver) {
   EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
   axis.reset();
   EXPECT_EQ(handle.stage(), CommandStage::kCancelled);
-  EXPECT_EQ(handle.reason(), "its component is gone");
+  EXPECT_EQ(handle.reason(), "its component has been destroyed");
 }
 
 TEST_F(Commands, TicketsAreUsedAgainAndBeginAfresh) {
@@ -268,7 +268,7 @@ TEST_F(Commands, ToolsBeginThemAndAreToldWhyNot) {
   EXPECT_TRUE(axis_.move_to.invoke({types::Value::of(1.0)}));
   const auto again = axis_.move_to.invoke({types::Value::of(1.0)});
   ASSERT_FALSE(again);
-  EXPECT_EQ(again.error(), "the command before is still under way");
+  EXPECT_EQ(again.error(), "the previous command is still under way");
   const auto wrong = axis_.move_to.invoke({types::Value::of(1)});
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error(),

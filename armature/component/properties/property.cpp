@@ -52,7 +52,7 @@ std::string PropertyBase::check(const types::Value& value) const {
   if (!types::same_type(value.type(), about_->type)) {
     return subject + " is a " + about_->type.name + ", not a " + value.type().name;
   }
-  if (about_->type.sealed) return subject + " is a " + about_->type.name + ", which nobody may set";
+  if (about_->type.sealed) return subject + " is a " + about_->type.name + ", which cannot be set";
   if (!about_->limits) return {};
   bool inside = true;
   types::visit_leaves(

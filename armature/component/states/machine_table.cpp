@@ -102,7 +102,7 @@ class TableCheck {
   std::string objection(const MachineTransition& transition) const {
     if (at(transition.source).final) return "a final state is never left";
     if (transition.target == kNoState && transition.cause != Cause::kTrigger) {
-      return "it needs a target state; for what happens all the time there is `during`";
+      return "it needs a target state; put what happens all the time into `during`";
     }
     if (transition.cause == Cause::kTime && transition.after <= base::Duration::zero()) {
       return "the time must be above 0";

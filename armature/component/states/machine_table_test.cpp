@@ -171,8 +171,8 @@ TEST(MachineTableCheck, TransitionsOnTimeConditionAndCompletionAreComplete) {
   const std::vector<Mistake> mistakes{
       {Cause::kTime, 0, 1, "transition 'Idle -> Moving after 0 ms': the time must be above 0"},
       {Cause::kTime, 0, kNoState,
-       "transition 'Idle after 0 ms': it needs a target state; for what happens all the time there "
-       "is `during`"},
+       "transition 'Idle after 0 ms': it needs a target state; put what happens all the time into "
+       "`during`"},
       {Cause::kCondition, 0, 1,
        "transition 'Idle -> Moving when its condition holds': it has no condition"},
       {Cause::kDone, 1, 0,

@@ -230,8 +230,8 @@ TEST(InverseDynamics, ABranchingRobotNeedsATip) {
             joint("l", "revolute", "base", "left", "0 1 0") +
             joint("r", "revolute", "base", "right", "0 1 0"));
   EXPECT_EQ(mistakes_in(urdf),
-            "test.urdf: error: the robot branches: joints 'l', 'r' hang on one link, expected a "
-            "chain (name the end that is meant by tip_link)\n");
+            "test.urdf: error: the robot branches: joints 'l', 'r' branch from one link, expected "
+            "a chain (name the end of the chain with tip_link)\n");
   base::Diagnostics diagnostics;
   auto model = InverseDynamics::parse(urdf, "test.urdf", {.tip_link = "right"}, diagnostics);
   ASSERT_TRUE(model);
@@ -249,7 +249,7 @@ TEST(InverseDynamics, TheChainMayBeginAboveTheRoot) {
 
 TEST(InverseDynamics, ALinkThatDoesNotExistIsNamedWithTheNearest) {
   EXPECT_THAT(mistakes_in(two_link_arm(), {.tip_link = "lowr"}),
-              HasSubstr("test.urdf: error: there is no link 'lowr' in robot 'test' (did you mean "
+              HasSubstr("test.urdf: error: unknown link 'lowr' in robot 'test' (did you mean "
                         "'lower'?)"));
   EXPECT_THAT(mistakes_in(two_link_arm(), {.base_link = "lower", .tip_link = "upper"}),
               HasSubstr("link 'upper' does not hang on link 'lower'"));
@@ -290,7 +290,7 @@ TEST(InverseDynamics, AJointThatFollowsAnotherIsNamed) {
 TEST(InverseDynamics, BodiesThatCannotBeAreNamed) {
   const std::string swing = joint("swing", "revolute", "base", "rod", "0 1 0");
   EXPECT_THAT(mistakes_in(robot(link("rod", -2.0, "0 0 0", kRound) + swing)),
-              HasSubstr("error: the inertial element of link 'rod' is that of no body"));
+              HasSubstr("error: the inertial element of link 'rod' is physically impossible"));
   EXPECT_THAT(
       mistakes_in(robot(
           link("rod", 2.0, "0 0 0", "ixx='1' iyy='1' izz='1' ixy='2' ixz='0' iyz='0'") + swing)),

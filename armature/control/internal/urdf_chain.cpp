@@ -144,7 +144,7 @@ class ChainReader {
     if (auto link = model_.getLink(name)) return link;
     std::vector<std::string> names;
     for (const auto& [known, link] : model_.links_) names.push_back(known);
-    error("there is no link " + quoted(name) + " in robot " + quoted(model_.getName()),
+    error("unknown link " + quoted(name) + " in robot " + quoted(model_.getName()),
           base::suggestion(name, names));
     return nullptr;
   }
@@ -178,7 +178,7 @@ class ChainReader {
     if (link.inertial && is_body(*link.inertial)) {
       part.inertia = part.inertia + where * to_kdl(*link.inertial);
     } else if (link.inertial) {
-      error("the inertial element of link " + quoted(link.name) + " is that of no body",
+      error("the inertial element of link " + quoted(link.name) + " is physically impossible",
             "expected a mass of at least 0 and a positive semidefinite inertia");
     }
     for (const urdf::JointSharedPtr& joint : link.child_joints) {
@@ -207,8 +207,8 @@ class ChainReader {
     for (const Next& each : part.next) {
       names += (names.empty() ? "" : ", ") + quoted(each.joint->name);
     }
-    error("the robot branches: joints " + names + " hang on one link, expected a chain",
-          "name the end that is meant by tip_link");
+    error("the robot branches: joints " + names + " branch from one link, expected a chain",
+          "name the end of the chain with tip_link");
     return false;
   }
 

@@ -53,7 +53,7 @@ void Arming::on_update() {
 Outcome Arming::begin_to_arm() {
   if (phase_ == Phase::kArmed) return component::refused("the joints are armed already");
   if (!is_of_this_run(measured_.read(), started_)) {
-    return component::refused("nothing was measured yet");
+    return component::refused("nothing is measured yet: try again in the next cycle");
   }
   phase_ = Phase::kSettling;
   since_ = time();
@@ -80,7 +80,7 @@ void Arming::wait_for_reference() {
     append_number(why, measured.value[apart]).append(" rad, its reference at ");
     return give_up(append_number(why, desired.value[apart]).append(" rad"));
   }
-  if (out_of_patience(patience_)) give_up("no reference came; is a generator running?");
+  if (out_of_patience(patience_)) give_up("no reference came: check that a generator is running");
 }
 
 void Arming::wait_for_joints() {

@@ -56,7 +56,7 @@ class Arming final : public component::Component {
   enum class Phase { kDisarmed, kSettling, kArming, kArmed };
 
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::Property<double> tolerance_{
       this,  "tolerance",
       0.01,  "largest difference of desired and measured position when it arms",

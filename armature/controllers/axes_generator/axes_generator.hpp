@@ -70,7 +70,7 @@ class AxesGeneratorPos final : public component::Component {
     Vector velocities_;
   };
   component::Property<int> axes_{
-      this, "num_axes", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "num_axes", 1, "number of axes", "", component::mandatory, component::range(1, 100000)};
   component::Property<Vector> max_velocity_{
       this, "max_vel", {}, "largest velocity of each axis, > 0", "rad/s", component::mandatory};
   component::Property<Vector> max_acceleration_{this,      "max_acc",
@@ -113,7 +113,7 @@ class AxesGeneratorPos final : public component::Component {
   component::EventHandler<> disarm_{this,
                                     "Disarm",
                                     component::serve<&AxesGeneratorPos::on_disarm>,
-                                    "desired := measured, at rest; nothing moves any more",
+                                    "desired := measured, at rest; all motion ends",
                                     component::optional,
                                     component::leads_to_nothing()};
   component::EventHandler<> arm_{this,

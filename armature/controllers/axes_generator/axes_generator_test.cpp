@@ -74,7 +74,8 @@ TEST_F(AxesGenerator, WritesNothingBeforeAnythingWasMeasured) {
   ASSERT_TRUE(generator.start()) << generator.reason();
   generator.run_cycles(3);
   EXPECT_EQ(generator.writes("nAxesDesiredPosition"), 0u);
-  EXPECT_EQ(refusal_of({1.0, 1.0}, 1.0), "where the axes are is not known yet");
+  EXPECT_EQ(refusal_of({1.0, 1.0}, 1.0),
+            "the positions of the axes are not known yet: try again in the next cycle");
 }
 
 TEST_F(AxesGenerator, AllAxesBeginAndEndTogetherInTheAskedTime) {
@@ -116,8 +117,7 @@ TEST_F(AxesGenerator, RefusesWhatCannotBeWithTheReasonAndNothingMoves) {
   start_at({0.25, 0.5});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(refusal_of({1.0}, 1.0),
-            "there has to be one number for each axis: expected 2, found 1");
+  EXPECT_EQ(refusal_of({1.0}, 1.0), "expected one number for each axis: expected 2, found 1");
   EXPECT_EQ(refusal_of({1.0, 5.0}, 1.0),
             "axis 2: a target is outside the limits of its axis: 5, expected -0.5 to 4.5");
   EXPECT_EQ(refusal_of({nan, 1.0}, 1.0), "axis 1: a number is not finite: nan");
@@ -318,7 +318,8 @@ TEST_F(AxesGenerator, WhatWasMeasuredBeforeAStartIsNotTheReference) {
   const auto writes = generator.writes("nAxesDesiredPosition");
   generator.run_cycles(2);
   EXPECT_EQ(generator.writes("nAxesDesiredPosition"), writes);
-  EXPECT_EQ(refusal_of({1.0, 1.0}, 1.0), "where the axes are is not known yet");
+  EXPECT_EQ(refusal_of({1.0, 1.0}, 1.0),
+            "the positions of the axes are not known yet: try again in the next cycle");
   measured = {0.3, 0.4};
   cycle();
   EXPECT_THAT(desired(), ElementsAre(0.3, 0.4));

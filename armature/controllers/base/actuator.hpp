@@ -37,7 +37,7 @@ class Actuator : public component::Component {
   }
 
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
 
  private:
   component::InputPort<std::vector<double>> act_{this,

@@ -15,7 +15,7 @@ void CheckedGains::check(component::Check& check) const {
                        "have one of them run it");
   }
   if (period <= 0.0) {
-    return check.warning("its gains are not checked: nobody periodic runs it");
+    return check.warning("its gains are not checked: no periodic component runs it");
   }
   if (std::string wrong = judge_(joints_, period, {}); !wrong.empty()) check.error(wrong);
 }

@@ -106,7 +106,7 @@ TEST_F(CheckedGainsTest, WithTwoPeriodsAreRefusedAndWithoutOneWarnedOf) {
   EXPECT_THAT(said(),
               HasSubstr("error: its gains cannot be checked: 'Sampler' and 'Other' run it"));
   controller.set_pace({});
-  EXPECT_EQ(said(), "warning: its gains are not checked: nobody periodic runs it");
+  EXPECT_EQ(said(), "warning: its gains are not checked: no periodic component runs it");
 }
 
 TEST_F(CheckedGainsTest, OfNoJointThatIsKnownAreNotJudged) {

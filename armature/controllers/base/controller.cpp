@@ -154,8 +154,8 @@ void Controller::begin_to_brake(const std::vector<double>& last) {
   brakings_.assign(brakings_ + 1);
   if (!std::exchange(late_, false)) brake_->begin(last);
   log_warning(
-      "the reference is older than declared: brakes, and holds until there is one that rests where "
-      "the joints are");
+      "the reference is older than declared: brakes, and holds until a reference rests where the "
+      "joints are");
 }
 
 std::vector<DrivenJoint> Controller::joints_behind(const component::InputPortBase* input,

@@ -92,7 +92,7 @@ class Controller : public component::Component, public PassesSamples, public Dri
   const std::vector<double>* reference_now(const std::vector<double>& measured);
 
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::Property<std::vector<double>> max_acceleration_{
       this,
       "MaxAcceleration",
@@ -163,7 +163,7 @@ class Controller : public component::Component, public PassesSamples, public Dri
   component::EventHandler<> arm_{this,
                                  "Arm",
                                  component::serve<&Controller::forget_other>,
-                                 "what the controller before wrote means nothing any more",
+                                 "what the previous controller wrote no longer counts",
                                  component::optional,
                                  component::leads_to_nothing()};
   WeightCheck weight_check_{*this};

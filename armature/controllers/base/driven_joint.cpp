@@ -123,8 +123,8 @@ std::string objection_to_gravity(const DrivenJoint& joint,
   const bool left = joint.holds_weight == HoldsWeight::kCommands ||
                     (gravity && joint.holds_weight == HoldsWeight::kAnybody);
   if (!computes && weighs && left) {
-    return joint.name + ": nobody holds its weight of up to " + figure(joint.most_weight) +
-           " Nm: " + (gravity ? "gravity is 0" : "its controller has no model of it") +
+    return joint.name + ": its weight of up to " + figure(joint.most_weight) +
+           " Nm is not held: " + (gravity ? "gravity is 0" : "its controller has no model of it") +
            ", and the hardware leaves it to commands";
   }
   std::array<double, 3> difference{};

@@ -12,12 +12,15 @@ std::string_view writer_of(const component::InputPortBase& input) {
 }
 
 MissingAnswers::MissingAnswers(component::Component* owner)
-    : max_missing_(owner, "max_missing", 3,
-                   "who does not answer in that many rounds in a row is given up: a fault", "",
-                   component::range(1, 1000)),
-      incomplete_(owner, "incomplete_rounds", 0, "since the start: somebody did not answer"),
+    : max_missing_(
+          owner, "max_missing", 3,
+          "a component that does not answer in that many rounds in a row is given up: a fault", "",
+          component::range(1, 1000)),
+      incomplete_(owner, "incomplete_rounds", 0,
+                  "rounds since the start in which an answer was missing"),
       missing_(owner, "missing", {}, "rounds since the start in which each did not answer"),
-      names_(owner, "missing_names", {}, "who did not answer in the last such round"),
+      names_(owner, "missing_names", {},
+             "the components that did not answer in the last such round"),
       event_(owner, "Missing", "given up: the fault of this component follows",
              component::occasional, {"number", "name"}) {}
 

@@ -54,8 +54,8 @@ RobotDescription::RobotDescription(component::Component* owner, Need need)
 
 std::string RobotDescription::objection() const {
   if (!checked_) return {};
-  return "gains, limits and who holds the weight were checked for this robot; say it in the "
-         "deployment, which is checked anew";
+  return "gains, limits and what holds the weight were checked for this robot; set it in the "
+         "deployment, which is checked again";
 }
 
 void RobotDescription::check(component::Check& check) const {
@@ -78,7 +78,7 @@ base::Result<control::InverseDynamics> RobotDescription::load(
     std::size_t joints, std::vector<std::string>& warnings) const {
   const bool finite =
       std::ranges::all_of(gravity_.get(), [](double g) { return std::isfinite(g); });
-  if (!finite) return base::Error{"gravity is no finite number"};
+  if (!finite) return base::Error{"gravity is not a finite number"};
   base::Diagnostics diagnostics;
   auto dynamics = control::InverseDynamics::load(
       file_, {.base_link = base_link_, .tip_link = tip_link_, .gravity = gravity_}, diagnostics);

@@ -39,7 +39,8 @@ SamplingPeriod::SamplingPeriod(component::Component* owner, Need need)
     : Checked(owner),
       owner_(*owner),
       need_(need),
-      property_(owner, "Period", 0.0, "between two samples; 0: that of whoever triggers it", "s",
+      property_(owner, "Period", 0.0,
+                "between two samples; 0: that of the component that triggers it", "s",
                 component::range(0.0, 60.0)) {}
 
 base::Duration SamplingPeriod::duration() const {
@@ -86,10 +87,11 @@ void SamplingPeriod::expect_known(component::Check& check) const {
   if (given() || owner_.pace().known()) return;
   if (owner_.pace().ambiguous()) {
     check.error("needs one period between two samples, but " + runs(owner_.pace()),
-                "have one of them trigger it, or say with Period which of the two counts");
+                "let only one of them trigger it, or set Period to the one that counts");
   } else {
-    check.error("needs the period between two samples, but nobody periodic triggers it",
-                "give whoever samples it activity: {periodic: 10 ms}, or it the property Period");
+    check.error("needs the period between two samples, but no periodic component triggers it",
+                "give the component that samples it activity: {periodic: 10 ms}, or set its "
+                "property Period");
   }
 }
 

@@ -72,8 +72,10 @@ TEST_F(SamplingPeriodOfPlan, APropertyThatSaysAnotherOneIsRefusedWithBothFigures
 
 TEST_F(SamplingPeriodOfPlan, WhatNobodyPeriodicSamplesNeedsTheProperty) {
   Sampled& joint = add_sampled();
-  EXPECT_THAT(problems(), HasSubstr("'Joint': needs the period between two samples, but nobody "
-                                    "periodic triggers it"));
+  EXPECT_THAT(
+      problems(),
+      HasSubstr(
+          "'Joint': needs the period between two samples, but no periodic component triggers it"));
   EXPECT_FALSE(joint.period.known());
   EXPECT_TRUE(joint.period.property().set(types::Value::of(0.01)));
   EXPECT_EQ(problems(), "");

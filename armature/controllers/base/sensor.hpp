@@ -19,7 +19,7 @@ class Sensor : public component::Component {
   virtual void sample_now() = 0;
 
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::OutputPort<std::vector<double>> sensor_{
       this, "sensor",
       "measured [q1..qN, d1..dN]: positions, then displacements since the sample before", "rad",

@@ -29,7 +29,7 @@ class Bridge final : public component::Component, public DrivesJoints {
 
   using Vector = std::vector<double>;
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::InputPorts<double> position_{this,
                                           "Position",
                                           joints_,

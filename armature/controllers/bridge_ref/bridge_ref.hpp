@@ -35,7 +35,7 @@ class BridgeRef final : public component::Component, public DrivesJoints {
 
   using Vector = std::vector<double>;
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::InputPort<Vector> sensor_{this,
                                        "sensor",
                                        "measured [q1..qN, d1..dN]: positions, then displacements",

@@ -39,12 +39,12 @@ Outcome Joint::on_start() {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
   if (sampler_ && !voltage_.connected()) {
-    return component::refused("nobody writes the input Voltage (connect it, or Sampler: false)");
+    return component::refused("input Voltage has no writer (connect it, or set Sampler: false)");
   }
   arming_ = arm_handler_.bound() ? &arm_handler_.source()->owner() : nullptr;
   if (dynamic_cast<const component::StandIn*>(arming_) != nullptr) {
     return component::refused("the event Arm comes from '" + arming_->name() +
-                              "', which is elsewhere: a joint is armed in its own process");
+                              "' in another process: let an Arming in its own process arm it");
   }
   started_ = time();
   intervals_.begin(period_.duration());
@@ -56,10 +56,11 @@ Outcome Joint::on_start() {
 Outcome Joint::set_up() {
   if (Outcome outcome = period_.known(); !outcome) return outcome;
   if (!is_sign(settings_->actuator_sign) || !is_sign(settings_->sensor_sign)) {
-    return component::refused("ActuatorSign and SensorSign are 1 or -1");
+    return component::refused("ActuatorSign and SensorSign must be 1 or -1");
   }
   if (!std::isfinite(settings_->gear_ratio) || settings_->gear_ratio <= 0.0) {
-    return component::refused("GearRatio is a number above 0; directions are SensorSign's");
+    return component::refused(
+        "GearRatio must be a number above 0; set the direction with SensorSign");
   }
   auto limiter = JointLimiter::make(limits());
   if (!limiter) return component::refused(limiter.error());

@@ -36,7 +36,7 @@ void Joint::on_arm() {
     return fail_to_arm("it was not measured in this sampling period");
   }
   if (brake_ && !limiter_->arm(measured_)) {
-    return fail_to_arm("its position is no finite number");
+    return fail_to_arm("its position is not a finite number");
   }
   off_at_rest_ = false;
   effort_ = 0.0;
@@ -126,7 +126,7 @@ Reason Joint::never_settled() const {
   append_number(why, told(brake_ ? effort_ : commanded_)).append(" V of ");
   append_number(why, settings_->max_effort).append(" V at the position ");
   append_number(why, told(measured_.position));
-  return why.append("; is its reference there, and within its limits?");
+  return why.append("; check that its reference is there, and within its limits");
 }
 
 // --- standing --------------------------------------------------------------------------------
@@ -144,7 +144,7 @@ void Joint::watch() {
 }
 
 void Joint::brake_because(const HoldingWatch::Finding& finding) {
-  Reason why("is to stand, and ");
+  Reason why("should stand still but ");
   switch (finding.verdict) {
     case HoldingWatch::Verdict::kMoved:
       append_number(why.append("moved by "), told(finding.measured))
@@ -160,7 +160,7 @@ void Joint::brake_because(const HoldingWatch::Finding& finding) {
           .append(" of all samples (HoldingAlternation: ");
       break;
   }
-  append_number(why, finding.bound).append("): braked. Are its gains stable?");
+  append_number(why, finding.bound).append("): braked. Check that its gains are stable");
   switch_off();
   fault(why);
 }

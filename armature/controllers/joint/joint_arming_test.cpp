@@ -208,7 +208,7 @@ TEST_F(JointTest, AnArmedJointThatIsToStandAndShakesIsBrakedAndFaults) {
   }
   EXPECT_EQ(joint.state(), State::kException);
   EXPECT_THAT(joint.reason(),
-              HasSubstr("is to stand, and moves at 0.6 rad/s (HoldingVelocity: 0.5)"));
+              HasSubstr("should stand still but moves at 0.6 rad/s (HoldingVelocity: 0.5)"));
   EXPECT_EQ(effort(), 0.0);
   EXPECT_THAT(commands(), Contains("brakeApply"));
 }

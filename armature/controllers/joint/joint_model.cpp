@@ -61,16 +61,17 @@ const DescribesRobot* JointModel::robot(const component::Check& check) const {
 void JointModel::check(component::Check& check) const {
   known_.reset();
   const JointSettings& limits = settings_.get();
-  if (!all_numbers(limits)) return check.error("one of its limits is no number");
+  if (!all_numbers(limits)) return check.error("one of its limits is not a number");
   const DescribesRobot* const model = robot(check);
   if (number_ == 0 && model == nullptr) {
     return check.warning(
-        "its limits and the gains of its controller are not checked against the robot: nobody says "
-        "what it moves and what its drive gives",
-        "add a component of the model Robot, and say with RobotJoint which joint of it this is");
+        "its limits and the gains of its controller are not checked against the robot: what it "
+        "moves and what its drive gives are not declared",
+        "add a component of the model Robot, and set RobotJoint to the number of this joint in it");
   }
   if (model == nullptr)
-    return check.error("RobotJoint is given, but there is no Robot, or several");
+    return check.error(
+        "RobotJoint needs exactly one component of the model Robot, found none or several");
   auto found = find(*model);
   if (!found) return check.error(found.error());
   if (const std::string wrong = objection(found.value(), limits); !wrong.empty()) {
@@ -91,7 +92,7 @@ std::optional<DrivenJoint> JointModel::driven(const component::Check& check) con
 
 base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) const {
   if (number_ == 0) {
-    return base::Error{"RobotJoint is 0: say which joint of the Robot it is, from 1"};
+    return base::Error{"RobotJoint is 0: set it to the number of this joint in the Robot, from 1"};
   }
   const auto number = static_cast<std::size_t>(number_.get());
   auto joint = robot.joint(number);
@@ -151,7 +152,7 @@ std::string JointModel::objection_to(const component::PropertyBase& property,
                                      const types::Value& value) const {
   if (!known_) return {};
   const JointSettings wanted = settings_.with(&property, value.data());
-  if (!all_numbers(wanted)) return "it is no number";
+  if (!all_numbers(wanted)) return "it is not a number";
   return objection(*known_, wanted);
 }
 

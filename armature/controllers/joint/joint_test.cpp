@@ -114,7 +114,7 @@ TEST(UnconnectedJoint, IsRefusedAtStartUnlessItFollowsNoSampler) {
   joint.set("MaxVoltage", 12.0);
   EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("set Period"));
   joint.set("Period", 0.01);
-  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("nobody writes the input Voltage"));
+  EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("input Voltage has no writer"));
   joint.set("Sampler", false);
   EXPECT_TRUE(joint.start()) << joint.reason();
 }

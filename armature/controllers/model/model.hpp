@@ -33,7 +33,7 @@ class Model final : public component::Component, public ComputesTorques {
   void compute(const std::vector<double>& motion);
 
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   RobotDescription description_{this};
   component::InputPort<std::vector<double>> in_{
       this,

@@ -75,7 +75,7 @@ TEST_F(ModelTest, RefusesAnotherNumberOfJointsNamingThem) {
 TEST_F(ModelTest, RefusesALinkThatIsNotThere) {
   model.set("tip_link", std::string_view("hed"));
   EXPECT_FALSE(model.start());
-  EXPECT_THAT(model.reason(), HasSubstr("there is no link 'hed' in robot 'pan_tilt'"));
+  EXPECT_THAT(model.reason(), HasSubstr("unknown link 'hed' in robot 'pan_tilt'"));
 }
 
 TEST_F(ModelTest, FaultsForAMotionThatIsNoNumber) {

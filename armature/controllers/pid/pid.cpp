@@ -107,7 +107,7 @@ void Pid::on_check(component::Check& check) const {
   for (const component::OutputPortBase* const writer : check.writers_of(reference_)) {
     if (&writer->owner() != &joint) continue;
     check.error("it would follow what it drives: Ref is of '" + std::string(joint.name()) + "'",
-                "connect what is desired");
+                "connect the desired position");
   }
 }
 

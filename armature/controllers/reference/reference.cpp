@@ -23,7 +23,9 @@ void Reference::on_measured(const std::vector<double>& positions) {
 }
 
 Outcome Reference::begin_move() {
-  if (!position_known_) return component::refused("where the joints are is not known yet");
+  if (!position_known_)
+    return component::refused(
+        "the positions of the joints are not known yet: try again in the next cycle");
   motion_ = generator_.send(position_.get(), time_);
   if (motion_.stage() == CommandStage::kRefused) return component::refused(motion_.reason());
   return component::accepted();

@@ -28,7 +28,7 @@ class Reference final : public component::Component {
 
   using Vector = std::vector<double>;
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::Property<Vector> position_{
       this,  "jointPosition",
       {},    "where the joints are to be; at the start, where they are",

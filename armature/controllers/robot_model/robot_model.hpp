@@ -44,7 +44,7 @@ class RobotModel final : public component::Component, public DescribesRobot {
 
   using Numbers = component::Property<std::vector<double>>;
   component::Property<int> joints_{
-      this, "joints", 1, "how many", "", component::mandatory, component::range(1, 100000)};
+      this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   RobotDescription description_{this, RobotDescription::Need::kOptional};
   Numbers inertia_min_{
       this, "inertia_min", {}, "without a description: the least that a joint moves", "kg m^2"};

@@ -27,7 +27,7 @@ inline LoadOptions options_with(const Files& files) {
   LoadOptions options;
   options.read = [files](const std::string& path) -> base::Result<std::string> {
     const auto found = files.find(path);
-    if (found == files.end()) return base::Error{"there is no file '" + path + "'"};
+    if (found == files.end()) return base::Error{"file '" + path + "' does not exist"};
     return found->second;
   };
   return options;

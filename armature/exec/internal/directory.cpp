@@ -35,7 +35,7 @@ Directory::Directory(const Blueprint& blueprint, base::Diagnostics& diagnostics)
     const ComponentEntry& entry = blueprint.components[i];
     const component::Component& component = *entry.component;
     if (!components_.emplace(component.name(), i).second) {
-      diagnostics.error(entry.where, "there are two components named " + quoted(component.name()),
+      diagnostics.error(entry.where, "two components are named " + quoted(component.name()),
                         "give each its own name");
     }
     ports_[i].first_input = input_count_;

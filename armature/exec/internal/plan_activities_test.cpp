@@ -59,7 +59,9 @@ TEST(PlanActivities, SchedulingByDeadlineNeedsAPeriodAndABudget) {
 TEST(PlanActivities, ABudgetFitsIntoThePeriod) {
   Activity activity = Activity::periodic(1ms);
   activity.budget = 2ms;
-  EXPECT_EQ(problems_with(activity), "error: the activity of 'A' has a budget above its period\n");
+  EXPECT_EQ(problems_with(activity),
+            "error: the activity of 'A' has a budget above its period (give it a shorter budget or "
+            "a longer period)\n");
 }
 
 TEST(PlanPriorities, AConsumerIsNotMoreUrgentThanItsProducer) {

@@ -63,7 +63,7 @@ class ConnectionPlanner {
   Index find_component(const std::string& name, const ConnectionEntry& entry) {
     const Index found = directory_.component(name);
     if (found == kNone && blueprint_.absent.count(name) == 0) {
-      diagnostics_.error(entry.where, "there is no component " + quoted(name),
+      diagnostics_.error(entry.where, "unknown component " + quoted(name),
                          base::suggestion(name, directory_.component_names()));
     }
     return found;
@@ -104,7 +104,7 @@ class ConnectionPlanner {
   void check_policy(const ConnectionEntry& entry) {
     const bool fifo = entry.policy.kind == component::ConnectionPolicy::Kind::kFifo;
     if (fifo && entry.policy.capacity == 0) {
-      diagnostics_.error(entry.where, "a FIFO of size 0 could never take a value",
+      diagnostics_.error(entry.where, "a FIFO of size 0 holds no value",
                          "give it a size of at least 1");
     }
     if (fifo && entry.policy.one_cycle_delay) {
@@ -119,9 +119,10 @@ class ConnectionPlanner {
   bool check_types(const OutputPortBase& output, const InputPortBase& input,
                    const ConnectionEntry& entry) {
     if (types::same_type(output.type(), input.type())) return true;
-    diagnostics_.error(entry.where, quoted(path(output)) + " writes " + output.type().name +
-                                        ", but " + quoted(path(input)) + " reads " +
-                                        input.type().name);
+    diagnostics_.error(entry.where,
+                       quoted(path(output)) + " writes " + output.type().name + ", but " +
+                           quoted(path(input)) + " reads " + input.type().name,
+                       "connect ports of the same type");
     return false;
   }
 
@@ -133,18 +134,19 @@ class ConnectionPlanner {
     const bool same = from && to && from.value().same_kind(to.value()) &&
                       from.value().factor == to.value().factor;
     if (same) return true;
-    diagnostics_.error(entry.where,
-                       quoted(path(output)) + " is in " + unit_text(output.unit()) + ", but " +
-                           quoted(path(input)) + " expects " + unit_text(input.unit()),
-                       !from ? no_such_unit(output)
-                       : !to ? no_such_unit(input)
-                             : "");
+    diagnostics_.error(
+        entry.where,
+        quoted(path(output)) + " is in " + unit_text(output.unit()) + ", but " +
+            quoted(path(input)) + " expects " + unit_text(input.unit()),
+        !from ? no_such_unit(output)
+        : !to ? no_such_unit(input)
+              : "connect ports of the same unit, or convert in a component between them");
     return false;
   }
 
   static std::string no_such_unit(const component::PortBase& port) {
-    return "the model of " + quoted(port.owner().name()) +
-           " declares a unit that there is not: " + quoted(port.unit());
+    return "the model of " + quoted(port.owner().name()) + " declares the unknown unit " +
+           quoted(port.unit());
   }
 
   static std::string unit_text(std::string_view unit) {
@@ -157,10 +159,11 @@ class ConnectionPlanner {
     const component::PortSize& reads = input.declared_size();
     const bool known = writes.declared() && reads.declared();
     if (!known || writes.value() == reads.value()) return true;
-    diagnostics_.error(entry.where, quoted(path(output)) + " has " +
-                                        std::to_string(writes.value()) + " elements, but " +
-                                        quoted(path(input)) + " expects " +
-                                        std::to_string(reads.value()));
+    diagnostics_.error(entry.where,
+                       quoted(path(output)) + " has " + std::to_string(writes.value()) +
+                           " elements, but " + quoted(path(input)) + " expects " +
+                           std::to_string(reads.value()),
+                       "give both the same number of elements");
     return false;
   }
 
@@ -232,9 +235,9 @@ class ConnectionPlanner {
       const ModeSet unwritten = never ? 0 : plan_.modes_of[component] & ~written_in(here);
       if (never ? attempted(*input) : (unwritten & all_modes(plan_)) == 0) continue;
       diagnostics_.error(entry.where,
-                         "nobody writes the input " + quoted(path(*input)) +
+                         "input " + quoted(path(*input)) + " has no writer" +
                              (never ? std::string() : in_modes(plan_, unwritten)),
-                         "connect it");
+                         "connect an output to it");
     }
   }
 

@@ -79,9 +79,9 @@ TEST(PlanConnections, WhatFitsIsConnectedWithoutEffectOnTheComponents) {
 
 TEST(PlanConnections, AnUnknownComponentIsNamedWithTheNearest) {
   EXPECT_EQ(problems_with("Wrtier.Level", "Reader.Level"),
-            "error: there is no component 'Wrtier' (did you mean 'Writer'?)\n");
+            "error: unknown component 'Wrtier' (did you mean 'Writer'?)\n");
   EXPECT_EQ(problems_with("Writer.Level", "Plotter.Level"),
-            "error: there is no component 'Plotter' (known: Writer, Reader)\n");
+            "error: unknown component 'Plotter' (known: Writer, Reader)\n");
 }
 
 TEST(PlanConnections, AnUnknownPortIsNamedWithTheNearest) {
@@ -123,18 +123,23 @@ TEST(PlanConnections, OneThatIsBackwardsIsOneMistake) {
 
 TEST(PlanConnections, TypesMustBeTheSame) {
   EXPECT_EQ(problems_with("Writer.Count", "Reader.Level"),
-            "error: 'Writer.Count' writes int32, but 'Reader.Level' reads double\n");
+            "error: 'Writer.Count' writes int32, but 'Reader.Level' reads double (connect ports of "
+            "the same type)\n");
 }
 
 TEST(PlanConnections, UnitsMustBeOfTheSameKindAndSize) {
   EXPECT_EQ(problems_with("Writer.Position", "Reader.Speed"),
-            "error: 'Writer.Position' is in 'rad', but 'Reader.Speed' expects 'rad/s'\n");
+            "error: 'Writer.Position' is in 'rad', but 'Reader.Speed' expects 'rad/s' (connect "
+            "ports of the same unit, or convert in a component between them)\n");
   EXPECT_EQ(problems_with("Writer.Degrees", "Reader.Angle"),
-            "error: 'Writer.Degrees' is in 'deg', but 'Reader.Angle' expects 'rad'\n");
+            "error: 'Writer.Degrees' is in 'deg', but 'Reader.Angle' expects 'rad' (connect ports "
+            "of the same unit, or convert in a component between them)\n");
   EXPECT_EQ(problems_with("Writer.Level", "Reader.Speed"),
-            "error: 'Writer.Level' is in plain numbers, but 'Reader.Speed' expects 'rad/s'\n");
+            "error: 'Writer.Level' is in plain numbers, but 'Reader.Speed' expects 'rad/s' "
+            "(connect ports of the same unit, or convert in a component between them)\n");
   EXPECT_EQ(problems_with("Writer.Rate", "Reader.Level"),
-            "error: 'Writer.Rate' is in '1/s', but 'Reader.Level' expects plain numbers\n");
+            "error: 'Writer.Rate' is in '1/s', but 'Reader.Level' expects plain numbers (connect "
+            "ports of the same unit, or convert in a component between them)\n");
 }
 
 TEST(PlanConnections, AUnitThatThereIsNotIsTheModelsMistake) {
@@ -144,7 +149,7 @@ TEST(PlanConnections, AUnitThatThereIsNotIsTheModelsMistake) {
   EXPECT_EQ(
       problems_of(blueprint),
       "error: 'Writer.Position' is in 'rad', but 'Other.Speed' expects 'rad/sec' (the model of "
-      "'Other' declares a unit that there is not: 'rad/sec')\n");
+      "'Other' declares the unknown unit 'rad/sec')\n");
 }
 
 TEST(PlanConnections, OneUnitMayBeWrittenInTwoWays) {
@@ -153,7 +158,8 @@ TEST(PlanConnections, OneUnitMayBeWrittenInTwoWays) {
 
 TEST(PlanConnections, VectorSizesMustFitWhereBothAreKnown) {
   EXPECT_EQ(problems_with("Writer.Three", "Reader.Two"),
-            "error: 'Writer.Three' has 3 elements, but 'Reader.Two' expects 2\n");
+            "error: 'Writer.Three' has 3 elements, but 'Reader.Two' expects 2 (give both the same "
+            "number of elements)\n");
   EXPECT_EQ(problems_with("Writer.Three", "Reader.Any"), "");
 }
 
@@ -194,7 +200,7 @@ TEST(PlanConnections, AFifoHoldsAtLeastOneValue) {
   fifo.kind = ConnectionPolicy::Kind::kFifo;
   fifo.capacity = 0;
   EXPECT_EQ(problems_with("Writer.Level", "Reader.Level", fifo),
-            "error: a FIFO of size 0 could never take a value (give it a size of at least 1)\n");
+            "error: a FIFO of size 0 holds no value (give it a size of at least 1)\n");
 }
 
 TEST(PlanConnections, AFifoIsNotDelayed) {
@@ -218,7 +224,7 @@ TEST(PlanConnections, AnInputThatNobodyWritesIsAMistakeUnlessItMayStayOpen) {
   blueprint.add<NeedsInput>("Needy");
   blueprint.components.back().where = {"robot.yaml", 3, 3};
   EXPECT_EQ(problems_of(blueprint),
-            "robot.yaml:3:3: error: nobody writes the input 'Needy.In' (connect it)\n");
+            "robot.yaml:3:3: error: input 'Needy.In' has no writer (connect an output to it)\n");
 }
 
 TEST(PlanConnections, AnInputWhoseConnectionIsWrongIsReportedOnce) {
@@ -226,7 +232,8 @@ TEST(PlanConnections, AnInputWhoseConnectionIsWrongIsReportedOnce) {
   blueprint.add<NeedsInput>("Needy");
   blueprint.connect("Writer.Count", "Needy.In");
   EXPECT_EQ(problems_of(blueprint),
-            "error: 'Writer.Count' writes int32, but 'Needy.In' reads double\n");
+            "error: 'Writer.Count' writes int32, but 'Needy.In' reads double (connect ports of the "
+            "same type)\n");
 }
 
 TEST(PlanConnections, WhatRefersToAComponentThatCouldNotBeMadeIsNotReportedAgain) {
@@ -255,7 +262,7 @@ TEST(PlanConnections, NamesAreUnique) {
   blueprint.add<Writer>("Reader");
   blueprint.components.back().where = {"robot.yaml", 9, 3};
   EXPECT_EQ(problems_of(blueprint),
-            "robot.yaml:9:3: error: there are two components named 'Reader' (give each its own "
+            "robot.yaml:9:3: error: two components are named 'Reader' (give each its own "
             "name)\n");
 }
 

@@ -26,7 +26,7 @@ class ModePlanner {
     if (blueprint_.modes.empty()) return refuse_initial();
     if (blueprint_.modes.size() > kMostModes) {
       diagnostics_.error(blueprint_.modes[kMostModes].where,
-                         "there are more than " + std::to_string(kMostModes) + " modes");
+                         "the deployment has more than " + std::to_string(kMostModes) + " modes");
       return;
     }
     std::vector<ModeSet> named(blueprint_.components.size(), 0);
@@ -43,9 +43,10 @@ class ModePlanner {
   void refuse_initial() {
     const ModeMember& initial = blueprint_.initial_mode;
     if (initial.component.empty()) return;
-    diagnostics_.error(initial.where,
-                       "there is no mode " + quoted(initial.component) + ", as there are no modes",
-                       "give it some: modes: {NAME: [COMPONENT, COMPONENT]}");
+    diagnostics_.error(
+        initial.where,
+        "unknown mode " + quoted(initial.component) + ": the deployment has no modes",
+        "add modes: {NAME: [COMPONENT, COMPONENT]}");
   }
 
   void plan_one(std::size_t mode, std::vector<ModeSet>& named) {
@@ -75,7 +76,7 @@ class ModePlanner {
     }
     for (std::size_t earlier = 0; earlier < mode; ++earlier) {
       if (blueprint_.modes[earlier].name != entry.name) continue;
-      diagnostics_.error(entry.where, "there are two modes named " + quoted(entry.name));
+      diagnostics_.error(entry.where, "two modes are named " + quoted(entry.name));
     }
   }
 
@@ -84,10 +85,10 @@ class ModePlanner {
     const Index found = directory_.component(name);
     if (found == kNone) {
       if (blueprint_.absent.count(name) > 0) return kNone;
-      diagnostics_.error(member.where,
-                         "the mode " + quoted(mode.name) + " has " + quoted(name) +
-                             ", but there is no such component",
-                         base::suggestion(name, directory_.component_names()));
+      diagnostics_.error(
+          member.where,
+          "the mode " + quoted(mode.name) + " has the unknown component " + quoted(name),
+          base::suggestion(name, directory_.component_names()));
       return kNone;
     }
     const ComponentEntry& entry = blueprint_.components[found];
@@ -98,7 +99,7 @@ class ModePlanner {
     if (!entry.autostart || !entry.autoconfigure) {
       diagnostics_.error(member.where,
                          quoted(name) + " is in the mode " + quoted(mode.name) +
-                             ", but is not to be configured and started with the application",
+                             ", but does not start with the application",
                          "leave autostart and autoconf on: its modes say when it runs");
     }
     return found;
@@ -114,7 +115,7 @@ class ModePlanner {
       plan_.initial_mode = m;
       return;
     }
-    diagnostics_.error(initial.where, "there is no mode " + quoted(initial.component),
+    diagnostics_.error(initial.where, "unknown mode " + quoted(initial.component),
                        base::suggestion(initial.component, names));
   }
 
@@ -137,7 +138,7 @@ void check_one_thread(const Blueprint& blueprint, const Plan& plan,
     diagnostics.error(blueprint.components[member].where,
                       name_of(member) + " runs in the thread " + thread_of(member) + ", " +
                           name_of(first) + " in " + thread_of(first) +
-                          ": what modes switch lives in one thread",
+                          ": components that modes switch must share one thread",
                       "give both the same activity, or have the same thread trigger both");
   }
 }
@@ -150,7 +151,7 @@ void check_partners(const Blueprint& blueprint, const Plan& plan, base::Diagnost
     diagnostics.error(entry.where, quoted(entry.component->name()) + " uses " + quoted(what) +
                                        " of " +
                                        quoted(blueprint.components[used].component->name()) +
-                                       ", but there is no mode in which both run");
+                                       ", but no mode runs both");
   };
   for (const CallPlan& call : plan.calls) check(call.caller, call.callee, call.operation->name());
   for (const SubscriptionPlan& told : plan.subscriptions) {

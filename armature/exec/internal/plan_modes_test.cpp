@@ -93,7 +93,7 @@ TEST(PlanModes, AnInputThatNobodyWritesInAModeIsAMistakeThatNamesIt) {
   turns.blueprint.connections.pop_back();
   turns.mode("a", {"A"}).mode("b", {"B"});
   EXPECT_EQ(turns.problems(),
-            "error: nobody writes the input 'Last.In' in the mode 'b' (connect it)\n");
+            "error: input 'Last.In' has no writer in the mode 'b' (connect an output to it)\n");
 }
 
 TEST(PlanModes, AFifoOfOneOfThemIsAMistake) {
@@ -110,25 +110,26 @@ TEST(PlanModes, UnknownNamesAreAnsweredWithTheNearest) {
   turns.mode("first", {"A"}).mode("second", {"B", "Suorce"});
   turns.blueprint.initial_mode = {"secnd", {}};
   EXPECT_EQ(turns.problems(),
-            "error: the mode 'second' has 'Suorce', but there is no such component (did you mean "
+            "error: the mode 'second' has the unknown component 'Suorce' (did you mean "
             "'Source'?)\n"
-            "error: there is no mode 'secnd' (did you mean 'second'?)\n");
+            "error: unknown mode 'secnd' (did you mean 'second'?)\n");
 }
 
 TEST(PlanModes, EmptyOnesAndNamesThatAreTakenAreMistakes) {
   Turns turns;
   turns.mode("a", {"A"}).mode("b", {"B", "B"}).mode("b", {}).mode("c", {"Modes"});
   turns.mode(std::string(64, 'x').c_str(), {"A"});
-  EXPECT_EQ(turns.problems(),
-            "error: 'B' is named twice in the mode 'b'\n"
-            "error: there are two modes named 'b'\n"
-            "error: the mode 'b' has no components (name those that run in it and not in other "
-            "modes)\n"
-            "error: 'Modes' switches between modes: it runs in all\n"
-            "error: the name of a mode has 1 to 63 letters: '" +
-                std::string(64, 'x') +
-                "'\n"
-                "error: nobody writes the input 'Last.In' in the modes 'b', 'c' (connect it)\n");
+  EXPECT_EQ(
+      turns.problems(),
+      "error: 'B' is named twice in the mode 'b'\n"
+      "error: two modes are named 'b'\n"
+      "error: the mode 'b' has no components (name those that run in it and not in other "
+      "modes)\n"
+      "error: 'Modes' switches between modes: it runs in all\n"
+      "error: the name of a mode has 1 to 63 letters: '" +
+          std::string(64, 'x') +
+          "'\n"
+          "error: input 'Last.In' has no writer in the modes 'b', 'c' (connect an output to it)\n");
 }
 
 TEST(PlanModes, AModeWithoutModesIsAMistake) {
@@ -136,7 +137,7 @@ TEST(PlanModes, AModeWithoutModesIsAMistake) {
   turns.blueprint.connections.pop_back();
   turns.blueprint.initial_mode = {"a", {}};
   EXPECT_EQ(turns.problems(),
-            "error: there is no mode 'a', as there are no modes (give it some: modes: {NAME: "
+            "error: unknown mode 'a': the deployment has no modes (add modes: {NAME: "
             "[COMPONENT, COMPONENT]})\n");
 }
 
@@ -145,17 +146,18 @@ TEST(PlanModes, WhatIsNotStartedWithTheApplicationIsInNoMode) {
   turns.mode("a", {"A"}).mode("b", {"B"});
   turns.blueprint.components[2].autostart = false;
   EXPECT_EQ(turns.problems(),
-            "error: 'B' is in the mode 'b', but is not to be configured and started with the "
-            "application (leave autostart and autoconf on: its modes say when it runs)\n");
+            "error: 'B' is in the mode 'b', but does not start with the application (leave "
+            "autostart and autoconf on: its modes say when it runs)\n");
 }
 
 TEST(PlanModes, WhatTheySwitchLivesInOneThread) {
   Turns turns;
   turns.mode("a", {"A"}).mode("b", {"B"});
   turns.blueprint.components[2].activity = Activity::triggered();
-  EXPECT_EQ(turns.problems(),
-            "error: 'B' runs in the thread 'B', 'A' in 'Source': what modes switch lives in one "
-            "thread (give both the same activity, or have the same thread trigger both)\n");
+  EXPECT_EQ(
+      turns.problems(),
+      "error: 'B' runs in the thread 'B', 'A' in 'Source': components that modes switch must share "
+      "one thread (give both the same activity, or have the same thread trigger both)\n");
 }
 
 TEST(PlanModes, APeerThatNeverRunsAtTheSameTimeIsAMistake) {
@@ -163,9 +165,8 @@ TEST(PlanModes, APeerThatNeverRunsAtTheSameTimeIsAMistake) {
   turns.blueprint.add<Caller>("Caller");
   turns.blueprint.add_peer("Caller", "B");
   turns.mode("a", {"A", "Caller"}).mode("b", {"B"});
-  EXPECT_THAT(
-      turns.problems(),
-      HasSubstr("error: 'Caller' uses 'scale' of 'B', but there is no mode in which both run\n"));
+  EXPECT_THAT(turns.problems(),
+              HasSubstr("error: 'Caller' uses 'scale' of 'B', but no mode runs both\n"));
 }
 
 /// Hands on what it hears.

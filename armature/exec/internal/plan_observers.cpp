@@ -11,7 +11,7 @@ void check_period(const ComponentEntry& entry, base::Diagnostics& diagnostics) {
   if (entry.activity.kind == Activity::Kind::kPeriodic) return;
   diagnostics.error(entry.where,
                     quoted(entry.component->name()) +
-                        " looks at others in a period of its own, but is " +
+                        " watches others and needs a period of its own, but is " +
                         std::string(name_of(entry.activity.kind)),
                     "give it one, for example activity: {periodic: 50 ms, scheduler: other}");
 }

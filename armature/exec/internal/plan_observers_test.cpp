@@ -85,7 +85,7 @@ TEST(PlanObservers, NothingIsSaidWhileComponentsAreMissingForAnotherReason) {
 TEST(PlanObservers, AnObserverNeedsAPeriod) {
   EXPECT_THAT(
       problems_of(Watched(Activity::sequential()).blueprint),
-      AllOf(HasSubstr("'Watcher' looks at others in a period of its own, but is sequential"),
+      AllOf(HasSubstr("'Watcher' watches others and needs a period of its own, but is sequential"),
             HasSubstr("activity: {periodic: 50 ms")));
 }
 

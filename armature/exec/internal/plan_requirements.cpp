@@ -47,10 +47,10 @@ class RequirementPlanner {
       if (found != kNone) {
         peers_.push_back(found);
       } else if (!is_absent(peer.name)) {
-        diagnostics_.error(peer.where,
-                           quoted(entry.component->name()) + " has the peer " + quoted(peer.name) +
-                               ", but there is no such component",
-                           base::suggestion(peer.name, directory_.component_names()));
+        diagnostics_.error(
+            peer.where,
+            quoted(entry.component->name()) + " has the unknown peer " + quoted(peer.name),
+            base::suggestion(peer.name, directory_.component_names()));
       }
     }
   }
@@ -195,7 +195,7 @@ class RequirementPlanner {
     }
     diagnostics_.error(entry.where, user_of(entry, requirement) + ": no peer has this " + kind,
                        who_has_it.empty()
-                           ? "no component has one"
+                           ? "no component of the deployment has it"
                            : "add a peer that has it, for example " + quoted(who_has_it.front()));
   }
 
@@ -209,7 +209,7 @@ class RequirementPlanner {
         entry.where,
         user_of(entry, requirement) + ": several peers have this " + kind + ": " +
             quoted(name(found[0])) + ", " + quoted(name(found[1])),
-        "say which: bind: {" + std::string(requirement.name()) + ": " + name(found[0]) + "}");
+        "choose one: bind: {" + std::string(requirement.name()) + ": " + name(found[0]) + "}");
   }
 
   base::Location place(const ComponentEntry& entry, const Requirement& requirement) {

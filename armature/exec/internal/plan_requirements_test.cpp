@@ -120,7 +120,8 @@ TEST(PlanRequirements, IfNobodyCouldServeItSaysThat) {
   Blueprint blueprint;
   blueprint.add<User>("User");
   EXPECT_EQ(problems_of(blueprint),
-            "error: 'User' uses 'read': no peer has this operation (no component has one)\n");
+            "error: 'User' uses 'read': no peer has this operation (no component of the deployment "
+            "has it)\n");
 }
 
 TEST(PlanRequirements, SeveralPeersThatHaveItAreAmbiguous) {
@@ -128,10 +129,10 @@ TEST(PlanRequirements, SeveralPeersThatHaveItAreAmbiguous) {
   blueprint.add_peer("User", "Axis1");
   blueprint.add_peer("User", "Axis2");
   EXPECT_EQ(problems_of(blueprint),
-            "error: 'User' uses 'read': several peers have this operation: 'Axis1', 'Axis2' (say "
-            "which: bind: {read: Axis1})\n"
-            "error: 'User' uses 'arrived': several peers have this event: 'Axis1', 'Axis2' (say "
-            "which: bind: {arrived: Axis1})\n");
+            "error: 'User' uses 'read': several peers have this operation: 'Axis1', 'Axis2' "
+            "(choose one: bind: {read: Axis1})\n"
+            "error: 'User' uses 'arrived': several peers have this event: 'Axis1', 'Axis2' (choose "
+            "one: bind: {arrived: Axis1})\n");
 }
 
 TEST(PlanRequirements, ABindingSaysWhichAndUnderWhichName) {
@@ -183,13 +184,13 @@ TEST(PlanRequirements, AnUnknownPeerIsNamedWithTheNearest) {
   blueprint.components[0].peers.push_back({"Axis1", {}});
   blueprint.components[0].peers.push_back({"Axsi2", {"robot.yaml", 4, 20}});
   EXPECT_EQ(problems_of(blueprint),
-            "robot.yaml:4:20: error: 'User' has the peer 'Axsi2', but there is no such component "
+            "robot.yaml:4:20: error: 'User' has the unknown peer 'Axsi2' "
             "(did you mean 'Axis2'?)\n");
 }
 
 TEST(PlanRequirements, WhatAnUnknownPeerWouldServeIsNotReportedToo) {
   const std::string problem =
-      "error: 'User' has the peer 'Axsi2', but there is no such component (did you mean "
+      "error: 'User' has the unknown peer 'Axsi2' (did you mean "
       "'Axis2'?)\n";
   Blueprint blueprint = make_blueprint();
   blueprint.add_peer("User", "Axsi2");

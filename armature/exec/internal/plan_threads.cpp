@@ -74,7 +74,8 @@ class ThreadPlanner {
                          "declare the execution time of a cycle: budget: 200 us");
     }
     if (activity.budget > activity.period && activity.period > base::Duration::zero()) {
-      diagnostics_.error(entry.where, who + " has a budget above its period");
+      diagnostics_.error(entry.where, who + " has a budget above its period",
+                         "give it a shorter budget or a longer period");
     }
   }
 

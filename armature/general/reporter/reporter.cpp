@@ -94,7 +94,8 @@ void Reporter::follow(const Source& source) {
           writers.size() == 1 ? "" : " (" + writer->owner().name() + "." + writer->name() + ")";
       follow_port(*source.input, source.name + way, *writer);
     }
-    if (writers.empty()) log_warning("nobody writes {}: there is nothing to record", source.name);
+    if (writers.empty())
+      log_warning("{} has no writer, so none of its samples is recorded", source.name);
   }
 }
 

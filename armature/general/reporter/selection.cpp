@@ -65,7 +65,7 @@ class Selector {
   }
 
   component::Observer::Objection objection_to(const std::string& name) const {
-    const std::string message = "'" + name + "' is nothing that can be recorded";
+    const std::string message = "'" + name + "' cannot be recorded";
     const std::string owner = name.substr(0, name.rfind('.'));
     std::vector<std::string> known;
     for (const Component* component : components_) {

@@ -78,11 +78,11 @@ TEST_F(Selecting, WhatSeveralNamesStandForIsSelectedOnce) {
 TEST_F(Selecting, ANameThatStandsForNothingIsObjectedToWithANearOne) {
   EXPECT_THAT(selected({"Joint1", "Joint1.Positon", "Jont2.Position", "Silnt", "X*"}), SizeIs(2));
   ASSERT_THAT(objections, SizeIs(4));
-  EXPECT_EQ(objections[0].message, "'Joint1.Positon' is nothing that can be recorded");
+  EXPECT_EQ(objections[0].message, "'Joint1.Positon' cannot be recorded");
   EXPECT_EQ(objections[0].hint, "did you mean 'Joint1.Position'?");
   EXPECT_THAT(objections[1].hint, HasSubstr("'Joint2'"));
   EXPECT_THAT(objections[2].hint, HasSubstr("'Silent'"));
-  EXPECT_EQ(objections[3].message, "'X*' is nothing that can be recorded");
+  EXPECT_EQ(objections[3].message, "'X*' cannot be recorded");
 }
 
 TEST_F(Selecting, AComponentWithoutOutputPortsIsObjectedTo) {

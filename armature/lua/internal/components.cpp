@@ -272,7 +272,7 @@ int read_unknown(lua_State* lua) {
   if (base::near_name(name, known).empty()) {
     for (std::string& key : keys_of(lua, 1)) known.push_back(std::move(key));
   }
-  refuse(lua, "there is no component and no variable '" + name + "'" + hint(name, known));
+  refuse(lua, "unknown component or variable '" + name + "'" + hint(name, known));
 }
 
 int write_unknown(lua_State* lua) {

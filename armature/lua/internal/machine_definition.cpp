@@ -106,8 +106,7 @@ void MachineReader::put_initial_first(int table, const std::string& place, Names
   if (first != states.end()) {
     std::rotate(states.begin(), first, first + 1);
   } else if (!initial.empty()) {
-    reader_.complain(place,
-                     "initial: there is no state '" + initial + "' in it" + hint(initial, states));
+    reader_.complain(place, "initial: unknown state '" + initial + "'" + hint(initial, states));
     definition_.knows_all_ways = false;
   } else if (states.size() > 1) {
     reader_.complain(place, "initial is missing: which of its states comes first, " + states[0] +
@@ -129,7 +128,8 @@ void MachineReader::read_substates(int table, int parent, const std::string& pla
       reader_.complain(place, "state '" + name + "' must be a table, found " + reader_.top());
     } else if (too_many) {
       reader_.complain(place,
-                       "state '" + name + "' is one too many: 1000 in all, 32 within one another");
+                       "state '" + name +
+                           "' is one too many: a machine has at most 1000, nested at most 32 deep");
     } else {
       const int self = static_cast<int>(definition_.table.states.size());
       definition_.table.states.emplace_back();
@@ -160,7 +160,7 @@ void MachineReader::read_state(int table, int self) {
   --depth_;
   const bool composite = static_cast<int>(definition_.table.states.size()) > self + 1;
   const bool runs = definition_.states[static_cast<std::size_t>(self)].run != LUA_NOREF;
-  if (runs && composite) reader_.complain(place, "run is for states without states in them");
+  if (runs && composite) reader_.complain(place, "only a state without substates may have run");
   if (runs && state_at(self).final) reader_.complain(place, "a final state has no run");
 }
 

@@ -126,7 +126,7 @@ int read_machine_member(lua_State* lua) {
 }
 
 int refuse_machine_write(lua_State* lua) {
-  refuse(lua, "nothing of a machine can be set: it goes on by machine:send(...)");
+  refuse(lua, "a machine has nothing to set: send it a text with machine:send(\"go\")");
 }
 
 int machine_text(lua_State* lua) {
@@ -172,7 +172,9 @@ int Machines::define(lua_State* lua) {
     refuse(lua, "machine takes a table of states: machine {initial = \"Idle\", Idle = {...}}");
   }
   if (machines.all_.size() >= kMostMachines) {
-    refuse(lua, "there are 100 machines already; one may be started again and again");
+    refuse(
+        lua,
+        "a script has at most 100 machines: start one of them again instead of defining another");
   }
   MachineDefinition definition = read_machine(lua, 1);
   if (!definition.problems.empty()) {

@@ -140,7 +140,7 @@ int Schedule::wait(lua_State* lua) {
     refuse(lua, std::string("wait takes ") + kWanted + ", found " + text_at(lua, 1));
   }
   if (lua != schedule.current_) {
-    refuse(lua, "an action of a machine cannot wait: what takes time belongs into its `run`");
+    refuse(lua, "an action of a machine cannot wait: put what takes time into its `run`");
   }
   const bool over =
       (command != nullptr && command->ended()) || (machine != nullptr && !machine->running());
@@ -280,8 +280,8 @@ bool Schedule::stands_still(base::Diagnostics& diagnostics) {
   if (++resumed_at_instant_ <= kTurnsAtOneInstant) return false;
   resumed_at_instant_ = 0;
   diagnostics.error({sources_.path(), 0, 0},
-                    "the script goes on by `at`, events or machines without end, while its time "
-                    "stands still");
+                    "`at`, events or machines call each other without end at one instant: let time "
+                    "pass between them");
   return true;
 }
 

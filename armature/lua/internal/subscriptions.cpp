@@ -111,7 +111,8 @@ std::string name_of(const component::EventBase& event) {
 
 Events::Id listen(lua_State* lua, Events& events, component::EventBase& event,
                   Events::Listener listener) {
-  if (events.is_full()) refuse(lua, "1000 functions and waits for events are there already");
+  if (events.is_full())
+    refuse(lua, "a script has at most 1000 functions and waits for events at once: cancel some");
   const Events::Id id = events.listen(event, std::move(listener));
   if (id == Events::kNobody) {
     refuse(lua, name_of(event) + ": the thread of '" + event.owner().name() + "' does not answer");

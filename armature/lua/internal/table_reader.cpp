@@ -46,7 +46,7 @@ std::vector<std::string> TableReader::keys(int table, const std::string& place, 
 void TableReader::complain_of_key(const std::string& place, const std::string& name,
                                   const std::vector<std::string>& known,
                                   const std::string& remark) {
-  complain(place, "'" + name + "' means nothing here" + hint(name, known) + remark);
+  complain(place, "'" + name + "' is not a key here" + hint(name, known) + remark);
 }
 
 std::string TableReader::text(int table, const char* key, const std::string& place) {

@@ -121,7 +121,7 @@ void TransitionReader::read_alternatives(const std::string& place, const Cause& 
   }
   const auto count = static_cast<int>(lua_rawlen(lua_, value));
   for (const std::string& key : reader_.keys(value, place, count)) {
-    reader_.complain_of_key(place, key, {}, ": it belongs into one of the transitions");
+    reader_.complain_of_key(place, key, {}, ": it belongs in one of the transitions");
   }
   for (int i = 1; i <= count; ++i) {
     lua_rawgeti(lua_, value, i);
@@ -132,7 +132,7 @@ void TransitionReader::read_alternatives(const std::string& place, const Cause& 
 
 void TransitionReader::read_one(const std::string& place, const Cause& cause) {
   if (pending_.size() >= kMostTransitions) {
-    reader_.complain(place, "it is one too many: there may be 5000 transitions");
+    reader_.complain(place, "it is one too many: a machine has at most 5000 transitions");
     return;
   }
   Pending pending;
@@ -217,7 +217,8 @@ void TransitionReader::read_target(int table, int position, Pending& pending) {
   lua_pop(lua_, 1);
   const std::string back = reader_.text(table, "back_to", pending.place);
   if (back.empty()) return;
-  if (there) reader_.complain(pending.place, "it has a state to go to and one to go back to");
+  if (there)
+    reader_.complain(pending.place, "it has both a state to go to and back_to: leave one out");
   pending.target = back;
   pending.transition.to_history = true;
 }
@@ -261,7 +262,7 @@ bool TransitionReader::resolve(Pending& pending) {
     if (table.states[static_cast<std::size_t>(i)].parent != kNoState)
       known.push_back(table.path(i));
   }
-  reader_.complain(pending.place, "there is no state '" + pending.target + "' to go to from here" +
+  reader_.complain(pending.place, "unknown state '" + pending.target + "' to go to from here" +
                                       hint(pending.target, known));
   return false;
 }

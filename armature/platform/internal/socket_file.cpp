@@ -44,7 +44,7 @@ base::Result<void> make_room(const std::string& path, int type) {
   if (!address) return no_address(path);
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) return {};
-  if (!S_ISSOCK(status.st_mode)) return failed(path, "is no socket file", EEXIST);
+  if (!S_ISSOCK(status.st_mode)) return failed(path, "is not a socket file", EEXIST);
   if (somebody_serves(*address, type)) {
     return failed(path, "another process serves there", EADDRINUSE);
   }

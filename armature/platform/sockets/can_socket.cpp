@@ -94,23 +94,24 @@ bool bind_to_interface(int socket, const CanSocketRequest& request,
                        base::Diagnostics& diagnostics) {
   const unsigned index = ::if_nametoindex(request.interface.c_str());
   if (index == 0) {
-    return failed(request, "there is no such interface",
-                  "'ip link' lists them; a virtual one comes with 'ip link add vcan0 type vcan'",
-                  diagnostics);
+    return failed(
+        request, "this interface does not exist",
+        "list them with 'ip link'; create a virtual one with 'ip link add vcan0 type vcan'",
+        diagnostics);
   }
   sockaddr_can address{};
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(index);
   if (::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    return failed(request, "cannot be used as one", "expected is an interface of type can or vcan",
+    return failed(request, "is of another type", "use an interface of type can or vcan",
                   diagnostics);
   }
   if (is_up(socket, request.interface)) return true;
   errno = ENETDOWN;
-  return failed(
-      request, "cannot be used yet",
-      "'ip link set " + request.interface + " up', for hardware with 'type can bitrate 1000000'",
-      diagnostics);
+  return failed(request, "cannot be used yet",
+                "bring it up with 'ip link set " + request.interface +
+                    " up', for hardware with 'type can bitrate 1000000'",
+                diagnostics);
 }
 
 /// Error frames tell only of changes.
@@ -165,7 +166,7 @@ std::unique_ptr<CanSocket> CanSocket::open(const CanSocketRequest& request,
   Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (socket.get() < 0) {
     failed(request, "the kernel gives no CAN socket",
-           "'modprobe can-raw'; without the module, use a virtual bus", diagnostics);
+           "load the module with 'modprobe can-raw', or use a virtual bus", diagnostics);
     return nullptr;
   }
   if (!configure(socket.get(), request, diagnostics) ||
@@ -177,7 +178,7 @@ std::unique_ptr<CanSocket> CanSocket::open(const CanSocketRequest& request,
   // Edge-triggered: told once of what has come in, whether it is received at once or not.
   if (!internal::add_event(events.get(), socket.get(), EPOLLIN | EPOLLET) ||
       !internal::add_event(events.get(), interruption.get(), EPOLLIN)) {
-    failed(request, "cannot be waited for", "close other files", diagnostics);
+    failed(request, "cannot be watched for data", "close other files", diagnostics);
     return nullptr;
   }
   std::unique_ptr<CanSocket> made(

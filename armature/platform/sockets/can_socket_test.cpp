@@ -25,7 +25,7 @@ TEST(CanSocket, OpeningFailsWithTheInterfaceTheReasonAndAWayOut) {
   const std::string text = diagnostics.to_text();
   EXPECT_THAT(text, HasSubstr("CAN interface 'can_none': "));
   EXPECT_THAT(text, AnyOf(HasSubstr("the kernel gives no CAN socket: "),
-                          HasSubstr("there is no such interface: ")));
+                          HasSubstr("this interface does not exist: ")));
   EXPECT_THAT(text, AnyOf(HasSubstr("'modprobe can-raw'"), HasSubstr("'ip link'")));
 }
 

@@ -76,13 +76,13 @@ base::Result<std::unique_ptr<PacketSocket>> PacketSocket::connect(const std::str
   if (!address_of(path)) return no_address(path);
   Descriptor socket(make_socket());
   if (const int error = connect_to(socket.get(), path); error != 0) {
-    return failed(path, "nobody serves there", error);
+    return failed(path, "no process serves there", error);
   }
   Descriptor events(::epoll_create1(EPOLL_CLOEXEC));
   Descriptor interruption(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!internal::add_event(events.get(), socket.get(), EPOLLIN | EPOLLET) ||
       !internal::add_event(events.get(), interruption.get(), EPOLLIN)) {
-    return failed(path, "cannot be waited for", errno);
+    return failed(path, "cannot be watched for data", errno);
   }
   return std::unique_ptr<PacketSocket>(
       new PacketSocket(path, socket.release(), events.release(), interruption.release()));

@@ -127,7 +127,7 @@ TEST_F(Packets, AnInterruptionEndsEveryWait) {
 }
 
 TEST_F(Packets, AServerTakesThePlaceOfOneThatLeftItsFile) {
-  EXPECT_THAT(PacketSocket::connect(path).error(), HasSubstr("nobody serves there"));
+  EXPECT_THAT(PacketSocket::connect(path).error(), HasSubstr("no process serves there"));
   listen();
   const std::string error = PacketServer::listen(path, 1).error();
   EXPECT_THAT(error, HasSubstr("another process serves there"));

@@ -145,7 +145,7 @@ base::Result<std::unique_ptr<StreamSocket>> StreamSocket::connect_file(const std
   if (socket.get() < 0) return unable(path, "no socket", errno);
   const auto* const raw = reinterpret_cast<const sockaddr*>(&*address);
   if (::connect(socket.get(), raw, sizeof *address) != 0) {
-    return unable(path, "nobody serves there", errno);
+    return unable(path, "no process serves there", errno);
   }
   return std::unique_ptr<StreamSocket>(new StreamSocket(socket.release(), path, false));
 }

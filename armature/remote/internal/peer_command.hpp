@@ -34,7 +34,7 @@ class PeerCommand {
     handle_.cancel();
     if (tell)
       tell("'" + name + "' is cancelled: the connection to " + line_.who() +
-           ", who began it, is lost");
+           ", which began it, is lost");
   }
 
  private:

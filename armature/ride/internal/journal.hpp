@@ -41,7 +41,7 @@ class Journal {
     ++kind.told;
     if (kind.left_out != 0) {
       const std::array left_out{rt::LogArgument(kind.left_out)};
-      sink_({level, now, node_, "{} more like the next were left out", left_out});
+      sink_({level, now, node_, "{} more like the next one are left out", left_out});
       kind.left_out = 0;
     }
     const std::array<rt::LogArgument, sizeof...(arguments)> given{argument(arguments)...};

@@ -244,7 +244,7 @@ bool Link::too_much_for(Type type) {
   if (!is_backed_up()) return false;
   if (type != Type::kReply && type != Type::kControl) return true;
   if (out_.unsent() < limits_.unsent_bytes + limits_.body_bytes) return false;
-  break_off_locked("it does not take what it is sent");
+  break_off_locked("it does not read what it is sent");
   return true;
 }
 
@@ -276,7 +276,7 @@ Sent Link::no_memory_for(Type type, std::uint32_t recipient) {
   if (type == Type::kReply) {
     host_.refused(*this, Code::kBusy, {{.type = type, .identifier = recipient}, {}}, kNoMemory);
     const Control control{Code::kBusy, static_cast<std::uint32_t>(Type::kRequest), 0, 0,
-                          "there is no memory for the answer"};
+                          "not enough memory for the answer"};
     const auto fields = std::tie(control);
     return send_locked({}, Type::kControl, recipient, {}, Fields(fields), Flush::kNow);
   }
@@ -313,7 +313,7 @@ void Link::transmit() {
 void Link::end_if_stuck(base::Time now, base::Duration limit) {
   const std::lock_guard lock(mutex_);
   if (!open() || !memory->exceeds_reserve() || !out_.is_stuck(now, limit)) return;
-  break_off_locked("it does not take what it is sent, and others want the memory");
+  break_off_locked("it does not read what it is sent, and other connections need the memory");
 }
 
 void Link::lose_event(const EventQueue& queue) {

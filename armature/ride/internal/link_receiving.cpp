@@ -68,17 +68,18 @@ void Link::take_messages() {
         take_message(message);
         break;
       case Found::kTooLarge:
-        refuse_locked(Code::kTooLarge, message, "the body is larger than this node takes");
+        refuse_locked(Code::kTooLarge, message, "the body is larger than this node accepts");
         break;
       case Found::kNoMemory:
-        refuse_locked(Code::kBusy, message, "there is no memory for it: others take it");
+        refuse_locked(Code::kBusy, message, "not enough memory for it: other connections use it");
         break;
       case Found::kBadMagic:
-        return end_with(Code::kBadMagic, {}, "what came is no message: no 'RIDE'");
+        return end_with(Code::kBadMagic, {},
+                        "the data is not a RIDE message: it does not begin with 'RIDE'");
       case Found::kBadLength:
         return end_with(Code::kMalformed, message, "a length below that of the header");
       case Found::kTooMany:
-        return end_with(Code::kTooLarge, message, "too many bodies go on at once");
+        return end_with(Code::kTooLarge, message, "too many bodies are under way at once");
       case Found::kNothing:
         break;
     }
@@ -178,7 +179,7 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
   std::unique_lock lock(mutex_);
   const auto identifier = recipient.identifier();
   if (!open() || !identifier) {
-    return call.refused(Code::kNotConnected, "there is no connection to it");
+    return call.refused(Code::kNotConnected, "it is not connected");
   }
   call.waits = true;
   calls_.add(call);
@@ -186,7 +187,7 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
                                 parameters, Flush::kNow);
   if (sent == Sent::kQueueFull) {
     calls_.remove(call.id);
-    return call.refused(Code::kBusy, "the other side has not taken what was sent before");
+    return call.refused(Code::kBusy, "the other side has not yet taken earlier messages");
   }
   bool reads = !call.done && take_reading();
   base::Duration limit = options.deadline;
@@ -216,14 +217,14 @@ void Link::call(Number operation, const Recipient& recipient, const Fields& para
   OpenCall* const open_call = call.release();
   const auto identifier = recipient.identifier();
   if (!open() || !identifier) {
-    return open_call->refused(Code::kNotConnected, "there is no connection to it");
+    return open_call->refused(Code::kNotConnected, "it is not connected");
   }
   calls_.add(*open_call);
   const Sent sent = send_locked(kMostUrgent, Type::kRequest, *identifier,
                                 {operation, open_call->id}, parameters, Flush::kNow);
   if (sent != Sent::kQueueFull) return;
   calls_.remove(open_call->id);
-  open_call->refused(Code::kBusy, "the other side has not taken what was sent before");
+  open_call->refused(Code::kBusy, "the other side has not yet taken earlier messages");
 }
 
 }  // namespace armature::ride::internal

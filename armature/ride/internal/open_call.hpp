@@ -34,7 +34,7 @@ class WaitingCall final : public OpenCall {
     if (result_.take(from)) {
       finish(Code::kNone);
     } else {
-      refused(Code::kMalformed, "the answer is no value of the result's type");
+      refused(Code::kMalformed, "the answer is not a value of the result's type");
     }
   }
   void refused(Code why, std::string_view what) override {

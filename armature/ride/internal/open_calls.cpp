@@ -14,7 +14,7 @@ void give_answer(OpenCall& call, std::span<const std::byte> result,
   try {
     call.answered(result, holding);
   } catch (const std::bad_alloc&) {
-    call.refused(Code::kTooLarge, "there is no memory for the answer");
+    call.refused(Code::kTooLarge, "not enough memory for the answer");
   }
 }
 

@@ -165,7 +165,7 @@ base::Time PeerState::look_for_life(base::Time now) {
     asked_ = 0;
   }
   if (asked_ >= kQuestions && now - heard_at_ >= 3 * silence) {
-    link_->break_off("nothing was heard from it for three times as long as it may be silent");
+    link_->break_off("it was silent for three times as long as allowed");
     return base::Time::max();
   }
   if (now - heard_at_ >= silence && now >= ask_again_at_) {

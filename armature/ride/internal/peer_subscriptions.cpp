@@ -112,7 +112,7 @@ void PeerState::request(RemoteComponent& component, Number operation, const Call
   if (call.code != Code::kNotConnected) return;
   if (component.state.load() == RemoteComponent::State::kMissing) {
     call.code = Code::kNoSuchComponent;
-    call.text = "there is no such component of this interface";
+    call.text = "no component of this name has this interface";
     return;
   }
   const std::lock_guard lock(mutex_);
@@ -199,7 +199,7 @@ void PeerState::take_event(const Message& message) {
   }
   delivering_ = false;
   remove_unused();
-  if (!well_formed) link_->refuse(Code::kMalformed, message, "no event that was subscribed to");
+  if (!well_formed) link_->refuse(Code::kMalformed, message, "the event has no subscription");
 }
 
 }  // namespace armature::ride::internal

@@ -106,7 +106,7 @@ std::string issuer_of(const X509& certificate) {
 
 std::string text_of(const ASN1_TIME* time) {
   std::tm parts{};
-  if (ASN1_TIME_to_tm(time, &parts) != 1) return "a time that nobody can read";
+  if (ASN1_TIME_to_tm(time, &parts) != 1) return "an unreadable time";
   std::array<char, 32> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts);
   return text.data();

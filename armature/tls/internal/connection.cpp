@@ -47,7 +47,7 @@ std::unique_ptr<TlsConnection> TlsConnection::dialled(std::unique_ptr<StreamSock
       by_name ? SSL_set1_host(ssl, dialled.name.c_str()) == 1 &&
                     SSL_set_tlsext_host_name(ssl, dialled.name.c_str()) == 1
               : X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(ssl), dialled.host.c_str()) == 1;
-  if (!is_checked) made->gone("'" + made->verdict_.dialled + "' is no name that can be checked");
+  if (!is_checked) made->gone("'" + made->verdict_.dialled + "' is not a name that can be checked");
   return made;
 }
 

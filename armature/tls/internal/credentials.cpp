@@ -50,7 +50,7 @@ class Files {
     KeyPointer key(PEM_read_bio_PrivateKey(file.get(), nullptr, note, &asked_for_password));
     ERR_clear_error();
     if (asked_for_password) {
-      wrong(path, "the key has a password, which nobody could type when the robot starts",
+      wrong(path, "the key has a password, which cannot be typed when the robot starts",
             "openssl pkey -in FILE -out FILE.open removes it; chmod 600 FILE.open");
     } else if (!key) {
       wrong(path, "the key is not in PEM form: expected -----BEGIN PRIVATE KEY-----", "");
@@ -68,13 +68,13 @@ class Files {
 
   void check_identity(const std::string& path, const X509& certificate) {
     if (!identity_of(certificate).empty()) return;
-    wrong(path, "the certificate names nobody: it has no common name and no DNS name",
+    wrong(path, "the certificate has neither a common name nor a DNS name",
           "a name is printable ASCII without spaces, at most 64 letters: -subj /CN=robot");
   }
 
   void check_authority(const std::string& path, const X509& certificate) {
     if (X509_check_ca(const_cast<X509*>(&certificate)) != 0) return;
-    wrong(path, "'" + subject_of(certificate) + "' is no authority: it may not sign others",
+    wrong(path, "'" + subject_of(certificate) + "' is not an authority: it may not sign others",
           "an authority's certificate says CA:TRUE");
   }
 
@@ -103,7 +103,7 @@ class Files {
             "have the authority sign a new one");
     } else if (X509_cmp_current_time(X509_get0_notBefore(&certificate)) > 0) {
       wrong(path, name + " is valid only from " + text_of(X509_get0_notBefore(&certificate)),
-            "is this machine's clock right?");
+            "check this machine's clock");
     }
   }
 
@@ -168,7 +168,7 @@ ContextPointer make_context(const Options& options, base::Diagnostics& diagnosti
   }
   const char* const reason = ERR_reason_error_string(ERR_get_error());
   diagnostics.error({options.certificate, 0, 0},
-                    std::string("OpenSSL does not take the certificate: ") +
+                    std::string("OpenSSL rejects the certificate: ") +
                         (reason != nullptr ? reason : "it does not say why"),
                     "RSA needs 2048 bits at least");
   ERR_clear_error();

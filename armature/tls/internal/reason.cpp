@@ -58,7 +58,7 @@ int look_at(int ok, X509_STORE_CTX* context) {
     verdict.reason = why_not_trusted(error, *certificate, depth, verdict.dialled);
   } else if (depth == 0 && identity_of(*certificate).empty()) {
     X509_STORE_CTX_set_error(context, X509_V_ERR_APPLICATION_VERIFICATION);
-    verdict.reason = "its certificate names nobody: it has no common name that a policy could name";
+    verdict.reason = "its certificate has no common name that a policy could name";
     return 0;
   }
   return ok;
@@ -73,7 +73,7 @@ std::string text_of(unsigned long error) {
 std::string why_it_refuses(unsigned long error) {
   switch (ERR_GET_REASON(error)) {
     case SSL_R_TLSV13_ALERT_CERTIFICATE_REQUIRED:
-      return "it refuses whoever has no certificate";
+      return "it refuses peers without a certificate";
     case SSL_R_TLSV1_ALERT_UNKNOWN_CA:
       return "it refuses the certificate of this side: it is of another authority";
     case SSL_R_SSLV3_ALERT_CERTIFICATE_EXPIRED:
@@ -83,7 +83,7 @@ std::string why_it_refuses(unsigned long error) {
     case SSL_R_SSLV3_ALERT_UNSUPPORTED_CERTIFICATE:
       return "it refuses the certificate of this side: " + text_of(error);
     case SSL_R_TLSV1_ALERT_PROTOCOL_VERSION:
-      return "it speaks no TLS 1.3";
+      return "it does not speak TLS 1.3";
     default:
       return "it refuses: " + text_of(error);
   }
@@ -123,7 +123,7 @@ std::string why_refused(const Wire& wire, const Verdict& verdict) {
     case SSL_R_PEER_DID_NOT_RETURN_A_CERTIFICATE:
       return "it has no certificate";
     case SSL_R_UNSUPPORTED_PROTOCOL:
-      return "it speaks no TLS 1.3";
+      return "it does not speak TLS 1.3";
     default:
       return "its handshake is wrong: " + text_of(error);
   }
@@ -134,7 +134,7 @@ std::string why_ended(const Wire& wire, int error) {
   if (is_alert(queued)) return why_it_refuses(queued);
   if (error == SSL_ERROR_ZERO_RETURN) return "the other side has ended it";
   if (wire.ended || wire.failed) return wire.socket->problem();
-  return "what came is no TLS: " + text_of(queued);
+  return "the data is not TLS: " + text_of(queued);
 }
 
 }  // namespace armature::tls::internal

@@ -11,7 +11,7 @@ using component::Outcome;
 
 Outcome Aic::on_configure() {
   if (std::abs(motor_sign_) != 1.0 || std::abs(encoder_sign_) != 1.0) {
-    return component::refused("MotorSign and EncoderSign are 1 or -1");
+    return component::refused("MotorSign and EncoderSign must be 1 or -1");
   }
   rad_per_count_ = 2.0 * std::numbers::pi / counts_per_turn_ * encoder_sign_ * gear_ratio_;
   return component::accepted();

@@ -9,7 +9,7 @@ component::Outcome AicBus::begin_to_guard() {
   if (context().simulated) return component::accepted();
   const component::Outcome outcome =
       period() == base::Duration::zero()
-          ? guard_.do_without("nobody calls it in a cycle of one period")
+          ? guard_.do_without("no component calls it in a cycle of one period")
           : guard_.start(guard_orders(cards(), bus_.get(), bit_rate(), period()));
   if (!outcome || guard_.said().empty()) return outcome;
   guard_.complains() ? log_warning("{}", guard_.said()) : log_info("{}", guard_.said());

@@ -99,9 +99,9 @@ base::Result<WamRecord> connect_arm(can::Link& link, const ArmNumbers& numbers,
   if (const auto connected = talk.finish(); !connected) return base::Error{connected.error()};
   if (!startup.record().zeroed && !config.at_home) {
     return base::Error{"the pucks have lost their positions (ZERO 0): put the arm at home (" +
-                       home_text(numbers) + ") rad, say so, " + config.word + " = true (--set " +
+                       home_text(numbers) + ") rad, set " + config.word + " = true (--set " +
                        config.word +
-                       "=true for a run), and start again; that word counts for one start"};
+                       "=true for a run), and start again; that counts for one start"};
   }
   startup.zero(link.now());
   if (const auto zeroed = talk.finish(); !zeroed) return base::Error{zeroed.error()};

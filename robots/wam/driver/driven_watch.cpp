@@ -75,7 +75,7 @@ std::optional<Reason> DrivenWatch::step(const Measured& measured) {
   }
   const double tip = predict_tip(measured.tip);
   if (!(tip <= config_.max_tip)) {
-    Reason why("the tip gets faster than it may be: ");
+    Reason why("the tip gets too fast: ");
     internal::append_number(why, tip).append(" m/s, expected at most ");
     return internal::append_number(why, config_.max_tip);
   }
@@ -106,7 +106,7 @@ std::optional<Reason> DrivenWatch::judge(std::size_t index, const Measured& meas
   const double most = config_.max_velocity[index] + kOvershoot;
   joint.fast_cycles = speed <= most ? 0 : joint.fast_cycles + 1;  // also what is no number
   if (joint.fast_cycles >= HoldingWatch::kFastSteps) {
-    return reason_of(index, " is faster than it may be: ", speed, " rad/s", most);
+    return reason_of(index, " is too fast: ", speed, " rad/s", most);
   }
   const auto shaking = joint.shaking.judge_effort(measured.torques[index]);
   if (shaking.is_alarm()) {
@@ -130,7 +130,7 @@ std::optional<Reason> DrivenWatch::judge_standing(std::size_t index, const Measu
   const bool away = std::abs(off) > config_.max_driven && velocity * off > 0.0;
   joint.driven_cycles = driven && away ? joint.driven_cycles + 1 : 0;
   if (joint.driven_cycles >= HoldingWatch::kFastSteps) {
-    return reason_of(index, " was to stand and is driven away: by ", std::abs(off), " rad",
+    return reason_of(index, " should stand still but is driven away: by ", std::abs(off), " rad",
                      config_.max_driven);
   }
   const bool may_sink = moves && !driven && std::abs(weight) > kLeastWeight;

@@ -15,7 +15,7 @@
 namespace armature::wam {
 
 /// Watches the armed arm, whatever drives it: any controller, any generator of references. Neither
-/// a joint nor the tip is faster than it may be, and no torque shakes. While the arm is to stand no
+/// a joint nor the tip is too fast, and no torque shakes. While the arm is to stand no
 /// controller drives a joint away from its place; a joint that nothing drives, because the arm is
 /// weightless, may be led by hand, but not sink on and on.
 class DrivenWatch {

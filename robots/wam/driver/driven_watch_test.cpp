@@ -52,8 +52,7 @@ TEST_F(DrivenWatchTest, AMotionThatIsCommandedIsNotJudgedByItsWay) {
 
 TEST_F(DrivenWatchTest, AJointThatIsFasterThanItMayBeIsNamedWithinThreeCycles) {
   EXPECT_EQ(move(2.7, 0.0, 100), "") << "the limiter lets it overshoot a little";
-  EXPECT_THAT(move(2.9, 0.0, 3),
-              HasSubstr("joint 2 is faster than it may be: 2.9 rad/s, expected at most 2.8"));
+  EXPECT_THAT(move(2.9, 0.0, 3), HasSubstr("joint 2 is too fast: 2.9 rad/s, expected at most 2.8"));
 }
 
 TEST_F(DrivenWatchTest, ATipThatGetsFasterThanItMayBeIsFoundBeforeItIs) {
@@ -63,7 +62,7 @@ TEST_F(DrivenWatchTest, ATipThatGetsFasterThanItMayBeIsFoundBeforeItIs) {
     for (tip = 0.0; said.empty() && tip < 1.2; tip += kPeriod_s * acceleration) {
       said = move(0.0, 0.0, 1);
     }
-    EXPECT_THAT(said, HasSubstr("the tip gets faster than it may be: "));
+    EXPECT_THAT(said, HasSubstr("the tip gets too fast: "));
     EXPECT_LT(tip + 0.01 * acceleration, 0.995) << "braked ten milliseconds later";
     EXPECT_GT(tip, 0.9);
   }
@@ -92,7 +91,8 @@ TEST_F(DrivenWatchTest, TheNoiseOfEncodersDoesNotShake) {
 TEST_F(DrivenWatchTest, AControllerThatDrivesAJointOffItsPlaceIsNamed) {
   rest();
   EXPECT_EQ(move(0.3, 10.0, 150), "") << "0.09 rad";
-  EXPECT_THAT(move(0.3, 10.0, 100), HasSubstr("joint 2 was to stand and is driven away: by 0.1"));
+  EXPECT_THAT(move(0.3, 10.0, 100),
+              HasSubstr("joint 2 should stand still but is driven away: by 0.1"));
 }
 
 TEST_F(DrivenWatchTest, AHandThatPushesAnArmWhoseControllerHoldsAgainstItIsNoFault) {

@@ -37,14 +37,14 @@ Reason reason_of(std::size_t joint, const HoldingWatch::Finding& finding) {
     why.append(" shakes: what holds it has changed its sign in ");
     append_number(why, finding.measured).append(" of the cycles");
   } else {
-    why.append(" was to stand and has moved: by ");
+    why.append(" should stand still but has moved: by ");
     append_number(why, finding.measured);
     why.append(finding.verdict == HoldingWatch::Verdict::kFast ? " rad/s" : " rad");
   }
   append_number(why.append(", expected at most "), finding.bound);
   return why.append(
-      ". Gains, gravity, masses or the period do not fit the arm, or somebody has pushed it: the "
-      "arm is braked and sinks; mend it, then reset, start, arm");
+      ". Gains, gravity, masses or the period do not fit the arm, or the arm was pushed: it is "
+      "braked and sinks; mend the cause, then reset, start, arm");
 }
 
 }  // namespace

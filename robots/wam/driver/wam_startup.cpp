@@ -39,7 +39,7 @@ std::string check(const WamStartup::Config& config) {
   }
   for (std::size_t motor = 0; motor < config.motors; ++motor) {
     if (!std::isfinite(config.home[motor])) {
-      return "home of motor " + std::to_string(motor + 1) + " is no finite number";
+      return "home of motor " + std::to_string(motor + 1) + " is not a finite number";
     }
   }
   const base::Duration shortest = std::min({config.presence_window, config.answer_window});
@@ -322,7 +322,7 @@ void WamStartup::write_home() {
   ask_board(Property::kZero, [this](std::int32_t zero) {
     if (zero == 1) return check_home(0);
     fail("the safety board did not take ZERO 1, it has " + text(zero),
-         "see what its pendant shows, and begin again");
+         "read what its pendant shows, and begin again");
   });
 }
 
@@ -340,7 +340,7 @@ void WamStartup::check_home(std::size_t motor) {
     if (counts && std::abs(*counts - expected) <= most) return check_home(motor + 1);
     fail("puck " + text(node) + " is at " + (counts ? text(*counts) : "an unknown number of") +
              " counts after it was set to " + text(expected),
-         "let nobody move the arm meanwhile, and begin again");
+         "keep the arm still meanwhile, and begin again");
   });
 }
 

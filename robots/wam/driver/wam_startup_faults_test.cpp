@@ -171,7 +171,7 @@ TEST(WamStartupFaults, RefusesWhatIsNoArm) {
   config.motors = 7;
   config.home[2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(WamStartup::make(bench.host, config).error(),
-              HasSubstr("home of motor 3 is no finite number"));
+              HasSubstr("home of motor 3 is not a finite number"));
   config.home[2] = 0.0;
   config.answer_window = {};
   EXPECT_THAT(WamStartup::make(bench.host, config).error(), HasSubstr("answer_window"));

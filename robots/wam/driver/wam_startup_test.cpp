@@ -202,7 +202,7 @@ TEST(WamStartup, AZeroThatThePuckDidNotTakeIsFound) {
   bench.emulator->bus().lose_next(1, can::Filter{.id = 0x003});
   EXPECT_EQ(bench.zero(), WamProgress::kFailed);
   EXPECT_THAT(bench.said(), HasSubstr("WAM on bus 'can0.host': puck 3 is at 0 counts after it was "
-                                      "set to 36832 (let nobody move the arm meanwhile"));
+                                      "set to 36832 (keep the arm still meanwhile"));
   EXPECT_FALSE(bench.startup->record().zeroed);
 }
 

@@ -123,7 +123,7 @@ constexpr auto kForms = std::to_array<Form>({
     {"fault board supply", kVolts, "the motors' supply from now on; good is 48",
      [](const Arm& arm, const Command& command) { board_of(arm).set_supply(command.value); }},
 
-    {"fault bus lose", kCount, "the next frames are received by nobody",
+    {"fault bus lose", kCount, "no station receives the next frames",
      [](const Arm& arm, const Command& command) {
        arm.emulator.bus().lose_next(frames_of(command));
      }},
@@ -132,7 +132,7 @@ constexpr auto kForms = std::to_array<Form>({
        arm.emulator.bus().corrupt_next(frames_of(command));
      },
      kNeedsBitRate},
-    {"fault bus cut", kNoNumber, "nobody hears anybody",
+    {"fault bus cut", kNoNumber, "no station hears another",
      [](const Arm& arm, const Command&) { arm.emulator.bus().set_cut(true); }, kNeedsBitRate},
     {"fault bus heals", kNoNumber, "is no longer cut",
      [](const Arm& arm, const Command&) { arm.emulator.bus().set_cut(false); }},
@@ -174,7 +174,7 @@ base::Error unknown(const Words& words) {
   for (const std::string& word : words) said += (said.empty() ? "" : " ") + word;
   for (const Form& form : kForms) known.emplace_back(form.words);
   const std::string hint = base::suggestion(said, known);
-  return {"'" + said + "' is no command; " + (hint.empty() ? "'help' lists them all" : hint)};
+  return {"'" + said + "' is not a command; " + (hint.empty() ? "'help' lists them all" : hint)};
 }
 
 base::Error wrong_number(const Form& form, const std::string& found) {

@@ -173,8 +173,8 @@ TEST_F(EmulatorCommands, WhatHasFramesSentAgainNeedsABusWithABitRate) {
 }
 
 TEST_F(EmulatorCommands, WhatIsWrongIsSaidWithWhatWasExpected) {
-  EXPECT_EQ(mistake_in("activat"), "'activat' is no command; did you mean 'activate'?");
-  EXPECT_EQ(mistake_in("dance"), "'dance' is no command; 'help' lists them all");
+  EXPECT_EQ(mistake_in("activat"), "'activat' is not a command; did you mean 'activate'?");
+  EXPECT_EQ(mistake_in("dance"), "'dance' is not a command; 'help' lists them all");
   EXPECT_EQ(mistake_in("fault puck 8 silent"),
             "'fault puck N silent': expected for N a puck of this arm, 1 to 7, found '8'");
   EXPECT_EQ(mistake_in("fault puck 2 lose"),

@@ -75,7 +75,7 @@ class Program(unittest.TestCase):
         told = self.run_with("--bus", self.bus, "--joints", "4", text="fault puck 7 silent\ndance\nquit\n")
         self.assertEqual(told.returncode, 0)
         self.assertIn("a puck of this arm, 1 to 4, found '7'", told.stderr)
-        self.assertIn("'dance' is no command", told.stderr)
+        self.assertIn("'dance' is not a command", told.stderr)
 
     def test_lines_are_the_pendants_keys_and_states_tell_what_they_do(self):
         arm = self.start("--joints", "4", "--state", "-", "--start", "0.5,-1.5,0,2")

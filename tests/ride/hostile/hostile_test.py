@@ -70,12 +70,12 @@ ATTACKS = [
     Attack("flood_of_requests"),
     Attack("flood_of_commands", logged=r"NOT_ALLOWED \(local may not command 'robot'\)", codes={NOT_ALLOWED}),
     Attack("urgent_flood"),
-    Attack("malformed_flood", logged=r"MALFORMED \(no type of message\)", codes={MALFORMED}),
+    Attack("malformed_flood", logged=r"MALFORMED \(unknown type of message\)", codes={MALFORMED}),
     Attack("flood_of_four", peers=4),
     Attack("out_of_order", logged="was refused a EVENT: NO_SUCH_COMPONENT", codes={NO_SUCH_COMPONENT, MALFORMED, HELLO}),
     Attack("wrong_magic", logged="BAD_MAGIC", codes={BAD_MAGIC}),
     Attack("wrong_length", logged="a length below that of the header", codes={MALFORMED}),
-    Attack("too_many_bodies", logged="too many bodies go on at once", codes={MALFORMED, TOO_LARGE}),
+    Attack("too_many_bodies", logged="too many bodies are under way at once", codes={MALFORMED, TOO_LARGE}),
     Attack("endless_bodies", peers=60, logged="its message did not end in time", large=True, ended=True, mib=MOST_MIB),
     Attack("endless_bodies_without_memory", peers=60, of="endless_bodies", large=True, ended=True, mib=MOST_MIB,
            room_mib=24),
@@ -83,7 +83,7 @@ ATTACKS = [
            mib=MOST_MIB),
     Attack("endless_bodies_of_who_may_not", peers=16, logged=r"NOT_ALLOWED \(local may not command 'robot'\)",
            large=True, codes={NOT_ALLOWED}, ended=True),
-    Attack("unread_answers", peers=9, logged=r"BUSY|others want the memory", large=True, mib=MOST_MIB),
+    Attack("unread_answers", peers=9, logged=r"BUSY|other connections need the memory", large=True, mib=MOST_MIB),
     Attack("unread_answers_without_memory", peers=9, of="unread_answers", large=True, mib=MOST_MIB, room_mib=24),
     Attack("values_that_grow", peers=9, logged=r"BUSY", large=True, codes={BUSY}, mib=MOST_MIB),
     Attack("values_that_grow_without_memory", peers=9, of="values_that_grow", large=True, may={BUSY}, mib=MOST_MIB,
@@ -100,7 +100,7 @@ ATTACKS = [
            tls=True),
     Attack("wrong_peer", logged=r"NOT_ALLOWED \(guest@tls may not command 'robot'\)", codes={NOT_ALLOWED}, tls=True),
     Attack("no_tls", logged="was refused: what it sent is not TLS", ended=True, tls=True),
-    Attack("half_open_handshakes", logged="was refused: (others came before its|the) handshake", ended=True, tls=True),
+    Attack("half_open_handshakes", logged="was refused: (newer connections came before its|the) handshake", ended=True, tls=True),
 ]
 
 

@@ -122,7 +122,7 @@ base::Diagnostics BeforeStop::hold_until_told(const platform::StopSignal* stop,
   }
   const RunEnd ended = wait_until_let_go(held, end, stop);
   if (ended == RunEnd::kConditionMet) return diagnostics;
-  name_let_go(held, ended == RunEnd::kStopRequested ? "a signal came" : "nobody answered",
+  name_let_go(held, ended == RunEnd::kStopRequested ? "a signal came" : "no answer came",
               diagnostics);
   return diagnostics;
 }
@@ -130,8 +130,8 @@ base::Diagnostics BeforeStop::hold_until_told(const platform::StopSignal* stop,
 void BeforeStop::say(const std::vector<Held>& held) {
   for (const Held& one : held)
     outlets_.say("before the stop, " + quoted(one.component) + " holds " + one.what);
-  outlets_.say("it is held for " + seconds(options_.hold_at_stop) +
-               " at most while you do that; Ctrl-C again, or `quit` typed again, lets go of it");
+  outlets_.say("it is held for at most " + seconds(options_.hold_at_stop) +
+               " while you do that; Ctrl-C again, or `quit` typed again, lets go of it");
 }
 
 /// @param held  what it was when it was last looked at

@@ -42,8 +42,8 @@ void Leftovers::deliver_to(Index thread, base::Diagnostics& diagnostics) const {
   const component::ExecutionContext& context = engine->context();
   unreachable_.give_up(context);
   const Component* const where = context.running();
-  diagnostics.error({}, "what was sent to the thread " + quoted(context.name) +
-                            " after its end hangs" +
+  diagnostics.error({}, "a message to the thread " + quoted(context.name) +
+                            ", handled after its end, hangs" +
                             (where == nullptr ? "" : " in " + quoted(where->name())));
 }
 

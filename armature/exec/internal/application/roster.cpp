@@ -32,7 +32,7 @@ std::string Roster::unknown(std::string_view name) const {
   for (const ComponentEntry& entry : blueprint_.components) {
     names.push_back(entry.component->name());
   }
-  return with_suggestion("there is no component " + base::quoted(name), name, names);
+  return with_suggestion("unknown component " + base::quoted(name), name, names);
 }
 
 std::string with_suggestion(std::string text, std::string_view name,

@@ -20,7 +20,7 @@ Outcome StopGuard::stop(std::string_view name) {
     if (const auto held = holders_.held_by(*component)) return begin(*held);
     if (const auto kept = holders_.held_by_help_of(*component)) {
       return component::refused(quoted(name) + " was not stopped, since " +
-                                quoted(kept->component) + " needs it: that holds " + kept->what +
+                                quoted(kept->component) + " needs it and holds " + kept->what +
                                 "; or stop " + quoted(kept->component) + " first");
     }
   }

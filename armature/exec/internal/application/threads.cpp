@@ -76,7 +76,7 @@ bool Threads::prepare(base::Diagnostics& diagnostics) {
     return false;
   }
   if (options_.realtime != RealtimeMode::kRequire || verdict_.complete()) return true;
-  diagnostics.error({}, "real time was required and is not to be had:\n" + verdict_.to_text());
+  diagnostics.error({}, "real time is required but not available:\n" + verdict_.to_text());
   return false;
 }
 
@@ -99,7 +99,7 @@ void Threads::reserve_system() {
   verdict_.lines.push_back(std::move(memory));
 
   base::Result<platform::IdleStateHold> held = platform::IdleStateHold::take();
-  Verdict::Line idle{"idle states", "held off", held.ok() ? "held off" : "as the system likes", {}};
+  Verdict::Line idle{"idle states", "held off", held.ok() ? "held off" : "left to the system", {}};
   if (held.ok()) {
     idle_states_ = std::move(held).value();
   } else {

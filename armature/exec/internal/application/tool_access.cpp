@@ -98,7 +98,7 @@ base::Result<void> ToolAccess::granted(const Component& component, std::string_v
   const bool script = caller == Caller::kScript;
   return base::Error{quoted(whole) +
                      " is an act of the operator: " + (script ? "a script" : "another process") +
-                     " may do it only where the deployment says so (grants: {" +
+                     " may use it only if the deployment grants it (grants: {" +
                      (script ? "script" : "remote") + ": [" + whole + "]})"};
 }
 

@@ -48,7 +48,7 @@ Outcome Transitions::reset(std::string_view name) const {
 Outcome Transitions::clean_up(std::string_view name) const {
   return change(name, [](Component& component) {
     if (component.state() != component::State::kStopped) {
-      return component::refused("cannot be cleaned up: it is not stopped");
+      return component::refused("cannot be cleaned up: stop it first");
     }
     component.cleanup();
     return component::accepted();

@@ -19,7 +19,8 @@ void DirectoryService::execute(Link& link, const Question& question, Decoder& pa
   const auto take = [&](auto&... values) {
     const bool taken = (parameters.take(values) && ...) && parameters.ended();
     if (!taken) {
-      link.refuse(Code::kMalformed, question.message, "parameters of the directory expected");
+      link.refuse(Code::kMalformed, question.message,
+                  "the parameters do not fit the directory's operation");
     }
     return taken;
   };
@@ -66,10 +67,11 @@ std::int32_t DirectoryService::subscribe(Link& link, const Hosted& hosted, Numbe
                                          hosted.identifier,
                                          core_.options.limits.events_per_subscription);
   } catch (const std::bad_alloc&) {
-    return refuse(link, Code::kBusy, "there is no memory for it");
+    return refuse(link, Code::kBusy, "not enough memory for it");
   }
   const Code refusal = add_queue(link, queue);
-  if (refusal == Code::kBusy) return refuse(link, refusal, "it has as many as it may have");
+  if (refusal == Code::kBusy)
+    return refuse(link, refusal, "it has reached its limit of subscriptions");
   if (refusal == Code::kNone) hosted.publisher().add(std::move(queue));
   return static_cast<std::int32_t>(refusal);
 }

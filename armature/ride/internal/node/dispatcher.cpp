@@ -75,18 +75,18 @@ void Dispatcher::dispatch(Link& link, const Message& message) {
       return;  // Too late: whoever has asked has given up.
     case Type::kEvent:
       if (link.peer != nullptr) return link.peer->take_event(message);
-      return link.refuse(Code::kNoSuchComponent, message, "nobody has subscribed to it");
+      return link.refuse(Code::kNoSuchComponent, message, "it has no subscriber");
     case Type::kControl:
       return take_control(link, message);
   }
-  link.refuse(Code::kMalformed, message, "no type of message");
+  link.refuse(Code::kMalformed, message, "unknown type of message");
 }
 
 void Dispatcher::take_control(Link& link, const Message& message) {
   Decoder from(message.body);
   Control control;
   if (!from.take(control) || !from.ended()) {
-    return link.refuse(Code::kMalformed, message, "no body of a CONTROL message");
+    return link.refuse(Code::kMalformed, message, "the body is not that of a CONTROL message");
   }
   switch (control.code) {
     case Code::kHello:
@@ -128,7 +128,7 @@ void Dispatcher::execute(Link& link, const Message& message, bool is_request) {
   }
   if (is_request &&
       link.kept_replies.load(std::memory_order_relaxed) >= core_.options.limits.pending_replies) {
-    return link.refuse(Code::kBusy, message, "as many answers are owed as may be");
+    return link.refuse(Code::kBusy, message, "too many requests wait for an answer");
   }
   run_service(link, *hosted, call, parameters, holding);
 }
@@ -140,14 +140,14 @@ std::optional<Refusal> Dispatcher::refusal_of(const Link& link, const Message& f
   const Type type = first.header.type;
   const bool is_operation = type == Type::kCommand || type == Type::kRequest;
   if (type == Type::kEvent && link.peer != nullptr) return std::nullopt;
-  if (type == Type::kEvent) return Refusal{Code::kNoSuchComponent, "nobody has subscribed to it"};
-  if (type == Type::kControl) return Refusal{Code::kTooLarge, "CONTROL is a single message"};
-  if (!is_operation) return Refusal{Code::kMalformed, "no type of message"};
+  if (type == Type::kEvent) return Refusal{Code::kNoSuchComponent, "it has no subscriber"};
+  if (type == Type::kControl) return Refusal{Code::kTooLarge, "CONTROL must be a single message"};
+  if (!is_operation) return Refusal{Code::kMalformed, "unknown type of message"};
   Decoder from(first.body);
   Number operation = 0;
   if (!from.take(operation)) return Refusal{Code::kMalformed, "no operation in its body"};
   if (first.header.identifier == kDirectory) {
-    return Refusal{Code::kTooLarge, "what the directory is asked is a single message"};
+    return Refusal{Code::kTooLarge, "a request to the directory must be a single message"};
   }
   const auto no_change = services_.hold_still();
   const Hosted* const hosted = services_.find(first.header.identifier);
@@ -189,7 +189,7 @@ void Dispatcher::run_service(Link& link, const Hosted& hosted, const Call& call,
   } catch (const Malformed& refusal) {
     if (!reply.settled()) link.refuse(Code::kMalformed, message, refusal.what());
   } catch (const std::bad_alloc&) {
-    if (!reply.settled()) link.refuse(Code::kBusy, message, "there is no memory for it");
+    if (!reply.settled()) link.refuse(Code::kBusy, message, "not enough memory for it");
   } catch (const std::exception& failure) {
     if (!reply.settled()) fail(link, hosted, call, failure.what());
   }

@@ -46,7 +46,8 @@ void Links::accept(Listener& listener) {
   core_.clock.wake_at(entrance_.look_at_time(now));
   if (!connection) return;
   if (links_.size() >= core_.options.limits.connections && !make_room()) {
-    return send_away(*connection, "{} was sent away: there are {} connections, as many as may be");
+    return send_away(*connection,
+                     "{} was sent away: {} connections are the most that this node accepts");
   }
   adopt(std::move(connection), listener.address().scheme);
 }
@@ -60,8 +61,9 @@ bool Links::make_room() {
   if (half_open == links_.end()) return false;
   (*half_open)->memory->end();  // for whom it makes room
   (*half_open)
-      ->break_off((*half_open)->is_leaving() ? "it sends no more, and others came"
-                                             : "others came before its handshake was done");
+      ->break_off((*half_open)->is_leaving()
+                      ? "it has stopped sending, and newer connections came"
+                      : "newer connections came before its handshake was done");
   return true;
 }
 
@@ -75,7 +77,7 @@ std::shared_ptr<Link> Links::adopt(std::unique_ptr<Connection> connection,
   const auto link =
       std::make_shared<Link>(host_, *core_.poller, core_.options.limits, core_.memory);
   if (!link->memory->open(false)) {
-    send_away(*connection, "{} was sent away: {} connections have all the memory that there is");
+    send_away(*connection, "{} was sent away: {} connections use all the memory of this node");
     return nullptr;
   }
   links_.push_back(link);

@@ -17,7 +17,7 @@ namespace {
 
 /// Without memory it goes on when others may have given some back.
 constexpr base::Duration kShort = std::chrono::milliseconds(1);
-constexpr const char* kGoodbye = "the node shuts down";
+constexpr const char* kGoodbye = "the node is shutting down";
 
 thread_local const NodeState* node_of_this_thread = nullptr;
 
@@ -255,12 +255,13 @@ void NodeState::warn_of_everyone(const Address& address) {
   constexpr unsigned kOthers = 0022;
   if (address.scheme == "unix" && (options().socket_mode & kOthers) == 0) return;
   constexpr const char* kWarning =
-      "everyone on this machine may do everything at {}: there is no policy (NodeOptions::allows)";
+      "everyone on this machine may do everything at {}: the node has no policy (set "
+      "NodeOptions::allows)";
   journal().tell(rt::LogLevel::kWarning, kWarning, address.text());
   if (options().log) return;
   std::fprintf(stderr,
-               "ride: everyone on this machine may do everything at %s: there is no policy "
-               "(NodeOptions::allows)\n",
+               "ride: everyone on this machine may do everything at %s: the node has no policy "
+               "(set NodeOptions::allows)\n",
                address.text().c_str());
 }
 

@@ -64,7 +64,7 @@ void Reception::throttle(Link& link) {
   if (now >= std::exchange(link.window_end, now + kWindow)) return;
   Counters::increase(core_.counters.throttled);
   core_.journal.tell(rt::LogLevel::kWarning,
-                     "{} sends more than {} messages a second: it has to wait", link.other_end(),
+                     "{} sends more than {} messages a second: it must wait", link.other_end(),
                      core_.options.limits.messages_per_second);
   link.set_throttled(true);
   core_.clock.wake_at(link.window_end);

@@ -45,13 +45,13 @@ base::Result<Transports::Place> Transports::place_to_listen(const std::string& t
   if (!numeric) return base::Error{"'" + text + "': " + numeric.error()};
   if (!transport->safe(numeric.value())) {
     return base::Error{"'" + text +
-                       "': other machines would reach this address and nobody would have to prove "
-                       "who they are; listen at 127.0.0.1, ::1 or a unix: socket, or use tls"};
+                       "': other machines would reach this address without proving who they are; "
+                       "listen at 127.0.0.1, ::1 or a unix: socket, or use tls"};
   }
   if (!options_.allows && !is_of_this_machine(numeric.value())) {
     return base::Error{"'" + text +
-                       "': other machines would reach this address, and nothing says what they may "
-                       "do; give node '" +
+                       "': other machines would reach this address, and no policy says what they "
+                       "may do; give node '" +
                        options_.name + "' a policy, or listen at 127.0.0.1, ::1 or a unix: socket"};
   }
   return Place{transport, numeric.value()};

@@ -60,7 +60,7 @@ void Turns::dispatch(Link& link, const Message& message) {
   try {
     dispatcher_.dispatch(link, message);
   } catch (const std::bad_alloc&) {
-    link.refuse(Code::kBusy, message, "there is no memory for it");
+    link.refuse(Code::kBusy, message, "not enough memory for it");
   }
   dispatches_ = false;
 }
