@@ -26,13 +26,12 @@ class Generator : public component::Component {
       this, "moveTo", component::serve<&Generator::begin>, "notes how long it may take",
       component::args("positions", "time")};
   std::vector<double> times;
-  std::vector<bool> refusals;
+  std::size_t refuses = 0;  ///< so many
 
  private:
   Outcome begin(const Angles&, double time_s) {
     times.push_back(time_s);
-    const bool refused = times.size() <= refusals.size() && refusals[times.size() - 1];
-    return refused ? component::refused("not now") : component::accepted();
+    return times.size() <= refuses ? component::refused("not now") : component::accepted();
   }
 };
 
@@ -48,6 +47,10 @@ class WayHomeTest : public testing::Test {
     arm_.generator.connect(generator_.move_to);
     component::start(arm_, generator_);
   }
+  void begin() {
+    ASSERT_TRUE(way_.begin(at(0s)));
+    thread_.deliver();
+  }
   WayHome::Arm at(base::Duration time) const { return {home_, positions_, base::Time(time)}; }
 
   const Angles home_{0.0, 0.0};
@@ -59,7 +62,7 @@ class WayHomeTest : public testing::Test {
 };
 
 TEST_F(WayHomeTest, TakesTwiceTheTimeThatItsMeanRateWouldNeed) {
-  ASSERT_TRUE(way_.begin(at(0s)));
+  begin();
   EXPECT_THAT(generator_.times, ElementsAre(DoubleEq(2.0)));
   EXPECT_FALSE(way_.follow(at(1s)));
   generator_.move_to.complete();
@@ -68,18 +71,29 @@ TEST_F(WayHomeTest, TakesTwiceTheTimeThatItsMeanRateWouldNeed) {
 }
 
 TEST_F(WayHomeTest, AShortWayIsAskedForInTheTimeThatTheLimitsDemand) {
-  generator_.refusals = {true};
-  ASSERT_TRUE(way_.begin(at(0s)));
+  generator_.refuses = 1;
+  begin();
+  EXPECT_FALSE(way_.follow(at(2ms)));
+  thread_.deliver();
   EXPECT_THAT(generator_.times, ElementsAre(DoubleEq(2.0), 0.0));
+  EXPECT_FALSE(way_.follow(at(4ms))) << "it is under way";
 }
 
-TEST_F(WayHomeTest, IsRefusedIfTheGeneratorRefusesBothWays) {
-  generator_.refusals = {true, true};
-  EXPECT_EQ(way_.begin(at(0s)).reason(), "not now");
+TEST_F(WayHomeTest, IsAskedForAgainUntilWhatWentOnBeforeHasComeToRest) {
+  generator_.refuses = 1000;
+  begin();
+  for (const base::Duration time : {2ms, 4ms, 1999ms}) {
+    EXPECT_FALSE(way_.follow(at(time)));
+    thread_.deliver();
+  }
+  EXPECT_THAT(generator_.times, ElementsAre(DoubleEq(2.0), 0.0, DoubleEq(2.0), 0.0));
+  EXPECT_TRUE(way_.follow(at(2s)));
+  EXPECT_FALSE(way_.done());
+  EXPECT_EQ(way_.reason(), "not now");
 }
 
 TEST_F(WayHomeTest, HasAnEndIfTheMotionFails) {
-  ASSERT_TRUE(way_.begin(at(0s)));
+  begin();
   generator_.move_to.fail("in the way");
   EXPECT_TRUE(way_.follow(at(1s)));
   EXPECT_FALSE(way_.done());
