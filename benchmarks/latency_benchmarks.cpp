@@ -22,8 +22,9 @@ namespace {
 constexpr double kBound = 1.15;
 constexpr base::Duration kPeriod = std::chrono::milliseconds(1);
 constexpr int kPriority = 80;
-constexpr int kSlices = 4;
-constexpr base::Duration kSlice = std::chrono::seconds(5);
+/// Short turns over minutes: what disturbs the machine for seconds is in both.
+constexpr int kSlices = 45;
+constexpr base::Duration kSlice = std::chrono::seconds(2);
 constexpr base::Duration kQuickSlice = std::chrono::milliseconds(200);
 
 /// Notes when each of its cycles began.

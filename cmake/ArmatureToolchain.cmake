@@ -21,9 +21,9 @@ function(armature_compact target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Os>)
 endfunction()
 
-# Only the start needs this library: while an application runs, its code is not in memory
+# No real-time thread needs this library: while an application runs, its code may not be in memory
 # (cli/run.cpp). So what it instantiated of the standard library is not for others.
-function(armature_only_at_first target)
+function(armature_not_in_real_time target)
   set(exports ${PROJECT_SOURCE_DIR}/cmake/exports.map)
   target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
   set_target_properties(${target} PROPERTIES LINK_DEPENDS ${exports})

@@ -40,15 +40,35 @@ using rt::LogLevel;
 /// Long enough to be "until stopped", short enough to be added to any time.
 constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
 
-/// What reads and checks deployments, and descriptions of robots, is not needed while one runs: no
-/// real-time thread ever runs any of it. It comes back when the run has ended. The program itself
-/// stays: the C++ library may use functions of `std::string` that were compiled into it.
-void release_what_loads() {
-  constexpr std::string_view kLibraries[] = {
-      "libarmature_deploy.so",   "libarmature_document.so", "libarmature_orocos.so",
-      "libarmature_analysis.so", "libyaml-cpp.so",          "libpugixml.so",
-      "liburdfdom_model.so",     "libtinyxml.so",           "libconsole_bridge.so"};
-  platform::release_code(kLibraries);
+/// No real-time thread ever runs any of this: what reads and checks deployments and descriptions of
+/// robots, what accompanies some runs, and what writes reports. What is used after all comes back.
+/// The program itself stays: the C++ library may use functions of `std::string` that were compiled
+/// into it.
+constexpr std::string_view kNeverRealTime[] = {"libarmature_deploy.so",
+                                               "libarmature_document.so",
+                                               "libarmature_orocos.so",
+                                               "libarmature_analysis.so",
+                                               "libarmature_inspect.so",
+                                               "libarmature_browser.so",
+                                               "libarmature_lua.so",
+                                               "libarmature_report.so",
+                                               "libyaml-cpp.so",
+                                               "libpugixml.so",
+                                               "liburdfdom_model.so",
+                                               "libtinyxml.so",
+                                               "libconsole_bridge.so",
+                                               "liblua5.4-c++.so",
+                                               "libedit.so",
+                                               "libtinfo.so",
+                                               "libbsd.so",
+                                               "libmd.so"};
+/// Components that stand for others, or write for them, run in real-time threads.
+constexpr std::string_view kOfTheNetwork[] = {"libarmature_remote.so", "libarmature_ride.so",
+                                              "libarmature_tls.so", "libssl.so", "libcrypto.so"};
+
+void release_what_is_not_needed(bool networked) {
+  platform::release_code(kNeverRealTime);
+  if (!networked) platform::release_code(kOfTheNetwork);
 }
 
 bool write_times_file(const std::string& path, const exec::Application& application,
@@ -185,10 +205,9 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
       companions.timeline->add(slice);
     };
   }
-  options.ready = release_what_loads;
-  if (network.wanted(deployment.document, arguments)) {
-    options.attend = [&network] { network.serve(); };
-  }
+  const bool networked = network.wanted(deployment.document, arguments);
+  options.ready = [networked] { release_what_is_not_needed(networked); };
+  if (networked) options.attend = [&network] { network.serve(); };
   return options;
 }
 

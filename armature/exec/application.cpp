@@ -1,24 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/application.hpp"
 
-#include <algorithm>
+#include <exception>
 #include <utility>
 
-#include "armature/component/author.hpp"
-#include "armature/exec/internal/age_watch.hpp"
-#include "armature/exec/internal/directory.hpp"
-#include "armature/exec/internal/simulation.hpp"
-#include "armature/exec/internal/start_gate.hpp"
-#include "armature/exec/internal/tool_ticket.hpp"
-#include "armature/platform/clock.hpp"
-#include "armature/platform/stop_signal.hpp"
+#include "armature/base/quoted.hpp"
+#include "armature/exec/internal/application/before_stop.hpp"
+#include "armature/exec/internal/application/clock.hpp"
+#include "armature/exec/internal/application/connections.hpp"
+#include "armature/exec/internal/application/death_notice.hpp"
+#include "armature/exec/internal/application/engines.hpp"
+#include "armature/exec/internal/application/executor.hpp"
+#include "armature/exec/internal/application/health.hpp"
+#include "armature/exec/internal/application/holders.hpp"
+#include "armature/exec/internal/application/leftovers.hpp"
+#include "armature/exec/internal/application/life_cycle.hpp"
+#include "armature/exec/internal/application/mode_control.hpp"
+#include "armature/exec/internal/application/outlets.hpp"
+#include "armature/exec/internal/application/roster.hpp"
+#include "armature/exec/internal/application/run_loop.hpp"
+#include "armature/exec/internal/application/stop_guard.hpp"
+#include "armature/exec/internal/application/threads.hpp"
+#include "armature/exec/internal/application/ticket_pool.hpp"
+#include "armature/exec/internal/application/tool_access.hpp"
+#include "armature/exec/internal/application/transitions.hpp"
+#include "armature/exec/internal/application/unreachable.hpp"
 
 namespace armature::exec {
 namespace {
 
+using component::Outcome;
+
 /// What a hanging thread may still touch stays, and stays reachable, until the process ends.
 struct Remains {
-  std::vector<std::unique_ptr<Engine>> engines;
+  internal::Engines engines;
   std::vector<std::unique_ptr<component::Component>> components;
   std::unique_ptr<internal::Incidents> incidents;
 
@@ -28,64 +43,93 @@ struct Remains {
   }
 };
 
-/// A measured cycle takes longer, that of a thousand components several times as long. The number
-/// is odd, so that cycles which differ by turns are all measured.
-std::uint64_t usual_measuring(const ThreadPlan& thread) {
-  constexpr base::Duration kInterval = std::chrono::milliseconds(250);
-  const base::Duration period = std::max(thread.activity.period, thread.trigger_period);
-  const bool known = period > base::Duration::zero();
-  return static_cast<std::uint64_t>(known ? kInterval / period : 250) | 1u;
+/// False if the one who waits for this moment has an objection.
+bool is_ready(const std::function<void()>& ready, base::Diagnostics& diagnostics) {
+  if (!ready) return true;
+  try {
+    ready();
+  } catch (const std::exception& thrown) {
+    diagnostics.error({}, std::string("not ready: ") + thrown.what());
+  } catch (...) {
+    diagnostics.error({}, "not ready: an exception of an unknown type");
+  }
+  return diagnostics.ok();
 }
 
 }  // namespace
 
+/// What an application is made of. Each part knows those before it that it needs, so that they go
+/// in reverse: what a thread may touch goes after the threads, components last.
+struct Application::Parts {
+  Parts(Blueprint declared, ApplicationOptions wanted)
+      : blueprint(std::move(declared)), options(std::move(wanted)) {}
+
+  Blueprint blueprint;
+  const ApplicationOptions options;
+  Plan plan;
+  internal::Engines engines;
+  std::vector<Casualty> casualties;
+
+  internal::Clock clock{options.simulated};
+  internal::Roster roster{blueprint};
+  internal::Unreachable unreachable;
+  internal::DeathNotice death_notice;
+  internal::Health health{death_notice, unreachable};
+  internal::Outlets outlets{options, clock};
+
+  internal::Executor executor{clock, unreachable, death_notice, options.hook_limit};
+  internal::TicketPool tickets;
+  internal::ToolAccess tools{roster, executor, tickets, options.grants};
+  internal::ModeControl modes{blueprint, plan, roster, executor, health};
+  internal::Transitions transitions{roster, executor, modes};
+  internal::Holders holders{blueprint, plan, roster, executor, health};
+  internal::StopGuard stop_guard{options.before_stop, roster, holders, tools, transitions, outlets};
+  internal::RunLoop loop{options, clock, engines, health, outlets, stop_guard};
+  internal::BeforeStop before_stop{options, clock,  roster,  tools, tickets,
+                                   holders, health, outlets, loop};
+
+  internal::Connections connections{blueprint, plan, options.output_folder};
+  internal::Threads threads{options, plan, engines, unreachable};
+  internal::LifeCycle life_cycle{
+      options, blueprint, plan, roster, threads, unreachable, [this] { outlets.drain(); }};
+  internal::Leftovers leftovers{
+      blueprint, plan, engines, unreachable, {options.stop_limit, [this] { outlets.drain(); }}};
+};
+
 Application::Application(Blueprint blueprint, ApplicationOptions options)
-    : blueprint_(std::move(blueprint)),
-      options_(std::move(options)),
-      logs_(options_.log),
-      timeline_(options_.timeline),
-      black_boxes_(options_.black_box),
-      incidents_(std::make_unique<internal::Incidents>()) {
-  for (Index i = 0; i < blueprint_.components.size(); ++i) {
-    index_of_.emplace(blueprint_.components[i].component->name(), i);
-  }
-}
+    : parts_(std::make_unique<Parts>(std::move(blueprint), std::move(options))) {}
 
 Application::~Application() {
   stop();
-  if (!hangs_) return;
-  Remains remains{std::move(engines_), {}, std::move(incidents_)};
-  for (ComponentEntry& entry : blueprint_.components) {
+  if (!hangs()) return;
+  Remains remains{std::move(parts_->engines), {}, parts_->health.give_away_incidents()};
+  for (ComponentEntry& entry : parts_->blueprint.components) {
     remains.components.push_back(std::move(entry.component));
   }
   Remains::keep(std::move(remains));
 }
 
+// ---- From start to stop
+
 base::Diagnostics Application::check() {
   base::Diagnostics diagnostics;
-  plan_ = make_plan(blueprint_, diagnostics);
+  parts_->plan = make_plan(parts_->blueprint, diagnostics);
   return diagnostics;
 }
 
 base::Diagnostics Application::start() {
-  if (running_) return {};
-  if (hangs_) {
+  if (running()) return {};
+  if (hangs()) {
     base::Diagnostics refusal;
     refusal.error(
-        {}, internal::quoted(blueprint_.name) + " cannot be started again: one of its hooks hangs",
+        {}, base::quoted(blueprint().name) + " cannot be started again: one of its hooks hangs",
         "end the process");
     return refusal;
   }
   base::Diagnostics diagnostics = check();
   if (!diagnostics.ok()) return diagnostics;
-  incidents_ = std::make_unique<internal::Incidents>();
-  leaving_ = false;
-  apply_declared_reactions();
-  make_engines();
-  set_up_modes();
-  const bool up = configure_all(diagnostics) && connect_all(diagnostics) &&
-                  prepare_threads(diagnostics) && start_all(diagnostics) && get_ready(diagnostics);
-  if (up) {
+  begin_anew();
+  if (bring_up(diagnostics)) {
     go_live();
   } else {
     take_down(diagnostics);
@@ -95,48 +139,56 @@ base::Diagnostics Application::start() {
 
 base::Diagnostics Application::stop() {
   base::Diagnostics diagnostics;
-  take_leave();
-  if (std::exchange(running_, false)) take_down(diagnostics);
+  parts_->health.take_leave_of_the_dead(parts_->engines);
+  if (parts_->health.end_of_run()) take_down(diagnostics);
   return diagnostics;
 }
 
-void Application::make_engines() {
-  simulation_.reset();
-  engines_.clear();
-  std::vector<Engine*> engines;
-  for (const ThreadPlan& thread : plan_.threads) {
-    std::vector<component::Component*> members;
-    std::vector<component::Component*> updating;
-    for (const Index member : thread.members) {
-      members.push_back(blueprint_.components[member].component.get());
-    }
-    const bool periodic = thread.activity.kind == Activity::Kind::kPeriodic;
-    for (const Index each : thread.updating) {
-      if (periodic) updating.push_back(blueprint_.components[each].component.get());
-    }
-    engines_.push_back(std::make_unique<Engine>(thread.name, thread.activity, std::move(members),
-                                                std::move(updating)));
-    Engine& engine = *engines_.back();
-    const std::uint64_t often = options_.measure_every;
-    engine.measure_every(often != 0 ? often : usual_measuring(thread));
-    engine.context().limit_depth(thread.depth + component::kLeastDepthLimit);
-    engine.context().supervisor = incidents_.get();
-    engine.context().simulated = options_.simulated;
-    engine.context().real_time = thread.activity.scheduler != Activity::Scheduler::kOther;
-    engine.context().cycle_time = now();
-    engines.push_back(&engine);
-  }
-  logs_.set_engines(engines);
-  timeline_.set_engines(engines, plan_, options_.simulated);
-  if (options_.simulated) simulation_ = std::make_unique<internal::Simulation>(engines);
+void Application::begin_anew() {
+  Parts& all = *parts_;
+  all.health.begin_anew();
+  all.connections.declare_reactions();
+  all.engines.clear();
+  all.engines = internal::make_engines(
+      all.blueprint, all.plan,
+      {&all.health.incidents(), all.options.simulated, all.options.measure_every, now()});
+  all.outlets.set_engines(all.engines, all.plan);
+  all.loop.begin_anew();
+  all.modes.set_up(now());
 }
 
-void Application::apply_declared_reactions() {
-  for (const ConnectionPlan& connection : plan_.connections) {
-    if (!connection.reacts) continue;
-    if (connection.entry->max_age) connection.input->set_max_age(*connection.entry->max_age);
-    if (connection.entry->on_lost) connection.input->set_on_lost(*connection.entry->on_lost);
-  }
+bool Application::bring_up(base::Diagnostics& diagnostics) {
+  Parts& all = *parts_;
+  if (!all.life_cycle.configure(diagnostics)) return false;
+  all.connections.make(diagnostics);
+  all.outlets.set_black_boxes(all.engines, all.blueprint, all.plan);
+  if (!diagnostics.ok() || !all.threads.prepare(diagnostics)) return false;
+  const base::Time begin = now();
+  for (const auto& engine : all.engines) engine->context().cycle_time = begin;
+  if (!all.life_cycle.start(diagnostics)) return false;
+  all.threads.populate_memory();
+  return is_ready(all.options.ready, diagnostics);
+}
+
+void Application::go_live() {
+  const base::Time begin = now();
+  for (const auto& engine : parts_->engines) engine->begin(begin);
+  parts_->health.begin_to_run();
+  parts_->threads.go();
+}
+
+void Application::take_down(base::Diagnostics& diagnostics) {
+  Parts& all = *parts_;
+  all.stop_guard.forget_all();
+  all.life_cycle.stop(diagnostics);
+  all.threads.end(diagnostics);
+  all.leftovers.deliver(diagnostics);
+  all.casualties = all.life_cycle.casualties();
+  all.outlets.drain();
+  all.outlets.write_last_black_boxes(all.health.incidents());
+  all.life_cycle.clean_up(diagnostics);
+  if (!hangs()) all.connections.undo();
+  all.outlets.end(diagnostics);
 }
 
 RunEnd Application::run_for(base::Duration duration, const platform::StopSignal* stop) {
@@ -145,94 +197,116 @@ RunEnd Application::run_for(base::Duration duration, const platform::StopSignal*
 
 RunEnd Application::run_until(base::Time end, const std::function<bool()>& condition,
                               const platform::StopSignal* stop) {
-  if (options_.simulated) return simulate_until(end, condition, stop);
-  return run_threads_until(end, condition, stop);
+  return parts_->loop.run_until(end, condition, stop);
 }
 
-RunEnd Application::run_threads_until(base::Time end, const std::function<bool()>& condition,
-                                      const platform::StopSignal* stop) {
-  constexpr base::Duration kLogPeriod = std::chrono::milliseconds(20);
-  constexpr base::Duration kConditionPeriod = std::chrono::milliseconds(1);
-  const bool often = condition || options_.attend;
-  const base::Duration period = often ? kConditionPeriod : kLogPeriod;
-  while (true) {
-    drain_logs();
-    if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
-    if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
-    const base::Time at = now();
-    say(black_boxes_.write_if_due(*incidents_, at));
-    finish_ways_to_stop();
-    logs_.tell_losses_now_and_then(at);
-    if (options_.attend) options_.attend();
-    if (condition && condition()) return RunEnd::kConditionMet;
-    if (at >= end) return RunEnd::kTimeUp;
-    const base::Time next = std::min(end, at + period);
-    if (stop != nullptr) {
-      stop->wait_until(next);
-    } else {
-      platform::sleep_until(next);
-    }
-  }
+base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopSignal* stop,
+                                               Leave leave) {
+  return parts_->before_stop.run_commands(end, stop, leave);
 }
 
-RunEnd Application::simulate_until(base::Time end, const std::function<bool()>& condition,
-                                   const platform::StopSignal* stop) {
-  while (true) {
-    while (Engine* const engine = simulation_->take_turn(simulated_now_)) {
-      logs_.drain(*engine);
-      timeline_.drain_if_half_full();
-      if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
-      if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
-    }
-    say(black_boxes_.write_if_due(*incidents_, simulated_now_));
-    finish_ways_to_stop();
-    logs_.tell_losses_now_and_then(simulated_now_);
-    if (options_.attend) options_.attend();
-    if (condition && condition()) return RunEnd::kConditionMet;
-    if (simulated_now_ >= end) return RunEnd::kTimeUp;
-    simulated_now_ = std::min(end, simulation_->next_due());
-  }
+base::Diagnostics Application::hold_until_told(
+    const platform::StopSignal* stop, const std::function<bool(base::Duration)>& converse) {
+  return parts_->before_stop.hold_until_told(stop, converse);
 }
 
-std::optional<RunEnd> Application::end_by_fault() {
-  take_leave();
-  if (died_) return RunEnd::kFaulted;
-  if (options_.on_fault != OnFault::kStopAll || leaving_) return std::nullopt;
-  if (faults() > 0) return RunEnd::kFaulted;
-  if (reactions() > 0) return RunEnd::kStoppedByReaction;
-  return std::nullopt;
-}
+std::vector<Held> Application::held() { return parts_->holders.held(); }
 
 void Application::mourn(const void* workplace, std::string reason) {
-  dead_workplace_ = workplace;
-  death_ = std::move(reason);
-  mourns_.store(true, std::memory_order_release);
+  parts_->death_notice.send(workplace, std::move(reason));
 }
 
-/// The dead thread stands still, so that its components are everybody's.
-void Application::take_leave() {
-  if (!mourns_.exchange(false, std::memory_order_acquire)) return;
-  died_ = hangs_ = true;
-  for (const auto& engine : engines_) {
-    if (&engine->context() != dead_workplace_) continue;
-    give_up_thread(engine->context());
-    engine->fault_members(death_);
+void Application::drain_logs() { parts_->outlets.drain(); }
+
+// ---- How it fares
+
+bool Application::running() const { return parts_->health.running(); }
+
+bool Application::hangs() const { return parts_->health.hangs(); }
+
+std::uint64_t Application::faults() const { return parts_->health.incidents().faults(); }
+
+std::uint64_t Application::reactions() const { return parts_->health.incidents().reactions(); }
+
+const std::vector<Casualty>& Application::casualties() const { return parts_->casualties; }
+
+base::Time Application::now() const { return parts_->clock.now(); }
+
+const Verdict& Application::verdict() const { return parts_->threads.verdict(); }
+
+const Blueprint& Application::blueprint() const { return parts_->blueprint; }
+
+const Plan& Application::plan() const { return parts_->plan; }
+
+component::Component* Application::find(std::string_view name) const {
+  return parts_->roster.find(name);
+}
+
+std::vector<ThreadStatistics> Application::thread_statistics() const {
+  std::vector<ThreadStatistics> all;
+  for (Index t = 0; t < parts_->engines.size(); ++t) {
+    Engine& engine = *parts_->engines[t];
+    all.push_back({plan().threads[t].name, engine.cycles_run(), engine.cycles_skipped(),
+                   engine.log().dropped(), engine.latency_ns().summary(),
+                   engine.cycle_ticks().summary()});
   }
+  return all;
 }
 
-base::Time Application::now() const {
-  return options_.simulated ? simulated_now_ : platform::monotonic_now();
+// ---- What is done to its components while it runs
+
+Outcome Application::start_component(std::string_view name) {
+  return parts_->transitions.start(name);
 }
 
-/// Empty texts say nothing.
-void Application::say(const std::string& text) {
-  if (text.empty()) return;
-  logs_.say(text, now());
+Outcome Application::stop_component(std::string_view name) { return parts_->stop_guard.stop(name); }
+
+bool Application::is_on_way_to_stop(std::string_view name) const {
+  return parts_->stop_guard.is_on_way(name);
 }
 
-void Application::drain_logs() {
-  logs_.drain();
-  timeline_.drain();
+void Application::cancel_way_to_stop(std::string_view name) { parts_->stop_guard.cancel(name); }
+
+Outcome Application::recover_component(std::string_view name) {
+  return parts_->transitions.recover(name);
+}
+
+Outcome Application::reset_component(std::string_view name) {
+  return parts_->transitions.reset(name);
+}
+
+Outcome Application::clean_up_component(std::string_view name) {
+  return parts_->transitions.clean_up(name);
+}
+
+Outcome Application::switch_mode(std::string_view name) { return parts_->modes.switch_to(name); }
+
+base::Result<void> Application::set_property(std::string_view component, std::string_view property,
+                                             const types::Value& value, Caller caller) {
+  return parts_->tools.set_property(component, property, value, caller);
+}
+
+base::Result<types::Value> Application::value_of(std::string_view component,
+                                                 std::string_view item) {
+  return parts_->tools.value_of(component, item);
+}
+
+base::Result<std::optional<types::Value>> Application::call(std::string_view component,
+                                                            std::string_view operation,
+                                                            std::vector<types::Value> arguments,
+                                                            Caller caller) {
+  return parts_->tools.call(component, operation, std::move(arguments), caller);
+}
+
+base::Result<component::CommandHandle> Application::begin(std::string_view component,
+                                                          std::string_view command,
+                                                          std::vector<types::Value> arguments,
+                                                          Caller caller) {
+  return parts_->tools.begin(component, command, std::move(arguments), caller);
+}
+
+bool Application::run_in_thread_of(component::Component& component, std::function<void()> work) {
+  return parts_->executor.run_in_thread_of(component, std::move(work));
 }
 
 }  // namespace armature::exec

@@ -18,7 +18,7 @@
 
 #include "armature/platform/clock.hpp"
 #include "armature/platform/sockets/stream_socket.hpp"
-#include "armature/ride/internal/node_state.hpp"
+#include "armature/ride/internal/node/node_state.hpp"
 #include "armature/ride/internal/raw_client.hpp"
 #include "armature/ride/internal/test_vision.hpp"
 #include "armature/ride/transport.hpp"

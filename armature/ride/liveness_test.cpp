@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/platform/clock.hpp"
-#include "armature/ride/internal/node_state.hpp"
+#include "armature/ride/internal/node/node_state.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 #include "armature/ride/internal/raw_client.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "armature/ride/internal/node_state.hpp"
+#include "armature/ride/internal/node/node_state.hpp"
 
 namespace armature::ride {
 

@@ -5,32 +5,162 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
-#include "armature/rt/guard.hpp"
+#include "armature/can/bus_link.hpp"
+#include "armature/can/make_bus.hpp"
+#include "robots/wam/arm_parts.hpp"
+#include "robots/wam/driver/arm_connection.hpp"
 #include "robots/wam/driver/safety_text.hpp"
+#include "robots/wam/driver/wam_guard.hpp"
 #include "robots/wam/tip_speed.hpp"
 
 namespace armature::wam {
 
-using component::CommandStage;
 using component::Outcome;
 
 namespace {
 
 /// Cycles in a row without torques, from which on nobody controls the arm any more.
 constexpr int kMostWithoutCommand = 3;
-/// [rad/s] of all joints together, on the way home.
-constexpr double kHomeRate = 0.5;
 /// [m/s] of a motion: the board idles the arm at 1 m/s, and what follows overshoots a little.
 constexpr double kFastestTip = 0.95;
-/// [rad] Nearer each joint lies where it may be let go of.
-constexpr double kAtHome = 0.05;
-/// In which a motion that was cancelled has come to rest.
-constexpr base::Duration kRestTime = std::chrono::seconds(2);
+constexpr std::string_view kReach = ", expected 0.1 ms to 100 ms";
+
+bool within_its_reach(base::Duration period) {
+  return period >= std::chrono::microseconds(100) && period <= std::chrono::milliseconds(100);
+}
 
 }  // namespace
+
+// ---- Its configuration
+
+Outcome WamHardware::on_configure() {
+  const bool said_at_home = at_home_.take();  // of this configuration, whatever becomes of it
+  if (joints_ != 4 && joints_ != 7) {
+    return component::refused("joints is " + std::to_string(joints_) +
+                              ", expected 4, or 7 with the wrist");
+  }
+  numbers_ = joints_ == 4 ? &wam4() : &wam7();
+  if (Outcome outcome = set_up_path(); !outcome) return outcome;
+  if (Outcome outcome = make_link(); !outcome) return outcome;
+  base::Diagnostics diagnostics;
+  if (!link_->open(WamDriver::bus_options(), diagnostics)) {
+    return component::refused(base::as_reason(diagnostics) +
+                              "; bus is emulator, virtual:PATH or a CAN interface such as can0");
+  }
+  Outcome outcome = connect(said_at_home);
+  if (outcome) outcome = guard_arm();
+  if (!outcome) {
+    link_->bus().close();
+    return outcome;
+  }
+  positions_lost_ = false;
+  return component::accepted();
+}
+
+std::vector<controllers::DrivenJoint> WamHardware::joints_behind(
+    const component::InputPortBase* input, const component::Check& /*check*/) {
+  return input == &torque_reference_ ? arm_check_.driven()
+                                     : std::vector<controllers::DrivenJoint>{};
+}
+
+Outcome WamHardware::set_up_path() {
+  if (Outcome outcome = check_period(); !outcome) return outcome;
+  std::vector<std::string> warnings;
+  auto parts = ArmParts::make(*numbers_, parameters_, description_, warnings);
+  for (const std::string& warning : warnings) log_warning("{}", warning);
+  if (!parts) return component::refused(parts.error());
+  ArmParts made = std::move(parts).value();
+  motion_.emplace(std::move(made.motion));
+  path_.emplace(std::move(made.path));
+  standing_.emplace(std::move(made.standing));
+  driven_.emplace(std::move(made.driven));
+  own_controller_.emplace(std::move(made.own_controller));
+  own_torques_.assign(numbers_->joints(), 0.0);
+  sent_.assign(numbers_->joints(), 0.0);
+  data_.assign(3 * numbers_->joints(), 0.0);
+  clipped_.assign(0);
+  return component::accepted();
+}
+
+Outcome WamHardware::check_period() const {
+  if (Outcome outcome = parameters_.period().known(); !outcome) return outcome;
+  if (within_its_reach(parameters_.period().duration())) return component::accepted();
+  component::Reason why("the period between two samples is ");
+  controllers::append_duration(why, parameters_.period().duration());
+  return component::refused(why.append(kReach));
+}
+
+void WamHardware::on_check(component::Check& check) const {
+  if (bus_.get() != "emulator" && !can::is_virtual(bus_.get())) check.drives_hardware(bus_.get());
+  const base::Duration period = parameters_.period().duration();
+  if (period == base::Duration::zero() || within_its_reach(period)) return;
+  component::Reason why("it is sampled every ");
+  controllers::append_duration(why, period);
+  check.error(std::string(why.append(kReach).view()),
+              "use 2 ms, for which its controllers are made");
+}
+
+/// The emulated arm outlives a configuration, as a real one does.
+Outcome WamHardware::make_link() {
+  const bool emulated = bus_.get() == "emulator";
+  if (emulated && emulated_ != nullptr) return component::accepted();
+  emulated_ = nullptr;
+  operator_.reset();
+  if (!emulated) {
+    link_ = std::make_unique<can::BusLink>(bus_, kBitRate);
+    return component::accepted();
+  }
+  EmulatedLink::Config config;
+  config.arm.urdf_file = description_.file();
+  config.time = context().simulated ? EmulatedLink::Time::kSimulated : EmulatedLink::Time::kReal;
+  config.begin = time();
+  auto made = EmulatedLink::make(*numbers_, config);
+  if (!made) return component::refused(made.error());
+  emulated_ = made.value().get();
+  operator_.emplace(*emulated_);
+  link_ = std::move(made).value();
+  return component::accepted();
+}
+
+Outcome WamHardware::connect(bool said_at_home) {
+  const bool helped = operator_ && emulated_operator_;
+  if (helped) operator_->bring_to_idle();
+  ArmConnectionConfig config;
+  config.patience = base::from_seconds(idle_patience_);
+  config.at_home = said_at_home || helped;
+  config.word = name() + "." + std::string(at_home_.name());
+  config.ask_for_idle = [this](std::optional<BoardMode> mode) {
+    log_warning(
+        "the safety board is in {}: pull the E-stop button out and press Shift+Idle, which gives "
+        "the pucks their power; waits {} s for it",
+        safety_state(mode), idle_patience_.get());
+  };
+  std::vector<std::string> warnings;
+  const auto record = connect_arm(*link_, *numbers_, config, warnings);
+  if (!record) return component::refused(record.error());
+  for (const std::string& warning : warnings) log_warning("{}", warning);
+  auto driver = WamDriver::make(link_->bus(), record.value(), {});
+  if (!driver) return component::refused(driver.error());
+  driver_.emplace(std::move(driver).value());
+  return component::accepted();
+}
+
+Outcome WamHardware::guard_arm() {
+  if (context().simulated) return component::accepted();
+  const Outcome outcome =
+      emulated_ != nullptr ? guard_.do_without("the emulated arm ends with this process")
+                           : guard_.start(guard_orders(driver_->arm(), bus_,
+                                                       base::from_seconds(parameters_.period())));
+  if (!outcome || guard_.said().empty()) return outcome;
+  guard_.complains() ? log_warning("{}", guard_.said()) : log_info("{}", guard_.said());
+  return outcome;
+}
 
 Outcome WamHardware::on_start() {
   if (positions_lost_) return component::refused(fault_reason(WamFault::kEstop, 0));
@@ -44,10 +174,10 @@ Outcome WamHardware::on_start() {
   watch_.begin(parameters_.period().duration());
   followed_ = base::Time::min();
   read_at_ = base::Time::min();
-  idle_seen_ = asks_ = commanded_ = false;
+  idle_seen_ = commanded_ = false;
+  if (operator_) operator_->rest();
   without_command_ = 0;
-  out_since_.reset();
-  cuts_power_ = false;
+  cause_.forget();
   waits_for_.assign({});
   lost_answers_.assign(0);
   cycles_without_command_.assign(0);
@@ -185,28 +315,6 @@ void WamHardware::send_torques() {
   sent_torques_.write(sent_);
 }
 
-// ---- Whether it may stop
-
-/// Of the joint that is farthest [rad].
-double WamHardware::from_home() const {
-  double most = 0.0;
-  for (std::size_t i = 0; i < path_->joints(); ++i) {
-    most = std::max(most, std::abs(motion_->positions()[i] - numbers_->home[i]));
-  }
-  return most;
-}
-
-component::Reason WamHardware::held() {
-  if (path_->mode() == TorquePath::Mode::kOff || !motion_->known()) return {};
-  if (held_by_hand_.said() || from_home() < kAtHome) return {};
-  component::Reason what("the arm's weight away from home: ");
-  what.append(armed() ? "" : "arm it, then ")
-      .append("call ")
-      .append(name())
-      .append(":moveHome(); or ");
-  return what.append("hold it, and set ").append(name()).append(".held_by_hand = true");
-}
-
 // ---- Arming
 
 void WamHardware::on_arm() {
@@ -249,56 +357,28 @@ double WamHardware::motion_limit_used(const Vector& positions, const Vector& vel
 
 Outcome WamHardware::move_home() {
   if (!armed()) return component::refused("the arm is not armed");
-  if (!generator_.bound()) return component::refused("it has no peer with a command moveTo");
-  home_asked_at_ = time();
-  home_by_limits_ = false;
-  send_home(home_time());
-  if (home_motion_.stage() == CommandStage::kRefused) send_home(0.0);  // short ways take longer
-  if (home_motion_.stage() != CommandStage::kRefused) return component::accepted();
-  return component::refused(home_motion_.reason());
-}
-
-/// Of a motion of which no part is faster than twice its mean.
-double WamHardware::home_time() const {
-  double length = 0.0;
-  for (std::size_t i = 0; i < path_->joints(); ++i) {
-    length = std::hypot(length, numbers_->home[i] - motion_->positions()[i]);
-  }
-  return 2.0 * length / kHomeRate;
-}
-
-/// @param time_s  0: as long as the limits demand
-void WamHardware::send_home(double time_s) {
-  const rt::PermitScope first_target_makes_room;
-  home_motion_ = generator_.send(numbers_->home, time_s);
+  return way_home_.begin({numbers_->home, motion_->positions(), time()});
 }
 
 void WamHardware::follow_home() {
-  move_home_.report(home_motion_.progress());
-  if (!home_motion_.ended()) return;
-  // A motion that was cancelled comes to rest first.
-  const bool in_time = time() - home_asked_at_ < kRestTime;
-  if (home_motion_.stage() == CommandStage::kRefused && in_time) {
-    // It rests already if only the time is refused, which is too short for a short way.
-    home_by_limits_ = !home_by_limits_;
-    return send_home(home_by_limits_ ? 0.0 : home_time());
-  }
-  if (home_motion_.stage() == CommandStage::kDone) {
+  move_home_.report(way_home_.progress());
+  if (!way_home_.follow({numbers_->home, motion_->positions(), time()})) return;
+  if (way_home_.done()) {
     move_home_.complete();
   } else {
-    move_home_.fail(home_motion_.reason());
+    move_home_.fail(way_home_.reason());
   }
 }
 
-Outcome WamHardware::press(void (WamHardware::*key)(), component::Command<>& command) {
-  if (emulated_ == nullptr) {
+Outcome WamHardware::press(void (EmulatedOperator::*key)(), component::Command<>& command) {
+  if (!operator_) {
     if (bus_.get() == "emulator")
       return component::refused("the arm is emulated once it is configured");
     component::Reason why("the arm on ");
     return component::refused(
         why.append(bus_.get()).append(" has an operator and a pendant of its own"));
   }
-  (this->*key)();
+  ((*operator_).*key)();
   command.complete();
   return component::accepted();
 }

@@ -13,12 +13,15 @@
 #include "armature/controllers/base/robot_description.hpp"
 #include "armature/controllers/base/sample_watch.hpp"
 #include "robots/wam/arm_check.hpp"
+#include "robots/wam/driver/cause_search.hpp"
 #include "robots/wam/driver/safety_text.hpp"
 #include "robots/wam/driver/wam_driver.hpp"
 #include "robots/wam/driver/wam_motion.hpp"
 #include "robots/wam/emulator/emulated_link.hpp"
+#include "robots/wam/emulator/emulated_operator.hpp"
 #include "robots/wam/torque_path.hpp"
 #include "robots/wam/wam_parameters.hpp"
+#include "robots/wam/way_home.hpp"
 
 namespace armature::wam {
 
@@ -64,17 +67,13 @@ class WamHardware final : public component::Component, public controllers::Drive
   component::Outcome on_start() override;
   void on_cleanup() override;
 
-  // wam_hardware_set_up.cpp
+  // Its configuration.
   void on_check(component::Check& check) const override;
   component::Outcome check_period() const;
   component::Outcome set_up_path();
   component::Outcome make_link();
   component::Outcome connect(bool said_at_home);
-  void help_to_idle();
-
-  // wam_hardware_guard.cpp
   component::Outcome guard_arm();
-  bool is_guarded();
 
   // The cycle.
   bool get_joint_sensors();
@@ -89,16 +88,14 @@ class WamHardware final : public component::Component, public controllers::Drive
   void on_position(const Vector& reference);
   void send_torques();
 
-  // Safety.
+  // wam_hardware_safety.cpp
+  bool is_guarded();
   bool supervise();
   void tell_safety_state();
   void note_last_safety_state();
-  base::Duration be_out();
-  void wait_for_cause();
-  void wait_for_puck();
+  void look_for_cause(WamFault fault);
   void watch_activation();
   void ask_for_activation();
-  void help_to_activate();
   void take_out(WamFault fault);
   void leave_service();
   void make_safe();
@@ -119,23 +116,18 @@ class WamHardware final : public component::Component, public controllers::Drive
   // Commands.
   double motion_limit_used(const Vector& positions, const Vector& velocities);
   component::Outcome move_home();
-  void cancel_home() { home_motion_.cancel(); }
-  double home_time() const;
-  void send_home(double time_s);
+  void cancel_home() { way_home_.cancel(); }
   void follow_home();
-  component::Outcome press(void (WamHardware::*key)(), component::Command<>& command);
-  void press_estop() { emulated_->emulator().board().estop(); }
-  void press_reset() { emulated_->emulator().board().reset(); }
-  void press_idle() { emulated_->emulator().board().shift_idle(); }
-  void press_activate() { emulated_->emulator().board().shift_activate(); }
-  void carry() { emulated_->hold_at_home(); }
-  component::Outcome estop() { return press(&WamHardware::press_estop, estop_); }
-  component::Outcome release_estop() { return press(&WamHardware::press_reset, release_estop_); }
-  component::Outcome shift_idle() { return press(&WamHardware::press_idle, shift_idle_); }
-  component::Outcome shift_activate() {
-    return press(&WamHardware::press_activate, shift_activate_);
+  component::Outcome press(void (EmulatedOperator::*key)(), component::Command<>& command);
+  component::Outcome estop() { return press(&EmulatedOperator::press_estop, estop_); }
+  component::Outcome release_estop() {
+    return press(&EmulatedOperator::press_reset, release_estop_);
   }
-  component::Outcome carry_home() { return press(&WamHardware::carry, carry_home_); }
+  component::Outcome shift_idle() { return press(&EmulatedOperator::press_idle, shift_idle_); }
+  component::Outcome shift_activate() {
+    return press(&EmulatedOperator::press_activate, shift_activate_);
+  }
+  component::Outcome carry_home() { return press(&EmulatedOperator::carry_home, carry_home_); }
 
   component::Property<int> joints_{
       this,
@@ -279,6 +271,7 @@ class WamHardware final : public component::Component, public controllers::Drive
   std::optional<JointController> own_controller_;
   std::unique_ptr<can::Link> link_;
   EmulatedLink* emulated_ = nullptr;
+  std::optional<EmulatedOperator> operator_;  ///< of the emulated arm
   std::optional<WamDriver> driver_;
   std::optional<WamMotion> motion_;
   controllers::SampleWatch watch_;
@@ -290,13 +283,8 @@ class WamHardware final : public component::Component, public controllers::Drive
   bool commanded_ = false;                   ///< in this cycle
   int without_command_ = 0;                  ///< cycles in a row
   bool idle_seen_ = false;                   ///< since the start
-  bool asks_ = false;                        ///< for activation
-  base::Time pressed_at_{};                  ///< by the emulated operator
-  std::optional<base::Time> out_since_;      ///< its cause is not known yet
-  bool cuts_power_ = false;                  ///< has asked for it since
-  base::Time home_asked_at_{};
-  bool home_by_limits_ = false;  ///< asked for the shortest way last
-  component::CommandHandle home_motion_{component::CallStatus::kNotConnected};
+  CauseSearch cause_;
+  WayHome way_home_{generator_};
   Vector own_torques_;
   Vector sent_;
   Vector data_;

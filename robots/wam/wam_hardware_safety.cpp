@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// WamHardware: what the safety board, the pucks and the bus say, and what becomes of it.
+// Of WamHardware: what the guardian, the safety board, the pucks and the bus say, and what becomes
+// of it.
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -12,18 +15,25 @@
 namespace armature::wam {
 namespace {
 
-/// Until then the board says why it went to idle; the driver asks it at once.
-constexpr base::Duration kIdleCauseTime = std::chrono::milliseconds(150);
-/// Until then it says whether it was E-stop that made pucks silent, and those that can hear answer.
-constexpr base::Duration kSilenceCauseTime = std::chrono::milliseconds(30);
-/// Until then it has cut the power of those that do not.
-constexpr base::Duration kPowerCutTime = std::chrono::milliseconds(50);
 /// A board that has not answered for so long is silent.
 constexpr base::Duration kSilentBoardTime = std::chrono::milliseconds(150);
-/// Between two keys of the emulated operator.
-constexpr base::Duration kKeyTime = std::chrono::milliseconds(100);
+/// [rad] Nearer each joint lies where it may be let go of.
+constexpr double kAtHome = 0.05;
 
 }  // namespace
+
+/// @return it runs on
+bool WamHardware::is_guarded() {
+  if (const auto reason = guard_.beat(time())) {
+    leave_service();
+    fault(reason->view());
+    return false;
+  }
+  if (guard_.take_loss()) {
+    log_error("its guardian has died: if this process does, the pucks' watchdogs stop the arm");
+  }
+  return true;
+}
 
 /// @return it runs on
 bool WamHardware::supervise() {
@@ -31,10 +41,8 @@ bool WamHardware::supervise() {
   const WamFault fault = driver_->fault();
   if (fault == WamFault::kNone) {
     watch_activation();
-  } else if (fault == WamFault::kIdled) {
-    wait_for_cause();
-  } else if (fault == WamFault::kPuckSilent) {
-    wait_for_puck();
+  } else if (fault == WamFault::kIdled || fault == WamFault::kPuckSilent) {
+    look_for_cause(fault);
   } else {
     take_out(fault);
   }
@@ -65,35 +73,19 @@ void WamHardware::note_last_safety_state() {
   safety_state_.assign(told);
 }
 
-/// Out of service at once, to look for the cause.
-/// @return since when
-base::Duration WamHardware::be_out() {
-  if (!out_since_) {
-    out_since_ = link_->now();
+/// Out of service at once. A fault of the board becomes one of this component.
+void WamHardware::look_for_cause(WamFault fault) {
+  if (!cause_.under_way()) {
+    cause_.begin(link_->now());
     leave_service();
   }
-  return link_->now() - *out_since_;
-}
-
-/// A fault of the board becomes one of this component; without one it was the operator who idled
-/// the arm.
-void WamHardware::wait_for_cause() {
-  if (be_out() < kIdleCauseTime) return;
-  out_since_.reset();
+  const CauseSearch::Found found = fault == WamFault::kIdled
+                                       ? cause_.look_at_idle(link_->now())
+                                       : cause_.look_at_silence(*driver_, link_->now());
+  if (found == CauseSearch::Found::kFault) take_out(fault);
+  if (found != CauseSearch::Found::kOperator) return;
   driver_->acknowledge();
   log_warning("the operator has idled the arm; it is disarmed");
-}
-
-/// A puck that answers again has heard that it is idle. Of one that does not, nobody knows what it
-/// drives its motor with.
-void WamHardware::wait_for_puck() {
-  const base::Duration past = be_out();
-  driver_->send_idle();  // in each cycle: it may have missed the last
-  if (past < kSilenceCauseTime) return;
-  if (past >= kPowerCutTime || !driver_->any_silent()) return take_out(WamFault::kPuckSilent);
-  if (driver_->needs_power_cut() && !std::exchange(cuts_power_, true)) {
-    driver_->cut_power(link_->now());
-  }
 }
 
 void WamHardware::watch_activation() {
@@ -101,10 +93,10 @@ void WamHardware::watch_activation() {
   if (!driver_->board_mode() || !motion_->known()) return;
   if (!driver_->active() || !idle_seen_) return ask_for_activation();
   if (path_->mode() != TorquePath::Mode::kOff) return;
-  asks_ = false;
+  if (operator_) operator_->rest();
   waits_for_.assign({});
   path_->begin_to_hold();
-  if (emulated_ != nullptr) emulated_->let_go();
+  if (operator_) operator_->let_go();
   log_info("holds the arm where it is");
 }
 
@@ -114,18 +106,9 @@ void WamHardware::ask_for_activation() {
     waits_for_.assign(request);
     log_warning("waits for {}", request);
   }
-  if (emulated_ != nullptr && emulated_operator_) help_to_activate();
-}
-
-/// A key at a time, once it was asked for.
-void WamHardware::help_to_activate() {
-  const base::Time now = link_->now();
-  if (!asks_) pressed_at_ = now;
-  asks_ = true;
-  if (now - pressed_at_ < kKeyTime) return;
-  pressed_at_ = now;
-  const bool first_idle = !idle_seen_ || (driver_->pendant() && shows_fault(*driver_->pendant()));
-  first_idle ? press_idle() : press_activate();
+  if (!operator_ || !emulated_operator_) return;
+  const bool idle_first = !idle_seen_ || (driver_->pendant() && shows_fault(*driver_->pendant()));
+  operator_->help_to_activate(idle_first, link_->now());
 }
 
 void WamHardware::take_out(WamFault why) {
@@ -156,6 +139,28 @@ void WamHardware::make_safe() {
   driver_->send_idle();
   guard_.rest();
   tell_armed(false);
+}
+
+// ---- Whether it may stop
+
+/// Of the joint that is farthest [rad].
+double WamHardware::from_home() const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < path_->joints(); ++i) {
+    most = std::max(most, std::abs(motion_->positions()[i] - numbers_->home[i]));
+  }
+  return most;
+}
+
+component::Reason WamHardware::held() {
+  if (path_->mode() == TorquePath::Mode::kOff || !motion_->known()) return {};
+  if (held_by_hand_.said() || from_home() < kAtHome) return {};
+  component::Reason what("the arm's weight away from home: ");
+  what.append(armed() ? "" : "arm it, then ")
+      .append("call ")
+      .append(name())
+      .append(":moveHome(); or ");
+  return what.append("hold it, and set ").append(name()).append(".held_by_hand = true");
 }
 
 }  // namespace armature::wam

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/ride/internal/link.hpp"
 
+#include <tuple>
 #include <utility>
+
+#include "armature/platform/clock.hpp"
 
 namespace armature::ride::internal {
 
@@ -21,7 +24,7 @@ void Link::begin(std::unique_ptr<Connection> connection) {
   problem_.clear();
   establishing_ = Progress::kWantWrite;
   interest_ = {.write = true};
-  reader_ = Reader::kIo;
+  reading_.give_to_node();
   poller_.add(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), interest_);
 }
 
@@ -67,9 +70,10 @@ bool Link::establish_locked(Progress progress) {
   return progress == Progress::kDone;
 }
 
-void Link::end_if_all_is_sent() {
+void Link::let_go_if_leaving() {
+  if (!is_leaving() || !waiting.empty()) return;
   const std::lock_guard lock(mutex_);
-  if (!open() || unsent() != 0 || kept_replies.load(std::memory_order_relaxed) != 0) return;
+  if (!open() || out_.unsent() != 0 || kept_replies.load(std::memory_order_relaxed) != 0) return;
   break_off_locked(connection_->problem());
 }
 
@@ -93,7 +97,7 @@ bool Link::write() {
   const std::lock_guard lock(mutex_);
   if (!open()) return false;
   const bool has_waited = std::exchange(reading_waits_, false);
-  if (std::exchange(blocked_, false)) {
+  if (out_.unblock()) {
     signs_of_life_.fetch_add(1, std::memory_order_relaxed);
     transmit();
     drain_event_queues();
@@ -104,11 +108,11 @@ bool Link::write() {
 
 bool Link::flush(base::Time now, base::Duration age) {
   const std::lock_guard lock(mutex_);
-  if (!open() || out_.empty() || blocked_) {
-    flush_due_ = false;
+  if (!open() || out_.empty() || out_.blocked()) {
+    out_.end_gathering();
     return false;
   }
-  if (now - gathered_since_ >= age) transmit();
+  if (now - out_.gathered_since() >= age) transmit();
   return true;
 }
 
@@ -119,17 +123,13 @@ bool Link::ended() const {
 
 bool Link::close() {
   const std::lock_guard lock(mutex_);
-  if (reader_ == Reader::kCaller || held_) return false;
+  if (reading_.is_of_caller() || held_) return false;
   connection_.reset();
   assembler_.reset();
   out_.clear();
-  out_.shrink(0);
-  sent_ = 0;
-  blocked_ = false;
   reading_waits_ = false;
-  flush_due_ = false;
   establishing_ = Progress::kDone;
-  reader_ = Reader::kIo;
+  reading_.give_to_node();
   event_queues.clear();
   leaving_.store(false, std::memory_order_relaxed);
   established = false;
@@ -149,7 +149,7 @@ void Link::set_throttled(bool on) {
 
 void Link::set_listens(bool listens) {
   const std::lock_guard lock(mutex_);
-  listens_ = listens;
+  reading_.set_listens(listens);
 }
 
 void Link::break_off(const std::string& why) {
@@ -165,9 +165,7 @@ void Link::break_off_locked(const std::string& why) {
     poller_.remove(connection_->handle());
     connection_->shut_down();
   }
-  for (OpenCall* const call : std::exchange(calls_, {})) {
-    call->refused(Code::kConnectionLost, why);
-  }
+  calls_.refuse_all(Code::kConnectionLost, why);
   host_.attend(*this);
 }
 
@@ -190,9 +188,9 @@ platform::Interest Link::wanted() const {
   const bool flows = establishing_ == Progress::kDone;
   const bool takes_nothing = peer == nullptr && is_backed_up();
   const bool reads =
-      reader_ == Reader::kIo && !throttled && !takes_nothing && !reading_waits_ && !is_leaving();
+      reading_.is_of_node() && !throttled && !takes_nothing && !reading_waits_ && !is_leaving();
   return {flows ? reads : establishing_ == Progress::kWantRead,
-          flows ? blocked_ || reading_waits_ : establishing_ == Progress::kWantWrite,
+          flows ? out_.blocked() || reading_waits_ : establishing_ == Progress::kWantWrite,
           flows && connection_->takes_all()};
 }
 
@@ -202,6 +200,145 @@ void Link::update_interest() {
   if (now.read == interest_.read && now.write == interest_.write) return;
   interest_ = now;
   poller_.change(connection_->handle(), reinterpret_cast<std::uintptr_t>(this), now);
+}
+
+// ---- Sending
+
+Sent Link::send(Priority priority, Type type, const Recipient& recipient,
+                std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush) {
+  const std::lock_guard lock(mutex_);
+  const auto identifier = recipient.identifier();
+  if (!open() || !identifier) return Sent::kNotConnected;
+  return send_locked(priority, type, *identifier, head, fields, flush);
+}
+
+Sent Link::send_control(std::uint32_t call, const Control& control) {
+  const auto fields = std::tie(control);
+  return send({}, Type::kControl, Recipient(call), {}, Fields(fields), Flush::kNow);
+}
+
+void Link::refuse(Code code, const Message& message, std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  refuse_locked(code, message, text);
+}
+
+/// Of a request the operation and the call are the first words of its body.
+void Link::refuse_locked(Code code, const Message& message, std::string_view text) {
+  if (!open()) return;
+  host_.refused(*this, code, message, text);
+  if (message.header.type == Type::kControl && code != Code::kBadMagic) return;  // No ping-pong.
+  const bool is_request = message.header.type == Type::kRequest;
+  const bool has_operation = is_request || message.header.type == Type::kCommand;
+  Decoder from(message.body);
+  Control control{code, static_cast<std::uint32_t>(message.header.type), message.header.identifier,
+                  0, text};
+  std::uint32_t call = 0;
+  if (code == Code::kBadMagic) control.type = 0;
+  if (has_operation && from.take(control.operation) && is_request) from.take(call);
+  const auto fields = std::tie(control);
+  send_locked({}, Type::kControl, call, {}, Fields(fields), Flush::kNow);
+}
+
+/// What is owed is sent as long as memory stays bounded: who does not take it is not read either.
+bool Link::too_much_for(Type type) {
+  if (!is_backed_up()) return false;
+  if (type != Type::kReply && type != Type::kControl) return true;
+  if (out_.unsent() < limits_.unsent_bytes + limits_.body_bytes) return false;
+  break_off_locked("it does not read what it is sent");
+  return true;
+}
+
+bool Link::is_backed_up() const { return out_.blocked() && out_.unsent() >= limits_.unsent_bytes; }
+
+Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
+                       std::initializer_list<std::uint32_t> head, const Fields& fields,
+                       Flush flush) {
+  if (too_much_for(type)) return open() ? Sent::kQueueFull : Sent::kNotConnected;
+  const bool appended = out_.append([&](Body& out) {
+    const std::size_t start = out.size();
+    out.extend(Header::kSize);
+    Encoder body(out);
+    for (const std::uint32_t word : head) body.put(word);
+    fields.put(body);
+    finish_message(out, start, priority, type, recipient);
+  });
+  if (!appended) return no_memory_for(type, recipient);
+  if (flush == Flush::kNow) {
+    send_out();
+  } else {
+    gather(platform::monotonic_now());
+  }
+  return open() ? Sent::kYes : Sent::kNotConnected;
+}
+
+/// Who waits for an answer is told, so it does not wait for nothing.
+Sent Link::no_memory_for(Type type, std::uint32_t recipient) {
+  if (type == Type::kReply) {
+    host_.refused(*this, Code::kBusy, {{.type = type, .identifier = recipient}, {}}, kNoMemory);
+    const Control control{Code::kBusy, static_cast<std::uint32_t>(Type::kRequest), 0, 0,
+                          "not enough memory for the answer"};
+    const auto fields = std::tie(control);
+    return send_locked({}, Type::kControl, recipient, {}, Fields(fields), Flush::kNow);
+  }
+  if (type != Type::kControl) return Sent::kQueueFull;
+  break_off_locked(kNoMemory);
+  return Sent::kNotConnected;
+}
+
+/// Sends what was appended.
+void Link::send_out() {
+  if (out_.blocked()) return update_interest();
+  transmit();
+}
+
+/// The same, or it waits for what follows.
+void Link::gather(base::Time now) {
+  if (out_.blocked()) return update_interest();
+  switch (out_.gather(now)) {
+    case Outgoing::Gather::kSend:
+      return transmit();
+    case Outgoing::Gather::kWait:
+      return;
+    case Outgoing::Gather::kWaitAnew:
+      return host_.flush_soon(*this);
+  }
+}
+
+void Link::transmit() {
+  const Progress progress = out_.transmit(*connection_);
+  if (progress == Progress::kGone) return break_off_locked(connection_->problem());
+  if (progress != Progress::kDone) update_interest();
+}
+
+void Link::end_if_stuck(base::Time now, base::Duration limit) {
+  const std::lock_guard lock(mutex_);
+  if (!open() || !memory->exceeds_reserve() || !out_.is_stuck(now, limit)) return;
+  break_off_locked("it does not read what it is sent, and other connections need the memory");
+}
+
+void Link::lose_event(const EventQueue& queue) {
+  const std::lock_guard lock(mutex_);
+  host_.event_dropped(queue);
+}
+
+void Link::send_event(EventQueue& queue, std::span<const std::byte> message, base::Time now) {
+  const std::lock_guard lock(mutex_);
+  if (!open()) return;
+  if (!out_.blocked()) {
+    if (out_.append_event(queue.subscription, message)) return gather(now);
+    return host_.event_dropped(queue);
+  }
+  if (!queue.push(message)) host_.event_dropped(queue);
+}
+
+void Link::drain_event_queues() {
+  for (const auto& queue : event_queues) {
+    while (open() && !out_.blocked() && !queue->empty()) {
+      if (!out_.append_event(queue->subscription, queue->front())) host_.event_dropped(*queue);
+      queue->pop();
+      transmit();
+    }
+  }
 }
 
 }  // namespace armature::ride::internal

@@ -15,7 +15,9 @@
 #include "armature/ride/answer.hpp"
 #include "armature/ride/internal/assembler.hpp"
 #include "armature/ride/internal/event_queue.hpp"
-#include "armature/ride/internal/open_call.hpp"
+#include "armature/ride/internal/open_calls.hpp"
+#include "armature/ride/internal/outgoing.hpp"
+#include "armature/ride/internal/reading.hpp"
 #include "armature/ride/internal/waiting.hpp"
 #include "armature/ride/memory_share.hpp"
 #include "armature/ride/node.hpp"
@@ -157,9 +159,9 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
 
   /// True if the other side sends no more, and is owed something.
   bool is_leaving() const { return leaving_.load(std::memory_order_relaxed); }
-  /// Ends the connection of one that is leaving once it is owed nothing more.
+  /// Ends the connection of one that is leaving once it has been answered all it has asked.
   /// @thread the I/O thread
-  void end_if_all_is_sent();
+  void let_go_if_leaving();
   /// One of `kept_replies` was given.
   void reply_was_given();
 
@@ -197,34 +199,25 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
   std::uint64_t signs_of_life() const { return signs_of_life_.load(std::memory_order_relaxed); }
 
  private:
-  enum class Reader { kIo, kCaller, kNobody };
-
   Sent send_locked(Priority priority, Type type, std::uint32_t recipient,
                    std::initializer_list<std::uint32_t> head, const Fields& fields, Flush flush);
-  template <typename Append>
-  bool append(const Append& append);
   Sent no_memory_for(Type type, std::uint32_t recipient);
   bool admits(const Message& first) override;
-  std::size_t unsent() const { return out_.size() - sent_; }
-  bool append_event(EventQueue& queue, std::span<const std::byte> message);
   bool too_much_for(Type type);
   bool is_backed_up() const;
   bool establish_locked(Progress progress);
   void send_out();
   void gather(base::Time now);
   void transmit();
-  void forget_sent();
   void drain_event_queues();
   void arrived(std::size_t size);
   void look_again_locked();
   void take_messages();
   void take_message(const Message& message);
-  bool complete(const Message& message);
   void refuse_locked(Code code, const Message& message, std::string_view text);
   void end_with(Code code, const Message& message, const std::string& text);
   void break_off_locked(const std::string& why);
   void hear_the_end();
-  void answer(OpenCall& call, std::span<const std::byte> result);
   template <typename Step>
   bool reserves(const Step& step);
   void receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock);
@@ -233,7 +226,6 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
   void leave_reading();
   platform::Interest wanted() const;
   void update_interest();
-  OpenCall* remove_call(std::uint32_t id);
 
   LinkHost& host_;
   platform::Poller& poller_;
@@ -248,21 +240,10 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
   std::atomic<bool> leaving_{false};
   std::atomic<std::uint32_t> connections_{0};
   Assembler assembler_;
-  Body out_;
-  std::size_t sent_ = 0;        ///< of `out_`
-  bool blocked_ = false;        ///< the other side has not taken what was sent
-  base::Time stuck_since_{};    ///< if it is blocked: when it has taken something
+  Outgoing out_;
   bool reading_waits_ = false;  ///< until it can write
-  bool flush_due_ = false;      ///< the I/O thread looks after what was gathered
-  base::Time last_sent_{};
-  base::Time gathered_since_{};
-  std::vector<OpenCall*> calls_;
-  std::uint32_t last_call_ = 0;
-  Reader reader_ = Reader::kIo;
-  bool listens_ = false;
-  bool returns_ = false;  ///< the I/O thread looks after it until it has reading back
-  std::uint32_t takeovers_ = 0;
-  std::uint32_t takeovers_seen_ = 0;
+  OpenCalls calls_;
+  Reading reading_;
   Progress establishing_ = Progress::kDone;
   bool held_ = false;
   platform::Interest interest_;

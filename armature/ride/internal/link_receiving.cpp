@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of Link: what is received, and who reads it.
-#include <algorithm>
+// Of Link: what is received, who reads it, and calls, whose answers it brings.
 #include <new>
 #include <utility>
 
+#include "armature/platform/clock.hpp"
 #include "armature/ride/internal/link.hpp"
 
 namespace armature::ride::internal {
@@ -22,11 +22,8 @@ bool Link::reserves(const Step& step) {
 
 std::optional<std::uint64_t> Link::read(std::size_t& size) {
   const std::lock_guard lock(mutex_);
-  if (!open() || reader_ == Reader::kCaller || is_leaving()) return std::nullopt;
-  if (reader_ == Reader::kNobody) {
-    reader_ = Reader::kIo;
-    update_interest();
-  }
+  if (!open() || reading_.is_of_caller() || is_leaving()) return std::nullopt;
+  if (reading_.claim_for_node()) update_interest();
   std::span<std::byte> room;
   if (!reserves([&] { room = assembler_.room(); })) return std::nullopt;
   const Progress progress = connection_->receive(room, size);
@@ -55,13 +52,8 @@ void Link::hear_the_end() {
 
 bool Link::take_back() {
   const std::lock_guard lock(mutex_);
-  if (reader_ == Reader::kNobody && takeovers_ == takeovers_seen_) {
-    reader_ = Reader::kIo;
-    update_interest();
-  }
-  takeovers_seen_ = takeovers_;
-  returns_ = reader_ != Reader::kIo;
-  return !returns_;
+  if (reading_.take_back()) update_interest();
+  return !reading_.returns();
 }
 
 /// What was received: answers go to their calls, all else to the node.
@@ -106,16 +98,7 @@ void Link::take_message(const Message& message) {
   const bool may_be_answer =
       message.header.type == Type::kReply ||
       (message.header.type == Type::kControl && message.header.identifier != 0);
-  if (!may_be_answer || !complete(message)) host_.deliver(*this, message);
-}
-
-void Link::answer(OpenCall& call, std::span<const std::byte> result) {
-  Holding holding(memory);
-  try {
-    call.answered(result, holding);
-  } catch (const std::bad_alloc&) {
-    call.refused(Code::kTooLarge, "not enough memory for the answer");
-  }
+  if (!may_be_answer || !calls_.complete(message, memory)) host_.deliver(*this, message);
 }
 
 /// Before its body is gathered: whom it is for, and whether its sender may. An answer that nobody
@@ -125,34 +108,11 @@ bool Link::admits(const Message& first) {
   const bool may_be_answer =
       header.type == Type::kReply || (header.type == Type::kControl && header.identifier != 0);
   if (may_be_answer) {
-    return std::ranges::find(calls_, header.identifier, &OpenCall::id) != calls_.end();
+    return calls_.has(header.identifier);
   }
   const auto refusal = host_.refusal_of(*this, first, connection_->identity());
   if (refusal) refuse_locked(refusal->code, first, refusal->text);
   return !refusal;
-}
-
-/// False if no call is open that it answers.
-bool Link::complete(const Message& message) {
-  if (message.header.type == Type::kReply) {
-    OpenCall* const call = remove_call(message.header.identifier);
-    if (call != nullptr) answer(*call, message.body);
-    return call != nullptr;
-  }
-  Decoder from(message.body);
-  Control control;
-  if (!from.take(control) || !from.ended()) return false;
-  OpenCall* const call = remove_call(message.header.identifier);
-  if (call != nullptr) call->refused(control.code, control.text);
-  return call != nullptr;
-}
-
-OpenCall* Link::remove_call(std::uint32_t id) {
-  const auto at = std::ranges::find(calls_, id, &OpenCall::id);
-  if (at == calls_.end()) return nullptr;
-  OpenCall* const call = *at;
-  calls_.erase(at);
-  return call;
 }
 
 void Link::arrived(std::size_t size) {
@@ -179,34 +139,92 @@ void Link::receive_once(base::Duration limit, std::unique_lock<std::mutex>& lock
 }
 
 bool Link::take_reading() {
-  if (!open() || reader_ == Reader::kCaller) return false;
-  ++takeovers_;
-  reader_ = Reader::kCaller;
+  if (!open() || reading_.is_of_caller()) return false;
+  reading_.give_to_caller();
   update_interest();
-  if (!listens_) return_later();
+  if (!reading_.listens()) return_later();
   return true;
 }
 
 /// Has the node take reading back soon.
 void Link::return_later() {
-  if (returns_) return;
+  if (reading_.returns()) return;
   host_.return_soon(*this);
-  returns_ = true;
+  reading_.begin_return();
 }
 
 /// Another caller who waits goes on reading; otherwise the node does, at once or later.
 void Link::leave_reading() {
-  const auto next = std::ranges::find_if(calls_, [](const OpenCall* call) { return call->waits; });
-  if (next != calls_.end() && open()) {
-    auto* const call = static_cast<WaitingCall*>(*next);
-    call->promoted = true;
-    call->notify();
+  WaitingCall* const next = calls_.first_waiting();
+  if (next != nullptr && open()) {
+    next->promoted = true;
+    next->notify();
     return;
   }
-  reader_ = listens_ || !open() ? Reader::kIo : Reader::kNobody;
-  if (reader_ == Reader::kNobody) return_later();  // it may have listened until now
+  if (reading_.listens() || !open()) {
+    reading_.give_to_node();
+  } else {
+    reading_.give_to_nobody();
+    return_later();  // it may have listened until now
+  }
   update_interest();
   if (!open()) host_.attend(*this);
+}
+
+// ---- Calls
+
+void Link::call(Number operation, const Recipient& recipient, const CallOptions& options,
+                const Fields& parameters, WaitingCall& call) {
+  const base::Time deadline = base::later(platform::monotonic_now(), options.deadline);
+  std::unique_lock lock(mutex_);
+  const auto identifier = recipient.identifier();
+  if (!open() || !identifier) {
+    return call.refused(Code::kNotConnected, "it is not connected");
+  }
+  call.waits = true;
+  calls_.add(call);
+  const Sent sent = send_locked(options.priority, Type::kRequest, *identifier, {operation, call.id},
+                                parameters, Flush::kNow);
+  if (sent == Sent::kQueueFull) {
+    calls_.remove(call.id);
+    return call.refused(Code::kBusy, "the other side has not yet taken earlier messages");
+  }
+  bool reads = !call.done && take_reading();
+  base::Duration limit = options.deadline;
+  while (!call.done) {
+    if (reads) {
+      receive_once(limit, lock);
+    } else {
+      lock.unlock();
+      call.wakeup.wait_until(deadline);
+      lock.lock();
+      reads = std::exchange(call.promoted, false);
+    }
+    if (call.done) break;
+    limit = deadline - platform::monotonic_now();
+    if (limit <= base::Duration::zero()) {
+      calls_.remove(call.id);
+      call.refused(Code::kDeadline, "no answer came before the deadline");
+    }
+  }
+  if (reads || call.promoted) leave_reading();
+}
+
+void Link::call(Number operation, const Recipient& recipient, const Fields& parameters,
+                std::unique_ptr<CallbackCall> call) {
+  constexpr Priority kMostUrgent{255};
+  const std::lock_guard lock(mutex_);
+  OpenCall* const open_call = call.release();
+  const auto identifier = recipient.identifier();
+  if (!open() || !identifier) {
+    return open_call->refused(Code::kNotConnected, "it is not connected");
+  }
+  calls_.add(*open_call);
+  const Sent sent = send_locked(kMostUrgent, Type::kRequest, *identifier,
+                                {operation, open_call->id}, parameters, Flush::kNow);
+  if (sent != Sent::kQueueFull) return;
+  calls_.remove(open_call->id);
+  open_call->refused(Code::kBusy, "the other side has not yet taken earlier messages");
 }
 
 }  // namespace armature::ride::internal

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "armature/platform/clock.hpp"
-#include "armature/ride/internal/node_state.hpp"
+#include "armature/ride/internal/node/node_state.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 
 namespace armature::ride::internal {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/exec/internal/application/run_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "armature/platform/clock.hpp"
+#include "armature/platform/stop_signal.hpp"
+
+namespace armature::exec::internal {
+
+void RunLoop::begin_anew() {
+  simulation_.reset();
+  if (options_.simulated) simulation_.emplace(pointers_to(engines_));
+}
+
+RunEnd RunLoop::run_until(base::Time end, const std::function<bool()>& condition,
+                          const platform::StopSignal* stop) {
+  return options_.simulated ? simulate_until(end, condition, stop)
+                            : attend_until(end, condition, stop);
+}
+
+RunEnd RunLoop::attend_until(base::Time end, const std::function<bool()>& condition,
+                             const platform::StopSignal* stop) {
+  constexpr base::Duration kLogPeriod = std::chrono::milliseconds(20);
+  constexpr base::Duration kConditionPeriod = std::chrono::milliseconds(1);
+  const bool often = condition || options_.attend;
+  const base::Duration period = often ? kConditionPeriod : kLogPeriod;
+  while (true) {
+    outlets_.drain();
+    if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
+    if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
+    const base::Time at = clock_.now();
+    attend();
+    if (condition && condition()) return RunEnd::kConditionMet;
+    if (at >= end) return RunEnd::kTimeUp;
+    const base::Time next = std::min(end, at + period);
+    if (stop != nullptr) {
+      stop->wait_until(next);
+    } else {
+      platform::sleep_until(next);
+    }
+  }
+}
+
+RunEnd RunLoop::simulate_until(base::Time end, const std::function<bool()>& condition,
+                               const platform::StopSignal* stop) {
+  while (true) {
+    while (Engine* const engine = simulation_->take_turn(clock_.now())) {
+      outlets_.drain_after_turn(*engine);
+      if (const std::optional<RunEnd> end_now = end_by_fault()) return *end_now;
+      if (stop != nullptr && stop->received()) return RunEnd::kStopRequested;
+    }
+    attend();
+    if (condition && condition()) return RunEnd::kConditionMet;
+    if (clock_.now() >= end) return RunEnd::kTimeUp;
+    clock_.go_to(std::min(end, simulation_->next_due()));
+  }
+}
+
+std::optional<RunEnd> RunLoop::end_by_fault() {
+  health_.take_leave_of_the_dead(engines_);
+  return health_.end_by_fault(options_.on_fault);
+}
+
+void RunLoop::attend() {
+  outlets_.write_black_boxes(health_.incidents());
+  stop_guard_.finish();
+  outlets_.tell_losses_now_and_then();
+  if (options_.attend) options_.attend();
+}
+
+}  // namespace armature::exec::internal
