@@ -226,7 +226,7 @@ TEST_F(SocketCanOnVirtualInterface, WhatWaitsWhenItIsClosedIsCountedAsLost) {
 TEST(SocketCanMistakes, AnInterfaceThatIsNotThere) {
   EXPECT_THAT(error_of_opening("can7"),
               testing::AllOf(HasSubstr("CAN interface 'can7': this interface does not exist"),
-                             HasSubstr("'ip link' lists them")));
+                             HasSubstr("list them with 'ip link'")));
 }
 
 TEST(SocketCanMistakes, AnInterfaceOfAnotherKind) {

@@ -132,7 +132,7 @@ TEST_F(NodeMemory, AnAnswerThatThereIsNoMemoryForIsToldAndTheNextIsGiven) {
   const auto refusal = raw.receive_control();
   EXPECT_EQ(refusal.code, Code::kBusy);
   EXPECT_EQ(refusal.call, 1u);
-  EXPECT_THAT(refusal.text, HasSubstr("no memory"));
+  EXPECT_THAT(refusal.text, HasSubstr("not enough memory"));
   raw.send({}, Type::kRequest, 1, kEcho, 2u, std::string(kMiB / 2, 'x'));
   EXPECT_EQ(raw.receive_reply<std::string>(2).value_or("").size(), kMiB / 2);
 }

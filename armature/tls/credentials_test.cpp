@@ -88,9 +88,11 @@ TEST_F(Credentials, ACertificateOfTheFutureAsksForTheClock) {
 
 TEST_F(Credentials, ACertificateHasToNameSomebody) {
   issue_own({.common_name = "", .names = "IP:127.0.0.1"});
-  EXPECT_THAT(findings(), HasSubstr("robot.pem: error: the certificate names nobody"));
+  EXPECT_THAT(findings(),
+              HasSubstr("robot.pem: error: the certificate has no usable common name or DNS name"));
   issue_own({.common_name = "the robot"});
-  EXPECT_THAT(findings(), HasSubstr("robot.pem: error: the certificate names nobody"));
+  EXPECT_THAT(findings(),
+              HasSubstr("robot.pem: error: the certificate has no usable common name or DNS name"));
 }
 
 TEST_F(Credentials, AnAuthorityHasToBeOne) {

@@ -176,7 +176,7 @@ TEST_F(ArmingTest, SaysWhenTheArmedJointsAreToStandAndWhenNot) {
 
 TEST_F(ArmingTest, RefusesBeforeAnythingWasMeasuredAndWhenArmed) {
   ASSERT_TRUE(arming.start()) << arming.reason();
-  EXPECT_THAT(std::string(arm().reason()), HasSubstr("nothing was measured"));
+  EXPECT_THAT(std::string(arm().reason()), HasSubstr("nothing is measured yet"));
   measure(1.0, 2.0);
   get_armed();
   EXPECT_THAT(std::string(arm().reason()), HasSubstr("armed already"));

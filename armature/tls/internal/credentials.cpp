@@ -68,7 +68,7 @@ class Files {
 
   void check_identity(const std::string& path, const X509& certificate) {
     if (!identity_of(certificate).empty()) return;
-    wrong(path, "the certificate has neither a common name nor a DNS name",
+    wrong(path, "the certificate has no usable common name or DNS name",
           "a name is printable ASCII without spaces, at most 64 letters: -subj /CN=robot");
   }
 
