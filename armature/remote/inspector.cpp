@@ -56,7 +56,7 @@ class PeerCommands {
       const inspect::CommandStatus status = view_.cancel(one.handle);
       if (tell_) {
         tell_("'" + status.name + "' is cancelled: the connection to " + one.line.who() +
-              ", who began it, is lost");
+              ", which began it, is lost");
       }
     }
   }
