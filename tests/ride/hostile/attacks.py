@@ -311,21 +311,34 @@ class End(Exception):
     pass
 
 
+stopping = False
+
+
 def end(*_):
     """Raises once more after a while: what is raised in a destructor is lost."""
+    if stopping:
+        return
     signal.setitimer(signal.ITIMER_REAL, 0.1)
     raise End
 
 
-def listen_for_the_end(listens):
+def listen_for_the_end():
     for number in (signal.SIGTERM, signal.SIGALRM):
-        signal.signal(number, end if listens else signal.SIG_IGN)
+        signal.signal(number, end)
 
 
 def stop_listening():
-    """The end may be told once more while it is being stopped."""
+    """From here on the end is not told again, also not while the interpreter ends, which would end it by a signal."""
+    global stopping
+    stopping = True
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    for number in (signal.SIGTERM, signal.SIGALRM):
+        signal.signal(number, signal.SIG_IGN)
+
+
+def attack(attacker, name, *peers):
     try:
-        listen_for_the_end(False)
+        globals()[name](attacker, *map(int, peers))
     except End:
         stop_listening()
 
@@ -338,14 +351,14 @@ def parse(address):
 def main():
     name, plain, tls, folder = sys.argv[1:]
     attacker = Attacker(parse(plain), parse(tls), folder)
-    listen_for_the_end(True)
+    listen_for_the_end()
+    name, *peers = name.split(":")
     try:
-        name, *peers = name.split(":")
-        globals()[name](attacker, *map(int, peers))
-    except End:
+        attack(attacker, name, *peers)
+    except End:  # told once more before `attack` could stop listening
         stop_listening()
-        if name in ENDED_BY_THE_NODE:
-            attacker.see_one_end()
+    if name in ENDED_BY_THE_NODE:
+        attacker.see_one_end()
     print(json.dumps({"controls": sorted(attacker.controls), "replies": attacker.replies, "ended": attacker.ended,
                       "why": sorted(attacker.why)}))
 
