@@ -33,6 +33,10 @@ class TicketPoolTest : public ::testing::Test {
     blueprint.add<Mover>("Mover", Activity::triggered());
     return blueprint;
   }
+  /// As its component does: it shares the ticket until then.
+  static void end(ToolTicket& ticket) {
+    ticket.end(component::CommandStage::kDone, component::Reason());
+  }
   Mover& mover() { return static_cast<Mover&>(parts_.component(0)); }
 
   PlannedParts parts_{one_mover()};
@@ -42,16 +46,22 @@ class TicketPoolTest : public ::testing::Test {
 TEST_F(TicketPoolTest, GivesNobodyATicketThatAnotherHas) {
   ToolTicket& first = pool_.claim(mover().move);
   const component::CommandHandle held(first);
-  EXPECT_NE(&pool_.claim(mover().move), &first);
+  ToolTicket& second = pool_.claim(mover().move);
+  const component::CommandHandle held_too(second);
+  EXPECT_NE(&second, &first);
+  end(first);
+  end(second);
 }
 
 TEST_F(TicketPoolTest, GivesATicketAgainWhoseCommandHasEndedAndThatNobodyLooksAt) {
   ToolTicket* const first = &pool_.claim(mover().move);
   {
     const component::CommandHandle held(*first);
-    first->end(component::CommandStage::kDone, component::Reason());
+    end(*first);
   }
-  EXPECT_EQ(&pool_.claim(mover().move), first);
+  ASSERT_EQ(&pool_.claim(mover().move), first);
+  const component::CommandHandle held(*first);
+  end(*first);
 }
 
 TEST_F(TicketPoolTest, CancelsWhatIsUnderWay) {
