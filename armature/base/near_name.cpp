@@ -69,4 +69,10 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   return text;
 }
 
+std::string suggestion_in_brackets(std::string_view name,
+                                   const std::vector<std::string>& candidates) {
+  const std::string text = suggestion(name, candidates);
+  return text.empty() ? text : " (" + text + ")";
+}
+
 }  // namespace armature::base

@@ -14,4 +14,8 @@ std::string near_name(std::string_view name, const std::vector<std::string>& can
 /// `did you mean 'X'?`, or `known: A, B, C` for at most eight candidates, or nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
+/// The same for the end of a message: ` (did you mean 'X'?)`, or nothing.
+std::string suggestion_in_brackets(std::string_view name,
+                                   const std::vector<std::string>& candidates);
+
 }  // namespace armature::base

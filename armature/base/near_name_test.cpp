@@ -43,6 +43,11 @@ TEST(Suggestion, SaysNothingRatherThanListManyNames) {
   const std::vector<std::string> nine(9, "reference");
   EXPECT_EQ(suggestion("torque", nine), "");
   EXPECT_EQ(suggestion("torque", {}), "");
+  EXPECT_EQ(suggestion_in_brackets("torque", nine), "");
+}
+
+TEST(Suggestion, StandsInBracketsAtTheEndOfAMessage) {
+  EXPECT_EQ(suggestion_in_brackets("refrence", {"reference"}), " (did you mean 'reference'?)");
 }
 
 }  // namespace

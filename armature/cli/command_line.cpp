@@ -26,7 +26,7 @@ CLI::Validator folder() {
 CLI::Validator one_of(std::vector<std::string> names) {
   const auto check = [names = std::move(names)](const std::string& text) {
     if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
-    return "unknown value '" + text + "' (" + base::suggestion(text, names) + ")";
+    return "unknown value '" + text + "'" + base::suggestion_in_brackets(text, names);
   };
   return CLI::Validator(check, "");
 }

@@ -49,7 +49,7 @@ class Program {
       std::vector<std::string> names;
       for (const CLI::App* command : app_.get_subcommands({})) names.push_back(command->get_name());
       if (std::find(names.begin(), names.end(), word) != names.end()) return {};
-      return "unknown command '" + word + "' (" + base::suggestion(word, names) + ")";
+      return "unknown command '" + word + "'" + base::suggestion_in_brackets(word, names);
     }
     return {};
   }

@@ -21,11 +21,6 @@ bool is_name_character(char c) {
   return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-std::string hint(std::string_view name, const std::vector<std::string>& known) {
-  const std::string text = base::suggestion(name, known);
-  return text.empty() ? text : " (" + text + ")";
-}
-
 template <typename Items>
 auto find_in(const Items& items, std::string_view name) -> typename Items::value_type {
   for (auto* item : items) {
@@ -44,7 +39,7 @@ base::Result<Member> take_member(const Component& component, std::string_view& r
   const std::optional<Member> member = member_of(component, name);
   if (!member) {
     return base::Error{"'" + component.name() + "' has no '" + std::string(name) + "'" +
-                       hint(name, member_names(component))};
+                       base::suggestion_in_brackets(name, member_names(component))};
   }
   rest.remove_prefix(size);
   return *member;
@@ -99,7 +94,8 @@ std::vector<std::string> component_names(const Application& application) {
 }
 
 std::string no_component(const Application& application, std::string_view text) {
-  return "unknown component '" + std::string(text) + "'" + hint(text, component_names(application));
+  return "unknown component '" + std::string(text) + "'" +
+         base::suggestion_in_brackets(text, component_names(application));
 }
 
 std::vector<std::string> member_names(const Component& component) {

@@ -80,8 +80,7 @@ class View {
 
   /// A component's whole interface.
   /// @param values  kIncluded: how it stands and its values, all at one moment. kLeftOut: its
-  /// thread
-  ///                is not asked, and how it stood may be an earlier time's.
+  ///                thread is not asked, and how it stood may be an earlier time's.
   virtual ComponentDescription describe(const std::string& component, Values values) = 0;
 
   /// Values by their items, `Joint1.Position`, `Sensor.sensor[2]` (counted from 1),

@@ -15,11 +15,6 @@ namespace {
 using inspect::ComponentDescription;
 using inspect::ItemValue;
 
-std::string hint(std::string_view name, const std::vector<std::string>& known) {
-  const std::string text = base::suggestion(name, known);
-  return text.empty() ? text : " (" + text + ")";
-}
-
 std::vector<std::string> member_names(const ComponentDescription& component) {
   std::vector<std::string> names;
   const auto add = [&](const auto& members) {
@@ -46,7 +41,8 @@ std::string SpelledView::find(std::string_view text) {
 }
 
 std::string SpelledView::no_component(std::string_view text) {
-  return "unknown component '" + std::string(text) + "'" + hint(text, component_names());
+  return "unknown component '" + std::string(text) + "'" +
+         base::suggestion_in_brackets(text, component_names());
 }
 
 base::Result<MemberName> SpelledView::member_in(std::string_view text) {
@@ -68,7 +64,7 @@ base::Result<MemberName> SpelledView::member_in(std::string_view text) {
   const std::vector<std::string> names = member_names(interface_of(found.component));
   if (std::find(names.begin(), names.end(), found.member) != names.end()) return found;
   return base::Error{"'" + found.component + "' has no '" + found.member + "'" +
-                     hint(found.member, names)};
+                     base::suggestion_in_brackets(found.member, names)};
 }
 
 ComponentDescription SpelledView::look_at(const std::string& component) {

@@ -114,7 +114,7 @@ ComponentStatus status_without_reason(const exec::Application& application,
   status.name = component.name();
   status.model = entry.model;
   status.state = component.state();
-  status.thread = thread_of(application, component).name;
+  status.thread = application.plan().threads[application.plan().thread_of[index]].name;
   status.autostart = entry.autostart;
   status.start_order =
       static_cast<int>(std::find(order.begin(), order.end(), index) - order.begin());

@@ -95,7 +95,7 @@ int read_member(lua_State* lua) {
   const std::optional<Member> member = inspect::member_of(component, name);
   if (!member) {
     refuse(lua, "'" + component.name() + "' has no property, port, operation or event '" + name +
-                    "'" + hint(name, inspect::member_names(component)));
+                    "'" + base::suggestion_in_brackets(name, inspect::member_names(component)));
   }
   if (member->has_value()) {
     const auto value = application_of(lua).value_of(component.name(), name);
@@ -124,7 +124,8 @@ int write_member(lua_State* lua) {
     }
     std::vector<std::string> known;
     for (const auto* one : component.interface().properties) known.emplace_back(one->name());
-    refuse(lua, "'" + component.name() + "' has no property '" + name + "'" + hint(name, known));
+    refuse(lua, "'" + component.name() + "' has no property '" + name + "'" +
+                    base::suggestion_in_brackets(name, known));
   }
   const auto value = value_at(lua, 3, member->type());
   if (!value) refuse(lua, component.name() + "." + name + value.error());
@@ -233,7 +234,8 @@ int read_unknown(lua_State* lua) {
   if (base::near_name(name, known).empty()) {
     for (std::string& key : keys_of(lua, 1)) known.push_back(std::move(key));
   }
-  refuse(lua, "unknown component or variable '" + name + "'" + hint(name, known));
+  refuse(lua, "unknown component or variable '" + name + "'" +
+                  base::suggestion_in_brackets(name, known));
 }
 
 int write_unknown(lua_State* lua) {

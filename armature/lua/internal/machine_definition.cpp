@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "armature/base/near_name.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/lua/internal/schedule.hpp"
 #include "armature/lua/internal/table_reader.hpp"
@@ -106,7 +107,8 @@ void MachineReader::put_initial_first(int table, const std::string& place, Names
   if (first != states.end()) {
     std::rotate(states.begin(), first, first + 1);
   } else if (!initial.empty()) {
-    reader_.complain(place, "initial: unknown state '" + initial + "'" + hint(initial, states));
+    reader_.complain(place, "initial: unknown state '" + initial + "'" +
+                                base::suggestion_in_brackets(initial, states));
     definition_.knows_all_ways = false;
   } else if (states.size() > 1) {
     reader_.complain(place, "initial is missing: which of its states comes first, " + states[0] +

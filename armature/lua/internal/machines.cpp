@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "armature/base/near_name.hpp"
 #include "armature/lua/internal/components.hpp"
 #include "armature/lua/internal/schedule.hpp"
 #include "armature/lua/internal/table_reader.hpp"
@@ -70,7 +71,8 @@ std::size_t trigger_at(lua_State* lua, const Machine& machine) {
     refuse(lua, "send takes a text, machine:send(\"go\"), found " +
                     (lua_isnoneornil(lua, 2) ? "nothing" : text_at(lua, 2)));
   }
-  refuse(lua, named(machine) + ": no state has on = {" + name + " = ...}" + hint(name, known));
+  refuse(lua, named(machine) + ": no state has on = {" + name + " = ...}" +
+                  base::suggestion_in_brackets(name, known));
 }
 
 /// Whether it had an effect; if not, why.
@@ -95,7 +97,8 @@ int is_in(lua_State* lua) {
   if (table.find(name) == component::kNoState) {
     std::vector<std::string> known;
     for (int i = 0; i < static_cast<int>(table.states.size()); ++i) known.push_back(table.path(i));
-    refuse(lua, named(machine) + " has no state '" + name + "'" + hint(name, known));
+    refuse(lua, named(machine) + " has no state '" + name + "'" +
+                    base::suggestion_in_brackets(name, known));
   }
   lua_pushboolean(lua, machine.is_in(name));
   return 1;
@@ -120,7 +123,8 @@ int read_machine_member(lua_State* lua) {
     lua_pushboolean(lua, machine.running());
   } else if (lua_getfield(lua, lua_upvalueindex(1), name.c_str()) == LUA_TNIL) {
     refuse(lua, "a machine has no '" + name + "'" +
-                    hint(name, {"is_in", "name", "running", "send", "start", "state", "stop"}));
+                    base::suggestion_in_brackets(
+                        name, {"is_in", "name", "running", "send", "start", "state", "stop"}));
   }
   return 1;
 }

@@ -46,7 +46,8 @@ std::vector<std::string> TableReader::keys(int table, const std::string& place, 
 void TableReader::complain_of_key(const std::string& place, const std::string& name,
                                   const std::vector<std::string>& known,
                                   const std::string& remark) {
-  complain(place, "'" + name + "' is not a key here" + hint(name, known) + remark);
+  complain(place,
+           "'" + name + "' is not a key here" + base::suggestion_in_brackets(name, known) + remark);
 }
 
 std::string TableReader::text(int table, const char* key, const std::string& place) {
@@ -68,11 +69,6 @@ int TableReader::function(int table, const char* key, const std::string& place) 
   if (there) complain(place, std::string(key) + " must be a function, found " + top());
   lua_pop(lua_, 1);
   return LUA_NOREF;
-}
-
-std::string hint(const std::string& name, const std::vector<std::string>& known) {
-  const std::string text = base::suggestion(name, known);
-  return text.empty() ? text : " (" + text + ")";
 }
 
 }  // namespace armature::lua::internal

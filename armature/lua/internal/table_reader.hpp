@@ -44,7 +44,4 @@ class TableReader {
   std::vector<std::string>& problems_;
 };
 
-/// ` (did you mean 'X'?)`, or nothing.
-std::string hint(const std::string& name, const std::vector<std::string>& known);
-
 }  // namespace armature::lua::internal

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "armature/base/near_name.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/lua/internal/subscriptions.hpp"
 #include "armature/lua/internal/values.hpp"
@@ -263,7 +264,7 @@ bool TransitionReader::resolve(Pending& pending) {
       known.push_back(table.path(i));
   }
   reader_.complain(pending.place, "unknown state '" + pending.target + "' to go to from here" +
-                                      hint(pending.target, known));
+                                      base::suggestion_in_brackets(pending.target, known));
   return false;
 }
 

@@ -146,8 +146,7 @@ Mistake refuse_other_keys(lua_State* lua, int index, const Type& type) {
   for (lua_pushnil(lua); lua_next(lua, index) != 0; lua_pop(lua, 1)) {
     const std::string key = text_at(lua, -2);
     if (mistake || std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const std::string hint = base::suggestion(key, known);
-    mistake = " has no field '" + key + "'" + (hint.empty() ? "" : " (" + hint + ")");
+    mistake = " has no field '" + key + "'" + base::suggestion_in_brackets(key, known);
   }
   return mistake;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include "armature/base/seconds.hpp"
@@ -20,21 +21,22 @@ base::Duration duration_of(double seconds) {
   return std::abs(seconds) <= kLongestSeconds ? base::from_seconds(seconds) : base::Duration{};
 }
 
+template <typename Enum>
+std::optional<Enum> named(const std::string& name, std::initializer_list<Enum> all) {
+  const auto found =
+      std::ranges::find_if(all, [&](Enum one) { return component::name_of(one) == name; });
+  return found == all.end() ? std::nullopt : std::optional(*found);
+}
+
 std::optional<State> state_named(const std::string& name) {
-  for (const State state : {State::kPreOperational, State::kException, State::kStopped,
-                            State::kRunning, State::kRunTimeError}) {
-    if (component::name_of(state) == name) return state;
-  }
-  return std::nullopt;
+  return named(name, {State::kPreOperational, State::kException, State::kStopped, State::kRunning,
+                      State::kRunTimeError});
 }
 
 CommandStage stage_named(const std::string& name) {
-  for (const CommandStage stage :
-       {CommandStage::kQueued, CommandStage::kAccepted, CommandStage::kRefused, CommandStage::kDone,
-        CommandStage::kFailed, CommandStage::kCancelled}) {
-    if (component::name_of(stage) == name) return stage;
-  }
-  return CommandStage::kFree;
+  return named(name, {CommandStage::kQueued, CommandStage::kAccepted, CommandStage::kRefused,
+                      CommandStage::kDone, CommandStage::kFailed, CommandStage::kCancelled})
+      .value_or(CommandStage::kFree);
 }
 
 inspect::ThreadStatus told(const ThreadStatus& from) {

@@ -71,8 +71,8 @@ Outcome ModeControl::switch_to(std::string_view name) const {
   std::vector<std::string> names;
   for (const ModePlan& mode : plan_.modes) names.push_back(mode.name);
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    return component::refused("unknown mode " + base::quoted(name) + " (" +
-                              base::suggestion(name, names) + ")");
+    return component::refused("unknown mode " + base::quoted(name) +
+                              base::suggestion_in_brackets(name, names));
   }
   const auto outcome = std::make_shared<Outcome>(component::accepted());
   const auto work = [outcome, modes, wanted = ModeName(name)] {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/internal/application/roster.hpp"
 
-#include <utility>
-
 #include "armature/base/near_name.hpp"
 #include "armature/base/quoted.hpp"
 
@@ -32,13 +30,7 @@ std::string Roster::unknown(std::string_view name) const {
   for (const ComponentEntry& entry : blueprint_.components) {
     names.push_back(entry.component->name());
   }
-  return with_suggestion("unknown component " + base::quoted(name), name, names);
-}
-
-std::string with_suggestion(std::string text, std::string_view name,
-                            const std::vector<std::string>& known) {
-  const std::string hint = base::suggestion(name, known);
-  return hint.empty() ? text : std::move(text) + " (" + hint + ")";
+  return "unknown component " + base::quoted(name) + base::suggestion_in_brackets(name, names);
 }
 
 }  // namespace armature::exec::internal

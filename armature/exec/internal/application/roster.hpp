@@ -28,8 +28,4 @@ class Roster {
   std::unordered_map<std::string_view, Index> index_of_;
 };
 
-/// `text`, and in brackets which of the known names may be meant.
-std::string with_suggestion(std::string text, std::string_view name,
-                            const std::vector<std::string>& known);
-
 }  // namespace armature::exec::internal

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "armature/base/near_name.hpp"
 #include "armature/base/quoted.hpp"
 #include "armature/component/author.hpp"
 
@@ -24,8 +25,8 @@ auto find_in(const Items& items, std::string_view name) -> typename Items::value
 
 std::string no_such(const std::string& kind, std::string_view name, const Component& component,
                     const std::vector<std::string>& known) {
-  return with_suggestion(quoted(component.name()) + " has no " + kind + " " + quoted(name), name,
-                         known);
+  return quoted(component.name()) + " has no " + kind + " " + quoted(name) +
+         base::suggestion_in_brackets(name, known);
 }
 
 template <typename Items>
