@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/test_components.hpp"
 #include "armature/exec/task.hpp"
 #include "armature/rt/guard.hpp"
@@ -25,7 +26,7 @@ constexpr base::Time at(base::Duration time) { return base::Time(time); }
 template <typename... Components>
 void start(Components&... components) {
   const auto start_one = [](component::Component& each) {
-    ASSERT_TRUE(each.configure());
+    ASSERT_TRUE(component::Host::configure(each));
     ASSERT_TRUE(each.start());
   };
   (start_one(components), ...);
@@ -157,7 +158,7 @@ TEST_F(EngineTest, ExecutionTimesAreTakenInEveryNthCycleAndIncludeMessages) {
     engine_.step(at(cycle * 10ms + 5ms));
   }
   engine_.close_account();
-  EXPECT_EQ(probe_.execution_ticks().summary().count, 3u) << "cycles 2, 4 and 6";
+  EXPECT_EQ(component::Host::execution_ticks(probe_).summary().count, 3u) << "cycles 2, 4 and 6";
 }
 
 // --- policies for late cycles --------------------------------------------------------------------
