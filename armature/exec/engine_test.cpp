@@ -27,7 +27,7 @@ template <typename... Components>
 void start(Components&... components) {
   const auto start_one = [](component::Component& each) {
     ASSERT_TRUE(component::Host::configure(each));
-    ASSERT_TRUE(each.start());
+    ASSERT_TRUE(component::Host::start(each));
   };
   (start_one(components), ...);
 }
@@ -154,7 +154,7 @@ TEST_F(EngineTest, ExecutionTimesAreTakenInEveryNthCycleAndIncludeMessages) {
   engine_.measure_every(2);
   for (int cycle = 1; cycle <= 6; ++cycle) {
     engine_.step(at(cycle * 10ms));
-    Task::post(engine_.context(), [&] { probe_.run(engine_.context(), [] {}); });
+    Task::post(engine_.context(), [&] { component::Host::run(probe_, engine_.context(), [] {}); });
     engine_.step(at(cycle * 10ms + 5ms));
   }
   engine_.close_account();
@@ -303,7 +303,7 @@ TEST_F(AgingEngine, OneThatStartsLaterIsWatchedFromThenOn) {
   watcher_.stop();
   engine_.step(at(0ms));
   EXPECT_EQ(engine_.next_due(), base::Time::max());
-  Task::post(engine_.context(), [this] { EXPECT_TRUE(watcher_.start()); });
+  Task::post(engine_.context(), [this] { EXPECT_TRUE(component::Host::start(watcher_)); });
   engine_.step(at(50ms));
   EXPECT_EQ(engine_.next_due(), at(60ms + 1ns));
 }

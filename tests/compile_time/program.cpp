@@ -313,8 +313,8 @@ void run_cycle(ExecutionContext& context, Sampler& sampler, AxesGenerator& gener
   context.cycle_time = context.cycle_time.load() + 1ms;
   ++context.cycle;
   context.inbox.deliver_all();
-  generator.update();
-  sampler.update();
+  Host::update(generator);
+  Host::update(sampler);
 }
 
 }  // namespace

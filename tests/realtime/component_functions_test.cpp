@@ -133,6 +133,11 @@ TEST_P(ComponentFunctions, TimeAndAdmission) {
   base::Duration period{};
   expect_realtime("Component::period", [&] { period = server_.period(); });
   EXPECT_EQ(period, milliseconds(10));
+  Host::context(server_).simulated = true;
+  bool simulated = false;
+  expect_realtime("Component::is_simulated", [&] { simulated = server_.is_simulated(); });
+  Host::context(server_).simulated = false;
+  EXPECT_TRUE(simulated);
   EXPECT_TRUE(admitted);
 }
 

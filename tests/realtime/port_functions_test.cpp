@@ -71,7 +71,7 @@ class PortFunctions : public ::testing::TestWithParam<Connection> {
   }
   void connect(OutputPortBase& output, InputPortBase& input) {
     output.connect(input, GetParam().policy);
-    ASSERT_TRUE(sink_.start());
+    ASSERT_TRUE(Host::start(sink_));
   }
   /// What the reader's thread does with what was sent to it.
   void begin_cycle() {
@@ -169,7 +169,7 @@ TEST_P(AgeFunctions, DataThatIsTooOldIsReactedTo) {
   sink.number.set_max_age(max_age(milliseconds(1), GetParam()));
   source.number.connect(sink.number, {});
   ASSERT_TRUE(Host::configure(sink));
-  ASSERT_TRUE(sink.start());
+  ASSERT_TRUE(Host::start(sink));
   expect_realtime("InputPortBase::check_age", [&] {
     context.cycle_time = context.cycle_time.load() + milliseconds(5);
     sink.number.check_age();
