@@ -400,7 +400,7 @@ TEST(SimulatedTime, AnEngineStepsWithoutAViolation) {
   Engine engine("loop", Activity::periodic(milliseconds(1)), {&sensor}, {&sensor});
   engine.context().simulated = true;
   ASSERT_TRUE(component::Host::configure(sensor));
-  ASSERT_TRUE(sensor.start());
+  ASSERT_TRUE(component::Host::start(sensor));
   base::Time now{};
   engine.begin(now);
   expect_realtime("Engine::step", [&] { engine.step(now += milliseconds(1)); });
