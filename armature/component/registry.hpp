@@ -13,6 +13,7 @@
 #include "armature/base/result.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/events/event.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/operations/command.hpp"
 #include "armature/component/operations/operation.hpp"
 #include "armature/component/ports/input_port.hpp"

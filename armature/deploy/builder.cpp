@@ -9,6 +9,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/events/event.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/operations/operation.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
@@ -58,7 +59,7 @@ component::InputPortBase* find_input(const exec::Blueprint& blueprint, const End
       continue;
     }
     std::vector<std::string> ports;
-    for (component::InputPortBase* const port : entry.component->interface().inputs) {
+    for (component::InputPortBase* const port : component::interface_of(*entry.component).inputs) {
       if (port->name() == end.port) return port;
       ports.push_back(port->name());
     }
@@ -139,10 +140,12 @@ void check_operations(const std::vector<OperationOf>& wanted, const exec::Bluepr
       continue;
     }
     std::vector<std::string> fitting;
-    for (const component::OperationBase* operation : found->second->interface().operations) {
+    for (const component::OperationBase* operation :
+         component::interface_of(*found->second).operations) {
       if (choice.fits(*operation)) fitting.emplace_back(operation->name());
     }
-    for (const component::PropertyBase* property : found->second->interface().properties) {
+    for (const component::PropertyBase* property :
+         component::interface_of(*found->second).properties) {
       if (choice.properties && property->is_by_operator()) fitting.emplace_back(property->name());
     }
     if (std::find(fitting.begin(), fitting.end(), one.operation) != fitting.end()) continue;
@@ -188,7 +191,8 @@ void check_exports(const Document& document, const exec::Blueprint& blueprint,
     for (const Export& one : composite.exports) {
       const auto part = made.find(one.component);
       if (part == made.end()) continue;  // it is missing, which was reported
-      const std::vector<std::string> names = exportable(part->second->interface(), one.kind);
+      const std::vector<std::string> names =
+          exportable(component::interface_of(*part->second), one.kind);
       if (std::find(names.begin(), names.end(), one.member) != names.end()) continue;
       found.error(one.where,
                   "composite " + in_quotes(composite.model) + " exports " + in_quotes(one.name) +
@@ -211,7 +215,7 @@ void add_modes(const Document& document, exec::Blueprint& blueprint) {
 
 std::vector<Property> persistent_properties(const component::Component& component) {
   std::vector<Property> properties;
-  for (const component::PropertyBase* property : component.interface().properties) {
+  for (const component::PropertyBase* property : component::interface_of(component).properties) {
     if (!property->persistent()) continue;
     properties.push_back({std::string(property->name()),
                           write_value(property->type(), property->data()),

@@ -8,6 +8,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/states/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/overrides.hpp"
@@ -41,7 +42,7 @@ exec::Activity activity_of(const Component& written) {
 
 component::PropertyBase* find_property(const component::Component& component,
                                        std::string_view name) {
-  for (component::PropertyBase* property : component.interface().properties) {
+  for (component::PropertyBase* property : component::interface_of(component).properties) {
     if (property->name() == name) return property;
   }
   return nullptr;
@@ -50,7 +51,7 @@ component::PropertyBase* find_property(const component::Component& component,
 /// True if the number or size of ports follows from a property: while its value is unknown, nothing
 /// can be said about the component's connections.
 bool shapes_ports(const component::PropertyBase& property) {
-  const component::Interface& interface = property.owner().interface();
+  const component::Interface& interface = component::interface_of(property.owner());
   const auto counts = [&](const auto* array) { return &array->count() == &property; };
   const auto sizes = [&](const auto* port) { return port->declared_size().property == &property; };
   return std::any_of(interface.port_arrays.begin(), interface.port_arrays.end(), counts) ||
@@ -97,7 +98,7 @@ void add_peers(const Component& written, exec::ComponentEntry& entry) {
   for (const Binding& binding : written.bindings) {
     entry.bindings.push_back({binding.name, binding.component, binding.member, binding.where});
   }
-  const component::Interface& interface = entry.component->interface();
+  const component::Interface& interface = component::interface_of(*entry.component);
   for (const Peer& peer : written.peers) {
     entry.peers.push_back({peer.component, peer.where});
     if (peer.name == peer.component) continue;
@@ -140,7 +141,7 @@ std::unique_ptr<component::Component> ComponentBuilder::settle(
                            " lives in another process, and this program does not connect to any");
     return nullptr;
   }
-  for (const component::PropertyBase* property : component->interface().mandatory) {
+  for (const component::PropertyBase* property : component::interface_of(*component).mandatory) {
     if (property->was_set() || !shapes_ports(*property)) continue;
     diagnostics_.error(written.where,
                        in_quotes(written.name) + " needs the property " +
@@ -191,7 +192,7 @@ void ComponentBuilder::report_units(const Component& written,
 /// Mistakes in how the author listed states and transitions.
 void ComponentBuilder::report_machines(const Component& written,
                                        const component::Component& component) {
-  for (const component::StateMachine* machine : component.interface().machines) {
+  for (const component::StateMachine* machine : component::interface_of(component).machines) {
     for (const std::string& problem : machine->problems()) {
       diagnostics_.error(written.where, in_quotes(written.name) + ", state machine " +
                                             in_quotes(machine->name()) + ": " + problem);
@@ -227,7 +228,7 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
   const std::vector<Property>* properties = read(file, own);
   if (properties == nullptr) return true;
   std::string missing;
-  for (const component::PropertyBase* property : component.interface().properties) {
+  for (const component::PropertyBase* property : component::interface_of(component).properties) {
     const bool wanted = file.complete && property->persistent();
     if (!wanted || find(*properties, property->name()) != nullptr) continue;
     missing += (missing.empty() ? "" : ", ") + std::string(property->name());
@@ -248,7 +249,8 @@ bool ComponentBuilder::apply(const Component& written, const std::vector<Propert
     component::PropertyBase* const property = find_property(component, given.name);
     if (property == nullptr) {
       std::vector<std::string> names;
-      for (const auto* known : component.interface().properties) names.emplace_back(known->name());
+      for (const auto* known : component::interface_of(component).properties)
+        names.emplace_back(known->name());
       diagnostics_.error(given.where,
                          in_quotes(written.name) + " (" + written.model + ") has no property " +
                              in_quotes(given.name),

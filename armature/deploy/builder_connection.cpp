@@ -3,6 +3,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/document/value_tree.hpp"
 
@@ -95,7 +96,7 @@ void ConnectionBuilder::report_end(const NamedConnection& named, const Endpoint&
         base::suggestion(end.component, names));
     return;
   }
-  const component::Interface& interface = components_.at(end.component)->interface();
+  const component::Interface& interface = component::interface_of(*components_.at(end.component));
   for (const auto* port : interface.outputs) names.push_back(port->name());
   for (const auto* port : interface.inputs) names.push_back(port->name());
   diagnostics_.error(end.where,
@@ -159,7 +160,7 @@ const ConnectionBuilder::Ports* ConnectionBuilder::ports_of(const std::string& c
   if (found == components_.end()) return nullptr;
   const auto [ports, fresh] = ports_.try_emplace(found->second);
   if (fresh) {
-    const component::Interface& interface = found->second->interface();
+    const component::Interface& interface = component::interface_of(*found->second);
     for (auto* port : interface.inputs) ports->second.inputs.emplace(port->name(), port);
     for (auto* port : interface.outputs) ports->second.outputs.emplace(port->name(), port);
   }

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "armature/component/interface.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/deploy/loader.hpp"
 #include "armature/platform/file.hpp"
@@ -36,7 +37,7 @@ void warn_of_idle_components(const Deployment& deployment, base::Diagnostics& di
   const exec::Plan& plan = deployment.plan;
   for (const exec::Index index : plan.threads[plan.service_thread()].members) {
     const exec::ComponentEntry& entry = deployment.blueprint.components[index];
-    const component::Interface& interface = entry.component->interface();
+    const component::Interface& interface = component::interface_of(*entry.component);
     if (interface.inputs.empty() && interface.outputs.empty()) continue;  // tools may call it
     diagnostics.warning(entry.where,
                         "'" + entry.component->name() +

@@ -6,6 +6,7 @@
 
 #include "armature/base/alternatives.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/ports/port_array.hpp"
 #include "armature/inspect/internal/snapshot.hpp"
 #include "armature/types/elements.hpp"
@@ -203,7 +204,7 @@ std::string doc_with_values(const std::string& doc, const std::vector<std::strin
 
 ComponentDescription internal::describe_interface(const Component& component,
                                                   const Snapshot* snapshot, Values values) {
-  return Describer(snapshot, values).describe(component.interface());
+  return Describer(snapshot, values).describe(component::interface_of(component));
 }
 
 ComponentDescription describe(const Component& component, std::string model, Values values) {

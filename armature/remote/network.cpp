@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
 #include "armature/remote/inlets.hpp"
@@ -156,7 +157,8 @@ class RideNetwork final : public Network {
       diagnostics.error({}, added.error());
     }
     for (const exec::ComponentEntry& entry : application.blueprint().components) {
-      auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
+      auto numbers = std::make_unique<InterfaceNumbers>(entry.model,
+                                                        component::interface_of(*entry.component));
       auto service = std::make_unique<ExportedComponent>(
           *numbers, *entry.component, application, queue_,
           [this, &application](component::InputPortBase& input, const types::Value& value) {

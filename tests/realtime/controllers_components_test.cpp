@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/component/host.hpp"
 #include "armature/controllers/actuator_demux/actuator_demux.hpp"
 #include "armature/controllers/arming/arming.hpp"
 #include "armature/controllers/axes_generator/axes_generator.hpp"
@@ -342,8 +343,8 @@ void expect_realtime_restart(const char* model,
   testing::RealtimeGuard guard;
   component::Outcome restarted = component::accepted();
   guard.watch([&] {
-    bench.component().stop();
-    restarted = bench.component().start();
+    component::Host::stop(bench.component());
+    restarted = component::Host::start(bench.component());
   });
   EXPECT_TRUE(restarted) << bench.reason();
   EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();

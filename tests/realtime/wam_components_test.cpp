@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "armature/component/host.hpp"
 #include "armature/testing/harness.hpp"
 #include "robots/wam/actuator_wam.hpp"
 #include "robots/wam/sensor_wam.hpp"
@@ -21,7 +22,7 @@ using Vector = std::vector<double>;
 class RealtimeWam : public ::testing::Test {
  protected:
   RealtimeWam() : bench(std::make_unique<WamHardware>("WAM"), 2ms) {
-    bench.component().context().simulated = true;
+    component::Host::context(bench.component()).simulated = true;
     bench.set("joints", 7);
     bench.set("Period", 0.002);
     bench.set("robot_description", WAM "/wam7.urdf");

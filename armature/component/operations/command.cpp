@@ -4,6 +4,7 @@
 #include <string>
 
 #include "armature/component/black_box.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/internal/arguments.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/component/operations/command_ticket.hpp"
@@ -56,7 +57,7 @@ CommandBase::CommandBase(Component& owner, std::string_view name, std::string_vi
                          Signature signature, Begin begin) noexcept
     : OperationBase(owner, name, doc, std::move(signature), nullptr), begin_(begin) {
   apply(in_own_thread);
-  owner.add_step(*this, false);
+  Host::add_step(owner, *this, false);
 }
 
 /// Components that are stopped have no command under way; of one that was not, nobody hears again.
@@ -86,7 +87,7 @@ Outcome CommandBase::begin_from(CommandTicket* ticket, const void* const* argume
   Outcome outcome = admit(ticket);
   if (!outcome) return outcome;
   const bool completed =
-      owner().run(owner().context(), [&] { outcome = begin_(*this, arguments); });
+      Host::run(owner(), Host::context(owner()), [&] { outcome = begin_(*this, arguments); });
   return begun(ticket, completed, outcome);
 }
 
@@ -163,7 +164,8 @@ void CommandBase::cancel(std::string_view reason) {
   note(owner(), Noted::kCancelled, name(), reason);
   CommandTicket* const ticket = std::exchange(ticket_, nullptr);
   phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
-  if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(*this); });
+  if (cancelled_ != nullptr)
+    Host::run(owner(), Host::context(owner()), [this] { cancelled_(*this); });
   if (ticket != nullptr) ticket->end(CommandStage::kCancelled, reason);
 }
 
@@ -215,7 +217,7 @@ class CommandCallerBase::SentTicket final : public CommandTicket {
     }
     static_cast<void>(ticket.command_.begin_from(&ticket, ticket.arguments_.places()));
   }
-  ExecutionContext& executor() const override { return command_.owner().context(); }
+  ExecutionContext& executor() const override { return Host::context(command_.owner()); }
   void cancel_now() override { command_.cancel(*this); }
 
   CommandBase& command_;
@@ -248,7 +250,7 @@ CommandHandle CommandCallerBase::send_from(const void* const* arguments) {
   for (auto& ticket : tickets_) {
     if (!ticket->try_claim()) continue;
     ticket->set_arguments(arguments);
-    operation_->owner().context().post(*ticket);
+    Host::context(operation_->owner()).post(*ticket);
     return CommandHandle(*ticket);
   }
   count_refused();

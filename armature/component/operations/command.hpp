@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/component/operations/operation.hpp"
+#include "armature/component/step.hpp"
 
 namespace armature::component {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -76,10 +77,10 @@ TEST_F(Commands, AreQueuedThenAcceptedThenDone) {
   subordinate_.deliver();
   EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
   EXPECT_TRUE(axis_.move_to.active());
-  axis_.update();
+  Host::update(axis_);
   EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
   axis_.resting = true;
-  axis_.update();
+  Host::update(axis_);
   EXPECT_EQ(handle.stage(), CommandStage::kDone);
   EXPECT_TRUE(handle.ended());
   EXPECT_EQ(handle.reason(), "");
@@ -105,7 +106,7 @@ TEST_F(Commands, OneAtATime) {
 }
 
 TEST_F(Commands, AreRefusedByWhatDoesNotRun) {
-  axis_.stop();
+  Host::stop(axis_);
   const CommandHandle handle = send(1.0);
   EXPECT_EQ(handle.stage(), CommandStage::kRefused);
   EXPECT_EQ(handle.reason(), "the component is not running");
@@ -168,7 +169,7 @@ TEST_F(Commands, CancellingOneThatEndedDoesNotTouchTheNext) {
 
 TEST_F(Commands, StoppingTheComponentCancelsThem) {
   const CommandHandle handle = send(1.0);
-  axis_.stop();
+  Host::stop(axis_);
   EXPECT_EQ(handle.stage(), CommandStage::kCancelled);
   EXPECT_EQ(handle.reason(), "the component was stopped");
   EXPECT_EQ(axis_.brakes, 1);
@@ -187,9 +188,9 @@ TEST_F(Commands, WhatIsCancelledByAStopCannotBeginAgainMeanwhile) {
     const Outcome again = axis_.move_to.begin(nullptr, 2.0);
     EXPECT_EQ(again.reason(), "the component is not running");
   };
-  axis_.stop();
+  Host::stop(axis_);
   EXPECT_FALSE(axis_.move_to.active());
-  ASSERT_TRUE(axis_.start());
+  ASSERT_TRUE(Host::start(axis_));
   EXPECT_EQ(send(3.0).stage(), CommandStage::kAccepted);
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/pending_call.hpp"
 #include "armature/component/stand_in.hpp"
 
@@ -23,7 +24,7 @@ struct OperationBase::About {
 OperationBase::OperationBase(Component& owner, std::string_view name, std::string_view doc,
                              Signature signature, ExecuteFrom execute_from) noexcept
     : owner_(owner), about_(new About{name, doc, std::move(signature), execute_from}) {
-  owner.declare().operations.push_back(this);
+  Host::declare(owner).operations.push_back(this);
 }
 
 OperationBase::~OperationBase() = default;
@@ -65,8 +66,9 @@ FreeFunction OperationBase::free_function() const noexcept { return about_->func
 
 CallStatus OperationBase::execute_by_message(const void* const* arguments, void* result) noexcept {
   CallStatus status = CallStatus::kPending;
-  owner_.run(owner_.context(),
-             [&] { status = about_->execute_from(*this, owner_.context(), arguments, result); });
+  Host::run(owner_, Host::context(owner_), [&] {
+    status = about_->execute_from(*this, Host::context(owner_), arguments, result);
+  });
   return status;
 }
 
@@ -102,7 +104,7 @@ CallStatus OperationBase::pass_on(ExecutionContext& where, const void* const* ar
   auto& component = static_cast<StandIn&>(owner());
   if (!component.ready()) return CallStatus::kNotReady;
   CallStatus status = CallStatus::kFailed;
-  component.enter_hook(where, [&] { status = component.call(*this, arguments, result); });
+  Host::enter_hook(component, where, [&] { status = component.call(*this, arguments, result); });
   return status;
 }
 
@@ -143,7 +145,7 @@ struct OperationCallerBase::About final : Requirement::About {
 OperationCallerBase::OperationCallerBase(Component& owner, std::string_view name,
                                          std::string_view doc, Signature signature) noexcept
     : Requirement(owner, std::make_unique<About>(name, doc, std::move(signature))) {
-  owner.declare().callers.push_back(this);
+  Host::declare(owner).callers.push_back(this);
 }
 
 OperationCallerBase::~OperationCallerBase() = default;
@@ -163,12 +165,13 @@ void OperationCallerBase::apply(Outstanding option) noexcept { about().outstandi
 std::size_t OperationCallerBase::outstanding() const { return about().outstanding; }
 
 bool OperationCallerBase::would_wait() const {
-  return owner().context().real_time && operation_->is_elsewhere();
+  return Host::context(owner()).real_time && operation_->is_elsewhere();
 }
 
 void OperationCallerBase::connect(OperationBase& operation) {
   operation_ = &operation;
-  direct_ = !operation.runs_in_own_thread() || &operation.owner().context() == &owner().context();
+  direct_ = !operation.runs_in_own_thread() ||
+            &Host::context(operation.owner()) == &Host::context(owner());
   About& mine = about();
   mine.calls.clear();
   mine.next = 0;
@@ -190,7 +193,7 @@ SentCall OperationCallerBase::send_from(const void* const* arguments) {
     if (++mine.next == mine.calls.size()) mine.next = 0;
     if (!call.try_claim()) continue;
     call.set_arguments(arguments);
-    operation_->owner().context().post(call);
+    Host::context(operation_->owner()).post(call);
     return SentCall(call);
   }
   ++mine.refused;

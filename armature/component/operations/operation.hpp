@@ -16,6 +16,7 @@
 #include "armature/component/by_operator.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/context.hpp"
+#include "armature/component/internal/inside.hpp"
 #include "armature/component/operations/call.hpp"
 #include "armature/component/operations/requirement.hpp"
 #include "armature/component/operations/signature.hpp"
@@ -148,7 +149,7 @@ class Operation<R(Args...)> final : public OperationBase {
     (apply(options), ...);
   }
 
-  /// Executes it here, for a component that calls out (see Component::call_out).
+  /// Executes it here, for a component that calls out (see internal::Inside::call_out).
   /// @param where  the context of the calling thread
   CallResult<R> execute(ExecutionContext& where, Args... arguments) noexcept {
     return execute_(*this, where, static_cast<Args>(arguments)...);
@@ -178,7 +179,7 @@ class Operation<R(Args...)> final : public OperationBase {
     Component& component = owner();
     if (!component.ready() && !serves_unready()) return {CallStatus::kNotReady};
     CallResult<R> result{CallStatus::kFailed};
-    component.enter_hook(where, [&] {
+    internal::Inside::enter_hook(component, where, [&] {
       if constexpr (std::is_void_v<R>) {
         code();
       } else {
@@ -289,11 +290,13 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   CallResult<R> operator()(Args... arguments) {
     if (operation_ == nullptr) [[unlikely]]
       return {CallStatus::kNotConnected};
-    if (direct_ || operation_->owner().context().shares_thread_with(owner().context())) {
+    if (direct_ || internal::Inside::context(operation_->owner())
+                       .shares_thread_with(internal::Inside::context(owner()))) {
       auto& operation = static_cast<Operation<R(Args...)>&>(*operation_);
       CallResult<R> result{};
-      owner().call_out(operation.owner(), [&] {
-        result = operation.execute(owner().context(), static_cast<Args>(arguments)...);
+      internal::Inside::call_out(owner(), operation.owner(), [&] {
+        result =
+            operation.execute(internal::Inside::context(owner()), static_cast<Args>(arguments)...);
       });
       return result;
     }

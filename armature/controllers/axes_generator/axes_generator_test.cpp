@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/testing/harness.hpp"
 
@@ -184,7 +185,7 @@ TEST(AxesGeneratorWithEvents, BelievesAnArmingThatCannotBeAskedItsEvents) {
   exec::ApplicationOptions options;
   options.simulated = true;
   exec::Application application(std::move(blueprint), std::move(options));
-  for (component::PropertyBase* property : generator.interface().properties) {
+  for (component::PropertyBase* property : component::interface_of(generator).properties) {
     const bool axes = property->name() == "num_axes";
     const double limit = property->name() == "lower" ? -0.5 : 4.5;
     ASSERT_TRUE(property->set(axes ? types::Value::of(2) : types::Value::of(Vector{limit})));

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/operators_word.hpp"
 #include "armature/controllers/base/limited_effort.hpp"
 
@@ -62,11 +63,12 @@ class JointHardware : public component::Component {
   class Ending final : public component::Step {
    public:
     explicit Ending(JointHardware& hardware) : hardware_(hardware) {
-      hardware.add_step(*this, true);
+      component::Host::add_step(hardware, *this, true);
     }
     void step() override {}
     void halt(std::string_view /*reason*/) override {
-      hardware_.run(hardware_.context(), [this] { hardware_.make_safe(); });
+      component::Host::run(hardware_, component::Host::context(hardware_),
+                           [this] { hardware_.make_safe(); });
     }
 
    private:

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/testing/harness.hpp"
 
 namespace armature::controllers {
@@ -264,7 +265,7 @@ class ControllerNpidInPlaceOfAnother : public ControllerNpid {
     port("act").take_over_from(nullptr);
   }
   component::OutputPortBase& port(std::string_view name) {
-    for (auto* output : controller.component().interface().outputs) {
+    for (auto* output : component::interface_of(controller.component()).outputs) {
       if (output->name() == name) return *output;
     }
     throw std::invalid_argument("there is no such port");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/operations/requirement.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -30,8 +31,9 @@ class RequirementPlanner {
       const ComponentEntry& entry = blueprint_.components[i];
       find_peers(entry);
       check_bindings(entry);
-      for (auto* caller : entry.component->interface().callers) plan_call(i, entry, *caller);
-      for (auto* handler : entry.component->interface().handlers) {
+      for (auto* caller : component::interface_of(*entry.component).callers)
+        plan_call(i, entry, *caller);
+      for (auto* handler : component::interface_of(*entry.component).handlers) {
         plan_subscription(i, entry, *handler);
       }
     }
@@ -57,8 +59,9 @@ class RequirementPlanner {
 
   void check_bindings(const ComponentEntry& entry) {
     std::vector<std::string> required;
-    for (auto* caller : entry.component->interface().callers) required.emplace_back(caller->name());
-    for (auto* handler : entry.component->interface().handlers) {
+    for (auto* caller : component::interface_of(*entry.component).callers)
+      required.emplace_back(caller->name());
+    for (auto* handler : component::interface_of(*entry.component).handlers) {
       required.emplace_back(handler->name());
     }
     for (const BindingEntry& binding : entry.bindings) {
@@ -122,7 +125,7 @@ class RequirementPlanner {
     for (const Index peer : peers_) {
       const component::Component& component = *blueprint_.components[peer].component;
       if (!wanted_peer.empty() && component.name() != wanted_peer) continue;
-      for (Member* member : members(component.interface())) {
+      for (Member* member : members(component::interface_of(component))) {
         if (member->name() == requirement.name()) found.push_back({peer, member});
       }
     }
@@ -149,7 +152,8 @@ class RequirementPlanner {
     }
     const std::string& name = binding.member.empty() ? binding.requirement : binding.member;
     std::vector<std::string> names;
-    for (Member* member : members(blueprint_.components[peer].component->interface())) {
+    for (Member* member :
+         members(component::interface_of(*blueprint_.components[peer].component))) {
       if (member->name() == name) return {peer, member};
       names.emplace_back(member->name());
     }
@@ -184,7 +188,7 @@ class RequirementPlanner {
                       const std::string& kind) {
     std::vector<std::string> who_has_it;
     for (const ComponentEntry& other : blueprint_.components) {
-      const component::Interface& interface = other.component->interface();
+      const component::Interface& interface = component::interface_of(*other.component);
       for (const auto* operation : interface.operations) {
         if (operation->name() == requirement.name()) who_has_it.push_back(other.component->name());
       }

@@ -10,6 +10,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/inspect/acts.hpp"
 #include "armature/inspect/items.hpp"
 #include "armature/lua/internal/subscriptions.hpp"
@@ -123,7 +124,8 @@ int write_member(lua_State* lua) {
       if (const auto right = inspect::check_no_port(*member); !right) refuse(lua, right.error());
     }
     std::vector<std::string> known;
-    for (const auto* one : component.interface().properties) known.emplace_back(one->name());
+    for (const auto* one : component::interface_of(component).properties)
+      known.emplace_back(one->name());
     refuse(lua, "'" + component.name() + "' has no property '" + name + "'" +
                     base::suggestion_in_brackets(name, known));
   }
