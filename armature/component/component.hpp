@@ -279,6 +279,7 @@ class Component {
 
  private:
   friend class Entrance;
+  friend class CommandBase;  // logs in its component's name
   using LogArguments = std::array<rt::LogArgument, 4>;
   void log(rt::LogLevel level, const char* format, const LogArguments& arguments);
   /// Adds the time since the last mark to `ran`, which may be nobody.
