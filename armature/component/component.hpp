@@ -136,6 +136,7 @@ class Component {
 
  private:
   friend class Host;
+  friend class CommandBase;  // logs in its component's name
   friend class internal::Inside;
   friend const Interface& interface_of(const Component& component);
   using LogArguments = std::array<rt::LogArgument, 4>;

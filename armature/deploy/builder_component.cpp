@@ -222,6 +222,20 @@ bool ComponentBuilder::set_properties(const Component& written, component::Compo
   return apply(written, written.properties, component) && ports_known;
 }
 
+/// No file keeps an attribute: one in a property file would be there in no file that is saved.
+void ComponentBuilder::refuse_attributes(const Component& written,
+                                         const std::vector<Property>& properties,
+                                         component::Component& component) {
+  for (const Property& given : properties) {
+    const component::PropertyBase* const property = find_property(component, given.name);
+    if (property == nullptr || property->persistent()) continue;
+    diagnostics_.error(given.where,
+                       in_quotes(given.name) + " of " + in_quotes(written.name) + " (" +
+                           written.model + ") is an attribute, which a property file cannot give",
+                       "remove it from the file");
+  }
+}
+
 bool ComponentBuilder::apply_property_file(const Component& written, const PropertyFile& file,
                                            component::Component& component) {
   const bool own = written.autosave && &file == &written.property_files.back();
@@ -239,6 +253,7 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
                            in_quotes(written.name) + " must be complete, but lacks " + missing,
                        "add what is missing, or leave out complete");
   }
+  refuse_attributes(written, *properties, component);
   return apply(written, *properties, component);
 }
 

@@ -322,6 +322,18 @@ TEST_F(PropertyFiles, ComeFirstAndTheDocumentsOwnPropertiesWin) {
   EXPECT_EQ(get<test::Source>(deployment, "A").label(), "own");
 }
 
+TEST_F(PropertyFiles, AnAttributeInAFileIsRefused) {
+  write("a.cpf",
+        "<properties><simple name='Spare' type='long'><value>3</value></simple></properties>");
+  const Deployment deployment =
+      load("components: {A: {model: Source, property_file: a.cpf, properties: {Rate: 1}}}\n");
+  EXPECT_FALSE(deployment.ok());
+  EXPECT_THAT(deployment.diagnostics.to_text(),
+              AllOf(HasSubstr("a.cpf:1:"),
+                    HasSubstr("error: 'Spare' of 'A' (Source) is an attribute, which a property "
+                              "file cannot give (remove it from the file)")));
+}
+
 TEST_F(PropertyFiles, MistakesInAFileThatManyShareAreReportedForEachButReadOnce) {
   write("a.cpf", "<properties><simple name='Rate' type='double'><value>x</value></simple>");
   const Deployment deployment =

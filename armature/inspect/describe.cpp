@@ -51,7 +51,10 @@ class Describer {
       description_.port_arrays.push_back(
           {std::string(one->name()), std::string(one->count().name())});
     }
-    for (const auto* one : all.operations) add(*one);
+    const bool live = snapshot_ != nullptr;  // a model has all that it may offer
+    for (const auto* one : all.operations) {
+      if (!live || one->is_offered()) add(*one);
+    }
     for (std::size_t i = 0; i < all.events.size(); ++i) add(*all.events[i], i);
     for (std::size_t i = 0; i < all.callers.size(); ++i) add(*all.callers[i], i);
     for (std::size_t i = 0; i < all.handlers.size(); ++i) add(*all.handlers[i], i);

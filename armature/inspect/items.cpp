@@ -108,7 +108,9 @@ std::vector<std::string> member_names(const Component& component) {
   add(interface.properties);
   add(interface.inputs);
   add(interface.outputs);
-  add(interface.operations);
+  for (const auto* operation : interface.operations) {
+    if (operation->is_offered()) names.emplace_back(operation->name());
+  }
   add(interface.events);
   return names;
 }

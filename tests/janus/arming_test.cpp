@@ -227,8 +227,10 @@ TEST_F(Head, AnybodySwitchesOffAndBrakesAlsoWhatDoesNotRun) {
   const double there = position(1);
   for (const char* operation : {"motorOff", "brakeApply"}) {
     EXPECT_EQ(robot.call("Joint2", operation), "");
-    EXPECT_EQ(robot.call("Joint1", operation), "");
   }
+  EXPECT_EQ(robot.call("Joint1", "motorOff"), "");
+  EXPECT_EQ(robot.call("Joint1", "brakeApply"),
+            "'Joint1' has no operation 'brakeApply': its property Brake is false");
   ASSERT_TRUE(robot.application().stop_component("AIC1"));
   for (const char* operation : {"actuatorOff", "brakeApply"}) {
     EXPECT_EQ(robot.call("AIC1", operation), "");

@@ -100,7 +100,8 @@ TEST_F(Commands, OneAtATime) {
   const CommandHandle first = send(1.0);
   const CommandHandle second = send(2.0);
   EXPECT_EQ(second.stage(), CommandStage::kRefused);
-  EXPECT_EQ(second.reason(), "the previous command is still under way");
+  EXPECT_EQ(second.reason(),
+            "the previous command is still under way, and this command does not queue");
   EXPECT_EQ(first.stage(), CommandStage::kAccepted);
   EXPECT_THAT(axis_.targets, ElementsAre(1.0));
 }
@@ -269,7 +270,8 @@ TEST_F(Commands, ToolsBeginThemAndAreToldWhyNot) {
   EXPECT_TRUE(axis_.move_to.invoke({types::Value::of(1.0)}));
   const auto again = axis_.move_to.invoke({types::Value::of(1.0)});
   ASSERT_FALSE(again);
-  EXPECT_EQ(again.error(), "the previous command is still under way");
+  EXPECT_EQ(again.error(),
+            "the previous command is still under way, and this command does not queue");
   const auto wrong = axis_.move_to.invoke({types::Value::of(1)});
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error(),
@@ -280,6 +282,7 @@ TEST_F(Commands, ToolsBeginThemAndAreToldWhyNot) {
 
 TEST(CommandNames, AreWords) {
   EXPECT_EQ(name_of(CommandStage::kQueued), "queued");
+  EXPECT_EQ(name_of(CommandStage::kWaiting), "waiting");
   EXPECT_EQ(name_of(CommandStage::kAccepted), "under way");
   EXPECT_EQ(name_of(CommandStage::kRefused), "refused");
   EXPECT_EQ(name_of(CommandStage::kDone), "done");

@@ -19,6 +19,7 @@ struct OperationBase::About {
   bool by_operator = false;
   bool elsewhere = false;
   bool any_state = false;
+  const Property<bool>* offered_if = nullptr;
 };
 
 OperationBase::OperationBase(Component& owner, std::string_view name, std::string_view doc,
@@ -50,6 +51,12 @@ void OperationBase::apply(InOwnThread) noexcept { about_->own_thread = true; }
 void OperationBase::apply(ByOperator) noexcept { about_->by_operator = true; }
 
 void OperationBase::apply(InAnyState) noexcept { about_->any_state = true; }
+
+void OperationBase::apply(Wanted option) noexcept { about_->offered_if = option.property; }
+
+bool OperationBase::is_offered() const {
+  return about_->offered_if == nullptr || about_->offered_if->get();
+}
 
 void OperationBase::apply(const ArgumentNames& given) noexcept {
   std::vector<Signature::Argument>& arguments = about_->signature.arguments;
@@ -113,6 +120,7 @@ std::string OperationBase::mismatch(const std::vector<types::Value>& arguments) 
   for (std::size_t i = 0; fits && i < arguments.size(); ++i) {
     fits = types::same_type(arguments[i].type(), *about_->signature.arguments[i].type);
   }
+  if (!is_offered()) return why_not_offered();
   if (fits) return refusal_of_sealed();
   std::string given;
   for (const types::Value& argument : arguments) {
@@ -129,6 +137,11 @@ std::string OperationBase::refusal_of_sealed() const {
            ", which only components make: a tool cannot call it";
   }
   return {};
+}
+
+std::string OperationBase::why_not_offered() const {
+  return "'" + owner_.name() + "' has no operation '" + std::string(name()) + "': its property " +
+         std::string(about_->offered_if->name()) + " is false";
 }
 
 struct OperationCallerBase::About final : Requirement::About {

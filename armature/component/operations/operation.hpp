@@ -58,6 +58,11 @@ class OperationBase {
   Component& owner() const { return owner_; }
   bool runs_in_own_thread() const;
   bool is_by_operator() const;
+  /// False while the property of its option `only_if` is false: peers, tools and scripts have no
+  /// such operation then.
+  bool is_offered() const;
+  /// Why it is not offered, for a message.
+  std::string why_not_offered() const;
   /// Its component stands for one that lives elsewhere.
   bool is_elsewhere() const;
   /// True if accepting it is not the end of it: it has progress and completion.
@@ -89,6 +94,7 @@ class OperationBase {
   void apply(ByOperator) noexcept;
   void apply(InAnyState) noexcept;
   void apply(const ArgumentNames& given) noexcept;
+  void apply(Wanted option) noexcept;
 
   /// Whether it is served now although its component is not ready.
   bool serves_unready() const;
@@ -123,7 +129,7 @@ class OperationCaller;
 template <typename R, typename... Args>
 class Operation<R(Args...)> final : public OperationBase {
  public:
-  /// Options: in_own_thread, by_operator, in_any_state, args(names...).
+  /// Options: in_own_thread, by_operator, in_any_state, only_if(property), args(names...).
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
             Options... options) noexcept

@@ -86,6 +86,9 @@ std::string PropertyBase::objection(const types::Value& value) const {
 }
 
 base::Result<void> PropertyBase::set(const types::Value& value) {
+  if (about_->sign && value.type().kind == types::Kind::kBool) {
+    return set(types::Value::of(*static_cast<const bool*>(value.data()) ? -1.0 : 1.0));
+  }
   if (std::string problem = check(value); !problem.empty()) {
     return base::Error{std::move(problem)};
   }

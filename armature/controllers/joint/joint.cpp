@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/stand_in.hpp"
@@ -131,9 +132,10 @@ void Joint::on_sample() {
 }
 
 /// Without Sampler, whoever calls this samples it.
-bool Joint::sensor_read() {
-  if (!sampler_ && !is_in_time()) return false;
-  return succeeds(read_hardware_);
+double Joint::sensor_read() {
+  displacement_read_ = std::numeric_limits<double>::quiet_NaN();
+  if (sampler_ || is_in_time()) succeeds(read_hardware_);
+  return displacement_read_;
 }
 
 /// Out of service if it is sampled otherwise than everything is computed for.
@@ -154,6 +156,7 @@ void Joint::on_displacement(double of_motor) {
   measured_.position += displacement;
   measured_at_ = time();
   measured_since_start_ = true;
+  displacement_read_ = displacement;
   displacement_.write(displacement);
   position_.write(measured_.position);
   if (off_at_rest_) cut_power_at_rest();

@@ -72,7 +72,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   bool is_in_time();
   void on_displacement(double of_motor);
   void on_index(bool closed) { index_.write(closed); }
-  bool sensor_read();
+  double sensor_read();
   bool measured_lately() const;
 
   // Driving.
@@ -105,7 +105,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   bool motor_on(control::DrivePermit permit) {
     return limiter_->armed() && succeeds(actuator_on_, permit);
   }
-  bool brake_apply() { return disarm() && brake_; }
+  bool brake_apply() { return disarm(); }
   bool brake_release(control::DrivePermit permit);
   template <typename... Arguments>
   static bool succeeds(component::OperationCaller<bool(Arguments...)>& call,
@@ -219,22 +219,25 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
       "applies a voltage until the next; false if the limiter did not pass it as it is",
       component::args("voltage [V]"),
       component::in_own_thread};
-  component::Operation<bool()> read_sensor_{this, "sensorRead",
-                                            component::serve<&Joint::sensor_read>,
-                                            "has the sensors read", component::in_own_thread};
+  component::Operation<double()> read_sensor_{
+      this, "sensorRead", component::serve<&Joint::sensor_read>,
+      "has the sensors read, and returns the displacement [rad]; nan if none came meanwhile",
+      component::in_own_thread};
   component::Operation<bool()> brake_apply_{this,
                                             "brakeApply",
                                             component::serve<&Joint::brake_apply>,
-                                            "disarms, and applies the brake; false without one",
+                                            "disarms, and applies the brake; with Brake only",
                                             component::in_own_thread,
-                                            component::in_any_state};
+                                            component::in_any_state,
+                                            component::only_if(brake_)};
   component::Operation<bool(control::DrivePermit)> brake_release_{
       this,
       "brakeRelease",
       component::serve<&Joint::brake_release>,
-      "releases the brake; false without one, or while disarmed",
+      "releases the brake; false while disarmed; with Brake only",
       component::args("permit"),
-      component::in_own_thread};
+      component::in_own_thread,
+      component::only_if(brake_)};
 
   component::Attribute<double> arming_moved_{
       this, "arming_moved", 0.0, "by how much it moved when it was armed last, or failed to [rad]"};
@@ -261,6 +264,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
   double sensor_ratio_ = 1.0;
+  double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
 };
 
 }  // namespace armature::controllers

@@ -227,7 +227,7 @@ void Joint::cut_power_at_rest() {
 
 bool Joint::brake_release(control::DrivePermit permit) {
   const bool held = phase_ == Phase::kLetGo || phase_ == Phase::kArmed;
-  return held && brake_ && succeeds(release_brake_, permit);
+  return held && succeeds(release_brake_, permit);
 }
 
 }  // namespace armature::controllers

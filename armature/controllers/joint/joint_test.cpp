@@ -2,6 +2,7 @@
 #include "armature/controllers/joint/joint.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -26,6 +27,39 @@ TEST_F(JointTest, ReadsItsHardwareAtSample) {
   joint.advance(10ms);
   joint.raise("Sample");
   EXPECT_THAT(calls, ElementsAre("sensorRead"));
+}
+
+TEST_F(JointTest, SensorReadReturnsTheDisplacementOfTheJoint) {
+  joint.set("SensorSign", -1.0);
+  start();
+  on_read = [this] { joint.write("DisplacementSensor", -20.0); };
+  EXPECT_DOUBLE_EQ(joint.call<double>("sensorRead").value(), 0.2);
+  on_read = nullptr;
+  EXPECT_TRUE(std::isnan(joint.call<double>("sensorRead").value())) << "nothing was measured";
+}
+
+TEST_F(JointTest, HasBrakeOperationsOnlyWithABrake) {
+  start();
+  EXPECT_TRUE(joint.call<bool>("brakeApply"));
+  joint.stop();
+  joint.set("Brake", false);
+  start();
+  const auto answer = joint.call<bool>("brakeApply");
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error(), "'Joint1' has no operation 'brakeApply': its property Brake is false");
+  EXPECT_TRUE(joint.call<bool>("motorOff")) << "whoever wants it off has this";
+}
+
+TEST_F(JointTest, SignsMayBeSaidAsBooleansOfWhichTrueInverts) {
+  for (component::PropertyBase* each : joint.component().interface().properties) {
+    if (each->name() == "SensorSign") static_cast<void>(each->set(types::Value::of(true)));
+    if (each->name() == "ActuatorSign") static_cast<void>(each->set(types::Value::of(false)));
+  }
+  EXPECT_EQ(joint.get<double>("SensorSign"), -1.0);
+  EXPECT_EQ(joint.get<double>("ActuatorSign"), 1.0);
+  start();
+  sample(-20.0);
+  EXPECT_DOUBLE_EQ(joint.output<double>("Displacement"), 0.2);
 }
 
 TEST_F(JointTest, PositionIsTheInitialOneAndAllDisplacementsInTheUnitsOfTheJoint) {

@@ -38,6 +38,8 @@ class ComponentBuilder {
   void report_machines(const Component& written, const component::Component& component);
   void report_unknown_model(const Component& written);
   bool set_properties(const Component& written, component::Component& component);
+  void refuse_attributes(const Component& written, const std::vector<Property>& properties,
+                         component::Component& component);
   bool apply_property_file(const Component& written, const PropertyFile& file,
                            component::Component& component);
   bool apply(const Component& written, const std::vector<Property>& properties,

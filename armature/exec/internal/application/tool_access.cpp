@@ -114,6 +114,7 @@ base::Result<component::OperationBase*> ToolAccess::operation_for(std::string_vi
   if (operation == nullptr) {
     return base::Error{no_such("operation", operation_name, *component, names_of(operations))};
   }
+  if (!operation->is_offered()) return base::Error{operation->why_not_offered()};
   if (operation->is_by_operator()) {
     if (const auto may = granted(*component, operation_name, caller); !may) {
       return base::Error{may.error()};
