@@ -50,6 +50,16 @@ components:
   EXPECT_EQ(activity.thread, "fast");
 }
 
+/// Paper 2, section 4.1: both configure a component; only properties are in files of properties.
+TEST(Builder, AttributesAreSetByTheDocumentAsPropertiesAre) {
+  const Deployment deployment = deploy(R"(
+components:
+  A: {model: Source, properties: {Spare: 3}, activity: {periodic: 5 ms}}
+)");
+  ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();
+  EXPECT_EQ(get<test::Source>(deployment, "A").spare(), 3);
+}
+
 TEST(Builder, GrantsReachTheApplicationAndMustGrantSomething) {
   const Deployment deployment =
       deploy("components: {A: {model: Source}}\ngrants: {script: [A.arm]}\n");

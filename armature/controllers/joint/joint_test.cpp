@@ -80,6 +80,16 @@ TEST_F(JointTest, AppliesVoltageAtActInTheDirectionOfTheHardware) {
   EXPECT_EQ(effort(), -3.0);
 }
 
+/// Without Act, and through the same limiter.
+TEST_F(JointTest, MotorSetAppliesAVoltageAtOnceInTheDirectionOfTheHardware) {
+  joint.set("ActuatorSign", -1.0);
+  start_armed();
+  EXPECT_TRUE(joint.call<bool>("motorSet", 3.0).value());
+  EXPECT_EQ(effort(), -3.0);
+  EXPECT_FALSE(joint.call<bool>("motorSet", 20.0).value()) << "more than MaxVoltage";
+  EXPECT_EQ(effort(), -12.0);
+}
+
 TEST_F(JointTest, AVoltageFromBeforeTheStartIsNotApplied) {
   start();
   act(5.0);

@@ -236,6 +236,20 @@ TEST(PlanRequirements, WhatAPeerThatCouldNotBeMadeMightServeIsNotReported) {
   EXPECT_EQ(problems_of(blueprint), "");
 }
 
+/// A relation of one direction: what B offers is for A, what A offers is not for B (paper 1,
+/// section 2).
+TEST(PlanRequirements, ThePeerOfAUserUsesNothingOfThatUserItself) {
+  Blueprint blueprint;
+  blueprint.add<User>("User");
+  blueprint.add<Axis>("Axis1");
+  blueprint.add_peer("Axis1", "User");
+  EXPECT_EQ(problems_of(blueprint),
+            "error: 'User' uses 'read': no peer has this operation (add a peer that has it, for "
+            "example 'Axis1')\n");
+  blueprint.add_peer("User", "Axis1");
+  EXPECT_EQ(problems_of(blueprint), "") << "each is a peer of the other";
+}
+
 TEST(PlanRequirements, SignaturesMustMatch) {
   Blueprint blueprint;
   blueprint.add<WrongUser>("User");
