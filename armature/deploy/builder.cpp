@@ -15,10 +15,7 @@
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
-#include "armature/document/property_value.hpp"
 #include "armature/document/value_tree.hpp"
-#include "armature/orocos/property_file.hpp"
-#include "armature/platform/file.hpp"
 
 namespace armature::deploy {
 
@@ -213,18 +210,6 @@ void add_modes(const Document& document, exec::Blueprint& blueprint) {
   blueprint.initial_mode = {document.mode.name, document.mode.where};
 }
 
-std::vector<Property> persistent_properties(const component::Component& component) {
-  std::vector<Property> properties;
-  for (const component::PropertyBase* property : component::interface_of(component).properties) {
-    if (!property->persistent()) continue;
-    properties.push_back({std::string(property->name()),
-                          write_value(property->type(), property->data()),
-                          std::string(property->doc()),
-                          {}});
-  }
-  return properties;
-}
-
 }  // namespace
 
 exec::Blueprint build_blueprint(const Document& document, const component::Registry& registry,
@@ -232,8 +217,11 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   exec::Blueprint blueprint;
   if (!document.application.empty()) blueprint.name = document.application;
   check_saved_files(document, diagnostics);
-  // A name that still stands for a composite could not be resolved, which was reported.
-  for (const Composite& composite : document.composites) blueprint.absent.insert(composite.name);
+  // A name that still stands for a composite could not be resolved, which was reported. Where all
+  // were, nothing is absent: components are checked only then.
+  if (!diagnostics.ok()) {
+    for (const Composite& composite : document.composites) blueprint.absent.insert(composite.name);
+  }
   blueprint.components.reserve(document.components.size());
   internal::ComponentBuilder components(document, registry, options, diagnostics);
   for (const Component& component : document.components) components.build(component, blueprint);
@@ -265,22 +253,6 @@ exec::ApplicationOptions application_options(const Document& document) {
     options.before_stop.push_back({command.component, command.operation});
   }
   return options;
-}
-
-void save_properties(const Document& document, const exec::Blueprint& blueprint,
-                     base::Diagnostics& diagnostics) {
-  const ComponentsByName made = by_name(blueprint);
-  for (const Component& component : document.components) {
-    const auto found = made.find(component.name);
-    const bool saves = component.autosave && !component.property_files.empty();
-    if (!saves || found == made.end()) continue;
-    const PropertyFile& file = component.property_files.back();
-    const base::Result<void> written = platform::write_file(
-        path_from(document, file.path), orocos::write_cpf(persistent_properties(*found->second)));
-    if (written) continue;
-    diagnostics.error(file.where, "the properties of " + in_quotes(component.name) +
-                                      " were not saved: " + written.error());
-  }
 }
 
 }  // namespace armature::deploy

@@ -9,6 +9,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/interface.hpp"
+#include "armature/component/keeping.hpp"
 #include "armature/component/states/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/overrides.hpp"
@@ -242,8 +243,10 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
   const std::vector<Property>* properties = read(file, own);
   if (properties == nullptr) return true;
   std::string missing;
+  auto* const keeps = dynamic_cast<component::Keeps*>(&component);
   for (const component::PropertyBase* property : component::interface_of(component).properties) {
-    const bool wanted = file.complete && property->persistent();
+    const bool filled = keeps != nullptr && keeps->keeping().fills(*property);
+    const bool wanted = file.complete && property->persistent() && !filled;
     if (!wanted || find(*properties, property->name()) != nullptr) continue;
     missing += (missing.empty() ? "" : ", ") + std::string(property->name());
   }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/internal/test_models.hpp"
+#include "armature/deploy/saved_properties.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {

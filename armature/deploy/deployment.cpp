@@ -11,6 +11,7 @@
 #include "armature/component/interface.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/deploy/loader.hpp"
+#include "armature/deploy/saved_properties.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
@@ -94,6 +95,7 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
       document, deployment.models,
       {options.document.read, !all_loaded, options.make_placeholder, options.make_inlets},
       diagnostics);
+  take_kept(document, deployment.blueprint, diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
   if (diagnostics.ok() && deployment.blueprint.components.empty()) {
     diagnostics.error({document.file, 0, 0}, "the file has no components",

@@ -17,6 +17,7 @@
 #include "armature/controllers/base/sampling_period.hpp"
 #include "armature/controllers/joint/joint_model.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
+#include "armature/controllers/joint/kept_position.hpp"
 
 namespace armature::controllers {
 
@@ -36,8 +37,14 @@ namespace armature::controllers {
 ///
 /// Between Rest and Motion, events of Arming, the armed joint is to stand: beyond what the
 /// properties Holding... say it is braked, and faults (control::HoldingWatch).
+///
+/// With `autosave` it begins where the run before has left it, and is not armed before the operator
+/// has confirmed that it is there (KeptPosition).
 /// @rt nonblocking but for the hardware's answers, no allocation
-class Joint final : public component::Component, public DrivesJoints, public PassesSamples {
+class Joint final : public component::Component,
+                    public DrivesJoints,
+                    public PassesSamples,
+                    public component::Keeps {
  public:
   using Component::Component;
 
@@ -47,6 +54,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
       const component::OutputPortBase& /*output*/) const override {
     return {&displacement_sensor_};
   }
+  component::Keeping& keeping() override { return kept_; }
 
  private:
   static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
@@ -58,9 +66,9 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
     kArmed,
   };
 
-  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_configure() override;
   component::Outcome on_start() override;
-  void on_stop() override { switch_off(); }
+  void on_stop() override;
 
   component::Outcome set_up();
   control::JointLimiter::Config limits() const;
@@ -123,11 +131,18 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   SamplingPeriod period_{this};
 
   JointModel model_{this, settings_};
+  KeptPosition kept_{this, settings_};
 
   component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
                                                     component::from(peer_name_)};
   component::OperationCaller<bool()> position_known_{
       this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
+      component::optional};
+  component::OperationCaller<bool()> position_exact_{this, "positionExact", "no sample was lost",
+                                                     component::from(peer_name_),
+                                                     component::optional};
+  component::OperationCaller<bool()> doubt_position_{
+      this, "doubtPosition", "has it ask for position_confirmed", component::from(peer_name_),
       component::optional};
   component::OperationCaller<bool(control::DrivePermit)> actuator_on_{
       this, "actuatorOn", "switches the actuator on", component::from(peer_name_)};
@@ -265,6 +280,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   base::Time disarmed_at_{};
   double sensor_ratio_ = 1.0;
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
+  double initial_position_ = 0.0;  ///< that it was set to
 };
 
 }  // namespace armature::controllers

@@ -81,6 +81,24 @@ TEST_F(JointTest, AStartDoesNotLoseThePosition) {
   EXPECT_DOUBLE_EQ(position(), 1.2);
 }
 
+TEST_F(JointTest, AStartWithAnotherLimitDoesNotLoseThePosition) {
+  start();
+  sample(20.0);
+  joint.stop();
+  joint.set("MaxVoltage", 11.0);
+  start();
+  EXPECT_DOUBLE_EQ(position(), 1.2);
+}
+
+TEST_F(JointTest, AnInitialPositionThatIsGivenMeanwhileCounts) {
+  start();
+  sample(20.0);
+  joint.stop();
+  joint.set("InitialPos", 2.0);
+  start();
+  EXPECT_DOUBLE_EQ(position(), 2.0);
+}
+
 TEST_F(JointTest, HandsTheIndexOn) {
   start();
   joint.write("IndexSensor", true);
