@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,8 +27,6 @@ namespace {
 
 /// Cycles in a row without torques, from which on nobody controls the arm any more.
 constexpr int kMostWithoutCommand = 3;
-/// [m/s] of a motion: the board idles the arm at 1 m/s, and what follows overshoots a little.
-constexpr double kFastestTip = 0.95;
 constexpr std::string_view kReach = ", expected 0.1 ms to 100 ms";
 
 bool within_its_reach(base::Duration period) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
@@ -14,12 +15,17 @@
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {
+
+using component::Outcome;
+
 namespace {
 
 /// A board that has not answered for so long is silent.
 constexpr base::Duration kSilentBoardTime = std::chrono::milliseconds(150);
 /// [rad] Nearer each joint lies where it may be let go of.
 constexpr double kAtHome = 0.05;
+/// [m/s] of a motion: the board idles the arm at 1 m/s, and what follows overshoots a little.
+constexpr double kFastestTip = 0.95;
 /// [rad/s] Slower, a joint rests.
 constexpr double kRestVelocity = 0.1;
 

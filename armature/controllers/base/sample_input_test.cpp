@@ -75,7 +75,8 @@ class SampleInputTest : public ::testing::Test {
    private:
     void on_update() override { out_.write(act_); }
     std::vector<double> act_{0.0};
-    component::OutputPort<std::vector<double>> out_{this, "Out", "nothing", "V"};
+    component::OutputPort<std::vector<double>> out_{this, "Out", "nothing", "V",
+                                                    component::fixed_size(1)};
   };
   std::string problems() {
     base::Diagnostics diagnostics;

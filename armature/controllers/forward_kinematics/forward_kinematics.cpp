@@ -17,7 +17,9 @@ Outcome ForwardKinematics::on_configure() {
   base::Diagnostics diagnostics;
   auto loaded = control::ForwardKinematics::load(
       file_, {.base_link = base_link_, .tip_link = tip_link_}, diagnostics);
-  if (!loaded || !diagnostics.ok()) return component::refused(base::as_reason(diagnostics));
+  if (!loaded || !diagnostics.ok()) {
+    return component::refused(file_.get() + ": " + base::as_reason(diagnostics));
+  }
   if (loaded->joints() != static_cast<std::size_t>(joints_.get())) {
     return component::refused(
         file_.get() + " moves " + std::to_string(loaded->joints()) +

@@ -84,7 +84,7 @@ TEST_F(ForwardKinematicsTest, RefusesWhatIsNotTheRobot) {
   EXPECT_THAT(tool.reason(), HasSubstr("unknown link 'hnd' in robot 'two_links'"));
   tool.set("robot_description", std::string_view("nowhere.urdf"));
   EXPECT_FALSE(tool.start());
-  EXPECT_THAT(tool.reason(), HasSubstr("nowhere.urdf: error: cannot be read"));
+  EXPECT_THAT(tool.reason(), HasSubstr("nowhere.urdf: cannot be read"));
 }
 
 TEST_F(ForwardKinematicsTest, FaultsForAPositionThatIsNoNumber) {
