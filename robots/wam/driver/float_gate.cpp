@@ -10,9 +10,9 @@ namespace armature::wam {
 namespace {
 
 /// [s] at rest, over which the torques are taken.
-constexpr double kRestTime = 1.0;
+constexpr double kFloatRestTime = 1.0;
 /// [rad/s] Faster, a joint is not at rest; encoders of joints at rest show less.
-constexpr double kRestsBelow = 0.1;
+constexpr double kFloatsBelow = 0.1;
 
 }  // namespace
 
@@ -29,13 +29,13 @@ void FloatGate::forget() {
 FloatGate::Verdict FloatGate::step(std::span<const double> velocities,
                                    std::span<const double> torques) {
   if (!open_) return Verdict::kNone;
-  const auto rests = [](double velocity) { return std::abs(velocity) < kRestsBelow; };
+  const auto rests = [](double velocity) { return std::abs(velocity) < kFloatsBelow; };
   if (!std::ranges::all_of(velocities, rests)) {
     forget();
     return Verdict::kNone;
   }
   for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += torques[i];
-  if (++cycles_ * config_.period_s < kRestTime) return Verdict::kNone;
+  if (++cycles_ * config_.period_s < kFloatRestTime) return Verdict::kNone;
   open_ = false;
   for (loaded_ = 0; loaded_ < sums_.size(); ++loaded_) {
     load_ = sums_[loaded_] / cycles_;
