@@ -94,7 +94,9 @@ TEST_P(WamController, VelocitiesOfTheReferenceCountInsteadOfItsDifferences) {
     by_positions.step(reference, measured, expected);
     by_velocities.step(reference, velocities, measured, torques);
     // A reference that moves evenly has the same differences.
-    if (k > 0) EXPECT_LT(largest_difference(torques, expected), 1e-9) << k;
+    if (k > 0) {
+      EXPECT_LT(largest_difference(torques, expected), 1e-9) << k;
+    }
     for (std::size_t i = 0; i < arm.joints(); ++i) {
       reference[i] = speed * kPeriod * (k + 1);
       measured[i] = reference[i] - 1e-4 * std::sin(0.1 * k);

@@ -119,7 +119,7 @@ class WamWithALoad : public WamWeightless {
  protected:
   /// The host takes the arm for lighter than it is.
   WamWithALoad()
-      : WamWeightless({kFloats, "WAM.gravity=[0, 0, -9.6]", "WAM.WeightlessMaxLoad=[0.2]"}) {}
+      : WamWeightless({kFloats, "WAM.gravity=[0, 0, -9.71]", "WAM.WeightlessMaxLoad=[0.1]"}) {}
 };
 
 TEST_F(WamWithALoad, StaysHeldAndSaysWhichJointNeedsMore) {

@@ -90,8 +90,8 @@ class SampleInputTest : public ::testing::Test {
     const auto started = application.start();
     ASSERT_TRUE(started.ok()) << started.to_text();
     application.run_for(995ms);
-    EXPECT_EQ(follower->acted, 100);
-    EXPECT_EQ(follower->sampled, 100) << "in the same cycle";
+    EXPECT_EQ(follower->acted, 99);
+    EXPECT_EQ(follower->sampled, 99) << "each time in the same cycle";
   }
 
   exec::Blueprint blueprint;
