@@ -42,10 +42,14 @@ class PositionalPid {
   /// @return the output; not a number, and the state as it was, if `error` is not finite
   /// @rt nonblocking, no allocation
   /// @thread the owning activity only
-  double step(double error) {
-    if (!std::isfinite(error)) return std::numeric_limits<double>::quiet_NaN();
+  double step(double error) { return step(error, (error - state_.last_error) / config_.period_s); }
+  /// The same where somebody knows how fast the error changes, instead of e[k] - e[k-1].
+  /// @param change  of the error [1/s]
+  double step(double error, double change) {
+    if (!std::isfinite(error) || !std::isfinite(change)) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
     const double summed = state_.integral + config_.ki * config_.period_s * state_.last_error;
-    const double change = (error - state_.last_error) / config_.period_s;
     state_ = {limited(summed, config_.max_integral), error};
     return limited(config_.kp * error + state_.integral + config_.kd * change, config_.max_output);
   }

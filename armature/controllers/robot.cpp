@@ -9,6 +9,7 @@
 #include "armature/controllers/computed_torque/controller_computed_torque.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
 #include "armature/controllers/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/controllers/forward_kinematics/forward_kinematics.hpp"
 #include "armature/controllers/gravity_pd/controller_gravity_pd.hpp"
 #include "armature/controllers/joint/joint.hpp"
 #include "armature/controllers/model/model.hpp"
@@ -35,6 +36,8 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<ControllerGravityPD>("ControllerGravityPD",
                                     "compensation of gravity, and N PD controllers");
   registry.add<Model>("Model", "inverse dynamics, from the robot's description");
+  registry.add<ForwardKinematics>("ForwardKinematics",
+                                  "the pose of the tool, from the robot's description");
   registry.add<RobotModel>("Robot", "what a robot weighs and its drives give, for the check");
   registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");

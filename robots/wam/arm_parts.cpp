@@ -30,8 +30,15 @@ base::Result<ArmParts> ArmParts::make(const ArmNumbers& numbers, WamParameters& 
   if (!driven_bounds) return base::Error{driven_bounds.error()};
   auto driven = DrivenWatch::make(driven_bounds.value());
   if (!driven) return base::Error{driven.error()};
-  return ArmParts{WamMotion(std::move(transmission).value()), std::move(path).value(),
-                  std::move(standing).value(), std::move(driven).value(), std::move(own).value()};
+  auto max_load = parameters.weightless_load(numbers);
+  if (!max_load) return base::Error{max_load.error()};
+  FloatGate float_gate({std::move(max_load).value(), parameters.period().seconds()});
+  return ArmParts{WamMotion(std::move(transmission).value()),
+                  std::move(path).value(),
+                  std::move(standing).value(),
+                  std::move(driven).value(),
+                  std::move(own).value(),
+                  std::move(float_gate)};
 }
 
 }  // namespace armature::wam

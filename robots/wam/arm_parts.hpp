@@ -8,6 +8,7 @@
 #include "armature/controllers/base/robot_description.hpp"
 #include "robots/wam/arm_numbers.hpp"
 #include "robots/wam/driver/driven_watch.hpp"
+#include "robots/wam/driver/float_gate.hpp"
 #include "robots/wam/driver/standing_watch.hpp"
 #include "robots/wam/driver/wam_motion.hpp"
 #include "robots/wam/joint_controller.hpp"
@@ -23,6 +24,7 @@ struct ArmParts {
   StandingWatch standing;
   DrivenWatch driven;
   JointController own_controller;
+  FloatGate float_gate;
 
   /// The error names the property, what was expected and what was found. Shows the gains that count
   /// where none were given.

@@ -31,6 +31,13 @@ class JointController {
   /// @thread the owning activity only
   void step(std::span<const double> reference, std::span<const double> measured,
             std::span<double> torques);
+  /// The same where the reference's velocities are known: they count instead of the differences
+  /// of its positions, of which those of the measured ones are taken. The first step knows none.
+  /// @param velocities  [rad/s] of the reference
+  /// @rt nonblocking, no allocation, O(joints)
+  /// @thread the owning activity only
+  void step(std::span<const double> reference, std::span<const double> velocities,
+            std::span<const double> measured, std::span<double> torques);
 
   /// Forgets the past, which the arm's own software does not: whoever takes it into service again,
   /// after a stop or on another reference, calls this, or past errors drive the arm.
@@ -43,7 +50,12 @@ class JointController {
   std::size_t joints() const { return pids_.size(); }
 
  private:
+  void keep(std::span<const double> measured);
+
   std::vector<control::PositionalPid> pids_;
+  std::vector<double> last_measured_;  ///< [rad]
+  bool measured_before_ = false;       ///< since it forgot
+  double period_s_ = kPeriod;
 };
 
 }  // namespace armature::wam

@@ -82,6 +82,44 @@ TEST_P(WamController, ResetToWhereTheArmIsItDoesNotKick) {
   }
 }
 
+TEST_P(WamController, VelocitiesOfTheReferenceCountInsteadOfItsDifferences) {
+  JointController by_positions = make();
+  JointController by_velocities = make();
+  const double speed = 0.1;
+  Vector reference(arm.joints(), 0.0), measured(arm.joints(), 0.0), velocities(arm.joints(), speed);
+  Vector expected(arm.joints()), torques(arm.joints());
+  by_positions.reset_to(reference, measured);
+  by_velocities.reset_to(reference, measured);
+  for (int k = 0; k < 200; ++k) {
+    by_positions.step(reference, measured, expected);
+    by_velocities.step(reference, velocities, measured, torques);
+    // A reference that moves evenly has the same differences.
+    if (k > 0) {
+      EXPECT_LT(largest_difference(torques, expected), 1e-9) << k;
+    }
+    for (std::size_t i = 0; i < arm.joints(); ++i) {
+      reference[i] = speed * kPeriod * (k + 1);
+      measured[i] = reference[i] - 1e-4 * std::sin(0.1 * k);
+    }
+  }
+  // One whose positions come in steps, at another rate, does not kick with them.
+  const Vector before = torques;
+  for (double& each : reference) each += 1e-3;
+  by_velocities.step(reference, velocities, measured, torques);
+  for (std::size_t i = 0; i < arm.joints(); ++i) {
+    EXPECT_LT(std::abs(torques[i] - before[i]), arm.gains[i].kp * 2e-3) << i;
+  }
+}
+
+TEST_P(WamController, WithVelocitiesTheFirstStepDoesNotKick) {
+  JointController controller = make();
+  const Vector place(arm.joints(), 0.3), velocities(arm.joints(), 1.0);
+  Vector torques(arm.joints());
+  controller.reset_to(place, place);
+  controller.step(place, velocities, place, torques);
+  EXPECT_EQ(torques, Vector(arm.joints(), 0.0));
+}
+
 TEST_P(WamController, AllocatesNothing) {
   JointController controller = make();
   const Vector reference(arm.joints(), 0.004), measured(arm.joints(), 0.003);

@@ -139,7 +139,32 @@ void TorquePath::step_hold(base::Time now) {
   }
 }
 
+bool TorquePath::begin_to_float() {
+  if (mode_ != Mode::kHolding || !finite_) return false;
+  hand_over_.begin(driving_);
+  mode_ = Mode::kWeightless;
+  return true;
+}
+
+void TorquePath::step_float(base::Time now) {
+  std::ranges::fill(driving_, 0.0);
+  send(now);
+}
+
+std::size_t TorquePath::first_over_limit(std::span<const double> command) const {
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const double moving = config_.command_has_weight ? command[i] - weight_[i] : command[i];
+    const bool over = std::abs(moving) > config_.limits[i].max_effort ||
+                      std::abs(moving + weight_[i]) > config_.max_torque[i];
+    if (over) return i;
+  }
+  return joints();
+}
+
 TorquePath::Result TorquePath::step_drive(std::span<const double> command, base::Time now) {
+  if (config_.over_limit == OverLimit::kRefuseAll && first_over_limit(command) < joints()) {
+    return Result::kRefused;
+  }
   Result result = Result::kPassed;
   for (std::size_t i = 0; i < joints(); ++i) {
     const double moving = config_.command_has_weight ? command[i] - weight_[i] : command[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,17 @@
 #include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/transmission.hpp"
+#include "armature/types/enum.hpp"
 #include "robots/wam/joint_controller.hpp"
 
 namespace armature::wam {
+
+/// What becomes of torques of which one is above its limit.
+enum class OverLimit : std::uint8_t {
+  kClip,       ///< that one is cut to its limit
+  kRefuseAll,  ///< none of them is sent (paper 3, section 6.1)
+};
+ARMATURE_ENUM(OverLimit, kClip, kRefuseAll);
 
 /// The one way of torques to the motors, and what holds the arm where nobody commands it:
 ///
@@ -22,7 +31,8 @@ namespace armature::wam {
 ///                                                                             -> motors
 ///
 /// Off, all torques are 0. Holding, the vendor's joint controller brakes the arm to rest and keeps
-/// it there, besides its weight. Driven, commands are passed; a JointLimiter judges what of them
+/// it there, besides its weight. Weightless, its weight is all that is driven: a hand may lead it.
+/// Driven, commands are passed; a JointLimiter judges what of them
 /// moves the arm, and lets it grow slowly after the first. The weight is always this class's own,
 /// so that an arm whose command is cut falls nowhere. Going over from one to the other makes no
 /// step: what the one drove with dies away while the other takes over.
@@ -37,13 +47,15 @@ class TorquePath {
     std::vector<double> max_growth;        ///< [N m] in one cycle, > 0; towards 0 there is no limit
     std::vector<double> max_acceleration;  ///< [rad/s^2] that holding brakes with, > 0
     bool command_has_weight = false;       ///< commands hold the arm's weight already
-    base::Duration hand_over{};            ///< in which the difference dies away
+    OverLimit over_limit = OverLimit::kClip;
+    base::Duration hand_over{};  ///< in which the difference dies away
     double period_s = kPeriod;
   };
-  enum class Mode { kOff, kHolding, kDriven };
+  enum class Mode { kOff, kHolding, kWeightless, kDriven };
   enum class Result {
     kPassed,
     kClipped,    ///< by a limit of a joint; see `clipped`
+    kRefused,    ///< one is above its limit, and OverLimit::kRefuseAll: nothing has changed
     kNotFinite,  ///< of the command or what was measured: nothing but the weight is driven
   };
 
@@ -63,10 +75,14 @@ class TorquePath {
   void begin_to_hold(Last driven = Last::kDiesAway);
   /// @return false, and it goes on as it was, unless it holds and the joints are known
   bool begin_to_drive();
+  /// From now on nothing but the weight is driven; what held the arm dies away.
+  /// @return false, and it goes on as it was, unless it holds and the joints are known
+  bool begin_to_float();
   Mode mode() const { return mode_; }
 
   /// The torques of a cycle, once in each.
   void step_hold(base::Time now);
+  void step_float(base::Time now);
   /// @param command  [N m] of the joints
   Result step_drive(std::span<const double> command, base::Time now);
 
@@ -77,6 +93,8 @@ class TorquePath {
   /// [N m] What drives or holds the joints, without the weight.
   std::span<const double> moving_torques() const { return driving_; }
   std::size_t joints() const { return positions_.size(); }
+  /// The first joint, from 0, for which a command is above a limit of its torque; joints() if none.
+  std::size_t first_over_limit(std::span<const double> command) const;
   /// Commands that a limit of a joint changed.
   int clipped() const { return clipped_; }
 

@@ -60,6 +60,10 @@ class TorquePathTest : public ::testing::Test {
   Result drive(const Vector& command) { return path->step_drive(command, now += 2ms); }
   Vector torques() const { return {path->joint_torques().begin(), path->joint_torques().end()}; }
   Vector weight() const { return {path->weight().begin(), path->weight().end()}; }
+  double weight_of_joint_2() {
+    make();
+    return weight()[1];
+  }
   void arm_it() {
     path->begin_to_hold();
     hold_for(100);
@@ -268,6 +272,61 @@ TEST(TorquePathConfig, MistakesAreNamed) {
               HasSubstr("MaxTorque has 3 numbers, expected 4"));
   EXPECT_THAT(error_of([](auto& config) { config.limits[2].upper = -3.0; }), HasSubstr("joint 3"));
   EXPECT_THAT(error_of([](auto& config) { config.hold[3].kp = -1.0; }), HasSubstr("joint 4"));
+}
+
+TEST_F(TorquePathTest, ATorqueAboveItsLimitHasAllRefusedIfThatIsDeclared) {
+  auto config = config_of(arm);
+  config.over_limit = OverLimit::kRefuseAll;
+  make(config);
+  arm_it();
+  EXPECT_NE(drive({5.0, 0.0, 0.0, 0.0}), Result::kRefused);
+  const Vector before = torques();
+  EXPECT_EQ(path->first_over_limit(Vector{5.0, 0.0, 21.0, 0.0}), 2u);
+  EXPECT_EQ(drive({5.0, 0.0, 21.0, 0.0}), Result::kRefused);
+  EXPECT_EQ(torques(), before) << "nothing has changed";
+  EXPECT_NE(drive({5.0, 0.0, 19.0, 0.0}), Result::kRefused);
+}
+
+TEST_F(TorquePathTest, TheLimitWithTheWeightIsOneToo) {
+  auto config = config_of(arm);
+  config.over_limit = OverLimit::kRefuseAll;
+  config.max_torque[1] = std::abs(weight_of_joint_2()) + 5.0;
+  make(config);
+  arm_it();
+  const double down = std::copysign(1.0, weight()[1]);
+  EXPECT_EQ(drive({0.0, 6.0 * down, 0.0, 0.0}), Result::kRefused);
+  EXPECT_NE(drive({0.0, -6.0 * down, 0.0, 0.0}), Result::kRefused) << "against the weight";
+}
+
+TEST_F(TorquePathTest, ByDefaultATorqueAboveItsLimitIsCutAndTheOthersPass) {
+  make();
+  arm_it();
+  for (int i = 0; i < 700; ++i) drive({1.0, 0.0, 21.0, 0.0});
+  EXPECT_EQ(drive({1.0, 0.0, 21.0, 0.0}), Result::kClipped);
+  EXPECT_NEAR(torques()[2] - weight()[2], 20.0, 1e-9);
+  EXPECT_NEAR(torques()[0] - weight()[0], 1.0, 1e-9);
+}
+
+TEST_F(TorquePathTest, WeightlessNothingButTheWeightIsDrivenAndGoingOverMakesNoStep) {
+  make();
+  EXPECT_FALSE(path->begin_to_float()) << "off";
+  path->begin_to_hold();
+  hold_for(10);
+  Vector pushed = posture;
+  pushed[0] += 0.005;
+  measure(pushed);
+  hold_for(200);
+  const Vector held = torques();
+  EXPECT_GT(std::abs(held[0] - weight()[0]), 1.0);
+  ASSERT_TRUE(path->begin_to_float());
+  EXPECT_EQ(path->mode(), Mode::kWeightless);
+  path->step_float(now += 2ms);
+  EXPECT_LT(largest_difference(torques(), held), 0.1);
+  for (int i = 0; i < 300; ++i) path->step_float(now += 2ms);
+  EXPECT_LT(largest_difference(torques(), weight()), 1e-9);
+  EXPECT_FALSE(path->begin_to_drive()) << "only an arm that is held is driven";
+  path->begin_to_hold();
+  EXPECT_TRUE(path->begin_to_drive());
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "armature/base/seconds.hpp"
 #include "armature/can/bus_link.hpp"
 #include "armature/can/make_bus.hpp"
+#include "armature/controllers/base/reason_text.hpp"
 #include "robots/wam/arm_parts.hpp"
 #include "robots/wam/driver/arm_connection.hpp"
 #include "robots/wam/driver/safety_text.hpp"
@@ -27,8 +27,6 @@ namespace {
 
 /// Cycles in a row without torques, from which on nobody controls the arm any more.
 constexpr int kMostWithoutCommand = 3;
-/// [m/s] of a motion: the board idles the arm at 1 m/s, and what follows overshoots a little.
-constexpr double kFastestTip = 0.95;
 constexpr std::string_view kReach = ", expected 0.1 ms to 100 ms";
 
 bool within_its_reach(base::Duration period) {
@@ -65,8 +63,13 @@ Outcome WamHardware::on_configure() {
 
 std::vector<controllers::DrivenJoint> WamHardware::joints_behind(
     const component::InputPortBase* input, const component::Check& /*check*/) {
-  return input == &torque_reference_ ? arm_check_.driven()
-                                     : std::vector<controllers::DrivenJoint>{};
+  if (input != &torque_reference_ && input != &added_torques_) return {};
+  std::vector<controllers::DrivenJoint> joints = arm_check_.driven();
+  if (input == &torque_reference_) return joints;
+  for (controllers::DrivenJoint& joint : joints) {  // somebody else holds the weight
+    joint.holds_weight = controllers::HoldsWeight::kHardware;
+  }
+  return joints;
 }
 
 Outcome WamHardware::set_up_path() {
@@ -81,6 +84,9 @@ Outcome WamHardware::set_up_path() {
   standing_.emplace(std::move(made.standing));
   driven_.emplace(std::move(made.driven));
   own_controller_.emplace(std::move(made.own_controller));
+  float_gate_.emplace(std::move(made.float_gate));
+  puck_ports_.set_up(numbers_->joints());
+  all_torques_.assign(numbers_->joints(), 0.0);
   own_torques_.assign(numbers_->joints(), 0.0);
   sent_.assign(numbers_->joints(), 0.0);
   data_.assign(3 * numbers_->joints(), 0.0);
@@ -98,12 +104,34 @@ Outcome WamHardware::check_period() const {
 
 void WamHardware::on_check(component::Check& check) const {
   if (bus_.get() != "emulator" && !can::is_virtual(bus_.get())) check.drives_hardware(bus_.get());
+  check_reference(check);
   const base::Duration period = parameters_.period().duration();
   if (period == base::Duration::zero() || within_its_reach(period)) return;
   component::Reason why("it is sampled every ");
   controllers::append_duration(why, period);
   check.error(std::string(why.append(kReach).view()),
               "use 2 ms, for which its controllers are made");
+}
+
+void WamHardware::check_reference(component::Check& check) const {
+  for (const component::OutputPortBase* const writer : check.writers_of(position_reference_)) {
+    const std::size_t size = writer->declared_size().value();
+    if (!writer->declared_size().declared() || is_reference(size)) continue;
+    check.error(std::string(position_reference_.name()) + " gets " + std::to_string(size) +
+                    " numbers from '" + writer->owner().name() + "." + std::string(writer->name()) +
+                    "', expected " + std::to_string(joints_.get()) + " positions, or " +
+                    std::to_string(2 * joints_.get()) + " with velocities",
+                "connect an output of that size");
+  }
+}
+
+bool WamHardware::is_reference(std::size_t size) const {
+  const auto joints = static_cast<std::size_t>(joints_.get());
+  return size == joints || size == 2 * joints;
+}
+
+base::Duration WamHardware::operators_patience() const {
+  return base::from_seconds(idle_patience_);
 }
 
 /// The emulated arm outlives a configuration, as a real one does.
@@ -135,11 +163,11 @@ Outcome WamHardware::connect(bool said_at_home) {
   config.patience = base::from_seconds(idle_patience_);
   config.at_home = said_at_home || helped;
   config.word = name() + "." + std::string(at_home_.name());
-  config.ask_for_idle = [this](std::optional<BoardMode> mode) {
+  config.ask_for_idle = [this](std::optional<BoardMode> mode, base::Duration left) {
     log_warning(
         "the safety board is in {}: pull the E-stop button out and press Shift+Idle, which gives "
         "the pucks their power; waits {} s for it",
-        safety_state(mode), idle_patience_.get());
+        safety_state(mode), std::round(base::to_seconds(left)));
   };
   std::vector<std::string> warnings;
   const auto record = connect_arm(*link_, *numbers_, config, warnings);
@@ -164,12 +192,19 @@ Outcome WamHardware::guard_arm() {
 
 Outcome WamHardware::on_start() {
   if (positions_lost_) return component::refused(fault_reason(WamFault::kEstop, 0));
+  if (position_reference_.connected() && !is_reference(position_reference_.read().value.size())) {
+    return component::refused(
+        "posRefPort gets another number of values than that of the joints, "
+        "or twice that with velocities");
+  }
   at_home_.withdraw();  // It counts for a configuration that follows; from now on the arm moves.
   held_by_hand_.withdraw();
   link_->begin_run(time());
   driver_->start(link_->now());
   driver_->send_idle();  // A puck may have missed that the board went to idle.
+  puck_ports_.begin(*driver_, link_->now());
   path_->go_off();
+  weightless_.assign(false);
   motion_->forget();
   watch_.begin(parameters_.period().duration());
   followed_ = base::Time::min();
@@ -177,6 +212,8 @@ Outcome WamHardware::on_start() {
   idle_seen_ = commanded_ = false;
   if (operator_) operator_->rest();
   without_command_ = 0;
+  why_without_ = {};
+  refused_.assign(0);
   cause_.forget();
   waits_for_.assign({});
   lost_answers_.assign(0);
@@ -226,12 +263,13 @@ void WamHardware::read_all() {
   link_->begin_cycle(time());
   // The board hears torques in every cycle, also if who commands them is late.
   if (armed() && !commanded_) driver_->send_torques(link_->now());
-  const base::Time asked_at = link_->now();
-  driver_->begin_reading(asked_at);
+  asked_at_ = link_->now();
+  driver_->begin_reading(asked_at_);
   while (driver_->poll(link_->now()) == WamReading::kWaiting) {
     link_->wait_for_news(driver_->deadline());
   }
-  motion_->take(*driver_, asked_at);
+  motion_->take(*driver_, asked_at_);
+  puck_ports_.tell(*driver_);
   path_->measure(motion_->positions(), motion_->velocities());
   count_lost_answers();
   if (!supervise()) return;
@@ -251,7 +289,9 @@ void WamHardware::drive_or_hold() {
   if (armed()) {
     without_command_ = std::exchange(commanded_, false) ? 0 : without_command_ + 1;
     if (without_command_ > 0) cycles_without_command_.assign(cycles_without_command_() + 1);
-    if (without_command_ >= kMostWithoutCommand) disarm("torques have stopped coming");
+    if (without_command_ >= kMostWithoutCommand) {
+      disarm(why_without_.empty() ? "torques have stopped coming" : why_without_.view());
+    }
     if (arming_ != nullptr && arming_->state() == component::State::kException) {
       disarm("the component that armed it is out of service");
     }
@@ -259,8 +299,10 @@ void WamHardware::drive_or_hold() {
   }
   if (armed()) return;
   if (path_->mode() == TorquePath::Mode::kHolding) return hold();
+  if (path_->mode() == TorquePath::Mode::kWeightless) return float_on();
   standing_->move();
   send_torques();
+  watch_pucks();
 }
 
 /// Whatever its controller does, it comes to rest and is held.
@@ -285,24 +327,51 @@ void WamHardware::hold() {
   }
   path_->step_hold(link_->now());
   send_torques();
+  watch_pucks();
+  begin_to_float();
 }
 
 void WamHardware::on_torque(const Vector& torques) {
   if (!armed() || std::exchange(commanded_, true)) return;
-  const auto result = path_->step_drive(torques, link_->now());
+  std::ranges::copy(torques, all_torques_.begin());
+  if (const auto added = added_torques_.read()) {
+    for (std::size_t i = 0; i < all_torques_.size(); ++i) all_torques_[i] += added.value[i];
+  }
+  const auto result = path_->step_drive(all_torques_, link_->now());
+  if (result == TorquePath::Result::kRefused) return refuse_torques(all_torques_);
   clipped_.assign(path_->clipped());
+  why_without_ = {};
   if (result == TorquePath::Result::kNotFinite) disarm("a torque is not a finite number");
   send_torques();
+  watch_pucks();
+}
+
+/// As if none had come.
+void WamHardware::refuse_torques(const Vector& torques) {
+  commanded_ = false;
+  refused_.assign(refused_() + 1);
+  if (!why_without_.empty()) return;
+  const std::size_t joint = path_->first_over_limit(torques);
+  why_without_ = component::Reason("no torque is sent: that of joint ");
+  controllers::append_number(why_without_, static_cast<double>(joint + 1)).append(" is ");
+  controllers::append_number(why_without_, torques[joint]).append(" Nm, above its limit");
+  log_warning("{}", why_without_.view());
 }
 
 void WamHardware::on_position(const Vector& reference) {
-  if (!motion_->known()) return;
+  if (!motion_->known() || !is_reference(reference.size())) return;
   const base::Duration pause = kMostWithoutCommand * parameters_.period().duration();
   if (base::later(followed_, pause) < time()) {
     own_controller_->reset_to(reference, motion_->positions());
   }
   followed_ = time();
-  own_controller_->step(reference, motion_->positions(), own_torques_);
+  const std::size_t joints = path_->joints();
+  const std::span<const double> all(reference);
+  if (all.size() == joints) {
+    own_controller_->step(all, motion_->positions(), own_torques_);
+  } else {
+    own_controller_->step(all.first(joints), all.last(joints), motion_->positions(), own_torques_);
+  }
   control_data_.write(own_torques_);
 }
 
@@ -315,72 +384,9 @@ void WamHardware::send_torques() {
   sent_torques_.write(sent_);
 }
 
-// ---- Arming
-
-void WamHardware::on_arm() {
-  if (armed()) return;
-  if (!path_->begin_to_drive()) {
-    log_error("not armed: the arm is not active, it waits for {}", waits_for_.get().view());
-    return tell_armed(false);
-  }
-  held_by_hand_.withdraw();
-  standing_->move();
-  driven_->begin();
-  followed_ = base::Time::min();
-  without_command_ = 0;
-  commanded_ = true;  // from the next cycle on
-  tell_armed(true);
-  log_info("armed");
-}
-
-void WamHardware::disarm(std::string_view why, TorquePath::Last driven) {
-  const bool was_armed = armed();
-  if (was_armed) path_->begin_to_hold(driven);
-  tell_armed(false);
-  if (was_armed) log_warning("disarmed, and holds the arm where it is: {}", why);
-  if (move_home_.active()) move_home_.fail("disarmed");
-}
-
-void WamHardware::tell_armed(bool armed) {
-  for (std::size_t i = 0; i < armed_.size(); ++i) armed_[i].write(armed);
-}
-
-// ---- Commands
-
-/// In whichever thread; it knows nothing but the arm's shape.
-double WamHardware::motion_limit_used(const Vector& positions, const Vector& velocities) {
-  const auto joints = static_cast<std::size_t>(joints_.get());
-  const bool fit = positions.size() == joints && velocities.size() == joints;
-  if (!fit) return std::numeric_limits<double>::infinity();
-  return TipSpeed::of(positions, velocities) / kFastestTip;
-}
-
-Outcome WamHardware::move_home() {
-  if (!armed()) return component::refused("the arm is not armed");
-  return way_home_.begin({numbers_->home, motion_->positions(), time()});
-}
-
-void WamHardware::follow_home() {
-  move_home_.report(way_home_.progress());
-  if (!way_home_.follow({numbers_->home, motion_->positions(), time()})) return;
-  if (way_home_.done()) {
-    move_home_.complete();
-  } else {
-    move_home_.fail(way_home_.reason());
-  }
-}
-
-Outcome WamHardware::press(void (EmulatedOperator::*key)(), component::Command<>& command) {
-  if (!operator_) {
-    if (bus_.get() == "emulator")
-      return component::refused("the arm is emulated once it is configured");
-    component::Reason why("the arm on ");
-    return component::refused(
-        why.append(bus_.get()).append(" has an operator and a pendant of its own"));
-  }
-  ((*operator_).*key)();
-  command.complete();
-  return component::accepted();
+/// Behind the torques, where the bus is free until the next cycle.
+void WamHardware::watch_pucks() {
+  puck_ports_.ask(*driver_, link_->now(), asked_at_ + parameters_.period().duration());
 }
 
 }  // namespace armature::wam

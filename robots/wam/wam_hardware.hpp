@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,41 +11,59 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
+#include "armature/component/waits_for_operator.hpp"
 #include "armature/controllers/base/guarded_bus.hpp"
 #include "armature/controllers/base/max_age.hpp"
 #include "armature/controllers/base/robot_description.hpp"
 #include "armature/controllers/base/sample_watch.hpp"
 #include "robots/wam/arm_check.hpp"
 #include "robots/wam/driver/cause_search.hpp"
+#include "robots/wam/driver/float_gate.hpp"
 #include "robots/wam/driver/safety_text.hpp"
 #include "robots/wam/driver/wam_driver.hpp"
 #include "robots/wam/driver/wam_motion.hpp"
 #include "robots/wam/emulator/emulated_link.hpp"
 #include "robots/wam/emulator/emulated_operator.hpp"
+#include "robots/wam/puck_ports.hpp"
 #include "robots/wam/torque_path.hpp"
 #include "robots/wam/wam_parameters.hpp"
 #include "robots/wam/way_home.hpp"
 
 namespace armature::wam {
 
+/// Of added torques: some ten cycles.
+inline constexpr base::Duration kMaxAddedAge = std::chrono::milliseconds(20);
+
+/// What the arm does once the operator has activated it, before it is armed.
+enum class AfterActivation : std::uint8_t {
+  kHold,        ///< it is held where it is
+  kWeightless,  ///< then nothing but its weight is driven, so that a hand may lead it (paper 3)
+};
+ARMATURE_ENUM(AfterActivation, kHold, kWeightless);
+
 /// The arm (paper 3, OrocosWam): the only component that knows its bus, its pucks and its safety
 /// board.
 ///
 /// The first that asks in a cycle, or Sample, has all positions read; torque frames are sent in
 /// every cycle, 0 until the operator has activated the arm. Activated, it holds where it is.
-/// Armed, `torRefPort` is passed, through a TorquePath; a command that stays away for three cycles
-/// disarms it, and it holds again; so does what a DrivenWatch finds. Whatever ends the activation
-/// disarms it: by the operator's hand, it waits for the next; any other loss is a fault with
-/// torques 0 and the pucks idle, which brakes the arm.
+/// Armed, `torRefPort` and `torAddPort` are passed, through a TorquePath; a command that stays away
+/// for three cycles disarms it, and it holds again; so does what a DrivenWatch finds. Whatever ends
+/// the activation disarms it: by the operator's hand, it waits for the next; any other loss is a
+/// fault with torques 0 and the pucks idle, which brakes the arm.
 ///
 /// Properties count from the configuration on.
 /// @rt no allocation; waits for the pucks' answers, 1.4 ms at most
-class WamHardware final : public component::Component, public controllers::DrivesJoints {
+class WamHardware final : public component::Component,
+                          public component::WaitsForOperator,
+                          public controllers::DrivesJoints {
  public:
   using Component::Component;
 
   std::vector<controllers::DrivenJoint> joints_behind(const component::InputPortBase* input,
                                                       const component::Check& check) override;
+
+  /// While the arm is brought to idle.
+  base::Duration operators_patience() const override;
 
   /// For tests that break something: the arm in this process; nullptr on another bus.
   EmulatedLink* emulated() { return emulated_; }
@@ -70,6 +90,8 @@ class WamHardware final : public component::Component, public controllers::Drive
 
   // Its configuration.
   void on_check(component::Check& check) const override;
+  void check_reference(component::Check& check) const;
+  bool is_reference(std::size_t size) const;
   component::Outcome check_period() const;
   component::Outcome set_up_path();
   component::Outcome make_link();
@@ -86,8 +108,10 @@ class WamHardware final : public component::Component, public controllers::Drive
   void watch_driven();
   void hold();
   void on_torque(const Vector& torques);
+  void refuse_torques(const Vector& torques);
   void on_position(const Vector& reference);
   void send_torques();
+  void watch_pucks();
 
   // wam_hardware_safety.cpp
   bool is_guarded();
@@ -100,6 +124,10 @@ class WamHardware final : public component::Component, public controllers::Drive
   void take_out(WamFault fault);
   void leave_service();
   void make_safe();
+  void begin_to_float();
+  void float_on();
+  bool hold_again();
+  void end_floating(std::string_view why, TorquePath::Last driven);
 
   // Whether it may stop.
   double from_home() const;
@@ -109,7 +137,7 @@ class WamHardware final : public component::Component, public controllers::Drive
   void on_arm();
   void on_rest() { driven_->rest(); }
   void on_motion() { driven_->move(); }
-  void on_disarm() { disarm("the operator disarmed it"); }
+  void on_disarm();
   void disarm(std::string_view why, TorquePath::Last driven = TorquePath::Last::kDiesAway);
   void tell_armed(bool armed);
   bool armed() const { return path_->mode() == TorquePath::Mode::kDriven; }
@@ -148,7 +176,11 @@ class WamHardware final : public component::Component, public controllers::Drive
   component::Property<double> idle_patience_{
       this, "idle_patience",
       5.0,  "how long to wait at the configuration for the arm to be brought to idle",
-      "s",  component::range(0.0, 7.0)};
+      "s",  component::range(0.0, 900.0)};
+  component::Property<AfterActivation> after_activation_{
+      this, "after_activation", AfterActivation::kHold,
+      "hold: it is held where it is; weightless: once it rests there, and nothing but the weight "
+      "of its description holds it, a hand may lead it"};
   component::OperatorsWord at_home_{this, "at_home",
                                     "the operator has put the arm at home: pucks that lost their "
                                     "positions are told them there, by "
@@ -163,22 +195,31 @@ class WamHardware final : public component::Component, public controllers::Drive
   component::InputPort<Vector> torque_reference_{
       this,
       "torRefPort",
-      "torques for the joints",
+      "torques for the joints, as the actuators tell them",
       "V",
       component::on_data<&WamHardware::on_torque>,
       component::size_of(joints_),
       component::max_age(controllers::kMaxAge, component::Reaction::kHold),
       component::on_lost(component::Reaction::kHold),
       component::leads_to("Armed")};
+  component::InputPort<Vector> added_torques_{
+      this,
+      "torAddPort",
+      "torques that are added to those of torRefPort, without the arm's weight; too old they are 0",
+      "Nm",
+      component::size_of(joints_),
+      component::may_stay_open,
+      component::max_age(kMaxAddedAge, component::Reaction::kZero),
+      component::on_lost(component::Reaction::kZero)};
   component::OutputPort<Vector> control_data_{this, "ControlDataPort",
-                                              "torques of the arm's own controller", "V",
+                                              "torques of the arm's own controller", "Nm",
                                               component::size_of(joints_)};
   component::InputPort<Vector> position_reference_{this,
                                                    "posRefPort",
-                                                   "positions for the arm's own controller",
+                                                   "for the arm's own controller: [q1..qN], or "
+                                                   "[q1..qN, qd1..qdN] with velocities [rad/s]",
                                                    "rad",
                                                    component::on_data<&WamHardware::on_position>,
-                                                   component::size_of(joints_),
                                                    component::on_lost(component::Reaction::kHold),
                                                    component::may_stay_open,
                                                    component::leads_to("ControlDataPort")};
@@ -191,6 +232,7 @@ class WamHardware final : public component::Component, public controllers::Drive
       component::size_of(joints_)};
   component::OutputPort<SafetyState> board_state_{this, "safetyStatePort",
                                                   "of the board, as it said last"};
+  PuckPorts puck_ports_{this, joints_};
   component::OutputPorts<bool> armed_{this, "Armed", joints_, "torques are passed"};
   component::Operation<bool()> get_joint_sensors_{
       this, "getJointSensorsOperation", component::serve<&WamHardware::get_joint_sensors>,
@@ -263,6 +305,11 @@ class WamHardware final : public component::Component, public controllers::Drive
       this, "cycles_without_command", 0, "since the start, in which the armed arm got no torques"};
   component::Attribute<int> clipped_{this, "clipped", 0,
                                      "commands since the configuration that a limit changed"};
+  component::Attribute<int> refused_{
+      this, "refused", 0,
+      "commands since the start that were not sent, since a torque was above its limit"};
+  component::Attribute<bool> weightless_{this, "weightless", false,
+                                         "nothing but its weight is driven: a hand may lead it"};
 
   const ArmNumbers* numbers_ = nullptr;
   const component::Component* arming_ = nullptr;  ///< who arms it, and could take that back
@@ -270,6 +317,7 @@ class WamHardware final : public component::Component, public controllers::Drive
   std::optional<StandingWatch> standing_;
   std::optional<DrivenWatch> driven_;
   std::optional<JointController> own_controller_;
+  std::optional<FloatGate> float_gate_;
   std::unique_ptr<can::Link> link_;
   EmulatedLink* emulated_ = nullptr;
   std::optional<EmulatedOperator> operator_;  ///< of the emulated arm
@@ -279,14 +327,17 @@ class WamHardware final : public component::Component, public controllers::Drive
 
   Ending ending_{*this};
   base::Time read_at_ = base::Time::min();
+  base::Time asked_at_{};                    ///< in that cycle, on the bus's clock
   base::Time followed_ = base::Time::min();  ///< by its own controller; min(): it has no past
   bool positions_lost_ = false;              ///< until it is configured anew
   bool commanded_ = false;                   ///< in this cycle
   int without_command_ = 0;                  ///< cycles in a row
+  component::Reason why_without_{};          ///< there are none; empty if none came
   bool idle_seen_ = false;                   ///< since the start
   CauseSearch cause_;
   WayHome way_home_{generator_};
   Vector own_torques_;
+  Vector all_torques_;  ///< commanded, with what is added
   Vector sent_;
   Vector data_;
 };

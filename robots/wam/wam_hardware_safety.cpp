@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of WamHardware: what the guardian, the safety board, the pucks and the bus say, and what becomes
-// of it.
+// of it; what the operator says: arming, commands.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
 #include "robots/wam/driver/safety_text.hpp"
+#include "robots/wam/tip_speed.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::wam {
+
+using component::Outcome;
+
 namespace {
 
 /// A board that has not answered for so long is silent.
 constexpr base::Duration kSilentBoardTime = std::chrono::milliseconds(150);
 /// [rad] Nearer each joint lies where it may be let go of.
 constexpr double kAtHome = 0.05;
+/// [m/s] of a motion: the board idles the arm at 1 m/s, and what follows overshoots a little.
+constexpr double kFastestTip = 0.95;
+/// [rad/s] Slower, a joint rests.
+constexpr double kRestVelocity = 0.1;
 
 }  // namespace
 
@@ -98,13 +107,71 @@ void WamHardware::watch_activation() {
   path_->begin_to_hold();
   if (operator_) operator_->let_go();
   log_info("holds the arm where it is");
+  if (after_activation_ == AfterActivation::kWeightless) float_gate_->begin();
+}
+
+// ---- Weightless
+
+/// Once after each activation, and only if the deployment says so.
+void WamHardware::begin_to_float() {
+  const auto verdict = float_gate_->step(motion_->velocities(), path_->moving_torques());
+  if (verdict == FloatGate::Verdict::kStays) {
+    return log_warning("stays held, and is not weightless: {}", float_gate_->why().view());
+  }
+  if (verdict == FloatGate::Verdict::kNone || !path_->begin_to_float()) return;
+  standing_->move();
+  driven_->begin();
+  driven_->rest();
+  weightless_.assign(true);
+  log_warning("the arm is weightless: lead it by hand; disarming or arming holds it");
+}
+
+/// It goes on as long as a hand leads it; a load, or a joint that is too fast, ends it.
+void WamHardware::float_on() {
+  const auto why =
+      driven_->step({.positions = motion_->positions(),
+                     .velocities = motion_->velocities(),
+                     .torques = path_->moving_torques(),
+                     .weight = path_->weight(),
+                     .tip = TipSpeed::of(motion_->positions(), motion_->velocities())});
+  if (why) {
+    end_floating(why->view(), TorquePath::Last::kEndsAtOnce);
+    return hold();
+  }
+  path_->step_float(link_->now());
+  send_torques();
+  watch_pucks();
+}
+
+/// @return false, and it goes on as it was, if a joint moves
+bool WamHardware::hold_again() {
+  const auto moves = [](double velocity) { return !(std::abs(velocity) < kRestVelocity); };
+  if (std::ranges::any_of(motion_->velocities(), moves)) return false;
+  end_floating("it is to be armed", TorquePath::Last::kDiesAway);
+  return true;
+}
+
+void WamHardware::end_floating(std::string_view why, TorquePath::Last driven) {
+  path_->begin_to_hold(driven);
+  weightless_.assign(false);
+  log_warning("no longer weightless, and holds the arm where it is: {}", why);
+}
+
+void WamHardware::on_disarm() {
+  float_gate_->close();
+  if (path_->mode() == TorquePath::Mode::kWeightless) {
+    end_floating("the operator disarmed it", TorquePath::Last::kDiesAway);
+  }
+  disarm("the operator disarmed it");
 }
 
 void WamHardware::ask_for_activation() {
   const std::string_view request = activation_request(driver_->pendant(), !idle_seen_);
   if (waits_for_.get().view() != request) {
     waits_for_.assign(request);
-    log_warning("waits for {}", request);
+    const bool floats = after_activation_ == AfterActivation::kWeightless;
+    log_warning("waits for {}{}", request,
+                floats ? "; then it becomes weightless: hold it when you press it" : "");
   }
   if (!operator_ || !emulated_operator_) return;
   const bool idle_first = !idle_seen_ || (driver_->pendant() && shows_fault(*driver_->pendant()));
@@ -124,6 +191,7 @@ void WamHardware::take_out(WamFault why) {
 
 void WamHardware::leave_service() {
   path_->go_off();
+  weightless_.assign(false);
   followed_ = base::Time::min();
   tell_armed(false);
   if (move_home_.active()) move_home_.fail("the arm is no longer active");
@@ -135,6 +203,7 @@ void WamHardware::make_safe() {
   if (!driver_) return;  // it was not configured
   note_last_safety_state();
   path_->go_off();
+  weightless_.assign(false);
   send_torques();
   driver_->send_idle();
   guard_.rest();
@@ -161,6 +230,81 @@ component::Reason WamHardware::held() {
       .append(name())
       .append(":moveHome(); or ");
   return what.append("hold it, and set ").append(name()).append(".held_by_hand = true");
+}
+
+// ---- Arming
+
+/// A weightless arm is held first, and only where no hand moves it.
+void WamHardware::on_arm() {
+  if (armed()) return;
+  if (path_->mode() == TorquePath::Mode::kWeightless && !hold_again()) {
+    log_error("not armed: the weightless arm moves; let it rest, and arm it again");
+    return tell_armed(false);
+  }
+  float_gate_->close();
+  if (!path_->begin_to_drive()) {
+    log_error("not armed: the arm is not active, it waits for {}", waits_for_.get().view());
+    return tell_armed(false);
+  }
+  held_by_hand_.withdraw();
+  standing_->move();
+  driven_->begin();
+  followed_ = base::Time::min();
+  without_command_ = 0;
+  why_without_ = {};
+  commanded_ = true;  // from the next cycle on
+  tell_armed(true);
+  log_info("armed");
+}
+
+void WamHardware::disarm(std::string_view why, TorquePath::Last driven) {
+  const bool was_armed = armed();
+  if (was_armed) path_->begin_to_hold(driven);
+  tell_armed(false);
+  if (was_armed) log_warning("disarmed, and holds the arm where it is: {}", why);
+  if (move_home_.active()) move_home_.fail("disarmed");
+}
+
+void WamHardware::tell_armed(bool armed) {
+  for (std::size_t i = 0; i < armed_.size(); ++i) armed_[i].write(armed);
+}
+
+// ---- Commands
+
+/// In whichever thread; it knows nothing but the arm's shape.
+double WamHardware::motion_limit_used(const Vector& positions, const Vector& velocities) {
+  const auto joints = static_cast<std::size_t>(joints_.get());
+  const bool fit = positions.size() == joints && velocities.size() == joints;
+  if (!fit) return std::numeric_limits<double>::infinity();
+  return TipSpeed::of(positions, velocities) / kFastestTip;
+}
+
+Outcome WamHardware::move_home() {
+  if (!armed()) return component::refused("the arm is not armed");
+  return way_home_.begin({numbers_->home, motion_->positions(), time()});
+}
+
+void WamHardware::follow_home() {
+  move_home_.report(way_home_.progress());
+  if (!way_home_.follow({numbers_->home, motion_->positions(), time()})) return;
+  if (way_home_.done()) {
+    move_home_.complete();
+  } else {
+    move_home_.fail(way_home_.reason());
+  }
+}
+
+Outcome WamHardware::press(void (EmulatedOperator::*key)(), component::Command<>& command) {
+  if (!operator_) {
+    if (bus_.get() == "emulator")
+      return component::refused("the arm is emulated once it is configured");
+    component::Reason why("the arm on ");
+    return component::refused(
+        why.append(bus_.get()).append(" has an operator and a pendant of its own"));
+  }
+  ((*operator_).*key)();
+  command.complete();
+  return component::accepted();
 }
 
 }  // namespace armature::wam

@@ -59,7 +59,14 @@ WamParameters::WamParameters(component::Component* owner)
           owner, "WeightlessMaxSinking", 0.5,
           "armed, it is held if a joint that is to stand sinks so far without a break, which a "
           "hand makes that leads a weightless arm",
-          "rad", range(1e-2, 3.0)) {}
+          "rad", range(1e-2, 3.0)),
+      over_limit_(owner, "over_limit", OverLimit::kClip,
+                  "of torques of which one is above its limit: clip cuts that one, refuse_all "
+                  "sends none of them"),
+      max_load_(owner, "WeightlessMaxLoad", {1.0},
+                "after its activation it is weightless only if no joint is held by more beside the "
+                "weight of its description",
+                "Nm", range(0.01, 20.0)) {}
 
 base::Result<TorquePath::Config> WamParameters::torque_path(
     const ArmNumbers& numbers, const controllers::CheckedGains::Wanted& wanted) const {
@@ -92,6 +99,7 @@ base::Result<TorquePath::Config> WamParameters::torque_path(
                              .effort_rate = arming_time_ > 0.0 ? control[i] / arming_time_ : 0.0});
   }
   config.command_has_weight = wanted.value_of(controller_has_gravity_);
+  config.over_limit = over_limit_;
   config.hand_over = base::from_seconds(hand_over_);
   config.period_s = period_.seconds();
   return config;
@@ -128,6 +136,10 @@ base::Result<DrivenWatch::Config> WamParameters::driven_watch(const ArmNumbers& 
     *to = std::move(each).value();
   }
   return config;
+}
+
+base::Result<std::vector<double>> WamParameters::weightless_load(const ArmNumbers& numbers) const {
+  return control::per_joint(max_load_.name(), max_load_.get(), numbers.joints());
 }
 
 void WamParameters::add_follower(component::PropertyFollower& follower) {

@@ -35,6 +35,8 @@ class WamParameters {
   base::Result<StandingWatch::Config> standing_watch(const ArmNumbers& numbers) const;
   /// The same for the watch over the arm that is armed.
   base::Result<DrivenWatch::Config> driven_watch(const ArmNumbers& numbers) const;
+  /// [N m] Of each joint: what may hold it beside its weight, and it is let float nevertheless.
+  base::Result<std::vector<double>> weightless_load(const ArmNumbers& numbers) const;
   const controllers::SamplingPeriod& period() const { return period_; }
   /// Where no gains were given, those of the vendor are shown: they count.
   /// @thread configuration only
@@ -66,6 +68,8 @@ class WamParameters {
   component::Property<double> stand_alternation_;
   component::Property<double> driven_motion_;
   component::Property<double> sinking_;
+  component::Property<OverLimit> over_limit_;
+  Numbers max_load_;
 };
 
 }  // namespace armature::wam

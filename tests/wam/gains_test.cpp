@@ -32,6 +32,10 @@ TEST(ArmCheck, FindsNothingInAnyDeploymentOfTheArm) {
       EXPECT_EQ(said(std::string(controller) + joints + ".yaml"), "") << controller << joints;
     }
   }
+  for (const char* file : {"npid_feed_forward7.yaml", "controller_wam_velocities7.yaml",
+                           "sample_port7.yaml", "tool7.yaml"}) {
+    EXPECT_EQ(said(file), "") << file;
+  }
 }
 
 TEST(ArmCheck, RefusesGainsThatWouldShakeTheArmThatIsHeldWithTheirFigures) {

@@ -31,6 +31,15 @@ TEST(WamSafety, ConfiguresOnlyAnArmThatTheOperatorHasBroughtToIdle) {
                                            "s: pull the E-stop button out, press Shift+Idle"));
 }
 
+TEST(WamSafety, WhoeverWalksToThePendantIsWaitedForAndToldTheTimeThatIsLeft) {
+  Arm arm("npid7.yaml", {"WAM.emulated_operator=false", "WAM.idle_patience=40"});
+  EXPECT_EQ(arm.hardware().operators_patience(), 40s) << "it is not taken for one that hangs";
+  EXPECT_THAT(arm.application().start().to_text(), HasSubstr("expected IDLE within 40 s"));
+  for (const char* left : {"waits 40 s for it", "waits 25 s for it", "waits 10 s for it"}) {
+    EXPECT_THAT(arm.log, HasSubstr(left));
+  }
+}
+
 TEST(WamSafety, PositionsAreWrittenOnlyIfTheOperatorSaysThatTheArmIsAtHome) {
   Arm arm("npid7.yaml", {"WAM.emulated_operator=false"});
   ASSERT_FALSE(arm.application().start().ok());

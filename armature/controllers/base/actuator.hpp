@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "armature/component/author.hpp"
 #include "armature/controllers/base/max_age.hpp"
+#include "armature/controllers/base/sample_input.hpp"
 
 namespace armature::controllers {
 
@@ -48,7 +50,16 @@ class Actuator : public component::Component {
                                                  component::size_of(joints_),
                                                  component::max_age(kMaxAge)};
   component::EventHandler<> sample_{this, "Sample", component::serve<&Actuator::sample_now>,
-                                    "a sampling period begins"};
+                                    "a sampling period begins", component::optional};
+  component::InputPort<std::uint64_t> sample_port_{
+      this,
+      "SamplePort",
+      "the same from a port, as in paper 3: the number of the sample",
+      "",
+      component::on_data<&Actuator::sample_now>,
+      component::may_stay_open,
+      component::on_lost(component::Reaction::kHold)};
+  SampleInput sample_input_{this, sample_, sample_port_};
   component::Attribute<int> samples_without_act_{
       this, "samples_without_act", 0,
       "sampling periods since the start in which nothing was driven"};

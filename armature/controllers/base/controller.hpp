@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/max_age.hpp"
+#include "armature/controllers/base/sample_input.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 
 namespace armature::controllers {
@@ -163,7 +165,16 @@ class Controller : public component::Component, public PassesSamples, public Dri
       component::size_of(joints_, 2),
       component::max_age(kMaxAge)};
   component::EventHandler<> sample_{this, "Sample", component::serve<&Controller::sample_now>,
-                                    "a sampling period begins"};
+                                    "a sampling period begins", component::optional};
+  component::InputPort<std::uint64_t> sample_port_{
+      this,
+      "SamplePort",
+      "the same from a port, as in paper 3: the number of the sample",
+      "",
+      component::on_data<&Controller::sample_now>,
+      component::may_stay_open,
+      component::on_lost(component::Reaction::kHold)};
+  SampleInput sample_input_{this, sample_, sample_port_};
   component::Attribute<int> samples_without_sensor_{
       this, "samples_without_sensor", 0,
       "sampling periods since the start in which nothing was measured"};

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/sample_input.hpp"
 
 namespace armature::controllers {
 
@@ -38,7 +40,16 @@ class Sensor : public component::Component {
 
  private:
   component::EventHandler<> sample_{this, "Sample", component::serve<&Sensor::sample_now>,
-                                    "a sampling period begins"};
+                                    "a sampling period begins", component::optional};
+  component::InputPort<std::uint64_t> sample_port_{
+      this,
+      "SamplePort",
+      "the same from a port, as in paper 3: the number of the sample",
+      "",
+      component::on_data<&Sensor::sample_now>,
+      component::may_stay_open,
+      component::on_lost(component::Reaction::kHold)};
+  SampleInput sample_input_{this, sample_, sample_port_};
   bool sampled_ = false;
 };
 

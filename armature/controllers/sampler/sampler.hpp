@@ -21,8 +21,10 @@ class Sampler final : public component::Component {
   void trigger();
   void begin_sample();
 
-  component::OutputPort<std::uint64_t> sample_port_{this, "SamplePort",
-                                                    "number of the sample, from 1"};
+  component::OutputPort<std::uint64_t> sample_port_{
+      this, "SamplePort",
+      "number of the sample, from 1; to the SamplePort of others, "
+      "or for the record"};
   component::Event<> sample_{this, "Sample", "a sampling period begins"};
   component::Operation<void()> trigger_{this, "trigger", component::serve<&Sampler::trigger>,
                                         "begins a sampling period now, while it runs",

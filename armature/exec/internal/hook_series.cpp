@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "armature/component/waits_for_operator.hpp"
 #include "armature/exec/task.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/thread.hpp"
@@ -70,10 +71,10 @@ class Progress {
         std::min<base::Duration>(patience.limit, std::chrono::milliseconds(20));
     std::unique_lock lock(mutex_);
     std::size_t seen = 0;
-    base::Time deadline = base::later(platform::monotonic_now(), patience.limit);
+    base::Time deadline = base::later(platform::monotonic_now(), limit_now(patience));
     while (!changed_.wait_for(lock, look, [this] { return finished_; })) {
       const base::Time now = platform::monotonic_now();
-      if (std::exchange(seen, done_) != done_) deadline = base::later(now, patience.limit);
+      if (std::exchange(seen, done_) != done_) deadline = base::later(now, limit_now(patience));
       if (now > deadline) return false;
       if (!patience.meanwhile) continue;
       lock.unlock();
@@ -97,6 +98,12 @@ class Progress {
   }
 
  private:
+  /// Of the component whose turn it is.
+  base::Duration limit_now(const HookPatience& patience) const {
+    const bool over = done_ >= series_.components.size();
+    return over ? patience.limit : patience.limit_of(*series_.components[done_]);
+  }
+
   bool go_on_after(component::Component& component, const component::Outcome& outcome) {
     const std::lock_guard lock(mutex_);
     ++done_;
@@ -114,6 +121,13 @@ class Progress {
 };
 
 }  // namespace
+
+base::Duration HookPatience::limit_of(const component::Component& component) const {
+  const auto* const waits = dynamic_cast<const component::WaitsForOperator*>(&component);
+  if (!operators_too || waits == nullptr) return limit;
+  const bool endless = limit > base::Duration::max() - waits->operators_patience();
+  return endless ? base::Duration::max() : limit + waits->operators_patience();
+}
 
 HookReport run_hooks(const HookSeries& series, const HookPatience& patience) {
   if (series.components.empty()) return {};

@@ -35,6 +35,10 @@ struct HookReport {
 struct HookPatience {
   base::Duration limit;
   std::function<void()> meanwhile;
+  bool operators_too = false;  ///< besides, as long as it waits for a person (WaitsForOperator)
+
+  /// Of one component.
+  base::Duration limit_of(const component::Component& component) const;
 };
 
 /// The name of the thread in which `run_hooks` runs them.

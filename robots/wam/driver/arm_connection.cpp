@@ -2,6 +2,7 @@
 #include "robots/wam/driver/arm_connection.hpp"
 
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -13,6 +14,9 @@
 
 namespace armature::wam {
 namespace {
+
+/// Who walks to the pendant hears how long there is left.
+constexpr base::Duration kAskPeriod = std::chrono::seconds(15);
 
 const char* state_text(std::optional<BoardMode> mode) {
   if (!mode) return "has not said its state";
@@ -47,11 +51,16 @@ class Talk {
 
  private:
   bool may_go_on() {
+    const base::Time now = link_.now();
     if (!waits_until_) {
-      waits_until_ = link_.now() + config_.patience;
-      if (config_.ask_for_idle) config_.ask_for_idle(startup_.board_mode());
+      waits_until_ = now + config_.patience;
+      asks_at_ = now;
     }
-    return link_.now() < *waits_until_;
+    if (now >= asks_at_ && now < *waits_until_ && config_.ask_for_idle) {
+      config_.ask_for_idle(startup_.board_mode(), *waits_until_ - now);
+      asks_at_ = now + kAskPeriod;
+    }
+    return now < *waits_until_;
   }
   std::string refusal() const {
     return std::string("the safety board ") + state_text(startup_.board_mode()) +
@@ -64,6 +73,7 @@ class Talk {
   WamStartup& startup_;
   const ArmConnectionConfig& config_;
   std::optional<base::Time> waits_until_;
+  base::Time asks_at_{};
 };
 
 WamStartup::Config startup_config(const ArmNumbers& numbers) {

@@ -22,8 +22,9 @@ struct ArmConnectionConfig {
   bool at_home = false;
   /// What he sets to true to say so.
   std::string word = "at_home";
-  /// Called once when the operator has to bring the arm to idle, with what the board said last.
-  std::function<void(std::optional<BoardMode>)> ask_for_idle{};
+  /// Called when the operator has to bring the arm to idle, and every 15 s from then on, with what
+  /// the board said last, and how long it is still waited for.
+  std::function<void(std::optional<BoardMode>, base::Duration left)> ask_for_idle{};
 };
 
 /// All that is said to the arm between power-up and the cycle (WamStartup): waits for idle as long

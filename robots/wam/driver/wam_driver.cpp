@@ -69,7 +69,8 @@ WamDriver::WamDriver(can::Bus& bus, const WamRecord& arm, const Config& config)
       config_(config),
       watch_({.mode_number = arm.board_mode_number,
               .pendant_number = arm.pendant_number,
-              .period = config.watch_period}) {}
+              .period = config.watch_period}),
+      pucks_(arm) {}
 
 void WamDriver::start(base::Time now) {
   bus_offs_seen_ = bus_->counters().bus_offs;
@@ -153,6 +154,13 @@ void WamDriver::ask_board(base::Time now) {
   if (watch_.silent()) raise(WamFault::kBoardSilent);
 }
 
+/// A puck that is silent is not asked for more.
+void WamDriver::ask_puck(base::Time now) {
+  if (fault_ != WamFault::kNone || reading_ != WamReading::kComplete) return;
+  const std::optional<can::Frame> question = pucks_.question(now);
+  if (question && send(*question) != can::SendStatus::kSent) pucks_.take_back();
+}
+
 bool WamDriver::nobody_asked() const { return std::ranges::none_of(accounts_, &Account::asked); }
 
 bool WamDriver::all_answered() const {
@@ -203,6 +211,9 @@ void WamDriver::take(const can::Arrival& arrival, base::Time now) {
   } else if (address && address->group && address->to == static_cast<int>(Group::kPositions) &&
              address->from >= 1 && address->from <= most) {
     take_position(static_cast<std::size_t>(address->from - 1), arrival);
+  } else if (address && address->group && address->to == static_cast<int>(Group::kReplies) &&
+             address->from >= 1 && address->from <= most) {
+    if (!pucks_.take(address->from, arrival.frame)) ++bus_counters_.unknown_frames;
   } else {
     ++bus_counters_.unknown_frames;
   }

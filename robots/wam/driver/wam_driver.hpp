@@ -11,6 +11,7 @@
 #include "armature/base/time.hpp"
 #include "armature/can/bus.hpp"
 #include "robots/wam/driver/board_watch.hpp"
+#include "robots/wam/driver/puck_watch.hpp"
 #include "robots/wam/driver/wam_record.hpp"
 #include "robots/wam/protocol/puck_protocol.hpp"
 #include "robots/wam/protocol/puck_torque.hpp"
@@ -145,6 +146,13 @@ class WamDriver {
   /// A frame for motors 1 to 4, and one for 5 to 7.
   /// @return kSent, or why the first frame was not taken that was not
   can::SendStatus send_torques(base::Time now);
+  /// Asks a puck for what it tells of its own state, if that is due; after the cycle's torques,
+  /// where the bus has half a millisecond left until the next cycle. Nothing is asked while there
+  /// is a fault.
+  void ask_puck(base::Time now);
+  /// @param config  from the next question on
+  void watch_pucks(base::Time now, const PuckWatch::Config& config) { pucks_.start(now, config); }
+  const PuckWatch& pucks() const { return pucks_; }
   /// Sets all pucks idle at once, which brakes their motors; the board does not notice.
   /// @return as `send_torques`
   can::SendStatus send_idle();
@@ -226,6 +234,7 @@ class WamDriver {
   WamRecord arm_;
   Config config_;
   BoardWatch watch_;
+  PuckWatch pucks_;
   std::array<WamMotor, kMostMotors> motors_{};
   std::array<Account, kMostMotors> accounts_{};
 

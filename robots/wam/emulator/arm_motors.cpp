@@ -50,6 +50,11 @@ void ArmMotors::carry_to(const std::vector<double>& joints) {
       std::chrono::duration<double>(furthest / kCarryingRate));
 }
 
+void ArmMotors::push(std::span<const double> velocities) {
+  for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i] = arm_.joint_position(i);
+  arm_.set_state(positions_, velocities);
+}
+
 /// Whoever carries it holds it: at the end it is at rest.
 void ArmMotors::carry() {
   const base::Duration left = carried_for_ - (now_ - carried_since_);

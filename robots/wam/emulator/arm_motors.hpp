@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "robots/wam/emulator/arm_simulation.hpp"
@@ -31,6 +32,9 @@ class ArmMotors final : public Motors {
   /// until a motor drives.
   /// @param joints  [rad], as many as the arm has
   void carry_to(const std::vector<double>& joints);
+  /// Somebody pushes the arm, which goes on as fast as this from where it is.
+  /// @param velocities  of the joints [rad/s], as many as the arm has
+  void push(std::span<const double> velocities);
   bool carried() const { return carried_; }
   /// Carried, it has come to where it is held.
   bool arrived() const { return arrived_; }

@@ -55,6 +55,8 @@ Puck::Puck(const Config& config, can::VirtualBus& bus, Motors& motors, std::size
   store_.set_default(Property::kMt, config.most_torque);
   store_.set_default(Property::kPidx, config.slot);
   store_.set_default(Property::kPoles, config.poles);
+  store_.set_default(Property::kTemp, config.temperature);
+  store_.set_default(Property::kTherm, config.motor_temperature);
   store_.set_default(Property::kGrpa, config.groups[0]);
   store_.set_default(Property::kGrpb, config.groups[1]);
   store_.set_default(Property::kGrpc, config.groups[2]);
@@ -167,8 +169,11 @@ void Puck::get(int number) {
   reply(number, value(*property), store_.width(*property));
 }
 
+/// A motor's torque is as its current, and T is nearly that in milliamperes: which units IMOTOR has
+/// nobody says.
 std::int32_t Puck::value(Property property) const {
-  return property == Property::kMech ? mech() : store_.get(property);
+  if (property == Property::kMech) return mech();
+  return store_.get(property == Property::kImotor ? Property::kT : property);
 }
 
 void Puck::set_in_monitor(const Message& message) {
@@ -192,6 +197,9 @@ void Puck::set_property(Property property, std::int32_t value) {
     case Property::kRole:
     case Property::kId:
     case Property::kMech:
+    case Property::kTemp:
+    case Property::kTherm:
+    case Property::kImotor:
       return ignore();  // written by the maker alone
     case Property::kStat:
       if (value != static_cast<int>(PuckStatus::kReset)) return;

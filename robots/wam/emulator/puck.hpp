@@ -60,7 +60,9 @@ class Puck {
     int slot = 1;                      ///< PIDX: its place in torque frames, 1 to 4
     std::array<int, 3> groups{0, 1, 4};
     int poles = 12;
-    double mech_zero = 0.0;  ///< [rad] the motor's angle at which MECH is 0
+    int temperature = 30;        ///< TEMP [degrees Celsius]
+    int motor_temperature = 35;  ///< THERM [degrees Celsius]
+    double mech_zero = 0.0;      ///< [rad] the motor's angle at which MECH is 0
     base::Duration boot_time = std::chrono::milliseconds(300);  ///< from power to the monitor
     base::Duration wake_time = std::chrono::milliseconds(500);  ///< from there to STAT 2, < 1 s
     base::Duration reply_delay = std::chrono::microseconds(75);
@@ -100,6 +102,11 @@ class Puck {
   void spoil_replies(ReplySpoil how, int count = 1);
   /// Answers come later by this; 0 ends it.
   void delay_replies(base::Duration by) { late_by_ = by; }
+  /// [degrees Celsius] from now on
+  void set_temperatures(int puck, int motor) {
+    store_.set(Property::kTemp, puck);
+    store_.set(Property::kTherm, motor);
+  }
   /// It says that it has this firmware; its properties keep their numbers.
   void tell_version(int version) { store_.set_default(Property::kVers, version); }
 

@@ -73,16 +73,18 @@ bool LifeCycle::start(base::Diagnostics& diagnostics) const {
 }
 
 bool LifeCycle::run(const Stage& stage, Group components, base::Diagnostics& diagnostics) const {
+  HookPatience patient = patience(options_.hook_limit);
+  patient.operators_too = true;
   const HookReport report =
-      run_hooks({std::move(components), stage.transition, stage.ends_at_refusal},
-                patience(options_.hook_limit));
+      run_hooks({std::move(components), stage.transition, stage.ends_at_refusal}, patient);
   for (const auto& refusal : report.refusals) {
     diagnostics.error(
         roster_.entry_of(*refusal.component).where,
         quoted(refusal.component->name()) + " refuses to " + stage.verb + ": " + refusal.reason);
   }
   if (report.hangs) {
-    report_hang(*report.open.front(), stage.hook, options_.hook_limit, diagnostics);
+    const Component& hanging = *report.open.front();
+    report_hang(hanging, stage.hook, patient.limit_of(hanging), diagnostics);
   }
   return diagnostics.ok();
 }

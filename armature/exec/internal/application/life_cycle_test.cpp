@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/waits_for_operator.hpp"
 #include "armature/exec/internal/application/test_parts.hpp"
 
 namespace armature::exec::internal {
@@ -90,6 +91,29 @@ TEST_F(LifeCycleTest, NobodyCleansUpWhatHangsWhichIsACasualtyToo) {
   EXPECT_THAT(journal_.take(), ElementsAre("C cleanup", "A cleanup"));
   ASSERT_EQ(life_cycle_.casualties().size(), 1u);
   EXPECT_EQ(life_cycle_.casualties()[0].reason, "its thread hangs");
+}
+
+/// Is configured once a person has walked to it.
+class Patient final : public component::Component, public component::WaitsForOperator {
+ public:
+  using Component::Component;
+  base::Duration operators_patience() const override { return 300s; }
+};
+
+TEST(HookPatience, OfWhatWaitsForItsOperatorIsLongerByThat) {
+  const Patient patient("Patient");
+  const component::Component other("Other");
+  HookPatience patience{.limit = 10s, .meanwhile = {}, .operators_too = true};
+  EXPECT_EQ(patience.limit_of(patient), 310s);
+  EXPECT_EQ(patience.limit_of(other), 10s);
+  patience.limit = base::Duration::max();
+  EXPECT_EQ(patience.limit_of(patient), base::Duration::max()) << "for ever";
+}
+
+TEST(HookPatience, OnTheWayDownNobodyIsWaitedFor) {
+  const Patient patient("Patient");
+  const HookPatience patience{.limit = 10s, .meanwhile = {}};
+  EXPECT_EQ(patience.limit_of(patient), 10s);
 }
 
 }  // namespace
