@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/component/interface.hpp"
 #include "armature/component/keeping.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/document/property_value.hpp"
@@ -51,7 +52,7 @@ component::KeepingMoment moment_of(const Document& document, const Saved& saved)
 
 std::vector<Property> persistent_properties(const component::Component& component) {
   std::vector<Property> properties;
-  for (const component::PropertyBase* property : component.interface().properties) {
+  for (const component::PropertyBase* property : component::interface_of(component).properties) {
     if (!property->persistent()) continue;
     properties.push_back({std::string(property->name()),
                           write_value(property->type(), property->data()),

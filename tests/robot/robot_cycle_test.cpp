@@ -15,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/testing/realtime_guard.hpp"
 #include "tests/robot/fake_joint.hpp"
@@ -294,7 +295,7 @@ TEST(CycleWithADelay, ComputesOnceForEachSample) {
     Robot robot("cycle.yaml", text, 2, overrides);
     robot.start();
     robot.application().run_for(505ms);
-    const auto& outputs = robot.application().find("Controller")->interface().outputs;
+    const auto& outputs = component::interface_of(*robot.application().find("Controller")).outputs;
     const auto act = std::find_if(outputs.begin(), outputs.end(),
                                   [](const auto* output) { return output->name() == "act"; });
     EXPECT_GE((*act)->current_sequence(), 48u) << in_threads;

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/deploy/deployment.hpp"
 
 namespace armature {
@@ -79,7 +80,7 @@ class Robot {
   Vector positions() { return value<Vector>("BridgeRef", "nAxesSensorPosition"); }
   /// How often it has written `port`.
   std::uint64_t writes(const std::string& component, std::string_view port) {
-    for (const auto* output : application_->find(component)->interface().outputs) {
+    for (const auto* output : component::interface_of(*application_->find(component)).outputs) {
       if (output->name() == port) return output->current_sequence();
     }
     ADD_FAILURE() << component << " has no output " << port;

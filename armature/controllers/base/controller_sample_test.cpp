@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
 #include "armature/testing/harness.hpp"
 #include "armature/testing/test_thread.hpp"
@@ -83,11 +84,11 @@ class ControllersThatTakeTurns : public ::testing::Test {
   };
 
   ControllersThatTakeTurns() {
-    for (auto* output : around.interface().outputs) output->prepare();
+    for (auto* output : component::interface_of(around).outputs) output->prepare();
     for (ControllerNPID* each : {&first, &second}) {
       EXPECT_TRUE(each->configure());
-      for (auto* output : each->interface().outputs) output->prepare();
-      around.sample.subscribe(*each->interface().handlers.front());
+      for (auto* output : component::interface_of(*each).outputs) output->prepare();
+      around.sample.subscribe(*component::interface_of(*each).handlers.front());
       connect(around.sensor, input(*each, "sensor"));
       connect(around.reference, input(*each, "reference"));
       connect(act(*each), around.act);
@@ -98,19 +99,19 @@ class ControllersThatTakeTurns : public ::testing::Test {
     from.connect(to, {});
   }
   static component::InputPortBase& input(component::Component& of, std::string_view name) {
-    for (auto* each : of.interface().inputs) {
+    for (auto* each : component::interface_of(of).inputs) {
       if (each->name() == name) return *each;
     }
     throw std::invalid_argument("there is no such input");
   }
   static component::OutputPortBase& act(component::Component& of) {
-    for (auto* each : of.interface().outputs) {
+    for (auto* each : component::interface_of(of).outputs) {
       if (each->name() == "act") return *each;
     }
     throw std::invalid_argument("there is no act");
   }
   std::uint64_t asked(component::Component& of) {
-    for (auto* each : of.interface().outputs) {
+    for (auto* each : component::interface_of(of).outputs) {
       if (each->name() == "Sen1") return each->current_sequence();
     }
     return 0;

@@ -280,7 +280,7 @@ class Joint final : public component::Component,
   base::Time disarmed_at_{};
   double sensor_ratio_ = 1.0;
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
-  double initial_position_ = 0.0;  ///< that it was set to
+  double initial_position_ = 0.0;   ///< that it was set to
 };
 
 }  // namespace armature::controllers

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "armature/component/interface.hpp"
 #include "armature/controllers/base/joint_hardware.hpp"
 
 namespace armature::controllers {
@@ -85,7 +86,7 @@ void JointModel::check(component::Check& check) const {
 
 /// Hardware that has the gear itself tells of the joint's axis.
 double JointModel::sensor_turns(const component::Check& check) const {
-  for (const component::InputPortBase* const input : owner_.interface().inputs) {
+  for (const component::InputPortBase* const input : component::interface_of(owner_).inputs) {
     if (input->name() != "DisplacementSensor") continue;
     for (const component::OutputPortBase* const writer : check.writers_of(*input)) {
       const auto* const hardware = dynamic_cast<const JointHardware*>(&writer->owner());

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/controllers/internal/test_joint.hpp"
 
 namespace armature::controllers {
@@ -51,7 +52,7 @@ TEST_F(JointTest, HasBrakeOperationsOnlyWithABrake) {
 }
 
 TEST_F(JointTest, SignsMayBeSaidAsBooleansOfWhichTrueInverts) {
-  for (component::PropertyBase* each : joint.component().interface().properties) {
+  for (component::PropertyBase* each : component::interface_of(joint.component()).properties) {
     if (each->name() == "SensorSign") static_cast<void>(each->set(types::Value::of(true)));
     if (each->name() == "ActuatorSign") static_cast<void>(each->set(types::Value::of(false)));
   }
