@@ -355,6 +355,12 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   return code;
 }
 
+bool has_prompt(const deploy::Deployment& deployment) {
+  return std::ranges::any_of(deployment.document.components, [](const auto& component) {
+    return component.model == "TaskBrowser";
+  });
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments, Console& console) {
@@ -369,7 +375,7 @@ int run(const RunArguments& arguments, Console& console) {
   if (!make_output_folder(arguments.output_folder, lock, console)) return kFailed;
 
   base::Diagnostics mistakes;
-  const Companions companions = make_companions(arguments, mistakes);
+  const Companions companions = make_companions(arguments, has_prompt(deployment), mistakes);
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
   return run_checked(deployment, {arguments, companions, network, mistakes, console});

@@ -16,6 +16,7 @@
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
 #include "armature/document/value_tree.hpp"
+#include "armature/exec/inlets.hpp"
 
 namespace armature::deploy {
 
@@ -101,6 +102,25 @@ void add_inlets(const Document& document, const BuildOptions& options, exec::Blu
   activity.kind = exec::Activity::Kind::kTriggered;
   blueprint.components.push_back(
       {std::move(inlets).value(), "Inlets", std::move(activity), {}, {}, where});
+}
+
+/// The component that writes what the operator gives.
+void add_operator_inputs(const Document& document, exec::Blueprint& blueprint,
+                         base::Diagnostics& diagnostics) {
+  if (document.operator_inputs.empty()) return;
+  std::vector<component::InputPortBase*> inputs;
+  for (const Connection& connection : document.operator_inputs) {
+    component::InputPortBase* const input = find_input(blueprint, connection.to, diagnostics);
+    if (input != nullptr) inputs.push_back(input);
+  }
+  exec::Activity activity;
+  activity.kind = exec::Activity::Kind::kTriggered;
+  blueprint.components.push_back({std::make_unique<exec::Inlets>(exec::kOperatorName, inputs),
+                                  "Inlets",
+                                  std::move(activity),
+                                  {},
+                                  {},
+                                  document.operator_inputs.front().where});
 }
 
 /// What may be named, and how that reads in "'A' has no command 'b' without arguments".
@@ -226,6 +246,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   internal::ComponentBuilder components(document, registry, options, diagnostics);
   for (const Component& component : document.components) components.build(component, blueprint);
   add_inlets(document, options, blueprint, diagnostics);
+  add_operator_inputs(document, blueprint, diagnostics);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
   check_exports(document, blueprint, diagnostics);

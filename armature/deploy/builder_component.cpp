@@ -120,6 +120,9 @@ void ComponentBuilder::build(const Component& written, exec::Blueprint& blueprin
   }
   exec::ComponentEntry entry{std::move(component), written.model, activity_of(written), {}, {},
                              written.where};
+  if (entry.activity.priority > 0) {
+    entry.activity.priority = priorities_.here(entry.activity.priority);
+  }
   entry.autoconfigure = written.autoconf;
   entry.autostart = written.autostart;
   add_peers(written, entry);
@@ -216,11 +219,43 @@ void ComponentBuilder::report_unknown_model(const Component& written) {
 
 /// False if a mistake leaves the component's ports unknown.
 bool ComponentBuilder::set_properties(const Component& written, component::Component& component) {
-  bool ports_known = true;
+  bool ports_known = set_number_in_name(written, component);
   for (const PropertyFile& file : written.property_files) {
     ports_known &= apply_property_file(written, file, component);
   }
-  return apply(written, written.properties, component) && ports_known;
+  ports_known &= apply(written, written.properties, component);
+  if (ports_known) check_number_in_name(written, component);
+  return ports_known;
+}
+
+bool ComponentBuilder::set_number_in_name(const Component& written,
+                                          component::Component& component) {
+  const auto number = registry_.number_in(written.model);
+  if (!number) return true;
+  component::PropertyBase* const property = find_property(component, number->property);
+  if (property == nullptr) {
+    diagnostics_.error(written.model_where, "the model of " + in_quotes(written.model) +
+                                                " has no property " + in_quotes(number->property) +
+                                                " for the number in that name");
+    return true;
+  }
+  return set_property(*property, make_text(number->value, written.model_where), diagnostics_);
+}
+
+void ComponentBuilder::check_number_in_name(const Component& written,
+                                            const component::Component& component) {
+  const auto number = registry_.number_in(written.model);
+  const component::PropertyBase* const property =
+      number ? find_property(component, number->property) : nullptr;
+  if (property == nullptr) return;
+  const std::string given = types::to_text(property->type(), property->data());
+  if (given == number->value) return;
+  const Property* const here = find(written.properties, number->property);
+  diagnostics_.error(here == nullptr ? written.model_where : here->where,
+                     in_quotes(written.name) + " has " + number->property + " " + number->value +
+                         " by its model " + in_quotes(written.model) + ", found " +
+                         in_quotes(given),
+                     "leave out " + number->property + ", or give another model");
 }
 
 /// No file keeps an attribute: one in a property file would be there in no file that is saved.

@@ -30,10 +30,12 @@ void ConnectionBuilder::build() {
     add(connection.from, connection.to, connection.policy, connection.where);
   }
   for (const NamedConnection& named : document_.named_connections) add_named(named);
-  for (const Connection& input : document_.network.inputs) {
-    const bool known =
-        ports_of(input.from.component) != nullptr && this->input(input.to) != nullptr;
-    if (known) add(input.from, input.to, input.policy, input.where);
+  for (const auto* inputs : {&document_.network.inputs, &document_.operator_inputs}) {
+    for (const Connection& input : *inputs) {
+      const bool known =
+          ports_of(input.from.component) != nullptr && this->input(input.to) != nullptr;
+      if (known) add(input.from, input.to, input.policy, input.where);
+    }
   }
   apply_delays();
 }

@@ -16,8 +16,8 @@
 namespace armature::controllers {
 
 /// Moves N axes from rest to rest with trapezoidal velocities that begin and end together (paper 2,
-/// section 4.1, nAxesGeneratorPos): control::Trajectory. For a periodic activity; writes the three
-/// desired vectors in each cycle.
+/// section 4.2.4, nAxesGeneratorPos): control::Trajectory. For a periodic activity; writes the
+/// three desired vectors in each cycle.
 ///
 /// After a start, also one behind a fault, the desired position is the measured one, and nothing
 /// moves before `moveTo`. Refused with the reason, and nothing changes: another number of
