@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/base/unit.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
@@ -71,7 +72,7 @@ class OperatorInputCheck {
   /// What of the component moves something: it takes or gives an effort, or a permit to drive, or
   /// it drives a real robot.
   std::string moving(Index i) const {
-    const component::Interface& interface = component(i).interface();
+    const component::Interface& interface = component::interface_of(component(i));
     const auto named = [&](std::string_view member) {
       return "'" + component(i).name() + "." + std::string(member) + "'";
     };
