@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/component/component.hpp"
+#include "armature/component/host.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/wakeup.hpp"
@@ -34,12 +35,12 @@ class Errand final : public rt::Message {
   Errand(component::Component& doer, std::function<void()> work)
       : rt::Message(&deliver), doer_(doer), work_(std::move(work)) {}
 
-  void send() { doer_.context().post(*this); }
+  void send() { component::Host::context(doer_).post(*this); }
 
  private:
   static void deliver(rt::Message& message) {
     auto& self = static_cast<Errand&>(message);
-    self.doer_.run(self.doer_.context(), self.work_);
+    component::Host::run(self.doer_, component::Host::context(self.doer_), self.work_);
   }
 
   component::Component& doer_;

@@ -99,10 +99,10 @@ class LoadFinder {
 
   void warn_of_budget(const exec::ThreadPlan& thread, base::Duration declared,
                       base::Duration measured) {
-    diagnostics_.warning(blueprint_.components[thread.members.front()].where,
-                         "thread " + in_quotes(thread.name) + " declares a budget of " +
-                             to_text(declared) + ", but took " + to_text(measured) +
-                             " when it was measured");
+    diagnostics_.named_warning(
+        "budget_exceeded", blueprint_.components[thread.members.front()].where,
+        "thread " + in_quotes(thread.name) + " declares a budget of " + to_text(declared) +
+            ", but took " + to_text(measured) + " when it was measured");
   }
 
   const exec::Blueprint& blueprint_;
@@ -188,7 +188,7 @@ class LoadChecker {
     if (exact(task)) {
       diagnostics_.error(task.where, text, hint);
     } else {
-      diagnostics_.warning(task.where, text, hint);
+      diagnostics_.named_warning("late_answer", task.where, text, hint);
     }
   }
 
@@ -258,9 +258,10 @@ void warn_of_missing_cpus(const exec::ThreadPlan& thread, const base::Location& 
                           base::Diagnostics& diagnostics) {
   for (const int cpu : thread.activity.cpus) {
     if (cpu < cpus) continue;
-    diagnostics.warning(where, "thread " + in_quotes(thread.name) + " is to run on CPU " +
-                                   std::to_string(cpu) + ", but this machine has CPUs 0 to " +
-                                   std::to_string(cpus - 1));
+    diagnostics.named_warning("missing_cpu", where,
+                              "thread " + in_quotes(thread.name) + " is to run on CPU " +
+                                  std::to_string(cpu) + ", but this machine has CPUs 0 to " +
+                                  std::to_string(cpus - 1));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "armature/analysis/schedule.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/host.hpp"
 #include "armature/document/document.hpp"
 #include "armature/document/fields.hpp"
 #include "armature/document/value_tree.hpp"
@@ -86,7 +87,8 @@ ExecutionTimes measured_times(const exec::Application& application) {
     if (thread.cycle_ticks.count > 0) times.threads[thread.name] = time_of(thread.cycle_ticks);
   }
   for (const exec::ComponentEntry& entry : application.blueprint().components) {
-    const rt::DistributionSummary ticks = entry.component->execution_ticks().summary();
+    const rt::DistributionSummary ticks =
+        component::Host::execution_ticks(*entry.component).summary();
     if (ticks.count > 0) times.components[entry.component->name()] = time_of(ticks);
   }
   return times;

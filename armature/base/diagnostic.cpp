@@ -111,6 +111,7 @@ std::string to_text(const Diagnostic& diagnostic) {
   if (diagnostic.unshown > 0) {
     text += "; " + std::to_string(diagnostic.unshown) + " more are not shown";
   }
+  if (!diagnostic.name.empty()) text += " [" + diagnostic.name + "]";
   if (!diagnostic.hint.empty()) text += " (" + diagnostic.hint + ")";
   return visible_text(text);
 }
@@ -121,6 +122,25 @@ void Diagnostics::error(Location where, std::string message, std::string hint) {
 
 void Diagnostics::warning(Location where, std::string message, std::string hint) {
   add({Severity::kWarning, std::move(where), std::move(message), std::move(hint)});
+}
+
+void Diagnostics::named_warning(std::string_view name, Location where, std::string message,
+                                std::string hint) {
+  Diagnostic warning{Severity::kWarning, std::move(where), std::move(message), std::move(hint)};
+  warning.name = name;
+  add(std::move(warning));
+}
+
+bool Diagnostics::accept(std::string_view name) {
+  bool found = false;
+  for (Diagnostic& one : all_) {
+    if (one.severity != Severity::kWarning || one.name.empty() || one.name != name) continue;
+    found = true;
+    one.severity = Severity::kNote;
+    one.message = "accepted: " + one.message;
+    one.hint.clear();
+  }
+  return found;
 }
 
 void Diagnostics::note(Location where, std::string message, std::string hint) {

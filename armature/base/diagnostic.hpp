@@ -37,9 +37,10 @@ struct Diagnostic {
   std::string hint;         ///< how to mend it; may be empty
   Likewise likewise = {};   ///< for which others it stands
   std::size_t unshown = 0;  ///< how many more there are that are not kept
+  std::string name = {};    ///< of a warning that may be accepted: `priority_inversion`
 };
 
-/// `file:line:column: error: message (hint)`; parts that are unknown are left out.
+/// `file:line:column: warning: message [name] (hint)`; parts that are unknown are left out.
 std::string to_text(const Diagnostic& diagnostic);
 
 /// Collects the findings of one run, in the order in which they were found. What a range meets many
@@ -52,11 +53,18 @@ class Diagnostics {
 
   void error(Location where, std::string message, std::string hint = {});
   void warning(Location where, std::string message, std::string hint = {});
+  /// A warning that a deployment may accept by its name, for what it means to do.
+  void named_warning(std::string_view name, Location where, std::string message,
+                     std::string hint = {});
   void note(Location where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
   void append(const Diagnostics& others);
   /// Adds it if one at its place differs in numbers only; else it is left out.
   void add_likewise(const Diagnostic& diagnostic);
+
+  /// Makes notes of the warnings of that name, which is not empty; errors stay what they are.
+  /// @return whether there was one
+  bool accept(std::string_view name);
 
   bool ok() const { return errors_ == 0; }
   std::size_t error_count() const { return errors_; }

@@ -33,11 +33,19 @@ std::unique_ptr<record::TimelineWriter> timeline_of(const RunArguments& argument
   return nullptr;
 }
 
+/// Lines that come from a file are for whoever asks for them with --browse.
+bool is_attended(const RunArguments& arguments) {
+  return arguments.script.empty() && !arguments.duration &&
+         platform::is_terminal(platform::kStandardInput);
+}
+
 }  // namespace
 
-Companions make_companions(const RunArguments& arguments, base::Diagnostics& diagnostics) {
+Companions make_companions(const RunArguments& arguments, bool prompted,
+                           base::Diagnostics& diagnostics) {
+  const bool browse = arguments.browse || (prompted && is_attended(arguments));
   return {.script = script_of(arguments, diagnostics),
-          .browser = arguments.browse ? browser::make_browser(arguments.simulated) : nullptr,
+          .browser = browse ? browser::make_browser(arguments.simulated) : nullptr,
           .timeline = timeline_of(arguments, diagnostics)};
 }
 

@@ -64,6 +64,7 @@ void Console::show(const base::Diagnostics& diagnostics) const {
                 {"line", one.where.line},
                 {"column", one.where.column},
                 {"message", one.message},
+                {"name", one.name},
                 {"hint", one.hint}});
   }
 }

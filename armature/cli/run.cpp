@@ -20,8 +20,8 @@
 #include "armature/cli/network.hpp"
 #include "armature/cli/report.hpp"
 #include "armature/cli/run_texts.hpp"
-#include "armature/deploy/builder.hpp"
 #include "armature/deploy/deployment.hpp"
+#include "armature/deploy/saved_properties.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/death_watch.hpp"
 #include "armature/platform/file.hpp"
@@ -295,6 +295,20 @@ int conclude(exec::Application& application, const document::Document& document,
   return code;
 }
 
+/// The files of components that keep something say before the start that a run has begun; if the
+/// start is refused they say again what they said.
+/// @return kDone, or what `start` returned
+int start_keeping(exec::Application& application, const document::Document& document,
+                  const RunArguments& arguments, const base::Diagnostics& told,
+                  const Console& console) {
+  base::Diagnostics kept;
+  deploy::begin_kept(document, application.blueprint(), kept);
+  const int started = kept.ok() ? start(application, arguments, told, console) : kFailed;
+  if (started != kDone) deploy::give_back_kept(document, application.blueprint(), kept);
+  console.show(kept);
+  return started;
+}
+
 /// From the start of a deployment that passed its check to the end of its run.
 int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   const auto& [arguments, companions, network, mistakes, console] = aboard;
@@ -316,7 +330,8 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
     if (urges) of_its_threads.emplace();
     if (!network.open(deployment.document, arguments, application)) return kFailed;
   }
-  if (const int failed = start(application, arguments, deployment.diagnostics, console);
+  if (const int failed = start_keeping(application, deployment.document, arguments,
+                                       deployment.diagnostics, console);
       failed != kDone) {
     network.leave();
     if (application.hangs()) leave_now(failed, printer);
@@ -340,6 +355,12 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   return code;
 }
 
+bool has_prompt(const deploy::Deployment& deployment) {
+  return std::ranges::any_of(deployment.document.components, [](const auto& component) {
+    return component.model == "TaskBrowser";
+  });
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments, Console& console) {
@@ -354,7 +375,7 @@ int run(const RunArguments& arguments, Console& console) {
   if (!make_output_folder(arguments.output_folder, lock, console)) return kFailed;
 
   base::Diagnostics mistakes;
-  const Companions companions = make_companions(arguments, mistakes);
+  const Companions companions = make_companions(arguments, has_prompt(deployment), mistakes);
   console.show(mistakes);
   if (!mistakes.ok()) return kFailed;
   return run_checked(deployment, {arguments, companions, network, mistakes, console});

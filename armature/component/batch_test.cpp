@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/testing/test_thread.hpp"
@@ -156,7 +157,7 @@ TEST_F(Batches, WhatAnOperationWroteIsOnItsWayBeforeItsCallerGoesOn) {
 }
 
 TEST_F(Batches, AStoppedReaderHandlesNothingAndFindsTheNewestWhenItLooks) {
-  receiver_.stop();
+  Host::stop(receiver_);
   sender_.first.write(1);
   sender_.first.write(2);
   flush();

@@ -8,6 +8,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/component/events/event.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/ports/output_port.hpp"
 #include "armature/rt/ticks.hpp"
 
@@ -84,7 +85,7 @@ std::string_view name_of(BlackBox::Note::Kind kind) {
 }
 
 void BlackBox::add(const Component& component) {
-  for (const OutputPortBase* port : component.interface().outputs) {
+  for (const OutputPortBase* port : interface_of(component).outputs) {
     Channel channel{port, nullptr, ports_size_, {}};
     if (!port->type().fixed_size()) channel.shape.emplace(port->type(), port->current());
     channels_.push_back(std::move(channel));
@@ -93,7 +94,7 @@ void BlackBox::add(const Component& component) {
       ports_size_ += size;
     });
   }
-  for (const EventBase* event : component.interface().events) events_.push_back(event);
+  for (const EventBase* event : interface_of(component).events) events_.push_back(event);
 }
 
 void BlackBox::reserve(std::size_t pictures, std::size_t notes, base::Duration interval) {
@@ -191,8 +192,8 @@ types::Value BlackBox::value_in(const std::byte* picture, const Channel& channel
 
 void note(const Component& component, BlackBox::Note::Kind kind, std::string_view item,
           std::string_view text) noexcept {
-  if (component.context().black_box != nullptr) {
-    component.context().black_box->note(kind, component, item, text);
+  if (Host::context(component).black_box != nullptr) {
+    Host::context(component).black_box->note(kind, component, item, text);
   }
 }
 

@@ -12,6 +12,13 @@
 
 namespace armature::component {
 
+class EventBase;
+class EventHandlerBase;
+class InputPortBase;
+class OperationBase;
+class OperationCallerBase;
+class OutputPortBase;
+
 /// Given to `Component::on_check` and to each `Checked` when names, peers, connections and periods
 /// are known and properties have their values. Nothing is configured, nothing is connected: whoever
 /// checks only looks.
@@ -67,7 +74,7 @@ class Check {
 /// Part of a component that has something to check, whatever component it is part of.
 class Checked {
  public:
-  explicit Checked(Component* owner) { owner->declare().checked.push_back(this); }
+  explicit Checked(Component* owner);
   Checked(const Checked&) = delete;
   Checked& operator=(const Checked&) = delete;
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "armature/component/component.hpp"
+#include "armature/component/internal/inside.hpp"
 
 namespace armature::component {
 
@@ -38,7 +38,7 @@ void Entrance::refuse(ExecutionContext& where) const noexcept {
         .append(".")
         .append(way[length]->handler());
   }
-  component().fault_from(where, why);
+  internal::Inside::fault_from(component(), where, why);
 }
 
 }  // namespace armature::component

@@ -8,6 +8,9 @@ namespace armature::component {
 
 class Component;
 struct ExecutionContext;
+namespace internal {
+class Inside;
+}  // namespace internal
 
 /// A way into a component's code: a handler's, or the one of its hooks and operations. Those that
 /// were entered and not left in a thread form a chain, innermost first.
@@ -41,7 +44,7 @@ class HookEntrance final : public Entrance {
   const Entrance* outer() const override { return outer_; }
 
  private:
-  friend class Component;
+  friend class internal::Inside;
   std::atomic<Component*> component_{nullptr};
   const Entrance* outer_ = nullptr;
 };

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -134,7 +135,7 @@ TEST_F(Reentrance, AnExceptionLeavesTheHandlerOpenForTheNextTime) {
   start(thrower);
   a_.out.write(1);
   EXPECT_EQ(thrower.state(), State::kException);
-  ASSERT_TRUE(thrower.reset());
+  ASSERT_TRUE(Host::reset(thrower));
   start(thrower);
   a_.out.write(2);
   EXPECT_EQ(thrower.calls, 2);

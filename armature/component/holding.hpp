@@ -23,36 +23,34 @@ class Holding {
   ///   stopped either
   template <auto Function>
   Holding(Component* owner, Serve<Function> function, const EventHandlerBase& kept_by)
-      : Holding(owner, function) {
-    kept_by_ = &kept_by;
-  }
+      : Holding(owner, function, &kept_by) {}
   template <auto Function>
-  Holding(Component* owner, Serve<Function>)
-      : owner_(*owner), held_([](Component& component) -> Reason {
-          return (static_cast<internal::OwnerOf<Function>&>(component).*Function)();
-        }) {
-    owner->declare().holdings.push_back(this);
-  }
+  Holding(Component* owner, Serve<Function> function) : Holding(owner, function, nullptr) {}
   Holding(const Holding&) = delete;
   Holding& operator=(const Holding&) = delete;
 
   /// @thread the component's own
-  Reason held() const {
-    const bool runs = owner_.state() == State::kRunning || owner_.state() == State::kRunTimeError;
-    return runs ? held_(owner_) : Reason();
-  }
+  Reason held() const;
   /// The handler of the event without which nothing is held; nullptr if there is none.
   const EventHandlerBase* keeper() const { return kept_by_; }
   /// Who raises that event; nullptr if nobody has to, or does.
-  const Component* kept_by() const {
-    const bool known = kept_by_ != nullptr && kept_by_->bound();
-    return known ? &kept_by_->source()->owner() : nullptr;
-  }
+  const Component* kept_by() const;
 
  private:
+  using Held = Reason (*)(Component&);
+  template <auto Function>
+  Holding(Component* owner, Serve<Function>, const EventHandlerBase* kept_by)
+      : Holding(
+            *owner,
+            [](Component& component) -> Reason {
+              return (static_cast<internal::OwnerOf<Function>&>(component).*Function)();
+            },
+            kept_by) {}
+  Holding(Component& owner, Held function, const EventHandlerBase* kept_by);
+
   Component& owner_;
-  Reason (*held_)(Component&);
-  const EventHandlerBase* kept_by_ = nullptr;
+  Held held_;
+  const EventHandlerBase* kept_by_;
 };
 
 }  // namespace armature::component

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -14,10 +15,10 @@ using testing::ElementsAre;
 /// Brings the component to `state` by allowed transitions, and forgets how.
 void bring_to(State state, ProbeComponent& component) {
   if (state != State::kPreOperational) {
-    ASSERT_TRUE(component.configure());
+    ASSERT_TRUE(Host::configure(component));
   }
   if (state > State::kStopped) {
-    ASSERT_TRUE(component.start());
+    ASSERT_TRUE(Host::start(component));
   }
   if (state == State::kRunTimeError) component.error("for the test");
   if (state == State::kException) component.fault("for the test");
@@ -38,16 +39,16 @@ class LifeCycle : public testing::Test {
 
 TEST_F(LifeCycle, GoesThroughAllStatesAndBack) {
   EXPECT_EQ(component_.state(), State::kPreOperational);
-  EXPECT_TRUE(component_.configure());
+  EXPECT_TRUE(Host::configure(component_));
   EXPECT_EQ(component_.state(), State::kStopped);
-  EXPECT_TRUE(component_.activate());
+  EXPECT_TRUE(Host::activate(component_));
   EXPECT_EQ(component_.state(), State::kStopped);
-  EXPECT_TRUE(component_.start());
+  EXPECT_TRUE(Host::start(component_));
   EXPECT_EQ(component_.state(), State::kRunning);
-  component_.update();
-  component_.stop();
+  Host::update(component_);
+  Host::stop(component_);
   EXPECT_EQ(component_.state(), State::kStopped);
-  component_.cleanup();
+  Host::cleanup(component_);
   EXPECT_EQ(component_.state(), State::kPreOperational);
   EXPECT_THAT(component_.calls,
               ElementsAre("configure", "activate", "start", "update", "stop", "cleanup"));
@@ -57,8 +58,8 @@ TEST_F(LifeCycle, UpdateRunsOnlyWhenItIsTriggered) {
   bring_to(State::kRunning);
   thread_.cycle();
   EXPECT_THAT(component_.calls, ElementsAre()) << "neither at the start nor after messages";
-  component_.update();
-  component_.update();
+  Host::update(component_);
+  Host::update(component_);
   EXPECT_THAT(component_.calls, ElementsAre("update", "update"));
 }
 
@@ -70,11 +71,11 @@ struct Transition {
 
 TEST_F(LifeCycle, EachTransitionIsRefusedFromEveryOtherStateWithBothNamesAndTheReasonForTheState) {
   const std::vector<Transition> steps{
-      {"configure", [](Component& c) { return c.configure(); }, State::kPreOperational},
-      {"activate", [](Component& c) { return c.activate(); }, State::kStopped},
-      {"start", [](Component& c) { return c.start(); }, State::kStopped},
-      {"recover", [](Component& c) { return c.recover(); }, State::kRunTimeError},
-      {"reset", [](Component& c) { return c.reset(); }, State::kException}};
+      {"configure", [](Component& c) { return Host::configure(c); }, State::kPreOperational},
+      {"activate", [](Component& c) { return Host::activate(c); }, State::kStopped},
+      {"start", [](Component& c) { return Host::start(c); }, State::kStopped},
+      {"recover", [](Component& c) { return Host::recover(c); }, State::kRunTimeError},
+      {"reset", [](Component& c) { return Host::reset(c); }, State::kException}};
   for (const State state : {State::kPreOperational, State::kStopped, State::kRunning,
                             State::kRunTimeError, State::kException}) {
     for (const Transition& step : steps) {
@@ -97,7 +98,7 @@ TEST_F(LifeCycle, StopDoesNothingToWhatDoesNotRun) {
   for (const State state : {State::kPreOperational, State::kStopped, State::kException}) {
     ProbeComponent component("other");
     component::bring_to(state, component);
-    component.stop();
+    Host::stop(component);
     EXPECT_EQ(component.state(), state);
     EXPECT_THAT(component.calls, ElementsAre());
   }
@@ -105,17 +106,17 @@ TEST_F(LifeCycle, StopDoesNothingToWhatDoesNotRun) {
 
 TEST_F(LifeCycle, CleanupDoesNothingToWhatIsNotStopped) {
   bring_to(State::kRunning);
-  component_.cleanup();
+  Host::cleanup(component_);
   EXPECT_EQ(component_.state(), State::kRunning);
   component_.fault("for the test");
-  component_.cleanup();
+  Host::cleanup(component_);
   EXPECT_EQ(component_.state(), State::kException);
   EXPECT_THAT(component_.calls, ElementsAre());
 }
 
 TEST_F(LifeCycle, ARefusedConfigurationLeavesTheStateAndSaysWhy) {
   component_.refusals["configure"] = "no card answers on can0";
-  const Outcome outcome = component_.configure();
+  const Outcome outcome = Host::configure(component_);
   EXPECT_FALSE(outcome);
   EXPECT_EQ(outcome.reason(), "no card answers on can0");
   EXPECT_EQ(component_.reason(), "no card answers on can0");
@@ -125,21 +126,21 @@ TEST_F(LifeCycle, ARefusedConfigurationLeavesTheStateAndSaysWhy) {
 TEST_F(LifeCycle, ARefusedActivationStartOrResetLeavesTheStateAndSaysWhy) {
   bring_to(State::kStopped);
   component_.refusals = {{"activate", "a"}, {"start", "b"}, {"reset", "c"}};
-  EXPECT_EQ(component_.activate().reason(), "a");
+  EXPECT_EQ(Host::activate(component_).reason(), "a");
   EXPECT_EQ(component_.state(), State::kStopped);
-  EXPECT_EQ(component_.start().reason(), "b");
+  EXPECT_EQ(Host::start(component_).reason(), "b");
   EXPECT_EQ(component_.state(), State::kStopped);
   component_.fault("broken");
-  EXPECT_EQ(component_.reset().reason(), "c");
+  EXPECT_EQ(Host::reset(component_).reason(), "c");
   EXPECT_EQ(component_.state(), State::kException);
   EXPECT_EQ(component_.reason(), "c");
 }
 
 TEST_F(LifeCycle, ASuccessForgetsTheReasonOfAnEarlierRefusal) {
   component_.refusals["configure"] = "not yet";
-  EXPECT_FALSE(component_.configure());
+  EXPECT_FALSE(Host::configure(component_));
   component_.refusals.clear();
-  EXPECT_TRUE(component_.configure());
+  EXPECT_TRUE(Host::configure(component_));
   EXPECT_EQ(component_.reason(), "");
 }
 
@@ -148,12 +149,12 @@ TEST_F(LifeCycle, TheErrorHookRunsInPlaceOfTheUpdateHookUntilRecovery) {
   component_.error("following error too large");
   EXPECT_EQ(component_.state(), State::kRunTimeError);
   EXPECT_EQ(component_.reason(), "following error too large");
-  component_.update();
-  component_.update();
-  EXPECT_TRUE(component_.recover());
+  Host::update(component_);
+  Host::update(component_);
+  EXPECT_TRUE(Host::recover(component_));
   EXPECT_EQ(component_.state(), State::kRunning);
   EXPECT_EQ(component_.reason(), "");
-  component_.update();
+  Host::update(component_);
   EXPECT_THAT(component_.calls, ElementsAre("error", "error", "update"));
 }
 
@@ -166,7 +167,7 @@ TEST_F(LifeCycle, AnErrorOfWhatDoesNotRunIsNone) {
 
 TEST_F(LifeCycle, StopsFromRunTimeError) {
   bring_to(State::kRunTimeError);
-  component_.stop();
+  Host::stop(component_);
   EXPECT_EQ(component_.state(), State::kStopped);
   EXPECT_THAT(component_.calls, ElementsAre("stop"));
 }
@@ -174,7 +175,7 @@ TEST_F(LifeCycle, StopsFromRunTimeError) {
 TEST_F(LifeCycle, AtTheApplicationsEndAFaultedComponentIsCleanedUpToo) {
   bring_to(State::kRunning);
   component_.fault("for the test");
-  component_.retire();
+  Host::retire(component_);
   EXPECT_EQ(component_.state(), State::kPreOperational);
   EXPECT_EQ(component_.reason(), "for the test") << "for whoever asks afterwards";
   EXPECT_THAT(component_.calls, ElementsAre("cleanup"));
@@ -182,8 +183,8 @@ TEST_F(LifeCycle, AtTheApplicationsEndAFaultedComponentIsCleanedUpToo) {
 
 TEST_F(LifeCycle, AtTheApplicationsEndWhatWasNeverConfiguredIsNotCleanedUp) {
   component_.actions["configure"] = [] { throw std::runtime_error("no card"); };
-  EXPECT_FALSE(component_.configure());
-  component_.retire();
+  EXPECT_FALSE(Host::configure(component_));
+  Host::retire(component_);
   EXPECT_EQ(component_.state(), State::kPreOperational);
   EXPECT_THAT(component_.calls, ElementsAre("configure"));
 }
@@ -194,11 +195,11 @@ TEST_F(LifeCycle, AFaultIsLeftOnlyByResetAndThenStopped) {
   EXPECT_EQ(component_.state(), State::kException);
   EXPECT_EQ(component_.reason(), "motor does not turn");
   EXPECT_FALSE(component_.ready());
-  component_.update();
-  component_.stop();
-  component_.cleanup();
+  Host::update(component_);
+  Host::stop(component_);
+  Host::cleanup(component_);
   EXPECT_EQ(component_.state(), State::kException);
-  EXPECT_TRUE(component_.reset());
+  EXPECT_TRUE(Host::reset(component_));
   EXPECT_EQ(component_.state(), State::kStopped);
   EXPECT_EQ(component_.reason(), "");
   EXPECT_THAT(component_.calls, ElementsAre("reset"));
@@ -215,15 +216,15 @@ TEST_F(LifeCycle, ASecondFaultKeepsTheFirstReason) {
 
 TEST_F(LifeCycle, ResetOfWhatWasNeverConfiguredDoesNotMakeItConfigured) {
   component_.actions["configure"] = [] { throw std::runtime_error("no such file"); };
-  EXPECT_FALSE(component_.configure());
+  EXPECT_FALSE(Host::configure(component_));
   EXPECT_EQ(component_.state(), State::kException);
-  EXPECT_TRUE(component_.reset());
+  EXPECT_TRUE(Host::reset(component_));
   EXPECT_EQ(component_.state(), State::kPreOperational);
 }
 
 TEST_F(LifeCycle, AHookThatFaultsItsComponentDoesNotReachTheNextState) {
   component_.actions["configure"] = [this] { component_.fault("found out while configuring"); };
-  const Outcome outcome = component_.configure();
+  const Outcome outcome = Host::configure(component_);
   EXPECT_FALSE(outcome);
   EXPECT_EQ(outcome.reason(), "found out while configuring");
   EXPECT_EQ(component_.state(), State::kException);
@@ -234,24 +235,24 @@ TEST_F(LifeCycle, AResetHookThatFaultsAgainDoesNotLeaveTheException) {
   bring_to(State::kRunning);
   component_.fault("first");
   component_.actions["reset"] = [this] { component_.fault("still broken"); };
-  EXPECT_EQ(component_.reset().reason(), "still broken");
+  EXPECT_EQ(Host::reset(component_).reason(), "still broken");
   EXPECT_EQ(component_.state(), State::kException);
   EXPECT_EQ(component_.reason(), "still broken");
 }
 
 TEST_F(LifeCycle, AComponentMayStopItselfInItsUpdate) {
   bring_to(State::kRunning);
-  component_.actions["update"] = [this] { component_.stop(); };
-  component_.update();
+  component_.actions["update"] = [this] { Host::stop(component_); };
+  Host::update(component_);
   EXPECT_EQ(component_.state(), State::kStopped);
   EXPECT_THAT(component_.calls, ElementsAre("update", "stop"));
 }
 
 TEST_F(LifeCycle, RestartsAfterAStop) {
   bring_to(State::kRunning);
-  component_.stop();
-  EXPECT_TRUE(component_.start());
-  component_.update();
+  Host::stop(component_);
+  EXPECT_TRUE(Host::start(component_));
+  Host::update(component_);
   EXPECT_EQ(component_.state(), State::kRunning);
   EXPECT_THAT(component_.calls, ElementsAre("stop", "start", "update"));
 }
@@ -267,7 +268,7 @@ TEST_F(LifeCycle, StoppingByADeclaredReactionTellsTheApplicationWhy) {
 
 TEST_F(LifeCycle, TooLongAReasonIsCutNotLost) {
   component_.refusals["configure"] = std::string(1000, 'x');
-  EXPECT_EQ(component_.configure().reason(), std::string(511, 'x'));
+  EXPECT_EQ(Host::configure(component_).reason(), std::string(511, 'x'));
 }
 
 TEST(LifeCycleNames, AreThoseOfTheDocumentation) {
@@ -290,14 +291,14 @@ struct HookCase {
 
 const std::vector<HookCase>& hook_cases() {
   static const std::vector<HookCase> cases{
-      {"configure", State::kPreOperational, [](Component& c) { EXPECT_FALSE(c.configure()); }},
-      {"activate", State::kStopped, [](Component& c) { EXPECT_FALSE(c.activate()); }},
-      {"start", State::kStopped, [](Component& c) { EXPECT_FALSE(c.start()); }},
-      {"update", State::kRunning, [](Component& c) { c.update(); }},
-      {"stop", State::kRunning, [](Component& c) { c.stop(); }},
-      {"cleanup", State::kStopped, [](Component& c) { c.cleanup(); }},
-      {"error", State::kRunTimeError, [](Component& c) { c.update(); }},
-      {"reset", State::kException, [](Component& c) { EXPECT_FALSE(c.reset()); }}};
+      {"configure", State::kPreOperational, [](Component& c) { EXPECT_FALSE(Host::configure(c)); }},
+      {"activate", State::kStopped, [](Component& c) { EXPECT_FALSE(Host::activate(c)); }},
+      {"start", State::kStopped, [](Component& c) { EXPECT_FALSE(Host::start(c)); }},
+      {"update", State::kRunning, [](Component& c) { Host::update(c); }},
+      {"stop", State::kRunning, [](Component& c) { Host::stop(c); }},
+      {"cleanup", State::kStopped, [](Component& c) { Host::cleanup(c); }},
+      {"error", State::kRunTimeError, [](Component& c) { Host::update(c); }},
+      {"reset", State::kException, [](Component& c) { EXPECT_FALSE(Host::reset(c)); }}};
   return cases;
 }
 
@@ -330,8 +331,8 @@ INSTANTIATE_TEST_SUITE_P(AllEight, ContainmentInHook,
 TEST_F(Containment, NothingOfAFaultedComponentRuns) {
   bring_to(State::kRunning);
   component_.actions["update"] = [] { throw std::runtime_error("once"); };
-  component_.update();
-  component_.update();
+  Host::update(component_);
+  Host::update(component_);
   EXPECT_THAT(component_.calls, ElementsAre("update"));
 }
 
@@ -340,7 +341,7 @@ TEST_F(Containment, TheLogNamesTheComponentAndTheReason) {
   thread_.context.log = &log;
   bring_to(State::kRunning);
   component_.actions["update"] = [] { throw std::runtime_error("card 3 is gone"); };
-  component_.update();
+  Host::update(component_);
   const rt::LogRecord* record = log.pop();
   ASSERT_NE(record, nullptr);
   EXPECT_EQ(record->level, rt::LogLevel::kError);
@@ -356,7 +357,7 @@ TEST_F(Containment, TheLogHasAllOfAnExceptionThatIsLongerThanAReason) {
   std::string what;
   for (int i = 0; i < 400; ++i) what += std::to_string(i) + " ";
   component_.actions["update"] = [&] { throw std::runtime_error(what); };
-  component_.update();
+  Host::update(component_);
   std::string told;
   while (const rt::LogRecord* record = log.pop()) {
     const std::string line = record->message();

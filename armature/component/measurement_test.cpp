@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/rt/statistics.hpp"
 #include "armature/rt/ticks.hpp"
 #include "armature/testing/test_thread.hpp"
@@ -61,7 +62,7 @@ class Measurement : public testing::Test {
   }
   void end_cycle() {
     thread_.context.measuring = false;
-    Component::close_measurements(thread_.context);
+    Host::close_measurements(thread_.context);
   }
   Worker first_{"first"};
   Worker second_{"second"};
@@ -72,11 +73,11 @@ TEST_F(Measurement, EachComponentsTimeIsItsOwnWithoutWhatItTriggered) {
   second_.duration = kLong;
   begin_cycle(true);
   const std::uint64_t begin = thread_.context.mark;
-  first_.update();
+  Host::update(first_);
   end_cycle();
   const std::uint64_t whole = rt::ticks() - begin;
-  const rt::DistributionSummary first = first_.execution_ticks().summary();
-  const rt::DistributionSummary second = second_.execution_ticks().summary();
+  const rt::DistributionSummary first = Host::execution_ticks(first_).summary();
+  const rt::DistributionSummary second = Host::execution_ticks(second_).summary();
   ASSERT_EQ(first.count, 1u);
   ASSERT_EQ(second.count, 1u);
   EXPECT_GE(second_.worked, kLong);
@@ -88,11 +89,11 @@ TEST_F(Measurement, WhatComesBeforeAndAfterACallBelongsToTheCaller) {
   first_.duration = kLong;
   begin_cycle(true);
   const std::uint64_t begin = thread_.context.mark;
-  first_.update();
+  Host::update(first_);
   end_cycle();
   const std::uint64_t whole = rt::ticks() - begin;
-  const std::uint64_t first = first_.execution_ticks().summary().total;
-  const std::uint64_t second = second_.execution_ticks().summary().total;
+  const std::uint64_t first = Host::execution_ticks(first_).summary().total;
+  const std::uint64_t second = Host::execution_ticks(second_).summary().total;
   EXPECT_GE(first, first_.worked);
   EXPECT_GE(first_.worked, 2 * kLong);
   EXPECT_LE(first + second, whole) << "no time counts twice";
@@ -100,21 +101,21 @@ TEST_F(Measurement, WhatComesBeforeAndAfterACallBelongsToTheCaller) {
 
 TEST_F(Measurement, SeveralRunsInACycleAreOneMeasurement) {
   begin_cycle(true);
-  first_.update();
-  first_.update();
+  Host::update(first_);
+  Host::update(first_);
   end_cycle();
-  EXPECT_EQ(first_.execution_ticks().summary().count, 1u);
-  EXPECT_EQ(second_.execution_ticks().summary().count, 1u);
+  EXPECT_EQ(Host::execution_ticks(first_).summary().count, 1u);
+  EXPECT_EQ(Host::execution_ticks(second_).summary().count, 1u);
 }
 
 TEST_F(Measurement, NothingIsTakenInOtherCyclesNorOfWhatDidNotRun) {
   begin_cycle(false);
-  first_.update();
+  Host::update(first_);
   end_cycle();
-  EXPECT_EQ(first_.execution_ticks().summary().count, 0u);
+  EXPECT_EQ(Host::execution_ticks(first_).summary().count, 0u);
   begin_cycle(true);
   end_cycle();
-  EXPECT_EQ(first_.execution_ticks().summary().count, 0u);
+  EXPECT_EQ(Host::execution_ticks(first_).summary().count, 0u);
 }
 
 TEST_F(Measurement, AGuestFromAnotherThreadIsNotMeasuredThere) {
@@ -124,20 +125,20 @@ TEST_F(Measurement, AGuestFromAnotherThreadIsNotMeasuredThere) {
   start(caller);
   other.context.measuring = true;
   other.context.mark = rt::ticks();
-  caller.update();
-  Component::close_measurements(other.context);
-  EXPECT_EQ(caller.execution_ticks().summary().count, 1u);
-  EXPECT_EQ(first_.execution_ticks().summary().count, 0u);
+  Host::update(caller);
+  Host::close_measurements(other.context);
+  EXPECT_EQ(Host::execution_ticks(caller).summary().count, 1u);
+  EXPECT_EQ(Host::execution_ticks(first_).summary().count, 0u);
 }
 
 TEST_F(Measurement, AnExceptionDoesNotLoseTheTime) {
   begin_cycle(true);
-  first_.run(thread_.context, [] {
+  Host::run(first_, thread_.context, [] {
     work(kLong);
     throw 1;
   });
   end_cycle();
-  EXPECT_GE(first_.execution_ticks().summary().total, kLong);
+  EXPECT_GE(Host::execution_ticks(first_).summary().total, kLong);
   EXPECT_EQ(thread_.context.running(), nullptr);
 }
 

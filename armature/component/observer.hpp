@@ -25,7 +25,7 @@ class Observer {
     std::string hint;
   };
 
-  explicit Observer(Component* owner) { owner->declare().observers.push_back(this); }
+  explicit Observer(Component* owner);
   Observer(const Observer&) = delete;
   Observer& operator=(const Observer&) = delete;
 

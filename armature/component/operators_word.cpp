@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/operators_word.hpp"
 
+#include "armature/component/host.hpp"
+
 namespace armature::component {
 
 OperatorsWord::OperatorsWord(Component* owner, std::string_view name, std::string_view doc) noexcept
@@ -27,7 +29,7 @@ void OperatorsWord::withdraw() {
 void OperatorsWord::swap(types::Value& value) {
   Property::swap(value);
   said_at_.reset();
-  const bool dated = owner().context().supervisor != nullptr;  // before, no time passes
+  const bool dated = Host::context(owner()).supervisor != nullptr;  // before, no time passes
   if (get() && dated) said_at_ = owner().time();
 }
 

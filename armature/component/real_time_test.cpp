@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/testing/test_thread.hpp"
@@ -99,7 +100,7 @@ TEST_P(PortsInRealTime, WritingTriggeringAndReadingVectorsAllocateNothing) {
               one.cycle();
               two.cycle();
               while (reader.in.read().is_new()) ++reads;
-              static_cast<void>(reader.admits());
+              static_cast<void>(Host::admits(reader));
             }),
             0u);
   EXPECT_GT(reads, 0);
@@ -129,7 +130,7 @@ TEST(PortsInRealTime, ReactionsAllocateNothing) {
     start(writer, reader);
     EXPECT_EQ(allocations_of([&] {
                 thread.cycle(std::chrono::seconds(1));
-                static_cast<void>(reader.admits());
+                static_cast<void>(Host::admits(reader));
                 static_cast<void>(reader.in.read());
                 writer.fault("for the test");
                 thread.cycle();
@@ -223,7 +224,7 @@ TEST_P(CallsInRealTime, CommandsAllocateNothingHoweverTheyEnd) {
               EXPECT_EQ(cancelled.stage(), CommandStage::kCancelled);
               CommandHandle done = client_.move.send(1.0);
               theirs_.deliver();
-              server_.update();
+              Host::update(server_);
               EXPECT_EQ(done.stage(), CommandStage::kDone);
             }),
             0u);
@@ -275,9 +276,9 @@ TEST(LifeInRealTime, UpdatesStateMachinesAndLogLinesAllocateNothing) {
   types::Value gains = types::Value::of(Vector(3, 2.0));
   EXPECT_EQ(allocations_of([&] {
               thread.cycle();
-              component.update();
+              Host::update(component);
               EXPECT_EQ(component.go.raise(), TriggerStatus::kTaken);
-              component.update();
+              Host::update(component);
               EXPECT_EQ(component.go.raise(), TriggerStatus::kTaken);
               EXPECT_TRUE(component.machine.is_in("A"));
               component.gains.swap(gains);
@@ -294,16 +295,16 @@ TEST(LifeInRealTime, ErrorsRecoveryStopsFaultsResetsAndStartsAllocateNothing) {
   start(component);
   EXPECT_EQ(allocations_of([&] {
               component.error("following error");
-              component.update();
-              EXPECT_TRUE(component.recover());
-              component.stop();
-              EXPECT_TRUE(component.start());
+              Host::update(component);
+              EXPECT_TRUE(Host::recover(component));
+              Host::stop(component);
+              EXPECT_TRUE(Host::start(component));
               component.fault("motor");
-              EXPECT_TRUE(component.reset());
-              EXPECT_TRUE(component.start());
+              EXPECT_TRUE(Host::reset(component));
+              EXPECT_TRUE(Host::start(component));
               component.stop_because("old data");
-              EXPECT_TRUE(component.activate());
-              EXPECT_TRUE(component.start());
+              EXPECT_TRUE(Host::activate(component));
+              EXPECT_TRUE(Host::start(component));
             }),
             0u);
 }

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "armature/base/result.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/events/event.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/operations/command.hpp"
 #include "armature/component/operations/operation.hpp"
 #include "armature/component/ports/input_port.hpp"
@@ -26,24 +28,39 @@ namespace armature::component {
 class Registry {
  public:
   using Make = std::unique_ptr<Component> (*)(std::string name);
+  /// A further name of a model. One `#` in it stands for a number, which is the value of a
+  /// property: with {"Sensor#Mux", "joints"} the name `Sensor2Mux` is the model with two joints.
+  struct FurtherName {
+    std::string name;
+    std::string property = {};  ///< whose value the number is; empty where there is no `#`
+  };
   /// A model of components: its name and how an instance is made.
   struct Model {
     std::string name;
     std::string doc;
     std::string library;  ///< empty for models of the program itself
     Make make;
+    std::vector<FurtherName> further_names = {};
+  };
+  /// A property and the value that a name of a model gives it.
+  struct NumberInName {
+    std::string property;
+    std::string value;
   };
 
-  /// Adds a model; refused if the name is taken, naming both libraries.
+  /// Adds a model; refused if one of its names is taken, naming both libraries.
   base::Result<void> add(Model model);
 
   /// Adds the model `ComponentClass`, whose constructor takes the component's name.
   template <typename ComponentClass>
-  void add(std::string_view name, std::string_view doc) {
-    problems_.append(add_here(name, doc, [](std::string component_name) {
+  void add(std::string_view name, std::string_view doc,
+           std::vector<FurtherName> further_names = {}) {
+    const Make make = [](std::string component_name) {
       return std::unique_ptr<Component>(
           std::make_unique<ComponentClass>(std::move(component_name)));
-    }));
+    };
+    problems_.append(
+        add_here({std::string(name), std::string(doc), library_, make, std::move(further_names)}));
   }
 
   /// The library whose function fills the registry now.
@@ -51,11 +68,22 @@ class Registry {
   /// What went wrong since `begin_library`, empty if nothing.
   std::string end_library();
 
+  /// By its name or a further one; nullptr if there is none.
   const Model* find(std::string_view name) const;
+  /// What a name such as `Sensor2Mux` says of a property; nothing if it has no number.
+  std::optional<NumberInName> number_in(std::string_view name) const;
+  /// Of all models, without further ones.
   std::vector<std::string> names() const;
 
  private:
-  std::string add_here(std::string_view name, std::string_view doc, Make make);
+  struct Further {
+    const Model* model;
+    const FurtherName* name;
+    std::string number;
+  };
+
+  std::string add_here(Model model);
+  std::optional<Further> find_further(std::string_view name) const;
 
   std::map<std::string, Model, std::less<>> models_;
   std::string library_;

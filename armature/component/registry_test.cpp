@@ -33,6 +33,32 @@ TEST(Registry, MakesComponentsOfItsModels) {
   EXPECT_EQ(registry.find("Pid"), nullptr) << "names are as they are written";
 }
 
+TEST(Registry, FindsAModelByItsFurtherNamesAndTellsTheNumberInOne) {
+  Registry registry;
+  registry.add<Pid>("PIDs", "", {{"Bank"}, {"PID#Bank", "joints"}});
+  for (const char* name : {"PIDs", "Bank", "PID2Bank", "PID12Bank"}) {
+    ASSERT_NE(registry.find(name), nullptr) << name;
+    EXPECT_EQ(registry.find(name)->name, "PIDs");
+  }
+  EXPECT_EQ(registry.number_in("PID12Bank")->property, "joints");
+  EXPECT_EQ(registry.number_in("PID12Bank")->value, "12");
+  EXPECT_FALSE(registry.number_in("Bank"));
+  EXPECT_FALSE(registry.number_in("PIDs"));
+  for (const char* name : {"PIDBank", "PID0Bank", "PID02Bank", "PID-1Bank", "PID#Bank2", "PID2"}) {
+    EXPECT_EQ(registry.find(name), nullptr) << name;
+  }
+  EXPECT_THAT(registry.names(), ElementsAre("PIDs"));
+}
+
+TEST(Registry, AFurtherNameIsTakenToo) {
+  Registry registry;
+  registry.add<Pid>("PIDs", "", {{"Bank"}});
+  registry.begin_library("motion");
+  registry.add<Pid>("Bank", "");
+  EXPECT_EQ(registry.end_library(),
+            "model 'Bank' of library 'motion' exists already, in the program");
+}
+
 TEST(Registry, ListsItsModelsByName) {
   Registry registry;
   registry.add<Pid>("Sampler", "");

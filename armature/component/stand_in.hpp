@@ -8,6 +8,8 @@
 namespace armature::component {
 
 class CommandBase;
+class InputPortBase;
+class OperationBase;
 enum class CallStatus : std::uint8_t;
 
 /// A component that stands for another one, which lives elsewhere, such as in another process. Its

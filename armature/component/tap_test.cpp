@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/tap.hpp"
 
 namespace armature::component {
@@ -66,11 +67,11 @@ std::vector<std::pair<std::uint64_t, T>> take_all(Tap& tap) {
 class Taps : public testing::Test {
  protected:
   void SetUp() override {
-    source.assign_context(here);
-    sink.assign_context(here);
-    ASSERT_TRUE(source.configure());
-    ASSERT_TRUE(sink.configure());
-    ASSERT_TRUE(sink.start());
+    Host::assign_context(source, here);
+    Host::assign_context(sink, here);
+    ASSERT_TRUE(Host::configure(source));
+    ASSERT_TRUE(Host::configure(sink));
+    ASSERT_TRUE(Host::start(sink));
     source.vector.prepare();
   }
   ExecutionContext here{"here"};

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/stand_in.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/rt/guard.hpp"
@@ -96,9 +97,9 @@ struct Twins : testing::Test {
     user.travel.connect(*travel);
     reached->subscribe(user.reached);
     for (Component* each : {static_cast<Component*>(&notes), static_cast<Component*>(&user)}) {
-      EXPECT_TRUE(each->configure());
-      EXPECT_TRUE(each->activate());
-      EXPECT_TRUE(each->start());
+      EXPECT_TRUE(Host::configure(*each));
+      EXPECT_TRUE(Host::activate(*each));
+      EXPECT_TRUE(Host::start(*each));
     }
   }
   TestThread thread;
@@ -124,8 +125,8 @@ TEST_F(Twins, AreKnownByTheSameNames) {
   EXPECT_TRUE(arm->is_by_operator());
   EXPECT_TRUE(twice->is_elsewhere());
   EXPECT_FALSE(original.twice.is_elsewhere());
-  EXPECT_EQ(notes.interface().outputs.size(), 2u);
-  EXPECT_EQ(notes.interface().inputs.size(), 1u);
+  EXPECT_EQ(interface_of(notes).outputs.size(), 2u);
+  EXPECT_EQ(interface_of(notes).inputs.size(), 1u);
   EXPECT_TRUE(input->stays_open());
 }
 

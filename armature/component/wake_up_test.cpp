@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/testing/test_thread.hpp"
@@ -61,7 +62,7 @@ TEST_F(WakeUp, ComesAtOnceFromAThreadThatRunsNoComponents) {
 
 TEST_F(WakeUp, ComesOnceForAllDataThatAHookWrites) {
   const rt::Outbox::Scope sending(here_.context.outbox);
-  sender_.run(here_.context, [this] {
+  Host::run(sender_, here_.context, [this] {
     send_data();
     EXPECT_FALSE(woken());
   });
@@ -73,21 +74,21 @@ TEST_F(WakeUp, ComesOnceForAllDataThatAHookWrites) {
 
 TEST_F(WakeUp, ComesOnceForAllDataThatSeveralHandlersWrite) {
   const rt::Outbox::Scope sending(here_.context.outbox);
-  sender_.run_handler(here_.context, [this] { send_data(); });
-  sender_.run_handler(here_.context, [this] { EXPECT_FALSE(woken()); });
+  Host::run_handler(sender_, here_.context, [this] { send_data(); });
+  Host::run_handler(sender_, here_.context, [this] { EXPECT_FALSE(woken()); });
   here_.context.outbox.flush();
   EXPECT_TRUE(woken());
 }
 
 TEST_F(WakeUp, ComesBeforeTheNextHookOrSentOperation) {
   const rt::Outbox::Scope sending(here_.context.outbox);
-  sender_.run(here_.context, [this] { send_data(); });
-  sender_.run(here_.context, [this] { EXPECT_TRUE(woken()); });
+  Host::run(sender_, here_.context, [this] { send_data(); });
+  Host::run(sender_, here_.context, [this] { EXPECT_TRUE(woken()); });
 }
 
 TEST_F(WakeUp, OfAnEventComesWithinTheHook) {
   const rt::Outbox::Scope sending(here_.context.outbox);
-  sender_.run(here_.context, [this] {
+  Host::run(sender_, here_.context, [this] {
     sender_.happened.raise();
     EXPECT_TRUE(woken());
   });
@@ -95,7 +96,7 @@ TEST_F(WakeUp, OfAnEventComesWithinTheHook) {
 
 TEST_F(WakeUp, ComesAtOnceWhereTheWriterMayWait) {
   const rt::Outbox::Scope sending(here_.context.outbox);
-  sender_.run(here_.context, [this] {
+  Host::run(sender_, here_.context, [this] {
     const rt::PermitScope waiting;
     send_data();
     EXPECT_TRUE(woken());
@@ -104,7 +105,7 @@ TEST_F(WakeUp, ComesAtOnceWhereTheWriterMayWait) {
 
 TEST_F(WakeUp, ComesBeforeTheWriterWaits) {
   const rt::Outbox::Scope sending(here_.context.outbox);
-  sender_.run(here_.context, [this] {
+  Host::run(sender_, here_.context, [this] {
     send_data();
     const rt::PermitScope waiting;
     EXPECT_TRUE(woken());

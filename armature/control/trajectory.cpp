@@ -79,11 +79,17 @@ Trajectory::Answer Trajectory::hold(std::span<const double> positions) {
   return {};
 }
 
-Trajectory::Answer Trajectory::move_to(std::span<const double> positions, double time_s,
-                                       MotionLimit* limit) {
+Trajectory::Answer Trajectory::check_request(std::span<const double> positions,
+                                             double time_s) const {
   if (const Answer answer = check_target(positions); !answer.accepted()) return answer;
   if (!std::isfinite(time_s)) return {Refusal::kNotFinite};
   if (time_s < 0.0) return {Refusal::kNegativeTime};
+  return {};
+}
+
+Trajectory::Answer Trajectory::move_to(std::span<const double> positions, double time_s,
+                                       MotionLimit* limit) {
+  if (const Answer answer = check_request(positions, time_s); !answer.accepted()) return answer;
   if (!position_known_) return {Refusal::kNoPosition};
   if (under_way()) return {Refusal::kUnderWay};
   double shortest = 0.0;

@@ -82,6 +82,11 @@ class Trajectory {
   /// @rt nonblocking, no allocation, O(axes)
   Answer hold(std::span<const double> positions);
 
+  /// What is wrong with a motion wherever it begins: refuses kWrongNumber, kNotFinite,
+  /// kOutsideLimits and kNegativeTime.
+  /// @rt nonblocking, no allocation, O(axes)
+  Answer check_request(std::span<const double> positions, double time_s) const;
+
   /// Begins a motion from where the axes rest.
   /// @param positions  the target, one per axis
   /// @param time_s     what the motion takes; 0: the shortest time that the limits allow

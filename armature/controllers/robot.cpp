@@ -25,12 +25,16 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<Sampler>("Sampler", "begins each sampling period");
   registry.add<Arming>("Arming", "lets the joints move, at the operator's word");
   registry.add<Joint>("Joint", "a joint, with the limiter before its hardware");
-  registry.add<SensorNMux>("SensorNMux", "makes one vector of what N joints measured");
-  registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints");
+  registry.add<SensorNMux>("SensorNMux", "makes one vector of what N joints measured",
+                           {{"Sensor#Mux", "joints"}});
+  registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints",
+                               {{"Actuator#Demux", "joints"}});
   registry.add<Pid>("PID", "the controller of one joint");
-  registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints");
+  registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints",
+                               {{"Controller#PID", "joints"}});
   registry.add<ControllerNPIDFF>("ControllerNPIDFF",
-                                 "N PIDs and feed-forward of the robot's dynamics");
+                                 "N PIDs and feed-forward of the robot's dynamics",
+                                 {{"Controller#PIDFF", "joints"}});
   registry.add<ControllerComputedTorque>("ControllerComputedTorque",
                                          "torques by the robot's dynamics, as it moves now");
   registry.add<ControllerGravityPD>("ControllerGravityPD",
@@ -41,6 +45,7 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<RobotModel>("Robot", "what a robot weighs and its drives give, for the check");
   registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
-  registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest");
+  registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest",
+                                 {{"nAxisGenPos"}});
   registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }

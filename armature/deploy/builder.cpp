@@ -9,15 +9,14 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/events/event.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/operations/operation.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
-#include "armature/document/property_value.hpp"
 #include "armature/document/value_tree.hpp"
-#include "armature/orocos/property_file.hpp"
-#include "armature/platform/file.hpp"
+#include "armature/exec/inlets.hpp"
 
 namespace armature::deploy {
 
@@ -58,7 +57,7 @@ component::InputPortBase* find_input(const exec::Blueprint& blueprint, const End
       continue;
     }
     std::vector<std::string> ports;
-    for (component::InputPortBase* const port : entry.component->interface().inputs) {
+    for (component::InputPortBase* const port : component::interface_of(*entry.component).inputs) {
       if (port->name() == end.port) return port;
       ports.push_back(port->name());
     }
@@ -105,6 +104,25 @@ void add_inlets(const Document& document, const BuildOptions& options, exec::Blu
       {std::move(inlets).value(), "Inlets", std::move(activity), {}, {}, where});
 }
 
+/// The component that writes what the operator gives.
+void add_operator_inputs(const Document& document, exec::Blueprint& blueprint,
+                         base::Diagnostics& diagnostics) {
+  if (document.operator_inputs.empty()) return;
+  std::vector<component::InputPortBase*> inputs;
+  for (const Connection& connection : document.operator_inputs) {
+    component::InputPortBase* const input = find_input(blueprint, connection.to, diagnostics);
+    if (input != nullptr) inputs.push_back(input);
+  }
+  exec::Activity activity;
+  activity.kind = exec::Activity::Kind::kTriggered;
+  blueprint.components.push_back({std::make_unique<exec::Inlets>(exec::kOperatorName, inputs),
+                                  "Inlets",
+                                  std::move(activity),
+                                  {},
+                                  {},
+                                  document.operator_inputs.front().where});
+}
+
 /// What may be named, and how that reads in "'A' has no command 'b' without arguments".
 struct Choice {
   bool (*fits)(const component::OperationBase&);
@@ -139,10 +157,12 @@ void check_operations(const std::vector<OperationOf>& wanted, const exec::Bluepr
       continue;
     }
     std::vector<std::string> fitting;
-    for (const component::OperationBase* operation : found->second->interface().operations) {
+    for (const component::OperationBase* operation :
+         component::interface_of(*found->second).operations) {
       if (choice.fits(*operation)) fitting.emplace_back(operation->name());
     }
-    for (const component::PropertyBase* property : found->second->interface().properties) {
+    for (const component::PropertyBase* property :
+         component::interface_of(*found->second).properties) {
       if (choice.properties && property->is_by_operator()) fitting.emplace_back(property->name());
     }
     if (std::find(fitting.begin(), fitting.end(), one.operation) != fitting.end()) continue;
@@ -188,7 +208,8 @@ void check_exports(const Document& document, const exec::Blueprint& blueprint,
     for (const Export& one : composite.exports) {
       const auto part = made.find(one.component);
       if (part == made.end()) continue;  // it is missing, which was reported
-      const std::vector<std::string> names = exportable(part->second->interface(), one.kind);
+      const std::vector<std::string> names =
+          exportable(component::interface_of(*part->second), one.kind);
       if (std::find(names.begin(), names.end(), one.member) != names.end()) continue;
       found.error(one.where,
                   "composite " + in_quotes(composite.model) + " exports " + in_quotes(one.name) +
@@ -209,18 +230,6 @@ void add_modes(const Document& document, exec::Blueprint& blueprint) {
   blueprint.initial_mode = {document.mode.name, document.mode.where};
 }
 
-std::vector<Property> persistent_properties(const component::Component& component) {
-  std::vector<Property> properties;
-  for (const component::PropertyBase* property : component.interface().properties) {
-    if (!property->persistent()) continue;
-    properties.push_back({std::string(property->name()),
-                          write_value(property->type(), property->data()),
-                          std::string(property->doc()),
-                          {}});
-  }
-  return properties;
-}
-
 }  // namespace
 
 exec::Blueprint build_blueprint(const Document& document, const component::Registry& registry,
@@ -228,12 +237,16 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   exec::Blueprint blueprint;
   if (!document.application.empty()) blueprint.name = document.application;
   check_saved_files(document, diagnostics);
-  // A name that still stands for a composite could not be resolved, which was reported.
-  for (const Composite& composite : document.composites) blueprint.absent.insert(composite.name);
+  // A name that still stands for a composite could not be resolved, which was reported. Where all
+  // were, nothing is absent: components are checked only then.
+  if (!diagnostics.ok()) {
+    for (const Composite& composite : document.composites) blueprint.absent.insert(composite.name);
+  }
   blueprint.components.reserve(document.components.size());
   internal::ComponentBuilder components(document, registry, options, diagnostics);
   for (const Component& component : document.components) components.build(component, blueprint);
   add_inlets(document, options, blueprint, diagnostics);
+  add_operator_inputs(document, blueprint, diagnostics);
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
   check_exports(document, blueprint, diagnostics);
@@ -261,22 +274,6 @@ exec::ApplicationOptions application_options(const Document& document) {
     options.before_stop.push_back({command.component, command.operation});
   }
   return options;
-}
-
-void save_properties(const Document& document, const exec::Blueprint& blueprint,
-                     base::Diagnostics& diagnostics) {
-  const ComponentsByName made = by_name(blueprint);
-  for (const Component& component : document.components) {
-    const auto found = made.find(component.name);
-    const bool saves = component.autosave && !component.property_files.empty();
-    if (!saves || found == made.end()) continue;
-    const PropertyFile& file = component.property_files.back();
-    const base::Result<void> written = platform::write_file(
-        path_from(document, file.path), orocos::write_cpf(persistent_properties(*found->second)));
-    if (written) continue;
-    diagnostics.error(file.where, "the properties of " + in_quotes(component.name) +
-                                      " were not saved: " + written.error());
-  }
 }
 
 }  // namespace armature::deploy

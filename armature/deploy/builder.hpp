@@ -39,9 +39,4 @@ exec::Blueprint build_blueprint(const document::Document& document,
 /// What the document says about running the application as a whole.
 exec::ApplicationOptions application_options(const document::Document& document);
 
-/// Writes the persistent properties of each component with `autosave` to its last property file.
-/// To be called after the application stopped, or before it started.
-void save_properties(const document::Document& document, const exec::Blueprint& blueprint,
-                     base::Diagnostics& diagnostics);
-
 }  // namespace armature::deploy

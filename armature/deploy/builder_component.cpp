@@ -8,6 +8,8 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/component/keeping.hpp"
 #include "armature/component/states/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/overrides.hpp"
@@ -41,7 +43,7 @@ exec::Activity activity_of(const Component& written) {
 
 component::PropertyBase* find_property(const component::Component& component,
                                        std::string_view name) {
-  for (component::PropertyBase* property : component.interface().properties) {
+  for (component::PropertyBase* property : component::interface_of(component).properties) {
     if (property->name() == name) return property;
   }
   return nullptr;
@@ -50,7 +52,7 @@ component::PropertyBase* find_property(const component::Component& component,
 /// True if the number or size of ports follows from a property: while its value is unknown, nothing
 /// can be said about the component's connections.
 bool shapes_ports(const component::PropertyBase& property) {
-  const component::Interface& interface = property.owner().interface();
+  const component::Interface& interface = component::interface_of(property.owner());
   const auto counts = [&](const auto* array) { return &array->count() == &property; };
   const auto sizes = [&](const auto* port) { return port->declared_size().property == &property; };
   return std::any_of(interface.port_arrays.begin(), interface.port_arrays.end(), counts) ||
@@ -97,7 +99,7 @@ void add_peers(const Component& written, exec::ComponentEntry& entry) {
   for (const Binding& binding : written.bindings) {
     entry.bindings.push_back({binding.name, binding.component, binding.member, binding.where});
   }
-  const component::Interface& interface = entry.component->interface();
+  const component::Interface& interface = component::interface_of(*entry.component);
   for (const Peer& peer : written.peers) {
     entry.peers.push_back({peer.component, peer.where});
     if (peer.name == peer.component) continue;
@@ -118,6 +120,9 @@ void ComponentBuilder::build(const Component& written, exec::Blueprint& blueprin
   }
   exec::ComponentEntry entry{std::move(component), written.model, activity_of(written), {}, {},
                              written.where};
+  if (entry.activity.priority > 0) {
+    entry.activity.priority = priorities_.here(entry.activity.priority);
+  }
   entry.autoconfigure = written.autoconf;
   entry.autostart = written.autostart;
   add_peers(written, entry);
@@ -140,7 +145,7 @@ std::unique_ptr<component::Component> ComponentBuilder::settle(
                            " lives in another process, and this program does not connect to any");
     return nullptr;
   }
-  for (const component::PropertyBase* property : component->interface().mandatory) {
+  for (const component::PropertyBase* property : component::interface_of(*component).mandatory) {
     if (property->was_set() || !shapes_ports(*property)) continue;
     diagnostics_.error(written.where,
                        in_quotes(written.name) + " needs the property " +
@@ -191,7 +196,7 @@ void ComponentBuilder::report_units(const Component& written,
 /// Mistakes in how the author listed states and transitions.
 void ComponentBuilder::report_machines(const Component& written,
                                        const component::Component& component) {
-  for (const component::StateMachine* machine : component.interface().machines) {
+  for (const component::StateMachine* machine : component::interface_of(component).machines) {
     for (const std::string& problem : machine->problems()) {
       diagnostics_.error(written.where, in_quotes(written.name) + ", state machine " +
                                             in_quotes(machine->name()) + ": " + problem);
@@ -214,11 +219,57 @@ void ComponentBuilder::report_unknown_model(const Component& written) {
 
 /// False if a mistake leaves the component's ports unknown.
 bool ComponentBuilder::set_properties(const Component& written, component::Component& component) {
-  bool ports_known = true;
+  bool ports_known = set_number_in_name(written, component);
   for (const PropertyFile& file : written.property_files) {
     ports_known &= apply_property_file(written, file, component);
   }
-  return apply(written, written.properties, component) && ports_known;
+  ports_known &= apply(written, written.properties, component);
+  if (ports_known) check_number_in_name(written, component);
+  return ports_known;
+}
+
+bool ComponentBuilder::set_number_in_name(const Component& written,
+                                          component::Component& component) {
+  const auto number = registry_.number_in(written.model);
+  if (!number) return true;
+  component::PropertyBase* const property = find_property(component, number->property);
+  if (property == nullptr) {
+    diagnostics_.error(written.model_where, "the model of " + in_quotes(written.model) +
+                                                " has no property " + in_quotes(number->property) +
+                                                " for the number in that name");
+    return true;
+  }
+  return set_property(*property, make_text(number->value, written.model_where), diagnostics_);
+}
+
+void ComponentBuilder::check_number_in_name(const Component& written,
+                                            const component::Component& component) {
+  const auto number = registry_.number_in(written.model);
+  const component::PropertyBase* const property =
+      number ? find_property(component, number->property) : nullptr;
+  if (property == nullptr) return;
+  const std::string given = types::to_text(property->type(), property->data());
+  if (given == number->value) return;
+  const Property* const here = find(written.properties, number->property);
+  diagnostics_.error(here == nullptr ? written.model_where : here->where,
+                     in_quotes(written.name) + " has " + number->property + " " + number->value +
+                         " by its model " + in_quotes(written.model) + ", found " +
+                         in_quotes(given),
+                     "leave out " + number->property + ", or give another model");
+}
+
+/// No file keeps an attribute: one in a property file would be there in no file that is saved.
+void ComponentBuilder::refuse_attributes(const Component& written,
+                                         const std::vector<Property>& properties,
+                                         component::Component& component) {
+  for (const Property& given : properties) {
+    const component::PropertyBase* const property = find_property(component, given.name);
+    if (property == nullptr || property->persistent()) continue;
+    diagnostics_.error(given.where,
+                       in_quotes(given.name) + " of " + in_quotes(written.name) + " (" +
+                           written.model + ") is an attribute, which a property file cannot give",
+                       "remove it from the file");
+  }
 }
 
 bool ComponentBuilder::apply_property_file(const Component& written, const PropertyFile& file,
@@ -227,8 +278,10 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
   const std::vector<Property>* properties = read(file, own);
   if (properties == nullptr) return true;
   std::string missing;
-  for (const component::PropertyBase* property : component.interface().properties) {
-    const bool wanted = file.complete && property->persistent();
+  auto* const keeps = dynamic_cast<component::Keeps*>(&component);
+  for (const component::PropertyBase* property : component::interface_of(component).properties) {
+    const bool filled = keeps != nullptr && keeps->keeping().fills(*property);
+    const bool wanted = file.complete && property->persistent() && !filled;
     if (!wanted || find(*properties, property->name()) != nullptr) continue;
     missing += (missing.empty() ? "" : ", ") + std::string(property->name());
   }
@@ -238,6 +291,7 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
                            in_quotes(written.name) + " must be complete, but lacks " + missing,
                        "add what is missing, or leave out complete");
   }
+  refuse_attributes(written, *properties, component);
   return apply(written, *properties, component);
 }
 
@@ -248,7 +302,8 @@ bool ComponentBuilder::apply(const Component& written, const std::vector<Propert
     component::PropertyBase* const property = find_property(component, given.name);
     if (property == nullptr) {
       std::vector<std::string> names;
-      for (const auto* known : component.interface().properties) names.emplace_back(known->name());
+      for (const auto* known : component::interface_of(component).properties)
+        names.emplace_back(known->name());
       diagnostics_.error(given.where,
                          in_quotes(written.name) + " (" + written.model + ") has no property " +
                              in_quotes(given.name),

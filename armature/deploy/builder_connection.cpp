@@ -3,6 +3,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/document/value_tree.hpp"
 
@@ -29,10 +30,12 @@ void ConnectionBuilder::build() {
     add(connection.from, connection.to, connection.policy, connection.where);
   }
   for (const NamedConnection& named : document_.named_connections) add_named(named);
-  for (const Connection& input : document_.network.inputs) {
-    const bool known =
-        ports_of(input.from.component) != nullptr && this->input(input.to) != nullptr;
-    if (known) add(input.from, input.to, input.policy, input.where);
+  for (const auto* inputs : {&document_.network.inputs, &document_.operator_inputs}) {
+    for (const Connection& input : *inputs) {
+      const bool known =
+          ports_of(input.from.component) != nullptr && this->input(input.to) != nullptr;
+      if (known) add(input.from, input.to, input.policy, input.where);
+    }
   }
   apply_delays();
 }
@@ -95,7 +98,7 @@ void ConnectionBuilder::report_end(const NamedConnection& named, const Endpoint&
         base::suggestion(end.component, names));
     return;
   }
-  const component::Interface& interface = components_.at(end.component)->interface();
+  const component::Interface& interface = component::interface_of(*components_.at(end.component));
   for (const auto* port : interface.outputs) names.push_back(port->name());
   for (const auto* port : interface.inputs) names.push_back(port->name());
   diagnostics_.error(end.where,
@@ -159,7 +162,7 @@ const ConnectionBuilder::Ports* ConnectionBuilder::ports_of(const std::string& c
   if (found == components_.end()) return nullptr;
   const auto [ports, fresh] = ports_.try_emplace(found->second);
   if (fresh) {
-    const component::Interface& interface = found->second->interface();
+    const component::Interface& interface = component::interface_of(*found->second);
     for (auto* port : interface.inputs) ports->second.inputs.emplace(port->name(), port);
     for (auto* port : interface.outputs) ports->second.outputs.emplace(port->name(), port);
   }

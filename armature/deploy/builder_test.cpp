@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/internal/test_models.hpp"
+#include "armature/deploy/saved_properties.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
@@ -47,6 +48,16 @@ components:
   EXPECT_EQ(activity.late_cycles_to_fault, 3);
   EXPECT_EQ(activity.budget, 1ms);
   EXPECT_EQ(activity.thread, "fast");
+}
+
+/// Paper 2, section 4.1: both configure a component; only properties are in files of properties.
+TEST(Builder, AttributesAreSetByTheDocumentAsPropertiesAre) {
+  const Deployment deployment = deploy(R"(
+components:
+  A: {model: Source, properties: {Spare: 3}, activity: {periodic: 5 ms}}
+)");
+  ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();
+  EXPECT_EQ(get<test::Source>(deployment, "A").spare(), 3);
 }
 
 TEST(Builder, GrantsReachTheApplicationAndMustGrantSomething) {
@@ -310,6 +321,18 @@ TEST_F(PropertyFiles, ComeFirstAndTheDocumentsOwnPropertiesWin) {
   ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();
   EXPECT_EQ(get<test::Source>(deployment, "A").rate(), 2.0);
   EXPECT_EQ(get<test::Source>(deployment, "A").label(), "own");
+}
+
+TEST_F(PropertyFiles, AnAttributeInAFileIsRefused) {
+  write("a.cpf",
+        "<properties><simple name='Spare' type='long'><value>3</value></simple></properties>");
+  const Deployment deployment =
+      load("components: {A: {model: Source, property_file: a.cpf, properties: {Rate: 1}}}\n");
+  EXPECT_FALSE(deployment.ok());
+  EXPECT_THAT(deployment.diagnostics.to_text(),
+              AllOf(HasSubstr("a.cpf:1:"),
+                    HasSubstr("error: 'Spare' of 'A' (Source) is an attribute, which a property "
+                              "file cannot give (remove it from the file)")));
 }
 
 TEST_F(PropertyFiles, MistakesInAFileThatManyShareAreReportedForEachButReadOnce) {

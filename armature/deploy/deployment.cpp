@@ -2,20 +2,35 @@
 #include "armature/deploy/deployment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
+#include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/deploy/builder.hpp"
+#include "armature/deploy/internal/operator_inputs.hpp"
 #include "armature/deploy/loader.hpp"
+#include "armature/deploy/saved_properties.hpp"
+#include "armature/document/value_tree.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::deploy {
 
 using namespace document;
+using internal::check_operator_inputs;
+
 namespace {
+
+/// Of the warnings that a deployment may accept; docs/deployment.md explains them.
+constexpr std::array<std::string_view, 11> kWarningNames = {
+    "priority_inversion", "idle_component",       "late_answer",      "budget_exceeded",
+    "missing_cpu",        "service_left_out",     "setting_left_out", "priority_changed",
+    "unused_connection",  "slave_without_master", "names_left_out"};
 
 analysis::ExecutionTimes read_times(const std::string& file, base::Diagnostics& diagnostics) {
   if (file.empty()) return {};
@@ -36,12 +51,13 @@ void warn_of_idle_components(const Deployment& deployment, base::Diagnostics& di
   const exec::Plan& plan = deployment.plan;
   for (const exec::Index index : plan.threads[plan.service_thread()].members) {
     const exec::ComponentEntry& entry = deployment.blueprint.components[index];
-    const component::Interface& interface = entry.component->interface();
+    const component::Interface& interface = component::interface_of(*entry.component);
     if (interface.inputs.empty() && interface.outputs.empty()) continue;  // tools may call it
-    diagnostics.warning(entry.where,
-                        "'" + entry.component->name() +
-                            "' never runs: it has no activity, and nothing triggers or calls it",
-                        "give it an activity, for example activity: {periodic: 10 ms}");
+    diagnostics.named_warning(
+        "idle_component", entry.where,
+        "'" + entry.component->name() +
+            "' never runs: it has no activity, and nothing triggers or calls it",
+        "give it an activity, for example activity: {periodic: 10 ms}");
   }
 }
 
@@ -79,8 +95,26 @@ void refuse_grants_on_hardware(Deployment& deployment) {
   }
 }
 
+/// Warnings that the deployment means. Errors stay, and so do warnings about what moves, which have
+/// no name.
+void accept_warnings(const Document& document, base::Diagnostics& diagnostics) {
+  std::vector<std::string> known(kWarningNames.begin(), kWarningNames.end());
+  for (const Reference& accepted : document.accepted) {
+    if (std::ranges::find(known, accepted.name) == known.end()) {
+      diagnostics.error(accepted.where,
+                        "unknown warning " + in_quotes(accepted.name) + " in accept",
+                        base::suggestion(accepted.name, known));
+    } else if (!diagnostics.accept(accepted.name) && diagnostics.ok()) {
+      diagnostics.warning(
+          accepted.where,
+          "accept names " + in_quotes(accepted.name) + ", but there is no such warning",
+          "remove it");
+    }
+  }
+}
+
 /// Goes on from the document as far as it could be read, so that all mistakes are found in one run.
-void complete(Deployment& deployment, const DeploymentOptions& options) {
+void check_all(Deployment& deployment, const DeploymentOptions& options) {
   base::Diagnostics& diagnostics = deployment.diagnostics;
   if (!options.mode.empty()) deployment.document.mode = {options.mode, {"<command line>", 0, 0}};
   const Document& document = deployment.document;
@@ -93,11 +127,13 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
       document, deployment.models,
       {options.document.read, !all_loaded, options.make_placeholder, options.make_inlets},
       diagnostics);
+  take_kept(document, deployment.blueprint, diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
   if (diagnostics.ok() && deployment.blueprint.components.empty()) {
     diagnostics.error({document.file, 0, 0}, "the file has no components",
                       "add them under components:");
   }
+  check_operator_inputs(document, deployment.blueprint, deployment.plan, diagnostics);
   const analysis::ExecutionTimes times = read_times(options.times_file, diagnostics);
   refuse_grants_on_hardware(deployment);
   if (!diagnostics.ok()) return;
@@ -105,6 +141,11 @@ void complete(Deployment& deployment, const DeploymentOptions& options) {
   check_threads(deployment, diagnostics);
   deployment.schedule = analysis::check_schedule(deployment.blueprint, deployment.plan, times,
                                                  cpus_of(options), diagnostics);
+}
+
+void complete(Deployment& deployment, const DeploymentOptions& options) {
+  check_all(deployment, options);
+  accept_warnings(deployment.document, deployment.diagnostics);
 }
 
 }  // namespace

@@ -104,9 +104,10 @@ connections: [S.Out -> A.In]
 )",
                                                  "robot.yaml", options);
   EXPECT_THAT(deployment.diagnostics.to_text(),
-              ::testing::HasSubstr("robot.yaml:3:3: warning: 'A' never runs: it has no "
-                                   "activity, and nothing triggers or calls it (give it an "
-                                   "activity, for example activity: {periodic: 10 ms})\n"));
+              ::testing::HasSubstr(
+                  "robot.yaml:3:3: warning: 'A' never runs: it has no "
+                  "activity, and nothing triggers or calls it [idle_component] (give it an "
+                  "activity, for example activity: {periodic: 10 ms})\n"));
 }
 
 base::Diagnostics with_threads(const std::string& how_many, const std::string& head) {

@@ -217,7 +217,7 @@ class DocumentBuilder {
       add_composite(full, where, body, *composite->second, found);
       return;
     }
-    document_.components.push_back(read_component(full, where, body, found));
+    document_.components.push_back(read_component(full, where, body, document_.priorities, found));
     scopes_.components.push_back(level.instance);
   }
 

@@ -120,7 +120,8 @@ class Sources {
       add_libraries(before->value, section.value);
     } else if (before->value.kind == Value::Kind::kMap) {
       for (Property& one : section.value.entries) before->value.entries.push_back(std::move(one));
-    } else if (section.name == "connections") {
+    } else if (section.name == "connections" || section.name == "accept" ||
+               section.name == "operator_inputs") {
       append(before->value, section.value);
     } else {
       replace(all.entries, std::move(section), own);

@@ -187,10 +187,10 @@ void apply_override(Document& document, const Override& setting, base::Diagnosti
   const ValueReader reader("component '" + component->name + "'", diagnostics);
   constexpr std::string_view kActivity = "activity";
   if (rest == kActivity) {
-    read_activity(setting.value, reader, component->activity);
+    read_activity(setting.value, reader, document.priorities, component->activity);
   } else if (rest.rfind(std::string(kActivity) + ".", 0) == 0) {
     const Value change = nested(rest.substr(kActivity.size() + 1), setting.value);
-    read_activity(change, reader, component->activity);
+    read_activity(change, reader, document.priorities, component->activity);
   } else {
     set_property(*component, rest, setting.value, reader);
   }

@@ -242,6 +242,8 @@ class Motor final : public component::Component {
   using component::Component::Component;
   component::Property<double> limit{this,          "Limit", 1.0,
                                     "upper limit", "V",     component::range(0.0, 12.0)};
+  component::Property<double> sign{this, "Sign",         1.0, "-1 if it turns backwards",
+                                   "",   component::sign};
 };
 
 TEST(PropertyValue, SettingAPropertyChecksItsRangeInItsUnit) {
@@ -253,6 +255,25 @@ TEST(PropertyValue, SettingAPropertyChecksItsRangeInItsUnit) {
   EXPECT_EQ(motor.limit(), 11.0);
   EXPECT_EQ(diagnostics.to_text(),
             "test.yaml:3:8: error: property 'Limit' of 'Motor' is 24, outside 0 .. 12 V\n");
+}
+
+TEST(PropertyValue, ASignMayBeWrittenAsABooleanOfWhichTrueInverts) {
+  Motor motor("Motor");
+  base::Diagnostics diagnostics;
+  const std::pair<const char*, double> all[] = {
+      {"true", -1.0}, {"1", 1.0}, {"-1.0", -1.0}, {"false", 1.0}, {"-1", -1.0}};
+  for (const auto& [text, sign] : all) {
+    EXPECT_TRUE(set_property(motor.sign, written(text), diagnostics)) << text;
+    EXPECT_EQ(motor.sign(), sign) << text;
+  }
+  const std::string file =
+      "<properties><simple name='Sign' type='boolean'><value>1</value></simple></properties>";
+  const std::vector<Property> properties = orocos::parse_cpf(file, "test.cpf", diagnostics);
+  motor.sign.assign(1.0);
+  ASSERT_TRUE(set_property(motor.sign, properties.at(0).value, diagnostics));
+  EXPECT_EQ(motor.sign(), -1.0) << "a boolean of a property file is what it says";
+  EXPECT_FALSE(set_property(motor.limit, written("true"), diagnostics));
+  EXPECT_FALSE(set_property(motor.sign, written("yes"), diagnostics));
 }
 
 }  // namespace

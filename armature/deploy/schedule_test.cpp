@@ -107,7 +107,7 @@ TEST(Schedule, ACpuThatTheMachineDoesNotHaveIsAWarning) {
   EXPECT_TRUE(deployment.ok());
   EXPECT_EQ(deployment.diagnostics.to_text(),
             "app.yaml:2:3: warning: thread 'T0' is to run on CPU 2, but this machine has CPUs 0 to "
-            "1\n");
+            "1 [missing_cpu]\n");
 }
 
 TEST(Schedule, AsManyThreadsAsCpusDoNotWait) {

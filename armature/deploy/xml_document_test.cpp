@@ -288,7 +288,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "'maybe'\n"},
         Mistake{"service", COMPONENT(SIMPLE("Service", "string", "marshalling")),
                 "robot.xml:3:1: warning: component 'A': service 'marshalling' is left out: "
-                "Armature has no services\n"},
+                "Armature has no services [service_left_out]\n"},
         Mistake{"script", COMPONENT(SIMPLE("RunScript", "string", "a.ops")),
                 "robot.xml:3:1: error: component 'A': OROCOS script 'a.ops' cannot run here "
                 "(remove it, rewrite it in Lua and start that with armature run --script)\n"},
@@ -326,7 +326,7 @@ INSTANTIATE_TEST_SUITE_P(
             "priority_without_thread",
             COMPONENT(STRUCT("Activity", "SequentialActivity", SIMPLE("Priority", "short", "2"))),
             "robot.xml:4:1: warning: component 'A': Priority is left out: a sequential "
-            "activity has none\n"},
+            "activity has none [setting_left_out]\n"},
         Mistake{"port_without_connection",
                 COMPONENT(STRUCT("Ports", "PropertyBag", SIMPLE("x", "string", ""))),
                 "robot.xml:4:1: error: component 'A': an entry of Ports needs the name of a port, "
@@ -367,7 +367,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "ports than the structs Ports of the components (change both, or remove "
                 "armature:from and armature:to)\n"},
         Mistake{"unused", "<struct name=\"c\" type=\"ConnPolicy\"/>",
-                "robot.xml:2:1: warning: connection 'c' has no ports\n"},
+                "robot.xml:2:1: warning: connection 'c' has no ports [unused_connection]\n"},
         Mistake{"extension", POLICY("armature:max_aeg=\"1 ms\"", ""),
                 "robot.xml:2:1: error: connection: unknown key 'max_aeg' (did you mean "
                 "'max_age'?)\n"}),

@@ -88,7 +88,7 @@ TEST(OrocosForms, NamesThatAreLeftOutAreTold) {
                          simple("Port", "string", "J3.Out"))));
   EXPECT_EQ(loaded.messages(),
             "robot.xml:2:53: warning: struct 'B' has entries of the same name or without one: it "
-            "is read as the list of their values, names are left out\n");
+            "is read as the list of their values, names are left out [names_left_out]\n");
   EXPECT_EQ(to_text(loaded.document.components.at(0).properties.at(0).value),
             "[J1, J2.Out, J3.Out]");
 }
@@ -125,7 +125,7 @@ TEST(OrocosForms, ASlaveWithoutMasterIsSequentialAndTold) {
       load_xml_body(component("S", activity("SlaveActivity", simple("Period", "double", "0.01"))));
   EXPECT_EQ(loaded.messages(),
             "robot.xml:2:27: warning: component 'S': a SlaveActivity without Master is read as a "
-            "SequentialActivity: it runs when data or a call arrives\n");
+            "SequentialActivity: it runs when data or a call arrives [slave_without_master]\n");
   EXPECT_EQ(loaded.document.components.at(0).activity.kind, Activity::Kind::kSequential);
 }
 
@@ -141,12 +141,12 @@ TEST(OrocosForms, RealTimeHasAPriorityAndOtherThreadsHaveNone) {
   EXPECT_EQ(
       realtime.messages(),
       "robot.xml:2:27: warning: component 'A': Priority 0 of ORO_SCHED_RT is read as Priority "
-      "1\n");
+      "1 [priority_changed]\n");
   const Loaded other = with("ORO_SCHED_OTHER", "5");
   EXPECT_EQ(other.document.components.at(0).activity.priority, 0);
   EXPECT_EQ(other.messages(),
             "robot.xml:2:27: warning: component 'A': Priority 5 is left out: threads of "
-            "ORO_SCHED_OTHER have none\n");
+            "ORO_SCHED_OTHER have none [priority_changed]\n");
   EXPECT_EQ(with("ORO_SCHED_OTHER", "0").messages(), "");
 }
 

@@ -192,6 +192,10 @@ struct BlackBox {
   bool usual() const { return kept && !history && !memory_kb; }
 };
 
+/// What the numbers of priorities mean. RTAI has 1 as the most urgent one, and 255 as the least.
+enum class Priorities { kLinux, kRtai };
+ARMATURE_ENUM(Priorities, kLinux, kRtai);
+
 /// An application as a user described it: ranges, parameters and composites are expanded, names are
 /// resolved as far as the document alone can; nothing is checked against models yet.
 struct Document {
@@ -213,6 +217,10 @@ struct Document {
   std::vector<Mode> modes;
   Reference mode;  ///< in which it starts; empty: the first
   BlackBox black_box;
+  Priorities priorities = Priorities::kLinux;
+  std::vector<Reference> accepted;  ///< names of warnings
+  std::vector<Connection>
+      operator_inputs;  ///< that the operator may write, from exec::kOperatorName
   /// So many threads it may have, where it says so.
   std::optional<int> most_threads;
   Network network;

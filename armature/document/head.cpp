@@ -9,6 +9,7 @@
 #include "armature/document/network.hpp"
 #include "armature/document/reader.hpp"
 #include "armature/document/value_tree.hpp"
+#include "armature/exec/inlets.hpp"
 
 namespace armature::document {
 
@@ -19,9 +20,10 @@ std::string path_from(const Document& document, std::string_view path) {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kHeadKeys = {
-    "application", "on_fault", "black_box", "libraries",   "grants",       "modes",
-    "mode",        "composed", "network",   "before_stop", "hold_at_stop", "threads"};
+constexpr std::array<std::string_view, 15> kHeadKeys = {
+    "application",  "on_fault", "black_box",  "libraries", "grants",
+    "modes",        "mode",     "composed",   "network",   "before_stop",
+    "hold_at_stop", "threads",  "priorities", "accept",    "operator_inputs"};
 
 /// The system itself has an end.
 constexpr int kMostThreads = 10'000;
@@ -152,9 +154,9 @@ std::vector<Property> sections_of(Value tree, base::Diagnostics& diagnostics) {
     known.emplace_back(key);
     return fields.take(key);
   };
-  for (const char* key : {"include", "libraries"}) take(key);
+  for (const char* key : {"include", "libraries", "accept", "operator_inputs"}) take(key);
   for (const char* key :
-       {"application", "on_fault", "black_box", "mode", "hold_at_stop", "threads"}) {
+       {"application", "on_fault", "black_box", "mode", "hold_at_stop", "threads", "priorities"}) {
     take(key);
     const Property* const entry = find(tree.entries, key);
     const bool empty = entry != nullptr && entry->value.kind == Value::Kind::kNone;
@@ -230,6 +232,19 @@ void read_head(const Value& head, Document& document, base::Diagnostics& diagnos
     if (auto name = reader.text(*library, "library")) {
       document.libraries.push_back({std::move(*name), library->where});
     }
+  }
+  if (const Value* priorities = fields.take("priorities")) {
+    assign(reader.choice<Priorities>(*priorities, "priorities"), document.priorities);
+  }
+  for (const Value* warning : items_of(fields.take("accept"))) {
+    if (auto name = reader.text(*warning, "accept")) {
+      document.accepted.push_back({std::move(*name), warning->where});
+    }
+  }
+  for (OperationOf& input : read_operations(fields.take("operator_inputs"), "input", reader)) {
+    const Endpoint to{std::move(input.component), std::move(input.operation), input.where};
+    document.operator_inputs.push_back(
+        {{exec::kOperatorName, to_text(to), to.where}, to, {}, to.where});
   }
   if (const Value* grants = fields.take("grants")) read_grants(*grants, reader, document);
   document.before_stop = read_operations(fields.take("before_stop"), "before_stop", reader);

@@ -279,12 +279,26 @@ Value write_value(const Type& type, const void* value) {
   return written;
 }
 
+namespace {
+
+/// What is written for a property that takes a boolean besides its own type: that of a file that
+/// says so, or the word.
+const Type& type_of_written(const component::PropertyBase& property, const Value& written) {
+  const Type& boolean = types::type_of<bool>();
+  const bool word = written.text == "true" || written.text == "false";
+  const bool said = word || written.type == orocos_type(boolean);
+  const bool takes_it = property.is_sign() && written.kind == Value::Kind::kText;
+  return takes_it && said ? boolean : property.type();
+}
+
+}  // namespace
+
 bool set_property(component::PropertyBase& property, const Value& written,
                   base::Diagnostics& diagnostics) {
   const std::string subject =
       "property " + in_quotes(property.name()) + " of " + in_quotes(property.owner().name());
-  const std::optional<types::Value> value =
-      make_value(written, property.type(), property.unit(), subject, diagnostics);
+  const std::optional<types::Value> value = make_value(written, type_of_written(property, written),
+                                                       property.unit(), subject, diagnostics);
   if (!value) return false;
   const base::Result<void> set = property.set(*value);
   if (!set) diagnostics.error(written.where, set.error());

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kLowestPriority = 1;
 constexpr int kHighestPriority = 99;
+constexpr int kHighestRtaiPriority = 255;
 constexpr int kHighestCpu = 1023;
 constexpr int kMostCyclesLate = 1'000'000;
 
@@ -264,7 +265,8 @@ void check_values(const std::string& name, const Value& value, const ValueReader
   }
 }
 
-void read_activity(const Value& value, const ValueReader& reader, Activity& activity) {
+void read_activity(const Value& value, const ValueReader& reader, Priorities priorities,
+                   Activity& activity) {
   activity.where = value.where;
   if (value.kind == Value::Kind::kText) {
     read_activity_name(value, reader, activity);
@@ -273,8 +275,8 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
   Fields fields(value, reader);
   read_kind(fields, value, reader, activity);
   if (const Value* priority = fields.take("priority")) {
-    assign(reader.whole_number(*priority, "priority", kLowestPriority, kHighestPriority),
-           activity.priority);
+    const int highest = priorities == Priorities::kRtai ? kHighestRtaiPriority : kHighestPriority;
+    assign(reader.whole_number(*priority, "priority", kLowestPriority, highest), activity.priority);
   }
   if (const Value* scheduler = fields.take("scheduler")) {
     const auto chosen = reader.choice<Activity::Scheduler>(*scheduler, "scheduler");
@@ -295,7 +297,7 @@ void read_activity(const Value& value, const ValueReader& reader, Activity& acti
 }
 
 Component read_component(const std::string& name, const base::Location& where, const Value& body,
-                         base::Diagnostics& diagnostics) {
+                         Priorities priorities, base::Diagnostics& diagnostics) {
   Component component;
   component.name = name;
   component.where = where;
@@ -312,7 +314,7 @@ Component read_component(const std::string& name, const base::Location& where, c
     component.remote.where = remote->where;
   }
   if (const Value* activity = fields.take("activity")) {
-    read_activity(*activity, reader, component.activity);
+    read_activity(*activity, reader, priorities, component.activity);
   }
   if (const Value* properties = fields.take("properties")) {
     read_properties(*properties, reader, component);

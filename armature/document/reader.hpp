@@ -15,10 +15,11 @@ namespace armature::document {
 
 /// A component from what follows its name.
 Component read_component(const std::string& name, const base::Location& where, const Value& body,
-                         base::Diagnostics& diagnostics);
+                         Priorities priorities, base::Diagnostics& diagnostics);
 
 /// Changes `activity` by the keys that `value` has, then checks the whole.
-void read_activity(const Value& value, const ValueReader& reader, Activity& activity);
+void read_activity(const Value& value, const ValueReader& reader, Priorities priorities,
+                   Activity& activity);
 
 /// A connection's map; of `A.Out -> B.In` a map with `from` and `to`.
 std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagnostics);

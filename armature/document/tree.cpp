@@ -250,6 +250,13 @@ Value to_tree(const Document& document) {
     add(tree, "on_fault", name_of(document.on_fault));
   }
   if (!document.black_box.usual()) add(tree, "black_box", black_box_tree(document.black_box));
+  if (document.priorities != Priorities::kLinux) {
+    add(tree, "priorities", name_of(document.priorities));
+  }
+  add_items(tree, "accept", converted(document.accepted, reference_tree));
+  add_items(tree, "operator_inputs",
+            converted(document.operator_inputs,
+                      [](const Connection& input) { return make_text(to_text(input.to)); }));
   if (document.most_threads) add(tree, "threads", std::to_string(*document.most_threads));
   add_items(tree, "libraries", converted(document.libraries, reference_tree));
   if (!document.parameters.empty()) add(tree, "parameters", map_of(document.parameters));

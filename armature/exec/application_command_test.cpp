@@ -124,7 +124,7 @@ TEST_P(Commands, ARefusalIsTheAnswer) {
             "'Axis' has no operation 'mve' (did you mean 'move'?)");
   const CommandHandle handle = move(1e6);
   EXPECT_EQ(application().begin("Axis", "move", {Value::of(1.0)}).error(),
-            "the previous command is still under way");
+            "the previous command is still under way, and this command does not queue");
 }
 
 TEST_P(Commands, AHandleOutlivesTheApplication) {

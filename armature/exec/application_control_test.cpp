@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
 namespace armature::exec {
@@ -118,7 +119,7 @@ TEST_P(Control, WorkRunsAsTheComponentsCodeAndAnExceptionFaultsIt) {
   std::string who;
   EXPECT_TRUE(application().run_in_thread_of(*sink_, [&] {
     where = std::this_thread::get_id();
-    who = sink_->context().running()->name();
+    who = component::Host::context(*sink_).running()->name();
   }));
   EXPECT_EQ(who, "Sink");
   EXPECT_EQ(where == std::this_thread::get_id(), GetParam()) << "simulated time has no threads";

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/test_chain.hpp"
 #include "armature/platform/stop_signal.hpp"
 
@@ -255,9 +256,9 @@ TEST_P(ApplicationTime, ExecutionTimesAreTakenForEachComponentInTheCyclesAskedFo
   EXPECT_TRUE(run_until(application, [&] { return gain.steps >= 100; }));
   EXPECT_TRUE(application.stop().ok());
   const std::uint64_t cycles = application.thread_statistics().front().cycles_run;
-  EXPECT_EQ(counter.execution_ticks().summary().count, cycles / 4);
-  EXPECT_EQ(gain.execution_ticks().summary().count, cycles / 4);
-  EXPECT_EQ(sink.execution_ticks().summary().count, 0u) << "it only lies there";
+  EXPECT_EQ(component::Host::execution_ticks(counter).summary().count, cycles / 4);
+  EXPECT_EQ(component::Host::execution_ticks(gain).summary().count, cycles / 4);
+  EXPECT_EQ(component::Host::execution_ticks(sink).summary().count, 0u) << "it only lies there";
 }
 
 TEST(Application, ExecutionTimesAreUsuallyTakenFourTimesASecond) {
@@ -270,8 +271,8 @@ TEST(Application, ExecutionTimesAreUsuallyTakenFourTimesASecond) {
   ASSERT_TRUE(application.start().ok());
   application.run_for(10s);
   ASSERT_TRUE(application.stop().ok());
-  EXPECT_EQ(fast.execution_ticks().summary().count, 10'000u / 251);
-  EXPECT_EQ(slow.execution_ticks().summary().count, 100u / 3);
+  EXPECT_EQ(component::Host::execution_ticks(fast).summary().count, 10'000u / 251);
+  EXPECT_EQ(component::Host::execution_ticks(slow).summary().count, 100u / 3);
 }
 
 TEST_P(ApplicationTime, AnApplicationWithoutComponentsRunsToo) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/rt/guard.hpp"
@@ -71,8 +72,8 @@ Engine::Engine(std::string name, Activity activity, std::vector<Component*> memb
   context_.log = &log_;
   if (periodic()) context_.period = activity_.period;
   for (Component* member : members_) {
-    member->assign_context(context_);
-    if (member->has_aging_inputs()) aging_.push_back(member);
+    component::Host::assign_context(*member, context_);
+    if (component::Host::has_aging_inputs(*member)) aging_.push_back(member);
   }
   looking_.reserve(aging_.size());
 }
@@ -166,7 +167,7 @@ void Engine::run_cycle(base::Time now) ARMATURE_NONBLOCKING {
   open();
   begin_cycle();
   deliver_messages();
-  for (Component* component : updating_) component->update();
+  for (Component* component : updating_) component::Host::update(*component);
   deliver_messages();
   close(true);
 }
@@ -236,21 +237,22 @@ void Engine::settle_ages() {
 }
 
 bool Engine::ages_hold(Component& component) {
-  const base::Time hold = component.settle_ages();
+  const base::Time hold = component::Host::settle_ages(component);
   if (hold < component.time()) return false;
   ages_hold_until_ = std::min(ages_hold_until_, hold);
   return true;
 }
 
 void Engine::look_at_ages() {
-  for (Component* component : looking_) component->admits();
+  for (Component* component : looking_) component::Host::admits(*component);
   deliver_messages();
   std::erase_if(looking_, [this](Component* component) { return ages_hold(*component); });
 }
 
 base::Time Engine::next_expiry() const {
   base::Time next = base::later(ages_hold_until_, base::Duration(1));
-  for (const Component* component : looking_) next = std::min(next, component->next_expiry());
+  for (const Component* component : looking_)
+    next = std::min(next, component::Host::next_expiry(*component));
   return next;
 }
 
@@ -259,7 +261,7 @@ void Engine::close_account() {
   if (!std::exchange(account_open_, false)) return;
   cycle_ticks_.add(std::exchange(busy_, 0));
   context_.measuring = false;
-  Component::close_measurements(context_);
+  component::Host::close_measurements(context_);
 }
 
 void Engine::deliver_messages() {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/test_components.hpp"
 #include "armature/exec/task.hpp"
 #include "armature/rt/guard.hpp"
@@ -25,8 +26,8 @@ constexpr base::Time at(base::Duration time) { return base::Time(time); }
 template <typename... Components>
 void start(Components&... components) {
   const auto start_one = [](component::Component& each) {
-    ASSERT_TRUE(each.configure());
-    ASSERT_TRUE(each.start());
+    ASSERT_TRUE(component::Host::configure(each));
+    ASSERT_TRUE(component::Host::start(each));
   };
   (start_one(components), ...);
 }
@@ -153,11 +154,11 @@ TEST_F(EngineTest, ExecutionTimesAreTakenInEveryNthCycleAndIncludeMessages) {
   engine_.measure_every(2);
   for (int cycle = 1; cycle <= 6; ++cycle) {
     engine_.step(at(cycle * 10ms));
-    Task::post(engine_.context(), [&] { probe_.run(engine_.context(), [] {}); });
+    Task::post(engine_.context(), [&] { component::Host::run(probe_, engine_.context(), [] {}); });
     engine_.step(at(cycle * 10ms + 5ms));
   }
   engine_.close_account();
-  EXPECT_EQ(probe_.execution_ticks().summary().count, 3u) << "cycles 2, 4 and 6";
+  EXPECT_EQ(component::Host::execution_ticks(probe_).summary().count, 3u) << "cycles 2, 4 and 6";
 }
 
 // --- policies for late cycles --------------------------------------------------------------------
@@ -302,7 +303,7 @@ TEST_F(AgingEngine, OneThatStartsLaterIsWatchedFromThenOn) {
   watcher_.stop();
   engine_.step(at(0ms));
   EXPECT_EQ(engine_.next_due(), base::Time::max());
-  Task::post(engine_.context(), [this] { EXPECT_TRUE(watcher_.start()); });
+  Task::post(engine_.context(), [this] { EXPECT_TRUE(component::Host::start(watcher_)); });
   engine_.step(at(50ms));
   EXPECT_EQ(engine_.next_due(), at(60ms + 1ns));
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/component/host.hpp"
+
 namespace armature::exec {
 
 using component::Component;
@@ -39,7 +41,7 @@ Outcome Modes::begin_switch(ModeName name) {
   if (target == modes_.size()) return unknown(name);
   if (Outcome outcome = check_ready(target); !outcome) return outcome;
   wanted_ = target;
-  context().raise(request_);
+  component::Host::context(*this).raise(request_);
   return component::accepted();
 }
 
@@ -51,7 +53,7 @@ void Modes::Request::deliver(rt::Message& message) {
 
 void Modes::carry_out() {
   if (!switch_.active()) return;
-  run(context(), [this] {
+  component::Host::run(*this, component::Host::context(*this), [this] {
     if (const Outcome outcome = go_to(wanted_); !outcome) return switch_.fail(outcome.reason());
     switch_.complete();
   });
@@ -101,7 +103,7 @@ Outcome Modes::go_to(std::size_t target) {
     log_warning("stays in mode {}: {}", present(), outcome.reason());
     return outcome;
   }
-  for (Component* leaving : way.leaving) leaving->stop();
+  for (Component* leaving : way.leaving) component::Host::stop(*leaving);
   log_info("mode {} in place of {}", modes_[target].name.view(), present());
   present_ = target;
   mode_.assign(modes_[target].name);
@@ -114,12 +116,13 @@ Outcome Modes::start_members(std::size_t target) {
   started_.clear();
   for (Component* member : modes_[target].members) {
     if (was_started(*member)) continue;
-    const Outcome outcome = member->start();
+    const Outcome outcome = component::Host::start(*member);
     if (outcome) {
       started_.push_back(member);
       continue;
     }
-    for (auto each = started_.rbegin(); each != started_.rend(); ++each) (*each)->stop();
+    for (auto each = started_.rbegin(); each != started_.rend(); ++each)
+      component::Host::stop(**each);
     Reason why("'");
     return component::refused(
         why.append(member->name()).append("' refuses to start: ").append(outcome.reason()));

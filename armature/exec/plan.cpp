@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/plan.hpp"
 
+#include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec {
@@ -8,7 +9,8 @@ namespace {
 
 void check_mandatory_properties(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   for (const ComponentEntry& entry : blueprint.components) {
-    for (const component::PropertyBase* property : entry.component->interface().mandatory) {
+    for (const component::PropertyBase* property :
+         component::interface_of(*entry.component).mandatory) {
       if (property->was_set()) continue;
       diagnostics.error(entry.where,
                         "property " + internal::quoted(property->name()) + " of " +

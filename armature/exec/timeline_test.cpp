@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
 namespace armature::exec {
@@ -149,7 +150,7 @@ TEST(TimelineOfAnApplication, MessagesBetweenTwoCyclesAreShown) {
   ASSERT_TRUE(application.start().ok());
   application.run_for(15ms);
   rt::Signal signal([](rt::Message& message) { static_cast<rt::Signal&>(message).lower(); });
-  application.find("Source")->context().raise(signal);
+  component::Host::context(*application.find("Source")).raise(signal);
   application.run_for(1ms);
   application.stop();
   ASSERT_FALSE(kept.slices.empty());

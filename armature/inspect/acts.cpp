@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "armature/exec/inlets.hpp"
+
 namespace armature::inspect {
 namespace {
 
@@ -12,15 +14,23 @@ std::string plain_name(const Member& operation) {
 
 }  // namespace
 
-base::Result<void> set(exec::Application& application, const Member& property,
+base::Result<void> set(exec::Application& application, const Member& member,
                        const types::Value& value, exec::Caller caller) {
-  return application.set_property(property.component->name(), property.property->name(), value,
-                                  caller);
+  if (member.input != nullptr) {
+    return exec::write_for_operator(application, *member.input, value);
+  }
+  return application.set_property(member.component->name(), member.property->name(), value, caller);
 }
 
-base::Result<void> check_no_port(const Member& member) {
+base::Result<void> check_settable(const exec::Application& application, const Member& member,
+                                  exec::Caller caller) {
   if (member.port() == nullptr) return {};
-  return base::Error{"'" + member.name() + "' is a port: only components write it"};
+  const bool open =
+      member.input != nullptr && exec::is_open_to_operator(application, *member.input);
+  if (!open) return base::Error{"'" + member.name() + "' is a port: only components write it"};
+  if (caller == exec::Caller::kOperator) return {};
+  return base::Error{"'" + member.name() +
+                     "' is an input of the operator: only the operator writes it"};
 }
 
 base::Result<std::optional<types::Value>> call(exec::Application& application,

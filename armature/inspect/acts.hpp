@@ -19,12 +19,15 @@
 
 namespace armature::inspect {
 
-/// Sets a property, in its component's thread.
-base::Result<void> set(exec::Application& application, const Member& property,
+/// Sets a property, in its component's thread, or writes an input that is open to the operator.
+/// @param member  one that `check_settable` lets through
+base::Result<void> set(exec::Application& application, const Member& member,
                        const types::Value& value, exec::Caller caller);
 
-/// Why `member` cannot be set whatever the value; of an event or operation there is more to say.
-base::Result<void> check_no_port(const Member& member);
+/// Why the port `member` cannot be written by `caller` whatever the value. Of an event or operation
+/// there is more to say.
+base::Result<void> check_settable(const exec::Application& application, const Member& member,
+                                  exec::Caller caller);
 
 /// Calls an operation, or begins a command, and waits for the answer.
 /// @return what the operation gives

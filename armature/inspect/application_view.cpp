@@ -92,13 +92,12 @@ types::Value value_from(const types::Type& type, const std::string& text, const 
   return value;
 }
 
-/// A number with a unit in the property's own.
-std::string in_unit_of(const component::PropertyBase& property, const std::string& text,
-                       const std::string& name) {
+/// A number with a unit in that of the property or port.
+std::string in_unit_of(const Member& member, const std::string& text, const std::string& name) {
   const auto quantity = base::parse_quantity(text);
-  if (!quantity || quantity.value().unit.empty() || !types::is_number(property.type())) return text;
+  if (!quantity || quantity.value().unit.empty() || !types::is_number(member.type())) return text;
   const auto number =
-      base::convert(quantity.value().value, quantity.value().unit, std::string(property.unit()));
+      base::convert(quantity.value().value, quantity.value().unit, std::string(member.unit()));
   if (!number) throw Refusal(name + ": " + number.error());
   return types::Value::of(number.value()).text();
 }
@@ -213,12 +212,11 @@ ItemValue ApplicationView::write(const std::string& text, const std::string& val
   const Item item = answer_of(find_item(application_, text));
   const Member& member = item.member;
   const std::string name = member.name();
-  answer_of(check_no_port(member));
+  answer_of(check_settable(application_, member, caller_));
   if (!item.parts.empty()) {
     throw Refusal("'" + text + "' is a part: set the whole, " + name + " = ...");
   }
-  const types::Value wanted =
-      value_from(member.type(), in_unit_of(*member.property, value, name), name);
+  const types::Value wanted = value_from(member.type(), in_unit_of(member, value, name), name);
   answer_of(set(application_, member, wanted, caller_));
   return read({text}).front();
 }

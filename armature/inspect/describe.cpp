@@ -6,6 +6,7 @@
 
 #include "armature/base/alternatives.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/ports/port_array.hpp"
 #include "armature/inspect/internal/snapshot.hpp"
 #include "armature/types/elements.hpp"
@@ -50,7 +51,10 @@ class Describer {
       description_.port_arrays.push_back(
           {std::string(one->name()), std::string(one->count().name())});
     }
-    for (const auto* one : all.operations) add(*one);
+    const bool live = snapshot_ != nullptr;  // a model has all that it may offer
+    for (const auto* one : all.operations) {
+      if (!live || one->is_offered()) add(*one);
+    }
     for (std::size_t i = 0; i < all.events.size(); ++i) add(*all.events[i], i);
     for (std::size_t i = 0; i < all.callers.size(); ++i) add(*all.callers[i], i);
     for (std::size_t i = 0; i < all.handlers.size(); ++i) add(*all.handlers[i], i);
@@ -203,7 +207,7 @@ std::string doc_with_values(const std::string& doc, const std::vector<std::strin
 
 ComponentDescription internal::describe_interface(const Component& component,
                                                   const Snapshot* snapshot, Values values) {
-  return Describer(snapshot, values).describe(component.interface());
+  return Describer(snapshot, values).describe(component::interface_of(component));
 }
 
 ComponentDescription describe(const Component& component, std::string model, Values values) {

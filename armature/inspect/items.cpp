@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/types/elements.hpp"
 
 namespace armature::inspect {
@@ -99,7 +100,7 @@ std::string no_component(const Application& application, std::string_view text) 
 }
 
 std::vector<std::string> member_names(const Component& component) {
-  const component::Interface& interface = component.interface();
+  const component::Interface& interface = component::interface_of(component);
   std::vector<std::string> names;
   const auto add = [&](const auto& items) {
     for (const auto* item : items) names.emplace_back(item->name());
@@ -107,13 +108,15 @@ std::vector<std::string> member_names(const Component& component) {
   add(interface.properties);
   add(interface.inputs);
   add(interface.outputs);
-  add(interface.operations);
+  for (const auto* operation : interface.operations) {
+    if (operation->is_offered()) names.emplace_back(operation->name());
+  }
   add(interface.events);
   return names;
 }
 
 std::optional<Member> member_of(const Component& component, std::string_view name) {
-  const component::Interface& interface = component.interface();
+  const component::Interface& interface = component::interface_of(component);
   Member member;
   member.component = &component;
   const auto found_in = [name](const auto& items, auto& place) {

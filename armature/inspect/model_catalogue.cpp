@@ -115,6 +115,16 @@ std::string text_of(const ComponentDescription& description) {
   return text;
 }
 
+/// `; also Sensor#Mux (# is joints)`.
+std::string further_names(const Registry::Model& model) {
+  std::string names;
+  for (const Registry::FurtherName& one : model.further_names) {
+    const std::string number = one.property.empty() ? "" : " (# is " + one.property + ")";
+    add(names, one.name + number);
+  }
+  return names.empty() ? names : "; also " + names;
+}
+
 std::string origin(const Registry::Model& model) {
   return model.library.empty() ? "the program" : model.library;
 }
@@ -156,7 +166,7 @@ std::string list_models(const Registry& registry) {
   std::vector<Row> rows;
   for (const std::string& name : registry.names()) {
     const Registry::Model& model = *registry.find(name);
-    rows.push_back({name, origin(model), model.doc});
+    rows.push_back({name, origin(model), model.doc + further_names(model)});
   }
   return base::table_text(rows);
 }
@@ -166,8 +176,8 @@ base::Result<std::string> describe_model(const Registry& registry, std::string_v
   if (!model) return base::Error{model.error()};
   const auto description = internal::describe_model(*model.value());
   if (!description) return base::Error{description.error()};
-  return model.value()->name + ": " + model.value()->doc + " (library " + origin(*model.value()) +
-         ")\n" + text_of(description.value());
+  return model.value()->name + ": " + model.value()->doc + further_names(*model.value()) +
+         " (library " + origin(*model.value()) + ")\n" + text_of(description.value());
 }
 
 }  // namespace armature::inspect

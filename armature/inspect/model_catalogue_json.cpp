@@ -95,7 +95,12 @@ Json list(const Items& items) {
 }
 
 Json json_of(const component::Registry::Model& model, const ComponentDescription& description) {
+  Json further = Json::array();
+  for (const auto& one : model.further_names) {
+    further.push_back({{"name", one.name}, {"number", one.property}});
+  }
   return {{"name", model.name},
+          {"further_names", std::move(further)},
           {"library", model.library},
           {"doc", model.doc},
           {"properties", list(description.properties)},

@@ -9,6 +9,7 @@
 #include "armature/base/quoted.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 
 namespace armature::inspect {
 namespace {
@@ -90,7 +91,7 @@ void look_at_ports(ModelCheck& check, const std::string& kind, const Ports& port
 
 std::vector<std::string> mistakes_of_model(const component::Component& component,
                                            const component::Registry::Model& model) {
-  const component::Interface& interface = component.interface();
+  const component::Interface& interface = component::interface_of(component);
   ModelCheck check(model);
   for (const auto* property : interface.properties) {
     check.look_at(property->persistent() ? "property" : "attribute", *property);

@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"Axis:moveTo(-1)", "Axis.moveTo: the target is outside the axis"},
         Refusal{"Axis:moveTo(5); Axis:moveTo(6)",
-                "Axis.moveTo: the previous command is still under way"},
+                "Axis.moveTo: the previous command is still under way, and this command does not "
+                "queue"},
         Refusal{"Axis:moveTo()",
                 "Axis.moveTo takes 1 argument, not 0: it is void(double target [m])"},
         Refusal{"Axis:moveTo(1, 2)",

@@ -28,7 +28,8 @@ TEST(Time, OfACommandsEndIsTheInstantAtWhichItEnded) {
   Bench bench;
   EXPECT_EQ(bench.run("Axis:moveTo(5)\n"
                       "local move = Axis:moveTo(0)\n"),
-            "robot.lua:2: error: Axis.moveTo: the previous command is still under way\n");
+            "robot.lua:2: error: Axis.moveTo: the previous command is still under way, and "
+            "this command does not queue\n");
   Bench other;
   EXPECT_EQ(other.run("assert(wait(Axis:moveTo(5)))\nprint(now())\nstop()"), "");
   EXPECT_THAT(other.lines, ElementsAre("0.05")) << "a step at each of 10, 20, 30, 40, 50 ms";

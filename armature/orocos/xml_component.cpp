@@ -80,9 +80,10 @@ class ComponentReader {
     } else if (name == "AutoSave") {
       add_entry(body_, "autosave", value_of(child, diagnostics_));
     } else if (name == "Service" || name == "Plugin" || name == "Provides") {
-      warn(child, "service " + in_quotes(child.text) + " is left out: Armature has no services");
+      warn("service_left_out", child,
+           "service " + in_quotes(child.text) + " is left out: Armature has no services");
     } else if (name == "Server" || name == "UseNamingService") {
-      warn(child, name + " is left out: Armature does not use CORBA");
+      warn("service_left_out", child, name + " is left out: Armature does not use CORBA");
     } else if (name == "AutoConnect" && value_of(child, diagnostics_).text == "false") {
       return;
     } else {
@@ -121,8 +122,9 @@ class ComponentReader {
     diagnostics_.error(where, "component " + in_quotes(element_.name) + ": " + message,
                        std::move(hint));
   }
-  void warn(const XmlElement& child, const std::string& message) {
-    diagnostics_.warning(child.where, "component " + in_quotes(element_.name) + ": " + message);
+  void warn(const char* name, const XmlElement& child, const std::string& message) {
+    diagnostics_.named_warning(name, child.where,
+                               "component " + in_quotes(element_.name) + ": " + message);
   }
 
   void read_property_file(const XmlElement& child) {
@@ -196,7 +198,8 @@ class ComponentReader {
     }
     for (const XmlElement& setting : element.children) {
       if (sequential) {
-        warn(setting, setting.name + " is left out: a sequential activity has none");
+        warn("setting_left_out", setting,
+             setting.name + " is left out: a sequential activity has none");
       } else {
         read_setting(setting, map);
       }
@@ -213,11 +216,12 @@ class ComponentReader {
     if (scheduler == nullptr) return;
     const bool zero = child_of(element, "Priority") != nullptr && priority == nullptr;
     if (scheduler->value.text == "realtime" && zero) {
-      warn(element, "Priority 0 of ORO_SCHED_RT is read as Priority 1");
+      warn("priority_changed", element, "Priority 0 of ORO_SCHED_RT is read as Priority 1");
       add_entry(map, "priority", "1", element.where);
     } else if (scheduler->value.text == "other" && priority != nullptr) {
-      warn(element, "Priority " + priority->value.text +
-                        " is left out: threads of ORO_SCHED_OTHER have none");
+      warn("priority_changed", element,
+           "Priority " + priority->value.text +
+               " is left out: threads of ORO_SCHED_OTHER have none");
       std::erase_if(map.entries, [](const Property& one) { return one.name == "priority"; });
     }
   }

@@ -48,8 +48,9 @@ class ConnectionReader {
   void read_policy(const XmlElement& policy, Value& list) {
     const auto ports = ports_.find(policy.name);
     if (ports == ports_.end()) {
-      diagnostics_.warning(policy.where, "connection " + in_quotes(policy.name) + " has no ports",
-                           base::suggestion(policy.name, names_of_connections()));
+      diagnostics_.named_warning("unused_connection", policy.where,
+                                 "connection " + in_quotes(policy.name) + " has no ports",
+                                 base::suggestion(policy.name, names_of_connections()));
       return;
     }
     const std::string* from = extra(policy, "from");

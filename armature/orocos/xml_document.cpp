@@ -132,9 +132,10 @@ class DocumentReader {
 
   /// What OROCOS has no word for, as attributes of the root.
   void read_extras(const XmlElement& root) {
-    constexpr std::array<std::string_view, 12> kKnown = {
-        "application", "on_fault",     "black_box", "parameters", "composed", "grants",
-        "before_stop", "hold_at_stop", "network",   "modes",      "mode",     "threads"};
+    constexpr std::array<std::string_view, 15> kKnown = {
+        "application", "on_fault",    "black_box",    "parameters", "composed",
+        "grants",      "before_stop", "hold_at_stop", "network",    "modes",
+        "mode",        "threads",     "priorities",   "accept",     "operator_inputs"};
     XmlElement known;
     known.where = root.where;
     known.extras = root.extras;

@@ -50,10 +50,10 @@ class SlaveReader {
     const std::string owner = "component " + in_quotes(component.name) + ": ";
     const XmlElement* const master = child_of(activity, "Master");
     if (master == nullptr) {
-      diagnostics_.warning(activity.where,
-                           owner +
-                               "a SlaveActivity without Master is read as a "
-                               "SequentialActivity: it runs when data or a call arrives");
+      diagnostics_.named_warning("slave_without_master", activity.where,
+                                 owner +
+                                     "a SlaveActivity without Master is read as a "
+                                     "SequentialActivity: it runs when data or a call arrives");
       make_sequential(activity);
       return;
     }

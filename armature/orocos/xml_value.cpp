@@ -84,9 +84,10 @@ Value values_of(const XmlElement& bag, base::Diagnostics& diagnostics) {
     list.items.push_back(value_of(child, diagnostics));
   }
   if (!alike) {
-    diagnostics.warning(bag.where, "struct " + in_quotes(bag.name) +
-                                       " has entries of the same name or without one: it is read "
-                                       "as the list of their values, names are left out");
+    diagnostics.named_warning("names_left_out", bag.where,
+                              "struct " + in_quotes(bag.name) +
+                                  " has entries of the same name or without one: it is read "
+                                  "as the list of their values, names are left out");
   }
   normalise_type(list);
   return list;

@@ -84,9 +84,9 @@ class DeployerWriter {
 
   Attributes root_attributes() {
     Attributes attributes = {{"xmlns:armature", "urn:armature:deployment"}};
-    for (const char* key :
-         {"application", "on_fault", "black_box", "parameters", "composed", "grants", "before_stop",
-          "hold_at_stop", "network", "modes", "mode", "threads"}) {
+    for (const char* key : {"application", "on_fault", "black_box", "parameters", "composed",
+                            "grants", "before_stop", "hold_at_stop", "network", "modes", "mode",
+                            "threads", "priorities", "accept", "operator_inputs"}) {
       extend(attributes, tree_, key);
     }
     return attributes;

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/component/interface.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/remote/value_codec.hpp"
 
@@ -32,7 +33,7 @@ ExportedComponent::ExportedComponent(const InterfaceNumbers& numbers,
   const RunInThread run = [&application](component::Component& owner, std::function<void()> work) {
     return application.run_in_thread_of(owner, std::move(work));
   };
-  const component::Interface& interface = component.interface();
+  const component::Interface& interface = component::interface_of(component);
   for (const NumberedMember& member : numbers.members()) {
     if (member.kind == NumberedMember::Kind::kEvent) {
       events_.emplace_back(
@@ -51,7 +52,7 @@ ExportedComponent::~ExportedComponent() = default;
 std::vector<const types::Type*> ExportedComponent::parameters_of(
     const NumberedMember& member) const {
   std::vector<const types::Type*> types;
-  const component::Interface& interface = component_.interface();
+  const component::Interface& interface = component::interface_of(component_);
   if (member.kind == NumberedMember::Kind::kInput)
     types.push_back(&interface.inputs[member.index]->type());
   if (member.kind == NumberedMember::Kind::kOperation ||
@@ -115,7 +116,7 @@ void ExportedComponent::perform(Request& request) {
 }
 
 void ExportedComponent::call(Request& request) {
-  const auto& operation = *component_.interface().operations[request.member.index];
+  const auto& operation = *component::interface_of(component_).operations[request.member.index];
   const auto answer = application_.call(component_.name(), operation.name(),
                                         std::move(request.arguments), exec::Caller::kRemote);
   if (!answer) return fail(request.reply, operation.name(), answer.error());
@@ -125,7 +126,7 @@ void ExportedComponent::call(Request& request) {
 }
 
 void ExportedComponent::begin(Request& request) {
-  const auto& operation = *component_.interface().operations[request.member.index];
+  const auto& operation = *component::interface_of(component_).operations[request.member.index];
   if (request.origin.lost()) {
     return fail(request.reply, operation.name(), "the client that asked for it has gone");
   }
@@ -138,7 +139,8 @@ void ExportedComponent::begin(Request& request) {
 }
 
 void ExportedComponent::write(Request& request) {
-  component::InputPortBase& input = *component_.interface().inputs[request.member.index];
+  component::InputPortBase& input =
+      *component::interface_of(component_).inputs[request.member.index];
   const base::Result<void> written = write_(input, request.arguments.front());
   if (written) return request.reply.done();
   fail(request.reply, input.name(), written.error());
@@ -163,7 +165,7 @@ std::uint64_t ExportedComponent::serve() {
   for (const auto& event : events_) {
     if (!event->feed.attached()) continue;
     const component::Signature& signature =
-        component_.interface().events[event->index]->signature();
+        component::interface_of(component_).events[event->index]->signature();
     event->feed.take([&](const void* const* arguments) {
       const std::tuple members{OutgoingArguments{&signature, arguments}};
       publish(event->number, ride::Fields(members), {});
@@ -172,7 +174,7 @@ std::uint64_t ExportedComponent::serve() {
   }
   for (const auto& output : outputs_) {
     if (!output->feed.attached()) continue;
-    const types::Type& type = component_.interface().outputs[output->index]->type();
+    const types::Type& type = component::interface_of(component_).outputs[output->index]->type();
     output->feed.take([&](const component::TappedSample& sample, const void* value) {
       publish_sample(output->number, sample.sequence, sample.time, type, value);
     });
@@ -216,7 +218,7 @@ void ExportedComponent::open_and_close_feeds() {
 void ExportedComponent::follow_commands() {
   const base::Time now = platform::monotonic_now();
   for (UnderWay& one : under_way_) {
-    const auto& operation = *component_.interface().operations[one.index];
+    const auto& operation = *component::interface_of(component_).operations[one.index];
     one.command.cancel_if_lost(component_.name() + "." + std::string(operation.name()), now, tell_);
   }
   std::erase_if(under_way_, [this](UnderWay& command) { return follow(command); });
@@ -241,7 +243,8 @@ bool ExportedComponent::follow(UnderWay& command) {
   }
   std::string problem(component::name_of(stage));
   if (!handle.reason().empty()) problem += ": " + std::string(handle.reason());
-  fail(command.reply, component_.interface().operations[command.index]->name(), problem);
+  fail(command.reply, component::interface_of(component_).operations[command.index]->name(),
+       problem);
   return true;
 }
 

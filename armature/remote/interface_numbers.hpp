@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/component/component.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/ride/interface.hpp"
 
 namespace armature::remote {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 
 namespace armature::remote {
 namespace {
@@ -36,7 +37,7 @@ class Generator final : public component::Component {
 
 TEST(InterfaceNumbers, AreThoseOfTheCanonicalDeclarations) {
   const Generator generator("Generator");
-  const InterfaceNumbers numbers("Generator", generator.interface());
+  const InterfaceNumbers numbers("Generator", component::interface_of(generator));
   std::vector<std::string> declarations;
   for (const ride::Declaration& one : numbers.interface().declarations) {
     declarations.emplace_back(one.canonical);
@@ -55,7 +56,7 @@ TEST(InterfaceNumbers, AreThoseOfTheCanonicalDeclarations) {
 
 TEST(InterfaceNumbers, SayWhoMayUseThem) {
   const Generator generator("Generator");
-  const InterfaceNumbers numbers("Generator", generator.interface());
+  const InterfaceNumbers numbers("Generator", component::interface_of(generator));
   for (const ride::Declaration& one : numbers.interface().declarations) {
     EXPECT_EQ(one.access, one.is_event() ? ride::Access::kRead : ride::Access::kCommand);
   }

@@ -6,9 +6,10 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/exec/inlets.hpp"
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
-#include "armature/remote/inlets.hpp"
 #include "armature/remote/inspector.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
@@ -69,7 +70,7 @@ class RideNetwork final : public Network {
 
   std::unique_ptr<component::Component> make_inlets(
       const std::vector<component::InputPortBase*>& inputs) override {
-    auto inlets = std::make_unique<Inlets>(inputs);
+    auto inlets = std::make_unique<exec::Inlets>(document::kNetworkName, inputs);
     inlets_ = inlets.get();
     return inlets;
   }
@@ -156,7 +157,8 @@ class RideNetwork final : public Network {
       diagnostics.error({}, added.error());
     }
     for (const exec::ComponentEntry& entry : application.blueprint().components) {
-      auto numbers = std::make_unique<InterfaceNumbers>(entry.model, entry.component->interface());
+      auto numbers = std::make_unique<InterfaceNumbers>(entry.model,
+                                                        component::interface_of(*entry.component));
       auto service = std::make_unique<ExportedComponent>(
           *numbers, *entry.component, application, queue_,
           [this, &application](component::InputPortBase& input, const types::Value& value) {
@@ -220,8 +222,12 @@ class RideNetwork final : public Network {
 
   base::Result<void> write_input(exec::Application& application,
                                  const component::InputPortBase& input, const types::Value& value) {
-    if (inlets_ != nullptr) return inlets_->write(application, input, value);
-    return Inlets::not_open(input);
+    if (inlets_ != nullptr && inlets_->writes(input)) {
+      return inlets_->write(application, input, value);
+    }
+    return base::Error{"'" + input.owner().name() + "." + input.name() +
+                       "' is not open to other processes: list it in its deployment, network: "
+                       "{inputs: [...]}"};
   }
 
   void say(const std::string& component, std::uint64_t dropped) {
@@ -263,7 +269,7 @@ class RideNetwork final : public Network {
   }
 
   NetworkOptions options_;
-  Inlets* inlets_ = nullptr;
+  exec::Inlets* inlets_ = nullptr;
   exec::Application* application_ = nullptr;
   std::mutex log_mutex_;
   std::vector<rt::LogRecord> log_;  ///< since `serve` was called last

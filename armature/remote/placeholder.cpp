@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/host.hpp"
 #include "armature/remote/value_codec.hpp"
 #include "armature/rt/guard.hpp"
 
@@ -45,7 +46,7 @@ Placeholder::Placeholder(std::string name, std::unique_ptr<component::Component>
                          std::function<ride::Peer&()> where)
     : StandIn(std::move(name)),
       prototype_(std::move(prototype)),
-      numbers_(std::move(model), prototype_->interface()),
+      numbers_(std::move(model), component::interface_of(*prototype_)),
       remote_name_(std::move(remote_name)),
       where_(std::move(where)) {
   address.assign(peer_address);
@@ -55,7 +56,7 @@ Placeholder::Placeholder(std::string name, std::unique_ptr<component::Component>
 Placeholder::~Placeholder() { let_go(); }
 
 void Placeholder::make_twins() {
-  const component::Interface& original = prototype_->interface();
+  const component::Interface& original = component::interface_of(*prototype_);
   for (const NumberedMember& member : numbers_.members()) {
     switch (member.kind) {
       case NumberedMember::Kind::kOutput:
@@ -132,7 +133,7 @@ bool Placeholder::take(NumberedMember::Kind kind, std::size_t index, ride::Decod
     arrival.values.push_back(std::move(value));
     return true;
   };
-  const component::Interface& original = prototype_->interface();
+  const component::Interface& original = component::interface_of(*prototype_);
   bool good = true;
   if (kind == NumberedMember::Kind::kProgress) {
     good = members.take(arrival.progress);
@@ -177,13 +178,14 @@ void Placeholder::Mailbox::put(Arrival arrival) {
     ++overflowed;
   }
   arrivals.push_back(std::move(arrival));
-  owner->context().raise(owner->bell_);
+  component::Host::context(*owner).raise(owner->bell_);
 }
 
 void Placeholder::Bell::deliver(rt::Message& message) {
   auto& bell = static_cast<Bell&>(message);
   bell.lower();
-  bell.self.run_handler(bell.self.context(), [&bell] { bell.self.look_at_arrivals(); });
+  component::Host::run_handler(bell.self, component::Host::context(bell.self),
+                               [&bell] { bell.self.look_at_arrivals(); });
 }
 
 void Placeholder::look_at_arrivals() {

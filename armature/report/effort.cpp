@@ -39,10 +39,11 @@ std::vector<Effort> voltages(const Signals& signals) {
   std::vector<Effort> efforts;
   for (const Signal& signal : signals.all) {
     const std::string_view name = signal.name;
-    if (!name.starts_with("Joint") || !name.ends_with(kVoltage)) continue;
+    if (!name.ends_with(kVoltage)) continue;
     const std::string component(name.substr(0, name.size() - kVoltage.size()));
-    efforts.push_back(make_effort(component.substr(std::string_view("Joint").size()), signal,
-                                  limit_in(signals, component + ".MaxVoltage", 0)));
+    const std::optional<std::string> joint = joint_named(component);
+    if (!joint) continue;
+    efforts.push_back(make_effort(*joint, signal, limit_in(signals, component + ".MaxVoltage", 0)));
   }
   std::sort(efforts.begin(), efforts.end(),
             [](const Effort& a, const Effort& b) { return before_by_number(a.joint, b.joint); });

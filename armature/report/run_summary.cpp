@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
@@ -71,7 +72,8 @@ Json threads_of(const exec::Application& application, base::Duration duration) {
 Json counters_of(const exec::Application& application) {
   Json counters = Json::object();
   for (const exec::ComponentEntry& entry : application.blueprint().components) {
-    for (const component::PropertyBase* item : entry.component->interface().properties) {
+    for (const component::PropertyBase* item :
+         component::interface_of(*entry.component).properties) {
       if (item->persistent()) continue;
       const std::string name = entry.component->name() + '.' + std::string(item->name());
       long long value = 0;
@@ -137,7 +139,8 @@ Json limits_of(const exec::Application& application) {
   constexpr std::array<std::string_view, 3> kNames = {"MaxVelocity", "MaxTorque", "MaxVoltage"};
   Json limits = Json::object();
   for (const exec::ComponentEntry& entry : application.blueprint().components) {
-    for (const component::PropertyBase* item : entry.component->interface().properties) {
+    for (const component::PropertyBase* item :
+         component::interface_of(*entry.component).properties) {
       if (std::ranges::find(kNames, item->name()) == kNames.end()) continue;
       const std::string name = entry.component->name() + '.' + std::string(item->name());
       if (types::same_type(item->type(), types::type_of<double>())) {

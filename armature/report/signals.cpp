@@ -166,6 +166,19 @@ bool before_by_number(const std::string& left, const std::string& right) {
   return a.size() < b.size();
 }
 
+std::optional<std::string> joint_named(std::string_view component) {
+  constexpr std::string_view kJoint = "Joint";
+  constexpr std::string_view kPart = ".Joint";
+  if (component.ends_with(kPart)) {
+    component.remove_suffix(kPart.size());
+    const std::size_t last = component.find_last_not_of("0123456789");
+    const bool numbered = last != std::string_view::npos && last + 1 < component.size();
+    return std::string(numbered ? component.substr(last + 1) : component);
+  }
+  if (!component.starts_with(kJoint)) return std::nullopt;
+  return std::string(component.substr(kJoint.size()));
+}
+
 Signal thinned(const Signal& signal, std::size_t most) {
   const std::size_t size = signal.values.size();
   if (size <= most) return signal;

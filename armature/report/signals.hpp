@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/record/mcap_reader.hpp"
@@ -30,6 +31,10 @@ struct Signals {
 /// The elements of the first vector whose port is called `.sensor`, or what `port` says, of
 /// whatever component: `Sensor.sensor[0]` and on.
 std::vector<const Signal*> elements_of_port(const Signals& signals, const std::string& port);
+
+/// Which joint a component is by its name: `2` of `Joint2`, and of `AIC2.Joint`, the part of a
+/// composite; nullopt: none.
+std::optional<std::string> joint_named(std::string_view component);
 
 /// The bound of a joint that the property `Component.MaxTorque`, or what `name` says, has: a
 /// number, or a vector with one for each joint or one for all.

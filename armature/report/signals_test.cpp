@@ -121,5 +121,13 @@ TEST(Signals, OfARealRunBeginAtZero) {
   EXPECT_THAT(signals.all[1].time_s, ElementsAre(0.0));
 }
 
+TEST(Signals, AreOfTheJointThatTheirComponentIsByItsName) {
+  EXPECT_EQ(joint_named("Joint12"), "12");
+  EXPECT_EQ(joint_named("AIC2.Joint"), "2");
+  EXPECT_EQ(joint_named("Pan.Joint"), "Pan");
+  EXPECT_EQ(joint_named("AIC2.Card"), std::nullopt);
+  EXPECT_EQ(joint_named("WAM"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace armature::report

@@ -115,9 +115,14 @@ struct Window {
   double end_s = kNever;
 };
 
-/// `Joint2.Armed`, or `Wam.Armed2` of hardware that has all joints.
+/// `Joint2.Armed`, `AIC2.Joint.Armed`, or `Wam.Armed2` of hardware that has all joints.
 const Signal* armed_signal(const Signals& signals, const std::string& joint) {
-  if (const Signal* const own = signals.find("Joint" + joint + ".Armed")) return own;
+  constexpr std::string_view kArmed = ".Armed";
+  for (const Signal& signal : signals.all) {
+    const std::string_view name = signal.name;
+    if (!name.ends_with(kArmed)) continue;
+    if (joint_named(name.substr(0, name.size() - kArmed.size())) == joint) return &signal;
+  }
   const auto found =
       std::find_if(signals.all.begin(), signals.all.end(),
                    [&](const Signal& signal) { return ends_in(signal.name, ".Armed" + joint); });

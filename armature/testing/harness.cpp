@@ -5,6 +5,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/base/quoted.hpp"
+#include "armature/component/host.hpp"
 
 namespace armature::testing {
 
@@ -36,21 +37,23 @@ Harness::Harness(std::unique_ptr<component::Component> component, base::Duration
 }
 
 Harness::~Harness() {
-  component_->stop();
-  component_->cleanup();
-  for (auto* event : component_->interface().events) event->unsubscribe_all();
-  for (auto* caller : component_->interface().callers) caller->disconnect();
+  component::Host::stop(*component_);
+  component::Host::cleanup(*component_);
+  for (auto* event : component::interface_of(*component_).events) event->unsubscribe_all();
+  for (auto* caller : component::interface_of(*component_).callers) caller->disconnect();
 }
 
 component::Outcome Harness::start() {
   using component::State;
   engine_.context().cycle_time = now_;  // as an application does before it starts anything
   if (state() == State::kPreOperational) {
-    if (component::Outcome configured = component_->configure(); !configured) return configured;
-    for (auto* output : component_->interface().outputs) output->prepare();
+    if (component::Outcome configured = component::Host::configure(*component_); !configured)
+      return configured;
+    for (auto* output : component::interface_of(*component_).outputs) output->prepare();
   }
-  if (component::Outcome activated = component_->activate(); !activated) return activated;
-  component::Outcome started = component_->start();
+  if (component::Outcome activated = component::Host::activate(*component_); !activated)
+    return activated;
+  component::Outcome started = component::Host::start(*component_);
   engine_.begin(now_);
   return started;
 }
@@ -58,7 +61,7 @@ component::Outcome Harness::start() {
 void Harness::run_cycles(int count) {
   for (int i = 0; i < count; ++i) {
     now_ += period_;
-    in_thread([this] { component_->update(); });
+    in_thread([this] { component::Host::update(*component_); });
   }
 }
 
@@ -86,31 +89,33 @@ const std::vector<std::string>& Harness::log() {
 }
 
 component::PropertyBase& Harness::find_property(std::string_view name) const {
-  return find_in(component_->interface().properties, *component_, "property", name);
+  return find_in(component::interface_of(*component_).properties, *component_, "property", name);
 }
 
 component::InputPortBase& Harness::find_input(std::string_view name) const {
-  return find_in(component_->interface().inputs, *component_, "input", name);
+  return find_in(component::interface_of(*component_).inputs, *component_, "input", name);
 }
 
 component::OutputPortBase& Harness::find_output(std::string_view name) const {
-  return find_in(component_->interface().outputs, *component_, "output", name);
+  return find_in(component::interface_of(*component_).outputs, *component_, "output", name);
 }
 
 component::OperationBase& Harness::find_operation(std::string_view name) const {
-  return find_in(component_->interface().operations, *component_, "operation", name);
+  return find_in(component::interface_of(*component_).operations, *component_, "operation", name);
 }
 
 component::OperationCallerBase& Harness::find_caller(std::string_view name) const {
-  return find_in(component_->interface().callers, *component_, "use of an operation", name);
+  return find_in(component::interface_of(*component_).callers, *component_, "use of an operation",
+                 name);
 }
 
 component::EventBase& Harness::find_event(std::string_view name) const {
-  return find_in(component_->interface().events, *component_, "event", name);
+  return find_in(component::interface_of(*component_).events, *component_, "event", name);
 }
 
 component::EventHandlerBase& Harness::find_handler(std::string_view name) const {
-  return find_in(component_->interface().handlers, *component_, "handler of an event", name);
+  return find_in(component::interface_of(*component_).handlers, *component_, "handler of an event",
+                 name);
 }
 
 void Harness::check_type(std::string_view item, const types::Type& is,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/testing/internal/fakes.hpp"
 
@@ -59,7 +60,7 @@ class Harness {
 
   /// Configures, activates and starts; the first refusal ends it.
   component::Outcome start();
-  void stop() { component_->stop(); }
+  void stop() { component::Host::stop(*component_); }
 
   base::Time now() const { return component_->time(); }
   /// Lets a period pass and runs a cycle, `count` times.
@@ -145,9 +146,9 @@ Fake& Harness::fake(std::string_view name, const Connect& connect) {
     if (known != nullptr && known->name() == name) return *known;
   }
   auto made = std::make_unique<Fake>(std::string(name));
-  made->assign_context(engine_.context());
-  static_cast<void>(made->configure());
-  static_cast<void>(made->start());
+  component::Host::assign_context(*made, engine_.context());
+  static_cast<void>(component::Host::configure(*made));
+  static_cast<void>(component::Host::start(*made));
   connect(*made);
   Fake& result = *made;
   fakes_.push_back(std::move(made));

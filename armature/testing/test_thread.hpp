@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/component.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/lanes.hpp"
 
 namespace armature::component {
@@ -26,7 +27,7 @@ class TestThread {
   }
   template <typename... Components>
   void add(Components&... components) {
-    (components.assign_context(context), ...);
+    (Host::assign_context(components, context), ...);
   }
 
   /// Its connections are made: from now on data may leave it in batches.
@@ -64,12 +65,12 @@ template <typename... Components>
 void start(Components&... components) {
   const auto start_one = [](Component& component) {
     if (component.state() == State::kPreOperational) {
-      const Outcome configured = component.configure();
+      const Outcome configured = Host::configure(component);
       EXPECT_TRUE(configured) << component.name() << ": " << configured.reason();
     }
-    const Outcome activated = component.activate();
+    const Outcome activated = Host::activate(component);
     EXPECT_TRUE(activated) << component.name() << ": " << activated.reason();
-    const Outcome started = component.start();
+    const Outcome started = Host::start(component);
     EXPECT_TRUE(started) << component.name() << ": " << started.reason();
   };
   (start_one(components), ...);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/controllers/actuator_demux/actuator_demux.hpp"
 #include "armature/controllers/arming/arming.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
@@ -27,7 +28,7 @@ constexpr double kUnwatched = 1e3;
 
 template <typename T>
 void set(Component& component, std::string_view name, const T& value) {
-  for (component::PropertyBase* property : component.interface().properties) {
+  for (component::PropertyBase* property : component::interface_of(component).properties) {
     if (property->name() != name) continue;
     if (const auto done = property->set(types::Value::of(value)); !done) {
       throw std::runtime_error(component.name() + ": " + done.error());

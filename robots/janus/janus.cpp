@@ -9,6 +9,7 @@ using namespace armature::janus;
 
 ARMATURE_COMPONENT_LIBRARY(janus, registry) {
   registry.add<Aic>("AIC", "an AIC card: the hardware of a joint");
+  registry.add<AicWithGear>("AICCard", "an AIC card with the properties of paper 2, section 5.1");
   registry.add<AicBus>("AICBus", "the host of AIC cards on a CAN interface");
   registry.add<SimulatedJanus>("SimulatedJanus",
                                "the simulated head with its cards, and their host");

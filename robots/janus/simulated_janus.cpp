@@ -20,7 +20,7 @@ base::Result<std::unique_ptr<can::Link>> SimulatedJanus::make_link() {
                        ", expected 1 or 2: the head has two"};
   }
   const Head::Config head{.urdf_file = urdf_, .inner_step = base::from_seconds(inner_step_)};
-  const bool simulated = context().simulated;
+  const bool simulated = is_simulated();
   auto made = SimulatedLink::make(
       head, simulated ? SimulatedLink::Time::kSimulated : SimulatedLink::Time::kReal,
       simulated ? time() : platform::monotonic_now());

@@ -8,13 +8,14 @@
 namespace armature::wam {
 
 void ActuatorWam::actuate(const std::vector<double>& act) {
-  take_sample();
+  const bool sampled = take_sample();
   for (std::size_t i = 0; i < act.size(); ++i) {
     if (std::isfinite(act[i])) continue;
     component::Reason why("the torque for joint ");
     controllers::append_number(why, static_cast<double>(i + 1)).append(" is ");
     return fault(controllers::append_number(why, act[i]).append(", expected finite numbers"));
   }
+  if (!sampled) return unsampled_.assign(unsampled_ + 1);
   torque_.write(act);
 }
 

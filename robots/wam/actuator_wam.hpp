@@ -9,7 +9,8 @@
 namespace armature::wam {
 
 /// The actuators of the arm (paper 3, ActuatorWAM): hands the torques of all joints on to
-/// WamHardware. One that is no finite number is a fault, and nothing is handed on.
+/// WamHardware, once for each Sample (paper 1, section 3); torques without a Sample are counted and
+/// go no further. One that is no finite number is a fault, and nothing is handed on.
 /// @rt nonblocking, no allocation, O(joints)
 class ActuatorWam final : public controllers::Actuator, public controllers::DrivesJoints {
  public:
@@ -21,6 +22,14 @@ class ActuatorWam final : public controllers::Actuator, public controllers::Driv
  private:
   void actuate(const std::vector<double>& act) override;
 
+  component::Outcome on_start() override {
+    unsampled_.assign(0);
+    return Actuator::on_start();
+  }
+
+  component::Attribute<int> unsampled_{
+      this, "act_without_sample", 0,
+      "values of `act` since the start that came without a Sample: nothing was handed on"};
   component::OutputPort<std::vector<double>> torque_{this, "Torque", "of the joints", "V",
                                                      component::size_of(joints_)};
 };

@@ -20,7 +20,10 @@ class ControllerWamTest : public ::testing::Test {
   void desire(double first) {
     controller.write("reference", Vector{first, 2.0, 3.0, 4.0, 9.0, 9.0, 9.0, 9.0, 0, 0, 0, 0});
   }
-  void measure() { controller.write("sensor", Vector(8, 0.0)); }
+  void measure() {
+    controller.raise("Sample");
+    controller.write("sensor", Vector(8, 0.0));
+  }
   void answer(const Vector& torques) { controller.write("ControlData", torques); }
 
   testing::Harness controller{std::make_unique<ControllerWam>("Controller")};

@@ -146,7 +146,7 @@ Outcome WamHardware::make_link() {
   }
   EmulatedLink::Config config;
   config.arm.urdf_file = description_.file();
-  config.time = context().simulated ? EmulatedLink::Time::kSimulated : EmulatedLink::Time::kReal;
+  config.time = is_simulated() ? EmulatedLink::Time::kSimulated : EmulatedLink::Time::kReal;
   config.begin = time();
   auto made = EmulatedLink::make(*numbers_, config);
   if (!made) return component::refused(made.error());
@@ -180,7 +180,7 @@ Outcome WamHardware::connect(bool said_at_home) {
 }
 
 Outcome WamHardware::guard_arm() {
-  if (context().simulated) return component::accepted();
+  if (is_simulated()) return component::accepted();
   const Outcome outcome =
       emulated_ != nullptr ? guard_.do_without("the emulated arm ends with this process")
                            : guard_.start(guard_orders(driver_->arm(), bus_,

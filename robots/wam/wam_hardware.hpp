@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/waits_for_operator.hpp"
 #include "armature/controllers/base/guarded_bus.hpp"
 #include "armature/controllers/base/max_age.hpp"
@@ -75,7 +76,7 @@ class WamHardware final : public component::Component,
   /// Has the pucks braked whatever it is that ends a run: a stop, a fault, an exception.
   class Ending final : public component::Step {
    public:
-    explicit Ending(WamHardware& arm) : arm_(arm) { arm.add_step(*this, true); }
+    explicit Ending(WamHardware& arm) : arm_(arm) { component::Host::add_step(arm, *this, true); }
     void step() override {}
     void halt(std::string_view /*reason*/) override { arm_.make_safe(); }
 

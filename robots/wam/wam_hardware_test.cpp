@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/testing/harness.hpp"
 #include "robots/wam/test_arms.hpp"
 
@@ -24,7 +25,7 @@ using ::testing::HasSubstr;
 class WamHardwareTest : public ::testing::Test {
  protected:
   WamHardwareTest() : bench(std::make_unique<WamHardware>("WAM"), 2ms) {
-    bench.component().context().simulated = true;
+    component::Host::context(bench.component()).simulated = true;
     bench.set("joints", 4);
     bench.set("Period", 0.002);
     bench.set("robot_description", description_of(wam4()));
@@ -120,7 +121,7 @@ TEST_F(WamHardwareTest, ARunThatFindsTheArmActiveHasItIdledFirst) {
   start();
   cycle(200);
   bench.stop();
-  ASSERT_TRUE(bench.component().start());
+  ASSERT_TRUE(component::Host::start(bench.component()));
   cycle(30);
   EXPECT_EQ(hardware().torque_path().mode(), TorquePath::Mode::kOff);
   EXPECT_THAT(bench.log(), Contains(HasSubstr("waits for Shift+Idle, then Shift+Activate: the arm "
@@ -134,14 +135,14 @@ TEST_F(WamHardwareTest, TheGainsThatCountAreShown) {
   std::vector<double> vendors;
   for (const JointGains& joint : wam4().gains) vendors.push_back(joint.kp);
   const auto shown = [&] {
-    for (const component::PropertyBase* one : hardware().interface().properties) {
+    for (const component::PropertyBase* one : component::interface_of(hardware()).properties) {
       if (one->name() == "Kp") return *static_cast<const Vector*>(one->data());
     }
     return Vector{};
   };
   EXPECT_EQ(shown(), vendors);
   bench.stop();
-  hardware().cleanup();
+  component::Host::cleanup(hardware());
   bench.set("Kp", Vector{500.0});
   ASSERT_TRUE(bench.start()) << bench.reason();
   EXPECT_EQ(shown(), Vector{500.0});

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "armature/rt/guard.hpp"
 
@@ -30,6 +31,7 @@ component::Outcome WayHome::begin(const Arm& arm) {
   asked_at_ = arm.time;
   send(arm, false);
   by_limits_ = false;
+  gave_way_ = false;
   if (is_refused()) send(arm, true);  // short ways take longer
   if (is_refused()) return component::refused(motion_.reason());
   return component::accepted();
@@ -40,11 +42,23 @@ void WayHome::send(const Arm& arm, bool by_limits) {
   motion_ = generator_.send(arm.home, by_limits ? 0.0 : home_time(arm));
 }
 
+std::string_view WayHome::reason() const {
+  return gave_way_ ? "another motion is under way" : motion_.reason();
+}
+
 bool WayHome::follow(const Arm& arm) {
+  if (waits()) {
+    gave_way_ = true;
+    motion_.cancel();
+  }
   if (!motion_.ended()) return false;
   // A motion that was cancelled comes to rest first.
   const bool in_time = arm.time - asked_at_ < kRestTime;
-  if (!is_refused() || !in_time) return true;
+  if (!in_time || !(is_refused() || gave_way_)) return true;
+  if (std::exchange(gave_way_, false)) {
+    send(arm, by_limits_);
+    return false;
+  }
   // It rests already if only the time is refused, which is too short for a short way.
   by_limits_ = !by_limits_;
   send(arm, by_limits_);

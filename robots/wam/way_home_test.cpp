@@ -18,17 +18,21 @@ using testing::DoubleEq;
 using testing::ElementsAre;
 using Angles = std::vector<double>;
 
-/// Refuses what the test says, and ends what it began when the test says so.
+/// Refuses what the test says, and ends what it began when the test says so. One waits.
 class Generator : public component::Component {
  public:
   using Component::Component;
-  component::Command<const Angles&, double> move_to{
-      this, "moveTo", component::serve<&Generator::begin>, "notes how long it may take",
-      component::args("positions", "time")};
+  component::Command<const Angles&, double> move_to{this,
+                                                    "moveTo",
+                                                    component::serve<&Generator::begin>,
+                                                    "notes how long it may take",
+                                                    component::args("positions", "time"),
+                                                    component::may_wait<&Generator::may_wait>(1)};
   std::vector<double> times;
   std::size_t refuses = 0;  ///< so many
 
  private:
+  Outcome may_wait(const Angles&, double) const { return component::accepted(); }
   Outcome begin(const Angles&, double time_s) {
     times.push_back(time_s);
     return times.size() <= refuses ? component::refused("not now") : component::accepted();
@@ -90,6 +94,39 @@ TEST_F(WayHomeTest, IsAskedForAgainUntilWhatWentOnBeforeHasComeToRest) {
   EXPECT_TRUE(way_.follow(at(2s)));
   EXPECT_FALSE(way_.done());
   EXPECT_EQ(way_.reason(), "not now");
+}
+
+/// Its time is that from where the arm is now, not from where another motion ends.
+TEST_F(WayHomeTest, WaitsForNoOtherMotionAndIsAskedForAgainUntilThatIsOver) {
+  ASSERT_TRUE(generator_.move_to.begin(nullptr, home_, 7.0));
+  begin();
+  for (const base::Duration time : {2ms, 4ms}) {
+    EXPECT_FALSE(way_.follow(at(time)));
+    thread_.deliver();
+    EXPECT_EQ(generator_.move_to.waiting(), 0u);
+    EXPECT_FALSE(way_.follow(at(time + 1ms)));
+    thread_.deliver();
+    EXPECT_EQ(generator_.move_to.waiting(), 1u);
+  }
+  EXPECT_THAT(generator_.times, ElementsAre(7.0));
+  EXPECT_FALSE(way_.follow(at(6ms)));
+  thread_.deliver();
+  generator_.move_to.complete();
+  EXPECT_FALSE(way_.follow(at(8ms)));
+  thread_.deliver();
+  EXPECT_THAT(generator_.times, ElementsAre(7.0, DoubleEq(2.0)));
+  EXPECT_FALSE(way_.follow(at(10ms))) << "it is under way";
+}
+
+TEST_F(WayHomeTest, EndsIfAnotherMotionTakesTooLong) {
+  ASSERT_TRUE(generator_.move_to.begin(nullptr, home_, 7.0));
+  begin();
+  EXPECT_FALSE(way_.follow(at(2s)));
+  thread_.deliver();
+  EXPECT_TRUE(way_.follow(at(2s + 2ms)));
+  EXPECT_FALSE(way_.done());
+  EXPECT_EQ(way_.reason(), "another motion is under way");
+  EXPECT_EQ(generator_.move_to.waiting(), 0u) << "it does not begin later";
 }
 
 TEST_F(WayHomeTest, HasAnEndIfTheMotionFails) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/rt/inbox.hpp"
 
 namespace {
@@ -304,7 +305,7 @@ class Operator final : public Component {
 };
 
 OperationBase& operation(const Component& component, std::string_view name) {
-  const auto& all = component.interface().operations;
+  const auto& all = interface_of(component).operations;
   return **std::find_if(all.begin(), all.end(), [&](auto* each) { return each->name() == name; });
 }
 
@@ -312,8 +313,8 @@ void run_cycle(ExecutionContext& context, Sampler& sampler, AxesGenerator& gener
   context.cycle_time = context.cycle_time.load() + 1ms;
   ++context.cycle;
   context.inbox.deliver_all();
-  generator.update();
-  sampler.update();
+  Host::update(generator);
+  Host::update(sampler);
 }
 
 }  // namespace
@@ -366,8 +367,8 @@ int main() {
   human.arm.connect(operation(generator, "arm"));
   human.move_to.connect(generator.move_to);
   for (Component* each : all) {
-    each->assign_context(context);
-    if (!each->configure() || !each->start()) return 2;
+    Host::assign_context(*each, context);
+    if (!Host::configure(*each) || !Host::start(*each)) return 2;
   }
   if (!human.arm().value) return 3;
   const CommandHandle move = human.move_to.send({0.5, -0.25});

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "armature/component/interface.hpp"
 #include "robots/janus/simulated_janus.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
@@ -75,7 +76,7 @@ class Servos final : public Plant {
   explicit Servos(exec::Application& application) : application_(application) {}
 
   void add(component::Component& drive) {
-    for (component::OutputPortBase* output : drive.interface().outputs) {
+    for (component::OutputPortBase* output : component::interface_of(drive).outputs) {
       if (output->name() != "DisplacementSensor") continue;
       drives_.push_back({drive.name(), static_cast<component::OutputPort<double>*>(output),
                          output->current_time(), 0.0});

@@ -119,6 +119,23 @@ TEST_F(Head, AMotionEndsWhereItShould) {
   EXPECT_NEAR(position(1), 2.0, 1e-3);
 }
 
+/// sensorRead of the card, all the way to what the joint tells (paper 1, section 3.1).
+TEST_F(Head, AReadingBringsDisplacementAndIndexToTheJoint) {
+  robot.start_armed();
+  EXPECT_TRUE(robot.value<bool>("AIC1", "IndexSensor")) << "the switch is at 0 rad";
+  EXPECT_TRUE(robot.value<bool>("Joint1", "Index"));
+  ASSERT_EQ(robot.move_to({1.0, 0.0}, 2.0), "");
+  robot.run_for(1s);
+  const double before = robot.value<double>("Joint1", "Position");
+  robot.run_for(10ms);
+  const double of_motor = robot.value<double>("AIC1", "DisplacementSensor");
+  const double of_joint = robot.value<double>("Joint1", "Displacement");
+  EXPECT_GT(of_joint, 1e-3);
+  EXPECT_NEAR(of_joint, 0.01 * of_motor, 1e-12);
+  EXPECT_NEAR(robot.value<double>("Joint1", "Position"), before + of_joint, 1e-12);
+  EXPECT_FALSE(robot.value<bool>("Joint1", "Index"));
+}
+
 TEST_F(Head, StopIsASmoothMotionToRest) {
   robot.start_armed();
   ASSERT_EQ(robot.move_to({4.0, 4.0}, 3.0), "");
@@ -210,8 +227,10 @@ TEST_F(Head, AnybodySwitchesOffAndBrakesAlsoWhatDoesNotRun) {
   const double there = position(1);
   for (const char* operation : {"motorOff", "brakeApply"}) {
     EXPECT_EQ(robot.call("Joint2", operation), "");
-    EXPECT_EQ(robot.call("Joint1", operation), "");
   }
+  EXPECT_EQ(robot.call("Joint1", "motorOff"), "");
+  EXPECT_EQ(robot.call("Joint1", "brakeApply"),
+            "'Joint1' has no operation 'brakeApply': its property Brake is false");
   ASSERT_TRUE(robot.application().stop_component("AIC1"));
   for (const char* operation : {"actuatorOff", "brakeApply"}) {
     EXPECT_EQ(robot.call("AIC1", operation), "");

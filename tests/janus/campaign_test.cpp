@@ -11,6 +11,7 @@
 
 #include <gmock/gmock.h>
 
+#include "armature/component/interface.hpp"
 #include "tests/janus/experiment.hpp"
 
 namespace armature::janus {
@@ -85,7 +86,7 @@ class Head {
   template <typename T>
   void write(const std::string& component, std::string_view port, const T& value) {
     component::Component& writer = *robot.application().find(component);
-    for (component::OutputPortBase* output : writer.interface().outputs) {
+    for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
       if (output->name() != port) continue;
       auto& typed = static_cast<component::OutputPort<T>&>(*output);
       ASSERT_TRUE(robot.application().run_in_thread_of(writer, [&] { typed.write(value); }));

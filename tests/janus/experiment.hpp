@@ -38,12 +38,8 @@ class Robot {
  public:
   using Adjust = std::function<void(exec::ApplicationOptions&)>;
   explicit Robot(const std::string& file, std::vector<std::string> overrides = {},
-                 const Adjust& adjust = {}) {
-    deploy::DeploymentOptions options;
-    options.library_folders = {LIBRARIES};
-    options.document.overrides = std::move(overrides);
-    options.document.overrides.emplace_back("description=" JANUS "/janus.urdf");
-    deployment_ = deploy::load_deployment(std::string(JANUS "/deployments/") + file, options);
+                 const Adjust& adjust = {})
+      : deployment_(load(file, std::move(overrides))) {
     EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
     deployment_.options.simulated = true;
     if (adjust) adjust(deployment_.options);
@@ -51,7 +47,16 @@ class Robot {
         std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
   }
 
+  static deploy::Deployment load(const std::string& file, std::vector<std::string> overrides) {
+    deploy::DeploymentOptions options;
+    options.library_folders = {LIBRARIES};
+    options.document.overrides = std::move(overrides);
+    options.document.overrides.emplace_back("description=" JANUS "/janus.urdf");
+    return deploy::load_deployment(std::string(JANUS "/deployments/") + file, options);
+  }
+
   exec::Application& application() { return *application_; }
+  const document::Document& document() const { return deployment_.document; }
   void start() {
     const auto started = application_->start();
     ASSERT_TRUE(started.ok()) << started.to_text();
@@ -59,8 +64,9 @@ class Robot {
   void run_for(base::Duration duration) { application_->run_for(duration); }
   /// Where a sample was lost, the operator has looked.
   void confirm_positions() {
-    for (const char* card : {"AIC1", "AIC2"}) {
-      if (value<bool>(card, "position_exact")) continue;
+    for (const char* card : {"AIC1", "AIC2", "AIC1.Card", "AIC2.Card"}) {
+      const bool known = application_->find(card) != nullptr;
+      if (!known || value<bool>(card, "position_exact")) continue;
       ASSERT_TRUE(application_->set_property(card, "position_confirmed", types::Value::of(true)));
     }
   }

@@ -153,5 +153,39 @@ TEST(Script, OfTheDocumentationRuns) {
   EXPECT_LT(robot.application().now(), base::Time{} + 25s);
 }
 
+TEST(Script, SaysASignAsABooleanAndQueuesMotions) {
+  std::vector<std::string> lines;
+  lua::Options options;
+  options.print = [&](std::string_view line) { lines.emplace_back(line); };
+  base::Diagnostics diagnostics;
+  const auto script = lua::parse_script(R"(
+local _, why = pcall(function() Joint1.SensorSign = true end)
+print(why:match("cannot change while the component runs"))
+wait(0.1)
+assert(wait(Arming:arm()))
+local first = Generator:moveTo(array(0.2, 0.2), 1)
+local second = Generator:moveTo(array(0.0, 0.0), 1)
+print(second:done(), second:progress(), tostring(second):match("waiting"))
+assert(wait(second))
+print(first:done(), string.format("%.3f", math.abs(Joint1.Position)))
+first = Generator:moveTo(array(0.2, 0.2), 1)
+second = Generator:moveTo(array(0.0, 0.0), 1)
+wait(0.2)
+Arming:disarm()
+print(wait(second))
+stop()
+)",
+                                        "test.lua", options, diagnostics);
+  Robot robot("pid.yaml");
+  robot.start();
+  EXPECT_EQ(script->run(robot.application(), 100s, nullptr, diagnostics),
+            exec::RunEnd::kStopRequested);
+  EXPECT_EQ(diagnostics.to_text(), "");
+  const std::vector<std::string> expected = {
+      "cannot change while the component runs", "false\t0.0\twaiting", "true\t0.000",
+      "false\tit waited for a command that was not done: the robot was disarmed or armed"};
+  EXPECT_EQ(lines, expected);
+}
+
 }  // namespace
 }  // namespace armature::janus

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/exec/modes.hpp"
 #include "armature/lua/script.hpp"
 #include "armature/testing/realtime_guard.hpp"
@@ -211,7 +212,8 @@ class Switching : public ::testing::Test {
   State state(const char* component) { return head.robot.state(component); }
   /// As no tool can: what they set is judged before.
   void spoil(const char* component, std::string_view name, double value) {
-    for (auto* property : head.robot.application().find(component)->interface().properties) {
+    for (auto* property :
+         component::interface_of(*head.robot.application().find(component)).properties) {
       if (property->name() != name) continue;
       types::Value unchecked = types::Value::of(value);
       property->swap(unchecked);

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/modes.hpp"
@@ -398,8 +399,8 @@ TEST(SimulatedTime, AnEngineStepsWithoutAViolation) {
   Sensor sensor("sensor");
   Engine engine("loop", Activity::periodic(milliseconds(1)), {&sensor}, {&sensor});
   engine.context().simulated = true;
-  ASSERT_TRUE(sensor.configure());
-  ASSERT_TRUE(sensor.start());
+  ASSERT_TRUE(component::Host::configure(sensor));
+  ASSERT_TRUE(component::Host::start(sensor));
   base::Time now{};
   engine.begin(now);
   expect_realtime("Engine::step", [&] { engine.step(now += milliseconds(1)); });

@@ -5,6 +5,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/events/event_tap.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/periodic_schedule.hpp"
@@ -76,8 +77,8 @@ class Client final : public Component {
 class ComponentFunctions : public ::testing::TestWithParam<bool> {
  protected:
   ComponentFunctions() {
-    client_.assign_context(here_);
-    server_.assign_context(GetParam() ? here_ : there_);
+    Host::assign_context(client_, here_);
+    Host::assign_context(server_, GetParam() ? here_ : there_);
     client_.add.connect(server_.add_);
     client_.queued.connect(server_.queued_);
     client_.move.connect(server_.move);
@@ -86,8 +87,8 @@ class ComponentFunctions : public ::testing::TestWithParam<bool> {
     there_.log = &log_;
     here_.log = &log_;
     for (Component* each : {static_cast<Component*>(&client_), static_cast<Component*>(&server_)}) {
-      EXPECT_TRUE(each->configure());
-      EXPECT_TRUE(each->start());
+      EXPECT_TRUE(Host::configure(*each));
+      EXPECT_TRUE(Host::start(*each));
     }
     // A sent vector has found its size once.
     for (std::size_t i = 0; i < kDefaultOutstanding; ++i) {
@@ -98,7 +99,7 @@ class ComponentFunctions : public ::testing::TestWithParam<bool> {
   }
   ~ComponentFunctions() override {
     server_.happened.unsubscribe_all();
-    for (auto* caller : client_.interface().callers) caller->disconnect();
+    for (auto* caller : interface_of(client_).callers) caller->disconnect();
   }
 
   void deliver() {
@@ -121,34 +122,39 @@ TEST_P(ComponentFunctions, TimeAndAdmission) {
   base::Time now{};
   bool admitted = false;
   expect_realtime("Component::time", [&] { now = server_.time(); });
-  expect_realtime("Component::admits", [&] { admitted = server_.admits(); });
+  expect_realtime("Host::admits", [&] { admitted = Host::admits(server_); });
   base::Time expiry{};
-  expect_realtime("Component::next_expiry", [&] { expiry = server_.next_expiry(); });
+  expect_realtime("Host::next_expiry", [&] { expiry = Host::next_expiry(server_); });
   EXPECT_GT(expiry, now);
   base::Time hold{};
-  expect_realtime("Component::settle_ages", [&] { hold = server_.settle_ages(); });
+  expect_realtime("Host::settle_ages", [&] { hold = Host::settle_ages(server_); });
   EXPECT_GE(hold, now);
-  server_.set_pace({.period = milliseconds(10), .owner = &server_});
+  Host::set_pace(server_, {.period = milliseconds(10), .owner = &server_});
   base::Duration period{};
   expect_realtime("Component::period", [&] { period = server_.period(); });
   EXPECT_EQ(period, milliseconds(10));
+  Host::context(server_).simulated = true;
+  bool simulated = false;
+  expect_realtime("Component::is_simulated", [&] { simulated = server_.is_simulated(); });
+  Host::context(server_).simulated = false;
+  EXPECT_TRUE(simulated);
   EXPECT_TRUE(admitted);
 }
 
 TEST_P(ComponentFunctions, UpdateAndRun) {
-  expect_realtime("Component::update", [&] { server_.update(); });
+  expect_realtime("Host::update", [&] { Host::update(server_); });
   int runs = 0;
-  expect_realtime("Component::run", [&] { server_.run(here_, [&] { ++runs; }); });
+  expect_realtime("Host::run", [&] { Host::run(server_, here_, [&] { ++runs; }); });
   EXPECT_EQ(runs, 101);
 }
 
 TEST_P(ComponentFunctions, Measurements) {
   here_.measuring = true;
-  expect_realtime("Component::close_measurements", [&] {
-    client_.run(here_, [] {});
-    Component::close_measurements(here_);
+  expect_realtime("Host::close_measurements", [&] {
+    Host::run(client_, here_, [] {});
+    Host::close_measurements(here_);
   });
-  EXPECT_EQ(client_.execution_ticks().summary().count, 101u);
+  EXPECT_EQ(Host::execution_ticks(client_).summary().count, 101u);
 }
 
 TEST_P(ComponentFunctions, HandlersThatSetThemselvesOff) {
@@ -159,7 +165,7 @@ TEST_P(ComponentFunctions, HandlersThatSetThemselvesOff) {
 TEST_P(ComponentFunctions, CodeThatNestsTooDeeply) {
   here_.limit_depth(0);
   int runs = 0;
-  expect_realtime("Component::run", [&] { client_.run(here_, [&] { ++runs; }); });
+  expect_realtime("Host::run", [&] { Host::run(client_, here_, [&] { ++runs; }); });
   EXPECT_EQ(runs, 0);
   EXPECT_EQ(client_.state(), State::kException);
 }
@@ -240,7 +246,7 @@ TEST(BlackBoxFunctions, PicturesAndNotes) {
   BlackBox box;
   box.add(server);
   box.reserve(4, 4, std::chrono::milliseconds(1));
-  server.assign_context(context);
+  Host::assign_context(server, context);
   context.black_box = &box;
   bool due = false;
   std::int64_t now = 0;
@@ -359,7 +365,7 @@ TEST_P(ComponentFunctions, StateMachines) {
   int states = 0;
   const auto round = [&] {
     server_.forth.raise();
-    server_.update();  // from near to far
+    Host::update(server_);  // from near to far
     path = server_.machine.path();
     far = far && server_.machine.is_in("B/Far");
     states += server_.machine.current();

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/component/host.hpp"
 #include "armature/controllers/actuator_demux/actuator_demux.hpp"
 #include "armature/controllers/arming/arming.hpp"
 #include "armature/controllers/axes_generator/axes_generator.hpp"
@@ -111,6 +112,7 @@ TEST(RealtimeComponents, Pid) {
 
 void write_reference_and_sensor(testing::Harness& controller) {
   controller.write("reference", Vector(6, 1.0));
+  controller.raise("Sample");
   controller.write("sensor", Vector(4, 0.5));
 }
 
@@ -120,7 +122,6 @@ TEST(RealtimeComponents, ControllerNPID) {
   start(controller);
   int round = 0;
   expect_realtime_on_bench("ControllerNPID", [&] {
-    controller.raise("Sample");
     write_reference_and_sensor(controller);
     controller.write("Out1", 1.0);
     if (++round % 2 == 1) controller.write("Out2", 1.0);
@@ -137,6 +138,7 @@ TEST(RealtimeComponents, ControllerThatBrakesForWantOfAReference) {
   start(controller);
   write_reference_and_sensor(controller);
   const auto sample = [&] {
+    controller.raise("Sample");
     controller.write("sensor", Vector(4, 0.1));
     controller.write("Out1", 1.0);
     controller.write("Out2", 1.0);
@@ -174,8 +176,10 @@ TEST(RealtimeComponents, ControllerComputedTorque) {
                            [&] { write_reference_and_sensor(controller); });
   EXPECT_EQ(controller.writes("act"), 100u);
   controller.write("reference", Vector(6, NAN));
-  expect_realtime_on_bench("ControllerComputedTorque",
-                           [&] { controller.write("sensor", Vector(4, 0.1)); });
+  expect_realtime_on_bench("ControllerComputedTorque", [&] {
+    controller.raise("Sample");
+    controller.write("sensor", Vector(4, 0.1));
+  });
   EXPECT_EQ(controller.state(), component::State::kException);
 }
 
@@ -342,8 +346,8 @@ void expect_realtime_restart(const char* model,
   testing::RealtimeGuard guard;
   component::Outcome restarted = component::accepted();
   guard.watch([&] {
-    bench.component().stop();
-    restarted = bench.component().start();
+    component::Host::stop(bench.component());
+    restarted = component::Host::start(bench.component());
   });
   EXPECT_TRUE(restarted) << bench.reason();
   EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "armature/component/host.hpp"
 #include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/controllers/base/sample_watch.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
@@ -38,7 +39,7 @@ TEST(RealtimeFunctions, SamplingPeriodOfThePlanOrTheProperty) {
   look();
   EXPECT_EQ(duration, 10ms);
   EXPECT_TRUE(known);
-  sampled.set_pace({.period = 2ms, .owner = &owner});
+  component::Host::set_pace(sampled, {.period = 2ms, .owner = &owner});
   look();
   EXPECT_EQ(duration, 2ms);
   EXPECT_FALSE(known) << "they differ";
@@ -47,7 +48,7 @@ TEST(RealtimeFunctions, SamplingPeriodOfThePlanOrTheProperty) {
 TEST(RealtimeFunctions, SampleWatchOfRightAndWrongSamples) {
   component::ExecutionContext context("test");
   component::Component sampled("Joint");
-  sampled.assign_context(context);
+  component::Host::assign_context(sampled, context);
   base::Time now = base::time_from_ns(0);
   std::optional<component::Reason> wrong;
   for (const base::Duration interval : {10ms, 15ms}) {
@@ -65,8 +66,8 @@ TEST(RealtimeFunctions, SampleWatchInTheThreadOfThePeriod) {
   component::ExecutionContext context("test");
   context.period = 10ms;
   component::Component sampled("Joint");
-  sampled.assign_context(context);
-  sampled.set_pace({.period = 10ms, .owner = &sampled});
+  component::Host::assign_context(sampled, context);
+  component::Host::set_pace(sampled, {.period = 10ms, .owner = &sampled});
   SampleWatch watch;
   watch.begin(10ms);
   std::optional<component::Reason> wrong;

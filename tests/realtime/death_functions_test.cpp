@@ -13,6 +13,7 @@
 
 #include "armature/can/bus_server.hpp"
 #include "armature/can/virtual_bus.hpp"
+#include "armature/component/host.hpp"
 #include "armature/controllers/base/guarded_bus.hpp"
 #include "armature/exec/death.hpp"
 #include "armature/guardian/guardian.hpp"
@@ -163,7 +164,7 @@ TEST(RealtimeFunctions, NameOfAWorker) {
   EXPECT_EQ(guard.violations(), 0u) << guard.report();
   const auto& death = static_cast<Dying&>(bench.component()).death;
   EXPECT_STREQ(death.worker, "Dying");
-  EXPECT_EQ(death.workplace, &bench.component().context());
+  EXPECT_EQ(death.workplace, &component::Host::context(bench.component()));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/tap.hpp"
 #include "armature/rt/inbox.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -60,21 +61,21 @@ std::vector<Connection> connections() {
 class PortFunctions : public ::testing::TestWithParam<Connection> {
  protected:
   void SetUp() override {
-    source_.assign_context(here_);
-    sink_.assign_context(GetParam().same_thread ? here_ : there_);
+    Host::assign_context(source_, here_);
+    Host::assign_context(sink_, GetParam().same_thread ? here_ : there_);
     for (Component* component :
          {static_cast<Component*>(&source_), static_cast<Component*>(&sink_)})
-      ASSERT_TRUE(component->configure());
+      ASSERT_TRUE(Host::configure(*component));
     source_.number.prepare();
     source_.vector.prepare();
   }
   void connect(OutputPortBase& output, InputPortBase& input) {
     output.connect(input, GetParam().policy);
-    ASSERT_TRUE(sink_.start());
+    ASSERT_TRUE(Host::start(sink_));
   }
   /// What the reader's thread does with what was sent to it.
   void begin_cycle() {
-    ExecutionContext& context = sink_.context();
+    ExecutionContext& context = Host::context(sink_);
     ++context.cycle;
     for (rt::Inbox* inbox : {&context.next_cycle, &context.inbox}) inbox->deliver_all();
   }
@@ -163,12 +164,12 @@ TEST_P(AgeFunctions, DataThatIsTooOldIsReactedTo) {
   ExecutionContext context("here");
   Source source("source");
   Sink sink("sink");
-  source.assign_context(context);
-  sink.assign_context(context);
+  Host::assign_context(source, context);
+  Host::assign_context(sink, context);
   sink.number.set_max_age(max_age(milliseconds(1), GetParam()));
   source.number.connect(sink.number, {});
-  ASSERT_TRUE(sink.configure());
-  ASSERT_TRUE(sink.start());
+  ASSERT_TRUE(Host::configure(sink));
+  ASSERT_TRUE(Host::start(sink));
   expect_realtime("InputPortBase::check_age", [&] {
     context.cycle_time = context.cycle_time.load() + milliseconds(5);
     sink.number.check_age();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "armature/component/host.hpp"
 #include "armature/testing/harness.hpp"
 #include "robots/wam/actuator_wam.hpp"
 #include "robots/wam/sensor_wam.hpp"
@@ -21,7 +22,7 @@ using Vector = std::vector<double>;
 class RealtimeWam : public ::testing::Test {
  protected:
   RealtimeWam() : bench(std::make_unique<WamHardware>("WAM"), 2ms) {
-    bench.component().context().simulated = true;
+    component::Host::context(bench.component()).simulated = true;
     bench.set("joints", 7);
     bench.set("Period", 0.002);
     bench.set("robot_description", WAM "/wam7.urdf");
@@ -117,10 +118,16 @@ TEST(RealtimeComponents, ActuatorWam) {
   ASSERT_TRUE(actuator.start()) << actuator.reason();
   const Vector torques(7, 0.5);
   const testing::RealtimeGuard guard;
-  for (int i = 0; i < 100; ++i) actuator.write("act", torques);
+  for (int i = 0; i < 100; ++i) {
+    actuator.raise("Sample");
+    actuator.write("act", torques);
+  }
+  actuator.write("act", Vector(7, 0.7));
   actuator.write("act", Vector(7, NAN));
   EXPECT_EQ(guard.violations(), 0u) << guard.report();
-  EXPECT_EQ(actuator.output<Vector>("Torque")[0], 0.5) << "what is no number is not handed on";
+  EXPECT_EQ(actuator.output<Vector>("Torque")[0], 0.5)
+      << "neither what no Sample enables nor what is no number is handed on";
+  EXPECT_EQ(actuator.get<int>("act_without_sample"), 1);
   EXPECT_EQ(actuator.reason(), "the torque for joint 1 is nan, expected finite numbers");
 }
 

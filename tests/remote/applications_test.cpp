@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "tests/remote/processes.hpp"
 
@@ -71,7 +72,7 @@ TEST_F(Remote, ACommandThatIsCancelledHereEndsThere) {
 TEST_F(Remote, WhatNobodyUsesElsewhereIsNotListenedTo) {
   robot = std::make_unique<Process>(server());
   robot->start();
-  const auto& position = *robot->find<Axis>("Axis").interface().outputs.front();
+  const auto& position = *component::interface_of(robot->find<Axis>("Axis")).outputs.front();
   EXPECT_FALSE(position.is_tapped());
   pilot = std::make_unique<Process>(client(robot->address()));
   start_pilot();

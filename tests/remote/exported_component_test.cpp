@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/remote/interface_numbers.hpp"
 #include "armature/remote/link_to.hpp"
 #include "armature/ride/node.hpp"
@@ -56,7 +57,7 @@ struct RemotePeer : testing::Test {
     ASSERT_TRUE(peer->link.peer().wait_until_connected(10s));
   }
   const Axis axis{"Axis"};
-  const InterfaceNumbers numbers{"Axis", axis.interface()};
+  const InterfaceNumbers numbers{"Axis", component::interface_of(axis)};
   std::unique_ptr<Process> robot;
   std::unique_ptr<Peer> peer;
   const std::tuple<> nothing;
@@ -111,7 +112,7 @@ TEST_F(RemotePeer, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOther
   ASSERT_TRUE(watcher.link.peer().wait_until_connected(10s));
   const auto travels = [&] {
     auto& moving = robot->find<Axis>("Axis");
-    const auto& operations = moving.interface().operations;
+    const auto& operations = component::interface_of(moving).operations;
     const auto travel = std::ranges::find_if(
         operations, [](const component::OperationBase* one) { return one->name() == "travel"; });
     bool active = false;

@@ -86,6 +86,30 @@ def figures_from_csv(csv, joint, period=0.01):
             "final_error_counts": errors[-1] / COUNT}
 
 
+class ExperimentOfPaper2(unittest.TestCase):
+    def test_reaches_the_four_integrals_of_joint_1_in_the_papers_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = armature("run", f"{JANUS}/demo/paper2.yaml", "-L", LIBRARIES, "--sim", "--script",
+                            f"{JANUS}/paper2.lua", "--out", os.path.join(folder, "paper2"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("joint 1: IAE 0.0", done.stdout)
+            shutil.copy(f"{JANUS}/demo/paper2_to_reach.json", os.path.join(folder, "to_reach.json"))
+            done = armature("report", folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("warning", done.stderr)
+            report = load(os.path.join(folder, "report.json"))
+        self.assertEqual([(goal["most"], goal["reached"]) for goal in report["to_reach"]],
+                         [(0.0213, True), (0.0271, True), (0.0012, True), (0.0014, True)])
+        joints = report["controllers"]["paper2"]["joints"]
+        self.assertEqual([joint["joint"] for joint in joints], ["1", "2"])
+        for joint in joints:
+            self.assertGreater(joint["iae"], 0)
+            self.assertGreater(joint["from_s"], 0.1, "from arming on")
+        efforts = report["runs"]["paper2"]["efforts"]
+        self.assertEqual([(effort["joint"], effort["limit"]) for effort in efforts],
+                         [("1", 12.0), ("2", 12.0)])
+
+
 class Demonstration(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

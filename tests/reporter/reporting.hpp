@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/general/reporter/reporter.hpp"
 #include "armature/platform/file.hpp"
@@ -102,7 +103,7 @@ class Reporting : public ::testing::Test {
   void set(const std::string& property, const T& value, const std::string& reporter = "Reporter") {
     for (const exec::ComponentEntry& entry : blueprint.components) {
       if (entry.component->name() != reporter) continue;
-      for (auto* each : entry.component->interface().properties) {
+      for (auto* each : component::interface_of(*entry.component).properties) {
         if (each->name() == property) {
           ASSERT_TRUE(each->set(types::Value::of(value)));
         }

@@ -44,7 +44,7 @@ TEST(RobotCheck, RefusesGainsThatWouldShakeAJointWithTheirFigures) {
                     HasSubstr("sampled every 10 ms")));
   EXPECT_THAT(head("pid.yaml", {"PID2.Kd=2000"}), HasSubstr("'PID2': Joint2: "));
   EXPECT_THAT(head("pid_feed_forward.yaml", {"PID1.Ki=2000"}), HasSubstr("'PID1': Joint1: "));
-  EXPECT_THAT(head("paper2.yaml", {"PID2.Kp=2000"}), HasSubstr("'PID2': Joint2: shakes at "));
+  EXPECT_THAT(head("paper2.yaml", {"PID2.Kp=2000"}), HasSubstr("'PID2': AIC2.Joint: shakes at "));
   EXPECT_THAT(head("pid.yaml", {"period=50 ms"}), HasSubstr("sampled every 50 ms"));
   EXPECT_THAT(own({"PID3.Kp=20000"}), HasSubstr("'PID3': Joint3: shakes at "));
 }
@@ -121,8 +121,8 @@ TEST(RobotCheck, RefusesMotionsThatAJointWouldCut) {
   EXPECT_THAT(own({"Joint2.PositionMin=-60 deg"}), HasSubstr("lower of axis 2 is -1.5, beyond"));
   EXPECT_THAT(head("pid.yaml", {"Joint1.MaxVelocity=0.003"}),
               HasSubstr("max_vel of axis 1 is 2, beyond 0.003, MaxVelocity of Joint1"));
-  EXPECT_THAT(head("paper2.yaml", {"Joint2.MaxAcceleration=1e-9"}),
-              HasSubstr("max_acc of axis 2 is 5, beyond 1e-09, MaxAcceleration of Joint2"));
+  EXPECT_THAT(head("paper2.yaml", {"AIC2.MaxAcceleration=1e-9"}),
+              HasSubstr("max_acc of axis 2 is 5, beyond 1e-09, MaxAcceleration of AIC2.Joint"));
   EXPECT_THAT(head("modes.yaml", {"Generator.upper=[45]"}),
               HasSubstr("upper of axis 1 is 45, beyond 4.5"));
 }
@@ -153,10 +153,10 @@ TEST(RobotCheck, RefusesAPidThatIsGivenWhatIsOfAnotherJoint) {
         << other;
   }
   EXPECT_THAT(with_swapped("paper2.yaml", "PID1.Sen", "PID1.Ref"),
-              AllOf(HasSubstr("'PID1': it drives 'Joint1', and Sen is of 'Bridge'"),
-                    HasSubstr("it would follow what it drives: Ref is of 'Joint1'")));
+              AllOf(HasSubstr("'PID1': it drives 'AIC1.Joint', and Sen is of 'Bridge'"),
+                    HasSubstr("it would follow what it drives: Ref is of 'AIC1.Joint'")));
   EXPECT_THAT(with_swapped("paper2.yaml", "PID1.Sen", "PID2.Sen"),
-              HasSubstr("it drives 'Joint1', and Sen is of 'Joint2'"));
+              HasSubstr("it drives 'AIC1.Joint', and Sen is of 'AIC2.Joint'"));
 }
 
 TEST(RobotCheck, RefusesAPidThatAlwaysDrivesOrOneWayOnly) {

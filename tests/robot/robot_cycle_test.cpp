@@ -15,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/testing/realtime_guard.hpp"
 #include "tests/robot/fake_joint.hpp"
@@ -279,6 +280,27 @@ TEST(CycleWithASilentJoint, StopsTheRobotAfterThreePeriodsInARowAndSaysWhy) {
   for (const char* each : {"Controller", "PID1", "Actuator", "Joint1", "Joint7"}) {
     EXPECT_EQ(robot.state(each), component::State::kStopped) << each;
     EXPECT_THAT(robot.reason(each), HasSubstr("the component that writes it is out of service"));
+  }
+}
+
+/// Where the sensor's value is a cycle late, too, each Sample is one computation.
+TEST(CycleWithADelay, ComputesOnceForEachSample) {
+  std::string text = text_of("cycle.yaml");
+  const std::string plain = "- Sensor.sensor -> Controller.sensor\n";
+  text.replace(text.find(plain), plain.size(),
+               "- {from: Sensor.sensor, to: Controller.sensor, delay: one_cycle}\n");
+  for (const bool in_threads : {false, true}) {
+    std::vector<std::string> overrides;
+    if (in_threads) overrides = {"Controller.activity={triggered: true, priority: 78}"};
+    Robot robot("cycle.yaml", text, 2, overrides);
+    robot.start();
+    robot.application().run_for(505ms);
+    const auto& outputs = component::interface_of(*robot.application().find("Controller")).outputs;
+    const auto act = std::find_if(outputs.begin(), outputs.end(),
+                                  [](const auto* output) { return output->name() == "act"; });
+    EXPECT_GE((*act)->current_sequence(), 48u) << in_threads;
+    EXPECT_EQ(robot.value<int>("Controller", "sensor_without_sample"), 0) << in_threads;
+    EXPECT_LE(robot.value<int>("Controller", "samples_without_sensor"), 1) << in_threads;
   }
 }
 

@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "robots/wam/emulator/emulator_command.hpp"
 #include "robots/wam/wam_hardware.hpp"
@@ -117,7 +118,7 @@ class CampaignArm {
   template <typename T>
   void write(const std::string& component, std::string_view port, const T& value) {
     component::Component& writer = *application_->find(component);
-    for (component::OutputPortBase* output : writer.interface().outputs) {
+    for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
       if (output->name() != port) continue;
       auto& typed = static_cast<component::OutputPort<T>&>(*output);
       ASSERT_TRUE(application_->run_in_thread_of(writer, [&] { typed.write(value); }));

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "robots/wam/tip_speed.hpp"
 #include "tests/wam/arm.hpp"
 
@@ -31,7 +32,7 @@ class WamDriven : public ::testing::Test {
   }
   void write(const char* component, std::string_view port, const Vector& value) {
     component::Component& writer = *arm.application().find(component);
-    for (component::OutputPortBase* output : writer.interface().outputs) {
+    for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
       if (output->name() != port) continue;
       auto& typed = static_cast<component::OutputPort<Vector>&>(*output);
       ASSERT_TRUE(arm.application().run_in_thread_of(writer, [&] { typed.write(value); }));

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/control/dynamics/forward_kinematics.hpp"
 #include "armature/controllers/forward_kinematics/pose.hpp"
 #include "tests/wam/arm.hpp"
@@ -41,7 +42,7 @@ double largest_error(Arm& arm) {
 
 void write(Arm& arm, const char* component, std::string_view port, const Vector& value) {
   component::Component& writer = *arm.application().find(component);
-  for (component::OutputPortBase* output : writer.interface().outputs) {
+  for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
     if (output->name() != port) continue;
     auto& typed = static_cast<component::OutputPort<Vector>&>(*output);
     ASSERT_TRUE(arm.application().run_in_thread_of(writer, [&] { typed.write(value); }));

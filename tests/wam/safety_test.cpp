@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/can/frame.hpp"
+#include "armature/component/interface.hpp"
 #include "tests/wam/in_motion.hpp"
 
 namespace armature::wam {
@@ -254,7 +255,7 @@ TEST_F(WamInMotion, ATorqueThatIsNoNumberIsAFaultOfWhoToldItAndTheArmIsBrakedAnd
   auto& actuator = *arm.application().find("Actuator");
   ASSERT_TRUE(arm.application().run_in_thread_of(actuator, [&] {
     auto* const controller = arm.application().find("Controller");
-    for (component::OutputPortBase* port : controller->interface().outputs) {
+    for (component::OutputPortBase* port : component::interface_of(*controller).outputs) {
       if (port->name() != "act") continue;
       const Vector torques(7, std::numeric_limits<double>::quiet_NaN());
       static_cast<void>(static_cast<component::OutputPort<Vector>*>(port)->write(torques));

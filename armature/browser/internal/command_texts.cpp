@@ -9,7 +9,11 @@ using component::CommandStage;
 using inspect::CommandStatus;
 
 std::string fate_text(const Paper& paper, const CommandStatus& command) {
-  if (!command.ended) return command.name + ": under way; `wait` waits for its end";
+  if (!command.ended) {
+    const bool waits = command.stage == CommandStage::kWaiting;
+    return command.name + (waits ? ": waits for the one before it" : ": under way") +
+           "; `wait` waits for its end";
+  }
   if (command.stage == CommandStage::kDone) {
     return command.name + ": " + inked(paper, Ink::kGood, "done");
   }

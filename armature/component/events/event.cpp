@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/component/events/event_tap.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/internal/arguments.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/component/stand_in.hpp"
@@ -29,7 +30,7 @@ struct EventHandlerBase::About final : Requirement::About {
 EventHandlerBase::EventHandlerBase(Component& owner, std::string_view name, std::string_view doc,
                                    Signature signature) noexcept
     : Requirement(owner, std::make_unique<About>(name, doc, std::move(signature))) {
-  owner.declare().handlers.push_back(this);
+  Host::declare(owner).handlers.push_back(this);
 }
 
 EventHandlerBase::~EventHandlerBase() = default;
@@ -91,8 +92,8 @@ struct EventBase::Queue {
 
   void run_handlers() {
     for (EventHandlerBase* handler : handlers) {
-      handler->owner().run_handler(
-          where, [this, handler] { handler->handle_from(where, handled.places()); });
+      Host::run_handler(handler->owner(), where,
+                        [this, handler] { handler->handle_from(where, handled.places()); });
     }
   }
 
@@ -118,7 +119,7 @@ struct EventBase::Queue {
 EventBase::EventBase(Component& owner, std::string_view name, std::string_view doc,
                      Signature signature) noexcept
     : owner_(owner), name_(name), doc_(doc), signature_(std::move(signature)) {
-  owner.declare().events.push_back(this);
+  Host::declare(owner).events.push_back(this);
 }
 
 EventBase::~EventBase() = default;
@@ -126,7 +127,7 @@ EventBase::~EventBase() = default;
 void EventBase::subscribe(EventHandlerBase& handler) {
   subscribers_.push_back(&handler);
   handler.about().source = this;
-  const bool same_thread = &owner().context() == &handler.owner().context();
+  const bool same_thread = &Host::context(owner()) == &Host::context(handler.owner());
   const bool direct = same_thread || handler.runs_in_raisers_thread();
   (direct ? direct_ : queue_to(handler).handlers).push_back(&handler);
 }
@@ -134,7 +135,7 @@ void EventBase::subscribe(EventHandlerBase& handler) {
 /// Handlers of one thread share a queue, but each has as many entries as it declared, and their
 /// order stays: so only with those before it that declared the same.
 EventBase::Queue& EventBase::queue_to(EventHandlerBase& handler) {
-  ExecutionContext& where = handler.owner().context();
+  ExecutionContext& where = Host::context(handler.owner());
   const auto last = std::find_if(queues_.rbegin(), queues_.rend(),
                                  [&](const auto& queue) { return &queue->where == &where; });
   const bool alike = last != queues_.rend() &&
@@ -163,7 +164,8 @@ RaiseStatus EventBase::enqueue(const void* const* arguments) noexcept {
 RaiseStatus EventBase::raise_from(const void* const* arguments) noexcept {
   const RaiseStatus status = begin_raise(arguments);
   for (EventHandlerBase* handler : direct_) {
-    owner().call_out(handler->owner(), [&] { handler->handle_from(owner().context(), arguments); });
+    Host::call_out(owner(), handler->owner(),
+                   [&] { handler->handle_from(Host::context(owner()), arguments); });
   }
   if (is_tapped()) tell_taps(arguments);
   return status;

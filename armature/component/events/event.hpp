@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/component/component.hpp"
+#include "armature/component/internal/inside.hpp"
 #include "armature/component/operations/requirement.hpp"
 #include "armature/component/operations/signature.hpp"
 #include "armature/component/ports/port.hpp"
@@ -166,12 +167,13 @@ class EventHandlerBase : public Requirement {
   template <typename Code>
   void handle_with(ExecutionContext& where, Code&& code) noexcept {
     Component& component = owner();
-    const bool own_thread = &where == &component.context();
-    if (own_thread ? !component.admits() : component.state() != State::kRunning) return;
+    const bool own_thread = &where == &internal::Inside::context(component);
+    if (own_thread ? !internal::Inside::admits(component) : component.state() != State::kRunning)
+      return;
     if (inside_) [[unlikely]]
       return refuse(where);
     inside_ = true;
-    component.enter_handler(where, *this, outer_, code);
+    internal::Inside::enter_handler(component, where, *this, outer_, code);
     inside_ = false;
   }
 
@@ -213,7 +215,9 @@ class Event final : public EventBase {
     const RaiseStatus status = begin_raise(places.data());
     for (EventHandlerBase* base : direct_) {
       auto& handler = static_cast<EventHandler<Args...>&>(*base);
-      owner().call_out(handler.owner(), [&] { handler.handle(owner().context(), arguments...); });
+      internal::Inside::call_out(owner(), handler.owner(), [&] {
+        handler.handle(internal::Inside::context(owner()), arguments...);
+      });
     }
     if (is_tapped()) [[unlikely]]
       tell_taps(places.data());
@@ -252,7 +256,7 @@ class EventHandler final : public EventHandlerBase {
     (apply(options), ...);
   }
 
-  /// For a component that calls out (see Component::call_out).
+  /// For a component that calls out (see internal::Inside::call_out).
   void handle(ExecutionContext& where, const Args&... arguments) noexcept {
     handle_(*this, where, arguments...);
   }

@@ -4,6 +4,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/events/event_tap.hpp"
+#include "armature/component/host.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -170,7 +171,7 @@ TEST_F(Events, AnEventRaisedDuringTheReceiversUpdateIsHandledInTheSameCycle) {
     raiser_.happened.raise(1);
     EXPECT_THAT(listener.taken, ElementsAre()) << "the update is not interrupted";
   };
-  listener.update();
+  Host::update(listener);
   other_.deliver();
   EXPECT_THAT(listener.taken, ElementsAre(1));
   EXPECT_EQ(listener.updates, 1);
@@ -181,11 +182,11 @@ TEST_F(Events, WhatDoesNotRunIsNotTold) {
   thread_.add(listener);
   raiser_.happened.subscribe(listener.handler);
   raiser_.happened.raise(1);
-  ASSERT_TRUE(listener.configure());
+  ASSERT_TRUE(Host::configure(listener));
   raiser_.happened.raise(2);
-  ASSERT_TRUE(listener.start());
+  ASSERT_TRUE(Host::start(listener));
   raiser_.happened.raise(3);
-  listener.stop();
+  Host::stop(listener);
   raiser_.happened.raise(4);
   EXPECT_THAT(listener.taken, ElementsAre(3));
 }

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/sample_form.hpp"
 #include "armature/rt/latest.hpp"
 #include "armature/rt/outbox.hpp"
@@ -47,7 +48,8 @@ template <typename S>
 class BatchedChannel final : public Channel {
  public:
   explicit BatchedChannel(const Line& line)
-      : Channel(line.reader, false, false, &line.writing.lane_to(line.reader.owner().context())),
+      : Channel(line.reader, false, false,
+                &line.writing.lane_to(Host::context(line.reader.owner()))),
         passage_(S::view(line.form, line.sample)),
         form_(line.form) {
     lane().lane.reserve(sizeof(S));
@@ -153,7 +155,7 @@ class DelayChannel final : public Channel {
   bool ripens() const override { return fresh_; }
 
  private:
-  std::uint64_t cycle() const { return reader().owner().context().cycle; }
+  std::uint64_t cycle() const { return Host::context(reader().owner()).cycle; }
   void ripen() {
     std::swap(ripe_, written_);
     is_ripe_ = true;
@@ -196,7 +198,7 @@ void Channel::tell_reader() {
   if (directly_) {
     reader_.drain(*this);
   } else {
-    reader_.owner().context().raise_soon(*this);
+    Host::context(reader_.owner()).raise_soon(*this);
   }
 }
 
@@ -205,7 +207,7 @@ void Channel::deliver(rt::Message& message) {
   self.lower();
   self.reader_.drain(self);
   if (self.ripens()) {
-    static_cast<rt::Signal&>(self).raise(self.reader_.owner().context().next_cycle);
+    static_cast<rt::Signal&>(self).raise(Host::context(self.reader_.owner()).next_cycle);
   }
 }
 

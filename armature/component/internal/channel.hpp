@@ -89,7 +89,7 @@ struct Line {
   bool is_small;       ///< see internal::is_small
   const void* sample;  ///< gives what the channel holds its shape
 
-  bool same_thread() const { return &reader.owner().context() == &writing; }
+  bool same_thread() const { return &Inside::context(reader.owner()) == &writing; }
 };
 
 std::unique_ptr<Channel> make_channel(const Line& line);

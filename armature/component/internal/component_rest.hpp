@@ -9,13 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "armature/component/component.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/component/internal/inside.hpp"
+#include "armature/component/step.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/rt/statistics.hpp"
 
 namespace armature::component {
 
-struct Component::ReportedFault final : rt::Signal {
+struct internal::Inside::ReportedFault final : rt::Signal {
   explicit ReportedFault(Component& component) : rt::Signal(&deliver), self(component) {}
   static void deliver(rt::Message& message);
   Component& self;
@@ -35,7 +37,7 @@ struct Component::Rest {
   std::vector<Step*> steps_before;
   std::vector<Step*> steps_after;
   Reason reason;
-  ReportedFault reported_fault;
+  internal::Inside::ReportedFault reported_fault;
   // Last, being large: what a transition touches lies close together.
   std::uint64_t measured_ticks = 0;
   Component* next_measured = nullptr;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "armature/component/internal/arguments.hpp"
 #include "armature/component/operations/call_record.hpp"
 #include "armature/component/operations/operation.hpp"
-#include "armature/types/type.hpp"
 
 namespace armature::component::internal {
 
@@ -19,14 +16,13 @@ class PendingCall final : public BasicCallRecord<void, rt::FutexParker> {
   void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
 
   /// What the operation returned, of a call that was finished and done; nullptr if nothing.
-  const void* value() const { return value_ ? value_->data() : nullptr; }
+  const void* value() const { return arguments_.result(); }
 
  private:
   static void deliver(rt::Message& message);
 
   OperationBase& operation_;
   Arguments arguments_;
-  std::optional<types::Value> value_;
 };
 
 }  // namespace armature::component::internal

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -98,7 +99,7 @@ class Machine : public testing::Test {
   /// One cycle; what was done in it.
   std::vector<std::string> step(base::Duration duration = 1ms) {
     thread_.cycle(duration);
-    chassis_.update();
+    Host::update(chassis_);
     return chassis_.take_log();
   }
   std::string_view path() { return chassis_.mode.path(); }

@@ -38,15 +38,14 @@ namespace internal {
 PendingCall::PendingCall(OperationBase& operation)
     : BasicCallRecord(&PendingCall::deliver),
       operation_(operation),
-      arguments_(operation.signature()) {
-  if (operation.signature().result != nullptr) value_.emplace(*operation.signature().result);
-}
+      arguments_(operation.signature()) {}
 
 void PendingCall::deliver(rt::Message& message) {
   auto& call = static_cast<PendingCall&>(message);
   if (!call.try_begin()) return;
-  void* const result = call.value_ ? call.value_->data() : nullptr;
-  const CallStatus status = call.operation_.execute_by_message(call.arguments_.places(), result);
+  const Arguments& arguments = call.arguments_;
+  const CallStatus status =
+      call.operation_.execute_by_message(arguments.places(), arguments.result());
   rt::send_gathered();  // what the operation wrote is on its way before its caller goes on
   call.finish({status});
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/component/operations/command.hpp"
 
+#include <charconv>
 #include <string>
 
 #include "armature/component/black_box.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/internal/arguments.hpp"
+#include "armature/component/internal/waiting_commands.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/component/operations/command_ticket.hpp"
 #include "armature/component/stand_in.hpp"
@@ -28,6 +31,8 @@ std::string_view name_of(CommandStage stage) {
       return "free";
     case CommandStage::kQueued:
       return "queued";
+    case CommandStage::kWaiting:
+      return "waiting";
     case CommandStage::kAccepted:
       return "under way";
     case CommandStage::kRefused:
@@ -56,7 +61,7 @@ CommandBase::CommandBase(Component& owner, std::string_view name, std::string_vi
                          Signature signature, Begin begin) noexcept
     : OperationBase(owner, name, doc, std::move(signature), nullptr), begin_(begin) {
   apply(in_own_thread);
-  owner.add_step(*this, false);
+  Host::add_step(owner, *this, false);
 }
 
 /// Components that are stopped have no command under way; of one that was not, nobody hears again.
@@ -82,11 +87,26 @@ base::Result<void> CommandBase::begin_with(CommandTicket* ticket,
   return {};
 }
 
+void CommandBase::let_wait(std::size_t capacity, Begin check) {
+  waiting_ = std::make_unique<internal::WaitingCommands>(signature(), capacity);
+  may_wait_ = check;
+}
+
+void CommandBase::prepare_from(const void* const* arguments) {
+  if (waiting_ != nullptr) waiting_->shape(arguments);
+}
+
+std::size_t CommandBase::waiting() const { return waiting_ == nullptr ? 0 : waiting_->size(); }
+
 Outcome CommandBase::begin_from(CommandTicket* ticket, const void* const* arguments) {
+  return has_to_wait() ? wait(ticket, arguments) : begin_now(ticket, arguments);
+}
+
+Outcome CommandBase::begin_now(CommandTicket* ticket, const void* const* arguments) {
   Outcome outcome = admit(ticket);
   if (!outcome) return outcome;
   const bool completed =
-      owner().run(owner().context(), [&] { outcome = begin_(*this, arguments); });
+      Host::run(owner(), Host::context(owner()), [&] { outcome = begin_(*this, arguments); });
   return begun(ticket, completed, outcome);
 }
 
@@ -95,11 +115,71 @@ void CommandBase::report(double progress) {
 }
 
 void CommandBase::cancel(const CommandTicket& ticket) {
-  if (ticket_ == &ticket) cancel("cancelled by its sender");
+  constexpr std::string_view kReason = "cancelled by its sender";
+  if (ticket_ == &ticket) return cancel(kReason);
+  const std::size_t place = waiting_ == nullptr ? 0 : waiting_->find(ticket);
+  if (place == waiting()) return;
+  drop_waiting(place + 1, kReason);
+  CommandTicket* const cancelled = waiting_->take_last().ticket;
+  note(owner(), Noted::kCancelled, name(), kReason);
+  cancelled->end(CommandStage::kCancelled, kReason);
 }
 
 void CommandBase::step() {
   if (phase_ == Phase::kUnderWay && done_ != nullptr && done_(*this)) complete();
+  if (phase_ == Phase::kIdle && waiting() > 0) begin_next();
+}
+
+// --- waiting -------------------------------------------------------------------------------------
+
+bool CommandBase::has_to_wait() const {
+  return waiting_ != nullptr && (active() || !waiting_->empty());
+}
+
+Outcome CommandBase::wait(CommandTicket* ticket, const void* const* arguments) {
+  const Outcome answer = may_wait_now(arguments);
+  if (answer) {
+    waiting_->add(ticket, arguments);
+    if (ticket != nullptr) ticket->wait_its_turn();
+    return answer;
+  }
+  note(owner(), Noted::kRefused, name(), answer.reason());
+  if (ticket != nullptr) ticket->end(CommandStage::kRefused, answer.reason());
+  return answer;
+}
+
+Outcome CommandBase::may_wait_now(const void* const* arguments) {
+  if (waiting_->full()) {
+    char number[20];
+    const char* const end = std::to_chars(number, number + sizeof number, waiting()).ptr;
+    Reason why("one command is under way and ");
+    why.append({number, end}).append(waiting() == 1 ? " waits" : " wait");
+    return refused(why.append(", which is the most: wait until one is done"));
+  }
+  Outcome answer = accepted();
+  const bool completed =
+      Host::run(owner(), Host::context(owner()), [&] { answer = may_wait_(*this, arguments); });
+  return completed ? answer : refused(owner().reason());
+}
+
+/// The one before it is done. Those behind one that refuses were meant to begin where it ends.
+void CommandBase::begin_next() {
+  const internal::WaitingCommands::Command next = waiting_->take_first();
+  const Outcome answer = begin_now(next.ticket, next.arguments);
+  if (answer) return;
+  owner().log_warning("{}: refused when its turn came: {}", name(), answer.reason());
+  drop_waiting(0, answer.reason());
+}
+
+void CommandBase::drop_waiting(std::size_t remaining, std::string_view reason) {
+  if (waiting() <= remaining) return;
+  Reason why("it waited for a command that was not done: ");
+  why.append(reason);
+  while (waiting() > remaining) {
+    CommandTicket* const dropped = waiting_->take_last().ticket;
+    note(owner(), Noted::kCancelled, name(), why);
+    if (dropped != nullptr) dropped->end(CommandStage::kCancelled, why);
+  }
 }
 
 /// What stands for a command of a component that lives elsewhere.
@@ -127,7 +207,9 @@ Outcome CommandBase::admit(CommandTicket* ticket) {
     phase_ = Phase::kBeginning;
     return accepted();
   }
-  Reason why(active() ? "the previous command is still under way" : "the component is not running");
+  Reason why(active() ? "the previous command is still under way, and this command does not queue"
+                      : "the component is not running");
+  if (active() && is_elsewhere()) why.append(" from another process");
   if (!active() && !owner().reason().empty()) why.append(": ").append(owner().reason());
   const Outcome refusal = refused(why);
   note(owner(), Noted::kRefused, name(), refusal.reason());
@@ -163,7 +245,9 @@ void CommandBase::cancel(std::string_view reason) {
   note(owner(), Noted::kCancelled, name(), reason);
   CommandTicket* const ticket = std::exchange(ticket_, nullptr);
   phase_ = Phase::kIdle;  // first: what the component does now may begin the next one
-  if (cancelled_ != nullptr) owner().run(owner().context(), [this] { cancelled_(*this); });
+  drop_waiting(0, reason);
+  if (cancelled_ != nullptr)
+    Host::run(owner(), Host::context(owner()), [this] { cancelled_(*this); });
   if (ticket != nullptr) ticket->end(CommandStage::kCancelled, reason);
 }
 
@@ -175,6 +259,7 @@ void CommandBase::end(CommandStage stage, std::string_view reason) {
   }
   if (active()) note(owner(), noted(stage), name(), reason);
   phase_ = Phase::kIdle;
+  if (stage != CommandStage::kDone) drop_waiting(0, reason);
   if (ticket != nullptr) ticket->end(stage, reason);
 }
 
@@ -215,7 +300,7 @@ class CommandCallerBase::SentTicket final : public CommandTicket {
     }
     static_cast<void>(ticket.command_.begin_from(&ticket, ticket.arguments_.places()));
   }
-  ExecutionContext& executor() const override { return command_.owner().context(); }
+  ExecutionContext& executor() const override { return Host::context(command_.owner()); }
   void cancel_now() override { command_.cancel(*this); }
 
   CommandBase& command_;
@@ -248,7 +333,7 @@ CommandHandle CommandCallerBase::send_from(const void* const* arguments) {
   for (auto& ticket : tickets_) {
     if (!ticket->try_claim()) continue;
     ticket->set_arguments(arguments);
-    operation_->owner().context().post(*ticket);
+    Host::context(operation_->owner()).post(*ticket);
     return CommandHandle(*ticket);
   }
   count_refused();

@@ -12,15 +12,21 @@
 #include <vector>
 
 #include "armature/component/operations/operation.hpp"
+#include "armature/component/step.hpp"
 
 namespace armature::component {
 
 class CommandTicket;
 
+namespace internal {
+class WaitingCommands;
+}
+
 /// Where a command is. Ordered: everything from kRefused on is an end.
 enum class CommandStage : std::uint32_t {
   kFree,
-  kQueued,
+  kQueued,    ///< on its way to the component
+  kWaiting,   ///< accepted, and not begun yet: the one before it is under way
   kAccepted,  ///< under way
   kRefused,
   kDone,
@@ -43,6 +49,23 @@ struct CancelledBy {};
 /// `void Function()`, told when the command is cancelled or its component stops.
 template <auto Function>
 inline constexpr CancelledBy<Function> cancelled_by{};
+/// Option of a command.
+template <auto Function>
+struct MayWait {
+  std::size_t capacity;
+};
+/// So many commands may wait while one is under way; without this option none does. `Function` is
+/// `Outcome f(Args...) const`, asked when a command is to wait: it refuses what can be refused
+/// before it is known where the command begins, and arguments of another shape than `prepare` was
+/// given. The command itself is asked when it begins, in the update in which the one before it is
+/// done; if it refuses then, its sender is told so, and the log.
+///
+/// A command that waits was given in the hope of what the one before it does: where that one ends
+/// in any other way than done, all that wait are cancelled.
+template <auto Function>
+constexpr MayWait<Function> may_wait(std::size_t capacity) {
+  return {capacity};
+}
 
 /// What tools know of a command, and how it goes on after it was accepted.
 class CommandBase : public OperationBase, public Step {
@@ -51,6 +74,9 @@ class CommandBase : public OperationBase, public Step {
 
   bool is_command() const final { return true; }
   bool active() const { return phase_ != Phase::kIdle; }
+  /// How many are accepted and have not begun.
+  /// @thread the component's own
+  std::size_t waiting() const;
 
   base::Result<std::optional<types::Value>> invoke(
       const std::vector<types::Value>& arguments) final;
@@ -63,14 +89,14 @@ class CommandBase : public OperationBase, public Step {
   /// @thread the component's own
   Outcome begin_from(CommandTicket* ticket, const void* const* arguments);
 
-  /// For the component: how far it is (0..1), and its end.
+  /// For the component: how far it is (0..1), and its end. `fail` also ends all that wait.
   /// @rt nonblocking, no allocation
   /// @thread the component's own
   void report(double progress);
   void complete() { end(CommandStage::kDone, {}); }
   void fail(std::string_view reason) { end(CommandStage::kFailed, reason); }
 
-  /// Ends the command if it is the one that `ticket` began.
+  /// Ends the command if it is the one that `ticket` began, or waits for its turn.
   void cancel(const CommandTicket& ticket);
 
   void step() final;
@@ -81,6 +107,10 @@ class CommandBase : public OperationBase, public Step {
 
   CommandBase(Component& owner, std::string_view name, std::string_view doc, Signature signature,
               Begin begin) noexcept;
+
+  /// @param check  asked before a command waits
+  void let_wait(std::size_t capacity, Begin check);
+  void prepare_from(const void* const* arguments);
 
   using OperationBase::apply;
   template <auto Predicate>
@@ -105,6 +135,14 @@ class CommandBase : public OperationBase, public Step {
   std::unique_ptr<OperationBase> make_twin(Component& owner) const final;
   /// Begins, or refuses because it cannot now; `ticket` is told of a refusal, if there is one.
   Outcome admit(CommandTicket* ticket);
+  Outcome begin_now(CommandTicket* ticket, const void* const* arguments);
+  /// The next one waits behind those before it, or is refused.
+  bool has_to_wait() const;
+  Outcome wait(CommandTicket* ticket, const void* const* arguments);
+  Outcome may_wait_now(const void* const* arguments);
+  void begin_next();
+  /// Ends those that wait, but for the first `remaining`.
+  void drop_waiting(std::size_t remaining, std::string_view reason);
   /// Goes on after the component was asked, and tells `ticket`, if there is one.
   /// @param completed  no exception escaped
   /// @param outcome    what the component said
@@ -119,15 +157,19 @@ class CommandBase : public OperationBase, public Step {
   CommandStage ended_early_ = CommandStage::kDone;  ///< while it was begun
   Reason early_reason_;
   CommandTicket* ticket_ = nullptr;
+  Begin may_wait_ = nullptr;
+  std::unique_ptr<internal::WaitingCommands> waiting_;  ///< nullptr: none may
 };
 
 /// An operation that goes on after it was accepted: refused with a reason, or under way with
-/// progress until it is done, failed or cancelled. One at a time; runs in its component's thread.
+/// progress until it is done, failed or cancelled. One at a time, and as many wait as `may_wait`
+/// says; runs in its component's thread.
 template <typename... Args>
 class Command final : public CommandBase {
  public:
   /// `Function` is `Outcome f(Args...)`: accepts, or refuses with a reason and changes nothing.
-  /// Options: done_when<&X::f>, cancelled_by<&X::f>, by_operator, in_any_state, args(names...).
+  /// Options: done_when<&X::f>, cancelled_by<&X::f>, may_wait<&X::f>(n), by_operator, in_any_state,
+  /// args(names...).
   template <auto Function, typename... Options>
   Command(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
           Options... options) noexcept
@@ -141,7 +183,21 @@ class Command final : public CommandBase {
     return begin_from(ticket, places.data());
   }
 
+  /// Gives the memory of those that wait the shape of these arguments, so that none of them
+  /// allocates.
+  /// @thread configuration only
+  void prepare(Args... sample) {
+    const std::array<const void*, sizeof...(Args)> places{&sample...};
+    prepare_from(places.data());
+  }
+
  private:
+  using CommandBase::apply;
+  template <auto Function>
+  void apply(MayWait<Function> option) noexcept {
+    let_wait(option.capacity, &serve_from<Function>);
+  }
+
   template <auto Function>
   static Outcome serve_from(CommandBase& command, [[maybe_unused]] const void* const* arguments) {
     using Owner = internal::OwnerOf<Function>;

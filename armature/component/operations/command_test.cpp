@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -76,10 +77,10 @@ TEST_F(Commands, AreQueuedThenAcceptedThenDone) {
   subordinate_.deliver();
   EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
   EXPECT_TRUE(axis_.move_to.active());
-  axis_.update();
+  Host::update(axis_);
   EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
   axis_.resting = true;
-  axis_.update();
+  Host::update(axis_);
   EXPECT_EQ(handle.stage(), CommandStage::kDone);
   EXPECT_TRUE(handle.ended());
   EXPECT_EQ(handle.reason(), "");
@@ -99,13 +100,14 @@ TEST_F(Commands, OneAtATime) {
   const CommandHandle first = send(1.0);
   const CommandHandle second = send(2.0);
   EXPECT_EQ(second.stage(), CommandStage::kRefused);
-  EXPECT_EQ(second.reason(), "the previous command is still under way");
+  EXPECT_EQ(second.reason(),
+            "the previous command is still under way, and this command does not queue");
   EXPECT_EQ(first.stage(), CommandStage::kAccepted);
   EXPECT_THAT(axis_.targets, ElementsAre(1.0));
 }
 
 TEST_F(Commands, AreRefusedByWhatDoesNotRun) {
-  axis_.stop();
+  Host::stop(axis_);
   const CommandHandle handle = send(1.0);
   EXPECT_EQ(handle.stage(), CommandStage::kRefused);
   EXPECT_EQ(handle.reason(), "the component is not running");
@@ -168,7 +170,7 @@ TEST_F(Commands, CancellingOneThatEndedDoesNotTouchTheNext) {
 
 TEST_F(Commands, StoppingTheComponentCancelsThem) {
   const CommandHandle handle = send(1.0);
-  axis_.stop();
+  Host::stop(axis_);
   EXPECT_EQ(handle.stage(), CommandStage::kCancelled);
   EXPECT_EQ(handle.reason(), "the component was stopped");
   EXPECT_EQ(axis_.brakes, 1);
@@ -187,9 +189,9 @@ TEST_F(Commands, WhatIsCancelledByAStopCannotBeginAgainMeanwhile) {
     const Outcome again = axis_.move_to.begin(nullptr, 2.0);
     EXPECT_EQ(again.reason(), "the component is not running");
   };
-  axis_.stop();
+  Host::stop(axis_);
   EXPECT_FALSE(axis_.move_to.active());
-  ASSERT_TRUE(axis_.start());
+  ASSERT_TRUE(Host::start(axis_));
   EXPECT_EQ(send(3.0).stage(), CommandStage::kAccepted);
 }
 
@@ -268,7 +270,8 @@ TEST_F(Commands, ToolsBeginThemAndAreToldWhyNot) {
   EXPECT_TRUE(axis_.move_to.invoke({types::Value::of(1.0)}));
   const auto again = axis_.move_to.invoke({types::Value::of(1.0)});
   ASSERT_FALSE(again);
-  EXPECT_EQ(again.error(), "the previous command is still under way");
+  EXPECT_EQ(again.error(),
+            "the previous command is still under way, and this command does not queue");
   const auto wrong = axis_.move_to.invoke({types::Value::of(1)});
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error(),
@@ -279,6 +282,7 @@ TEST_F(Commands, ToolsBeginThemAndAreToldWhyNot) {
 
 TEST(CommandNames, AreWords) {
   EXPECT_EQ(name_of(CommandStage::kQueued), "queued");
+  EXPECT_EQ(name_of(CommandStage::kWaiting), "waiting");
   EXPECT_EQ(name_of(CommandStage::kAccepted), "under way");
   EXPECT_EQ(name_of(CommandStage::kRefused), "refused");
   EXPECT_EQ(name_of(CommandStage::kDone), "done");

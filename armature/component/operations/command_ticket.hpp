@@ -46,6 +46,7 @@ class BasicCommandState : public BasicSharedRecord<Atomics> {
 
   /// @thread the executing one
   void report(double progress) { progress_.store(progress, std::memory_order_relaxed); }
+  void wait_its_turn() { stage_.store(CommandStage::kWaiting, std::memory_order_release); }
   void accept() { stage_.store(CommandStage::kAccepted, std::memory_order_release); }
   template <typename Given>
   void end(CommandStage stage, const Given& reason) {
@@ -72,7 +73,7 @@ class CommandTicket : public rt::Message, public BasicCommandState<Reason, rt::S
 
  protected:
   virtual ExecutionContext& executor() const = 0;
-  /// Ends the command if it is under way for this ticket.
+  /// Ends the command if it is under way, or waits, for this ticket.
   virtual void cancel_now() = 0;
 
  private:

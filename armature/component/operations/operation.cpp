@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/pending_call.hpp"
 #include "armature/component/stand_in.hpp"
 
@@ -18,12 +19,13 @@ struct OperationBase::About {
   bool by_operator = false;
   bool elsewhere = false;
   bool any_state = false;
+  const Property<bool>* offered_if = nullptr;
 };
 
 OperationBase::OperationBase(Component& owner, std::string_view name, std::string_view doc,
                              Signature signature, ExecuteFrom execute_from) noexcept
     : owner_(owner), about_(new About{name, doc, std::move(signature), execute_from}) {
-  owner.declare().operations.push_back(this);
+  Host::declare(owner).operations.push_back(this);
 }
 
 OperationBase::~OperationBase() = default;
@@ -50,6 +52,12 @@ void OperationBase::apply(ByOperator) noexcept { about_->by_operator = true; }
 
 void OperationBase::apply(InAnyState) noexcept { about_->any_state = true; }
 
+void OperationBase::apply(Wanted option) noexcept { about_->offered_if = option.property; }
+
+bool OperationBase::is_offered() const {
+  return about_->offered_if == nullptr || about_->offered_if->get();
+}
+
 void OperationBase::apply(const ArgumentNames& given) noexcept {
   std::vector<Signature::Argument>& arguments = about_->signature.arguments;
   for (std::size_t i = 0; i < arguments.size() && i < given.names.size(); ++i) {
@@ -65,8 +73,9 @@ FreeFunction OperationBase::free_function() const noexcept { return about_->func
 
 CallStatus OperationBase::execute_by_message(const void* const* arguments, void* result) noexcept {
   CallStatus status = CallStatus::kPending;
-  owner_.run(owner_.context(),
-             [&] { status = about_->execute_from(*this, owner_.context(), arguments, result); });
+  Host::run(owner_, Host::context(owner_), [&] {
+    status = about_->execute_from(*this, Host::context(owner_), arguments, result);
+  });
   return status;
 }
 
@@ -102,7 +111,7 @@ CallStatus OperationBase::pass_on(ExecutionContext& where, const void* const* ar
   auto& component = static_cast<StandIn&>(owner());
   if (!component.ready()) return CallStatus::kNotReady;
   CallStatus status = CallStatus::kFailed;
-  component.enter_hook(where, [&] { status = component.call(*this, arguments, result); });
+  Host::enter_hook(component, where, [&] { status = component.call(*this, arguments, result); });
   return status;
 }
 
@@ -111,6 +120,7 @@ std::string OperationBase::mismatch(const std::vector<types::Value>& arguments) 
   for (std::size_t i = 0; fits && i < arguments.size(); ++i) {
     fits = types::same_type(arguments[i].type(), *about_->signature.arguments[i].type);
   }
+  if (!is_offered()) return why_not_offered();
   if (fits) return refusal_of_sealed();
   std::string given;
   for (const types::Value& argument : arguments) {
@@ -129,6 +139,11 @@ std::string OperationBase::refusal_of_sealed() const {
   return {};
 }
 
+std::string OperationBase::why_not_offered() const {
+  return "'" + owner_.name() + "' has no operation '" + std::string(name()) + "': its property " +
+         std::string(about_->offered_if->name()) + " is false";
+}
+
 struct OperationCallerBase::About final : Requirement::About {
   About(std::string_view its_name, std::string_view its_doc, Signature its_signature)
       : Requirement::About(its_name, its_doc), signature(std::move(its_signature)) {}
@@ -143,7 +158,7 @@ struct OperationCallerBase::About final : Requirement::About {
 OperationCallerBase::OperationCallerBase(Component& owner, std::string_view name,
                                          std::string_view doc, Signature signature) noexcept
     : Requirement(owner, std::make_unique<About>(name, doc, std::move(signature))) {
-  owner.declare().callers.push_back(this);
+  Host::declare(owner).callers.push_back(this);
 }
 
 OperationCallerBase::~OperationCallerBase() = default;
@@ -163,12 +178,13 @@ void OperationCallerBase::apply(Outstanding option) noexcept { about().outstandi
 std::size_t OperationCallerBase::outstanding() const { return about().outstanding; }
 
 bool OperationCallerBase::would_wait() const {
-  return owner().context().real_time && operation_->is_elsewhere();
+  return Host::context(owner()).real_time && operation_->is_elsewhere();
 }
 
 void OperationCallerBase::connect(OperationBase& operation) {
   operation_ = &operation;
-  direct_ = !operation.runs_in_own_thread() || &operation.owner().context() == &owner().context();
+  direct_ = !operation.runs_in_own_thread() ||
+            &Host::context(operation.owner()) == &Host::context(owner());
   About& mine = about();
   mine.calls.clear();
   mine.next = 0;
@@ -190,7 +206,7 @@ SentCall OperationCallerBase::send_from(const void* const* arguments) {
     if (++mine.next == mine.calls.size()) mine.next = 0;
     if (!call.try_claim()) continue;
     call.set_arguments(arguments);
-    operation_->owner().context().post(call);
+    Host::context(operation_->owner()).post(call);
     return SentCall(call);
   }
   ++mine.refused;

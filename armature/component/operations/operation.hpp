@@ -16,6 +16,7 @@
 #include "armature/component/by_operator.hpp"
 #include "armature/component/component.hpp"
 #include "armature/component/context.hpp"
+#include "armature/component/internal/inside.hpp"
 #include "armature/component/operations/call.hpp"
 #include "armature/component/operations/requirement.hpp"
 #include "armature/component/operations/signature.hpp"
@@ -57,6 +58,11 @@ class OperationBase {
   Component& owner() const { return owner_; }
   bool runs_in_own_thread() const;
   bool is_by_operator() const;
+  /// False while the property of its option `only_if` is false: peers, tools and scripts have no
+  /// such operation then.
+  bool is_offered() const;
+  /// Why it is not offered, for a message.
+  std::string why_not_offered() const;
   /// Its component stands for one that lives elsewhere.
   bool is_elsewhere() const;
   /// True if accepting it is not the end of it: it has progress and completion.
@@ -88,6 +94,7 @@ class OperationBase {
   void apply(ByOperator) noexcept;
   void apply(InAnyState) noexcept;
   void apply(const ArgumentNames& given) noexcept;
+  void apply(Wanted option) noexcept;
 
   /// Whether it is served now although its component is not ready.
   bool serves_unready() const;
@@ -122,7 +129,7 @@ class OperationCaller;
 template <typename R, typename... Args>
 class Operation<R(Args...)> final : public OperationBase {
  public:
-  /// Options: in_own_thread, by_operator, in_any_state, args(names...).
+  /// Options: in_own_thread, by_operator, in_any_state, only_if(property), args(names...).
   template <auto Function, typename... Options>
   Operation(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
             Options... options) noexcept
@@ -148,7 +155,7 @@ class Operation<R(Args...)> final : public OperationBase {
     (apply(options), ...);
   }
 
-  /// Executes it here, for a component that calls out (see Component::call_out).
+  /// Executes it here, for a component that calls out (see internal::Inside::call_out).
   /// @param where  the context of the calling thread
   CallResult<R> execute(ExecutionContext& where, Args... arguments) noexcept {
     return execute_(*this, where, static_cast<Args>(arguments)...);
@@ -178,7 +185,7 @@ class Operation<R(Args...)> final : public OperationBase {
     Component& component = owner();
     if (!component.ready() && !serves_unready()) return {CallStatus::kNotReady};
     CallResult<R> result{CallStatus::kFailed};
-    component.enter_hook(where, [&] {
+    internal::Inside::enter_hook(component, where, [&] {
       if constexpr (std::is_void_v<R>) {
         code();
       } else {
@@ -289,11 +296,13 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   CallResult<R> operator()(Args... arguments) {
     if (operation_ == nullptr) [[unlikely]]
       return {CallStatus::kNotConnected};
-    if (direct_ || operation_->owner().context().shares_thread_with(owner().context())) {
+    if (direct_ || internal::Inside::context(operation_->owner())
+                       .shares_thread_with(internal::Inside::context(owner()))) {
       auto& operation = static_cast<Operation<R(Args...)>&>(*operation_);
       CallResult<R> result{};
-      owner().call_out(operation.owner(), [&] {
-        result = operation.execute(owner().context(), static_cast<Args>(arguments)...);
+      internal::Inside::call_out(owner(), operation.owner(), [&] {
+        result =
+            operation.execute(internal::Inside::context(owner()), static_cast<Args>(arguments)...);
       });
       return result;
     }

@@ -23,11 +23,12 @@ struct Optional {};
 /// It is no mistake if no peer has it.
 inline constexpr Optional optional{};
 
-/// Option of a requirement.
+/// Option of a requirement, and of an operation.
 struct Wanted {
   const Property<bool>* property;
 };
-/// Needed only while a property is true, e.g. brake operations only for a joint with a brake.
+/// Needed, or offered, only while a property is true, e.g. brake operations only for a joint with a
+/// brake.
 inline Wanted only_if(const Property<bool>& property) { return {&property}; }
 
 /// Something that a component uses of a peer: an operation that it calls, an event it reacts to.

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/port_parts.hpp"
 #include "armature/component/stand_in.hpp"
 
@@ -41,7 +42,7 @@ InputPortBase::About::~About() = default;
 
 InputPortBase::InputPortBase(Component& owner, const PortDeclaration& declaration) noexcept
     : PortBase(owner, std::make_unique<About>(*this, declaration)), source_(about().empty_value()) {
-  owner.declare().inputs.push_back(this);
+  Host::declare(owner).inputs.push_back(this);
 }
 
 InputPortBase::~InputPortBase() {
@@ -86,14 +87,14 @@ void InputPortBase::apply(MaxAge declared) noexcept {
   about().max_age = declared.age;
   about().stale_reaction = declared.reaction;
   set(kAges, declared.age > base::Duration::zero());
-  if (ages()) owner().note_aging_input();
+  if (ages()) Host::note_aging_input(owner());
 }
 
 void InputPortBase::apply(OnDataUpdate) noexcept {
   triggers_ = true;
   arrived_ = [](InputPortBase& port, ExecutionContext& where) noexcept {
     port.set(kZeroed, false);
-    port.pass(where, [&port] { port.owner().update(); });
+    port.pass(where, [&port] { Host::update(port.owner()); });
   };
 }
 
@@ -101,7 +102,7 @@ template <typename Code>
 void InputPortBase::pass(ExecutionContext& where, Code&& code) noexcept {
   if (inside_ != 0) return refuse(where);
   inside_ = 1;
-  owner().enter_handler(where, *this, outer_, code);
+  Host::enter_handler(owner(), where, *this, outer_, code);
   inside_ = 0;
 }
 
@@ -110,7 +111,7 @@ void InputPortBase::connect_source(OutputPortBase& writer, const void* sample) {
   const std::uint64_t sequence = current_sequence();
   seen_ = sequence == 0 ? 0 : sequence - 1;
   about().writers.push_back(&writer);
-  if (ages()) owner().note_aging_input();
+  if (ages()) Host::note_aging_input(owner());
 }
 
 void InputPortBase::connect_channel(OutputPortBase& writer,
@@ -119,7 +120,7 @@ void InputPortBase::connect_channel(OutputPortBase& writer,
   about().writers.push_back(&writer);
   about().channels.push_back(std::move(channel));
   set(kPulls, !triggers_);
-  if (ages()) owner().note_aging_input();
+  if (ages()) Host::note_aging_input(owner());
 }
 
 void InputPortBase::set_shape(const void* value) {
@@ -178,14 +179,14 @@ void InputPortBase::drain(internal::Channel& channel) {
 
 void InputPortBase::receive(internal::Channel& channel, const void* sample) {
   take(channel, sample);
-  ExecutionContext& where = owner().context();
-  owner().run_handler(where, [this, &where] { arrived(where); });
+  ExecutionContext& where = Host::context(owner());
+  Host::run_handler(owner(), where, [this, &where] { arrived(where); });
 }
 
 void InputPortBase::arrived_with_care(ExecutionContext& where, Handle handle) noexcept {
   set(kZeroed, false);
   if (has(kAges) && (about().late || is_stale(current_time()))) check_age();
-  if (!owner().admits()) return;
+  if (!Host::admits(owner())) return;
   pass(where, [this, handle] {
     const bool zero = reads_zero(is_stale(current_time()));
     handle(*this, zero ? about().empty_value() : source_);
@@ -278,7 +279,7 @@ std::unique_ptr<InputPortBase> InputPortBase::twin(StandIn& owner) const {
   return std::make_unique<Twin>(owner, *this);
 }
 
-void InputPortBase::tell_lost() { owner().context().raise(about().lost); }
+void InputPortBase::tell_lost() { Host::context(owner()).raise(about().lost); }
 
 void InputPortBase::set_at_once(bool on) {
   set(kRests, !on);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "armature/component/context.hpp"
+#include "armature/component/internal/inside.hpp"
 #include "armature/component/operations/signature.hpp"
 #include "armature/component/ports/port.hpp"
 
@@ -118,7 +119,7 @@ class InputPortBase : public PortBase {
   bool writers_take_turns() const;
   void disconnect(OutputPortBase& writer);
   /// A sample was written in this thread to the place that this port reads; for a component that
-  /// calls out (see Component::call_out).
+  /// calls out (see internal::Inside::call_out).
   /// @param where  the context of both
   void arrived(ExecutionContext& where) noexcept { arrived_(*this, where); }
   /// Takes what `channel` holds, one handler call for each sample.
@@ -287,8 +288,8 @@ class InputPort final : public InputPortBase {
       }
       Component& component = port.owner();
       port.inside_ = 1;
-      component.enter_handler(where, port, port.outer_,
-                              [&] { call<Handler>(component, port, port.sample().value); });
+      internal::Inside::enter_handler(component, where, port, port.outer_,
+                                      [&] { call<Handler>(component, port, port.sample().value); });
       port.inside_ = 0;
     };
   }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/port_parts.hpp"
 #include "armature/component/internal/port_tap.hpp"
 #include "armature/component/stand_in.hpp"
@@ -17,7 +18,7 @@ OutputPortBase::About::~About() = default;
 OutputPortBase::OutputPortBase(Component& owner, const PortDeclaration& declaration,
                                void* sample) noexcept
     : PortBase(owner, std::make_unique<About>(declaration, sample)) {
-  owner.declare().outputs.push_back(this);
+  Host::declare(owner).outputs.push_back(this);
 }
 
 OutputPortBase::~OutputPortBase() { disconnect_all(); }
@@ -59,8 +60,8 @@ bool OutputPortBase::fits(const InputPortBase& input) const {
 
 void OutputPortBase::connect(InputPortBase& input, const ConnectionPolicy& policy) {
   input.set_shape(current());
-  const internal::Line line{owner().context(), input,    policy, about().form,
-                            about().is_small,  current()};
+  const internal::Line line{Host::context(owner()), input,    policy, about().form,
+                            about().is_small,       current()};
   const bool latest = policy.kind == ConnectionPolicy::Kind::kLatest;
   const bool several = input.allows_fan_in() || input.writers_take_turns();
   if (line.same_thread() && latest && !policy.one_cycle_delay && !several) {
@@ -222,7 +223,7 @@ WriteStatus OutputPortBase::deliver(const void* sample) noexcept {
 }
 
 void OutputPortBase::run_measured(InputPortBase& input) noexcept {
-  owner().call_out(input.owner(), [&] { input.arrived(owner().context()); });
+  Host::call_out(owner(), input.owner(), [&] { input.arrived(Host::context(owner())); });
 }
 
 void OutputPortBase::note(rt::PushResult result, WriteStatus& status) {

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "armature/component/internal/inside.hpp"
 #include "armature/component/ports/input_port.hpp"
 #include "armature/component/ports/port.hpp"
 
@@ -95,7 +96,7 @@ class OutputPortBase : public PortBase {
     if (delivery_ != Delivery::kHandler) {
       return delivery_ == Delivery::kNothing ? unread_ : deliver(sample);
     }
-    ExecutionContext& where = owner().context();
+    ExecutionContext& where = internal::Inside::context(owner());
     if (where.measuring) [[unlikely]] {
       run_measured(*only_.handler);
     } else {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -52,7 +53,7 @@ class Age : public testing::TestWithParam<bool> {
   void write_and_cycle(double value) {
     cycle();
     writer_.out.write(value);
-    follower_->update();
+    Host::update(*follower_);
   }
 
   Writer<double> writer_{"writer"};
@@ -75,11 +76,11 @@ TEST_P(Age, OlderThanDeclaredStopsTheComponentBeforeItsUpdate) {
   write_and_cycle(1.0);
   for (int i = 0; i < 2; ++i) {
     cycle();
-    follower.update();
+    Host::update(follower);
   }
   EXPECT_EQ(follower.state(), State::kRunning) << "exactly as old as declared";
   cycle();
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kStopped);
   EXPECT_EQ(follower.reason(), "input 'Reference': its data is older than declared");
   EXPECT_EQ(follower.seen.size(), 3u) << "the update did not run once more";
@@ -91,7 +92,7 @@ TEST_P(Age, FaultsIfThatIsDeclared) {
   Follower& follower = follow(max_age(milliseconds(2), Reaction::kFault));
   write_and_cycle(1.0);
   cycle(milliseconds(3));
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kException);
   EXPECT_EQ(follower.reason(), "input 'Reference': its data is older than declared");
   EXPECT_THAT(supervisor_.faulted, ElementsAre("follower"));
@@ -101,9 +102,9 @@ TEST_P(Age, HoldsTheLastValueMarkedAsStaleAndCountsEachTimeItBegins) {
   Follower& follower = follow(max_age(milliseconds(2), Reaction::kHold));
   write_and_cycle(1.0);
   cycle(milliseconds(3));
-  follower.update();
+  Host::update(follower);
   cycle();
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kRunning);
   EXPECT_THAT(follower.seen, ElementsAre(1.0, 1.0, 1.0));
   EXPECT_THAT(follower.usable, ElementsAre(true, false, false));
@@ -112,7 +113,7 @@ TEST_P(Age, HoldsTheLastValueMarkedAsStaleAndCountsEachTimeItBegins) {
   EXPECT_TRUE(follower.usable.back());
   EXPECT_EQ(follower.seen.back(), 2.0);
   cycle(milliseconds(3));
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.in.counters().stale, 2u);
 }
 
@@ -120,7 +121,7 @@ TEST_P(Age, ReadsZeroUntilThereIsFreshData) {
   Follower& follower = follow(max_age(milliseconds(2), Reaction::kZero));
   write_and_cycle(1.0);
   cycle(milliseconds(3));
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kRunning);
   write_and_cycle(2.0);
   EXPECT_THAT(follower.seen, ElementsAre(1.0, 0.0, 2.0));
@@ -130,10 +131,10 @@ TEST_P(Age, ReadsZeroUntilThereIsFreshData) {
 TEST_P(Age, DataThatNeverCameIsTooOldOnceTheTimeSinceTheStartIs) {
   Follower& follower = follow(max_age(milliseconds(2)));
   cycle(milliseconds(2));
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kRunning);
   cycle();
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kStopped);
 }
 
@@ -141,10 +142,10 @@ TEST_P(Age, AfterARestartTheWriterGetsTheTimeAgainButOldDataIsStillMarked) {
   Follower& follower = follow(max_age(milliseconds(2)));
   write_and_cycle(1.0);
   cycle(milliseconds(10));
-  follower.update();
+  Host::update(follower);
   ASSERT_EQ(follower.state(), State::kStopped);
-  EXPECT_TRUE(follower.start());
-  follower.update();
+  EXPECT_TRUE(Host::start(follower));
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kRunning);
   EXPECT_FALSE(follower.usable.back()) << "a command from before the stop moves nothing";
   write_and_cycle(2.0);
@@ -221,12 +222,12 @@ TEST(AgeOfFifos, LookingAtTheAgeTakesNoValueFromTheReader) {
   start(writer, reader);
   for (int i = 1; i <= 3; ++i) writer.out.write(i);
   mine.cycle();
-  EXPECT_TRUE(reader.admits());
+  EXPECT_TRUE(Host::admits(reader));
   EXPECT_EQ(reader.in.read().value, 1);
   mine.cycle();
-  EXPECT_TRUE(reader.admits());
+  EXPECT_TRUE(Host::admits(reader));
   mine.cycle();
-  EXPECT_TRUE(reader.admits());
+  EXPECT_TRUE(Host::admits(reader));
   EXPECT_EQ(reader.in.read().value, 2);
   EXPECT_EQ(reader.in.read().value, 3);
   EXPECT_EQ(reader.in.counters().missed, 0u);
@@ -237,7 +238,7 @@ TEST(AgeOfOpenPorts, APortThatMayStayOpenAndDoesHasNoAge) {
   TestThread thread(reader);
   start(reader);
   thread.cycle(milliseconds(10));
-  EXPECT_TRUE(reader.admits());
+  EXPECT_TRUE(Host::admits(reader));
   EXPECT_EQ(reader.state(), State::kRunning);
 }
 
@@ -249,13 +250,13 @@ TEST(AgeOfOpenPorts, ThatAreConnectedWhileTheComponentRunsIsLookedAtFromThenOn) 
   thread.add(follower);
   start(writer, follower);
   thread.cycle(milliseconds(100));
-  follower.update();
+  Host::update(follower);
   ASSERT_EQ(follower.state(), State::kRunning);
   writer.out.connect(follower.in, latest());
   writer.out.write(1.0);
-  follower.update();
+  Host::update(follower);
   thread.cycle(milliseconds(11));
-  follower.update();
+  Host::update(follower);
   EXPECT_EQ(follower.state(), State::kStopped);
 }
 
@@ -266,9 +267,9 @@ TEST(AgeFromOutside, ADeploymentMayDeclareTheAgeOfAConnection) {
   writer.out.connect(reader.in, latest());
   reader.in.set_max_age(max_age(milliseconds(1), Reaction::kFault));
   start(reader);
-  EXPECT_TRUE(reader.has_aging_inputs());
+  EXPECT_TRUE(Host::has_aging_inputs(reader));
   thread.cycle(milliseconds(2));
-  EXPECT_FALSE(reader.admits());
+  EXPECT_FALSE(Host::admits(reader));
   EXPECT_EQ(reader.state(), State::kException);
 }
 
@@ -296,17 +297,17 @@ TEST_P(Lost, HoldsZeroesOrFaultsAsDeclared) {
     writer.out.connect(follower.in, latest());
     start(writer, follower);
     writer.out.write(1.0);
-    follower.update();
+    Host::update(follower);
     writer.fault("for the test");
     cycle();
-    follower.update();
+    Host::update(follower);
     EXPECT_EQ(follower.state(), reaction == Reaction::kFault ? State::kException : State::kRunning);
     if (reaction == Reaction::kFault) continue;
     EXPECT_EQ(follower.seen.back(), reaction == Reaction::kHold ? 1.0 : 0.0);
-    ASSERT_TRUE(writer.reset());
-    ASSERT_TRUE(writer.start());
+    ASSERT_TRUE(Host::reset(writer));
+    ASSERT_TRUE(Host::start(writer));
     writer.out.write(3.0);
-    follower.update();
+    Host::update(follower);
     EXPECT_EQ(follower.seen.back(), 3.0) << "the next value ends it";
   }
 }
@@ -330,11 +331,11 @@ TEST_P(Lost, TheLossGoesOnDownTheChain) {
 
 TEST_P(Lost, AnExceptionInTheWriterIsALossAnOrderedStopIsNone) {
   Follower& follower = follow();
-  writer_.stop();
+  Host::stop(writer_);
   cycle();
   EXPECT_EQ(follower.state(), State::kRunning);
-  ASSERT_TRUE(writer_.start());
-  writer_.run(writer_.context(), [] { throw 1; });
+  ASSERT_TRUE(Host::start(writer_));
+  Host::run(writer_, Host::context(writer_), [] { throw 1; });
   cycle();
   EXPECT_EQ(follower.state(), State::kStopped);
 }
@@ -344,9 +345,9 @@ TEST_P(Lost, AfterTheWriterCameBackTheReaderStartsAgain) {
   writer_.fault("for the test");
   cycle();
   ASSERT_EQ(follower.state(), State::kStopped);
-  ASSERT_TRUE(writer_.reset());
-  ASSERT_TRUE(writer_.start());
-  ASSERT_TRUE(follower.start());
+  ASSERT_TRUE(Host::reset(writer_));
+  ASSERT_TRUE(Host::start(writer_));
+  ASSERT_TRUE(Host::start(follower));
   write_and_cycle(2.0);
   EXPECT_EQ(follower.state(), State::kRunning);
   EXPECT_EQ(follower.reason(), "");
@@ -361,8 +362,8 @@ TEST_P(Lost, ALossThatWasNotDeliveredWhenTheThreadsEndedIsForgotten) {
   writer_.fault("for the test");
   TestThread next;
   next.add(writer_, follower);
-  ASSERT_TRUE(writer_.reset());
-  ASSERT_TRUE(writer_.start());
+  ASSERT_TRUE(Host::reset(writer_));
+  ASSERT_TRUE(Host::start(writer_));
   next.cycle();
   EXPECT_EQ(follower.state(), State::kRunning);
   writer_.fault("again");

@@ -3,12 +3,14 @@
 
 #include <cstring>
 
+#include "armature/component/host.hpp"
+
 namespace armature::component {
 
 PortArrayBase::PortArrayBase(Component& owner, std::string_view name, Property<int>& count,
                              std::string_view unit) noexcept
     : name_(name), unit_(unit), count_(count) {
-  owner.declare().port_arrays.push_back(this);
+  Host::declare(owner).port_arrays.push_back(this);
   count.add_follower(*this);
 }
 
@@ -34,11 +36,11 @@ void PortArrayBase::keep_options(const void* options, std::size_t size) {
 }
 
 void PortArrayBase::forget(InputPortBase& port) {
-  std::erase(port.owner().declare().inputs, &port);
+  std::erase(Host::declare(port.owner()).inputs, &port);
 }
 
 void PortArrayBase::forget(OutputPortBase& port) {
-  std::erase(port.owner().declare().outputs, &port);
+  std::erase(Host::declare(port.owner()).outputs, &port);
 }
 
 }  // namespace armature::component

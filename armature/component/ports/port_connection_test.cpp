@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -285,7 +286,7 @@ TEST_F(TwoThreads, AnEventThatComesDuringTheUpdateIsHandledInTheSameCycle) {
     writer_.out.write(1);
     EXPECT_THAT(triggered_.values, ElementsAre()) << "the update is not interrupted";
   };
-  triggered_.update();
+  Host::update(triggered_);
   readers_.deliver();
   EXPECT_THAT(triggered_.values, ElementsAre(1));
   EXPECT_EQ(triggered_.updates, 1) << "the handler did not cause one more";

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -256,7 +257,7 @@ TEST(Trigger, WhatArrivesWhileTheComponentDoesNotRunTriggersNothingAndCanBeReadL
   EXPECT_THAT(reader.values, ElementsAre());
   EXPECT_EQ(reader.in.read().status, ReadStatus::kNew);
   EXPECT_EQ(reader.in.read().value, 1);
-  reader.stop();
+  Host::stop(reader);
   writer.out.write(2);
   EXPECT_THAT(reader.values, ElementsAre());
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/rt/inbox.hpp"
 
@@ -22,14 +23,14 @@ class Turns {
   explicit Turns(Options... options) : reader("Reader", options...) {
     for (Component* each : {static_cast<Component*>(&a), static_cast<Component*>(&b),
                             static_cast<Component*>(&reader)}) {
-      each->assign_context(context);
-      EXPECT_TRUE(each->configure());
+      Host::assign_context(*each, context);
+      EXPECT_TRUE(Host::configure(*each));
     }
     reader.in.let_writers_take_turns();
     a.out.connect(reader.in, latest());
     b.out.connect(reader.in, latest());
-    EXPECT_TRUE(a.start());
-    EXPECT_TRUE(reader.start());
+    EXPECT_TRUE(Host::start(a));
+    EXPECT_TRUE(Host::start(reader));
   }
   ~Turns() {
     a.out.disconnect_all();
@@ -46,8 +47,8 @@ class Turns {
 TEST(Turns, AHandlerRunsForWhoeverWrites) {
   Turns<TriggeredReader> turns;
   turns.a.out.write(1);
-  turns.a.stop();
-  EXPECT_TRUE(turns.b.start());
+  Host::stop(turns.a);
+  EXPECT_TRUE(Host::start(turns.b));
   turns.b.out.write(2);
   turns.b.out.write(3);
   EXPECT_EQ(turns.reader.values, (std::vector<int>{1, 2, 3}));
@@ -57,8 +58,8 @@ TEST(Turns, WhatTheLastOneWroteStaysUntilTheNextOneWrites) {
   Turns<Reader<int>> turns;
   turns.a.out.write(1);
   EXPECT_EQ(turns.reader.in.read().value, 1);
-  turns.a.stop();
-  EXPECT_TRUE(turns.b.start());
+  Host::stop(turns.a);
+  EXPECT_TRUE(Host::start(turns.b));
   const auto held = turns.reader.in.read();
   EXPECT_EQ(held.status, ReadStatus::kOld);
   EXPECT_EQ(held.value, 1);
@@ -86,20 +87,20 @@ TEST(Turns, AgeGoesOnFromTheLastOne) {
   Turns<Reader<int>> turns(max_age(30ms));
   turns.at(10ms);
   turns.a.out.write(1);
-  turns.a.stop();
-  EXPECT_TRUE(turns.b.start());
+  Host::stop(turns.a);
+  EXPECT_TRUE(Host::start(turns.b));
   turns.at(40ms);
-  EXPECT_TRUE(turns.reader.admits()) << "30 ms old";
+  EXPECT_TRUE(Host::admits(turns.reader)) << "30 ms old";
   turns.b.out.write(2);
   turns.at(70ms);
-  EXPECT_TRUE(turns.reader.admits());
+  EXPECT_TRUE(Host::admits(turns.reader));
   turns.at(71ms);
-  EXPECT_FALSE(turns.reader.admits());
+  EXPECT_FALSE(Host::admits(turns.reader));
 }
 
 TEST(Turns, OnlyTheLossOfTheOneWhoseTurnItIsCounts) {
   Turns<Reader<int>> turns;
-  EXPECT_TRUE(turns.b.start());
+  EXPECT_TRUE(Host::start(turns.b));
   turns.b.fault("broken");
   turns.context.inbox.deliver_all();
   EXPECT_EQ(turns.reader.state(), State::kRunning);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -42,7 +43,7 @@ class Motor : public Component {
 class StructOfProperties : public ::testing::Test {
  protected:
   StructOfProperties() : thread_(motor_) {}
-  PropertyBase& property(std::size_t i) { return *motor_.interface().properties.at(i); }
+  PropertyBase& property(std::size_t i) { return *interface_of(motor_).properties.at(i); }
   Motor motor_{"motor"};
   TestThread thread_;
 };
@@ -53,7 +54,7 @@ TEST_F(StructOfProperties, ReadsAsTheStruct) {
 }
 
 TEST_F(StructOfProperties, HasAPropertyForEachMemberThatIsListed) {
-  ASSERT_EQ(motor_.interface().properties.size(), 3u);
+  ASSERT_EQ(interface_of(motor_).properties.size(), 3u);
   EXPECT_EQ(property(0).name(), "Kp");
   EXPECT_EQ(property(0).unit(), "V/rad");
   EXPECT_TRUE(property(0).changeable());

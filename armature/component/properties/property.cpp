@@ -6,6 +6,7 @@
 
 #include "armature/base/quoted.hpp"
 #include "armature/component/black_box.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/internal/property_tap.hpp"
 #include "armature/types/elements.hpp"
 
@@ -36,7 +37,7 @@ std::string number_text(double value) {
 PropertyBase::PropertyBase(Component& owner, std::string_view name, std::string_view doc,
                            std::string_view unit, const types::Type& type, bool persistent) noexcept
     : about_(new About{owner, name, doc, unit, type, persistent}) {
-  owner.declare().properties.push_back(this);
+  Host::declare(owner).properties.push_back(this);
 }
 
 std::string PropertyFollower::objection_to(const PropertyBase& /*property*/,
@@ -85,6 +86,9 @@ std::string PropertyBase::objection(const types::Value& value) const {
 }
 
 base::Result<void> PropertyBase::set(const types::Value& value) {
+  if (about_->sign && value.type().kind == types::Kind::kBool) {
+    return set(types::Value::of(*static_cast<const bool*>(value.data()) ? -1.0 : 1.0));
+  }
   if (std::string problem = check(value); !problem.empty()) {
     return base::Error{std::move(problem)};
   }
@@ -95,7 +99,7 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
   types::Value copy = value;
   swap(copy);
   about_->set = true;
-  if (const auto* box = about_->owner.context().black_box; box != nullptr) {
+  if (const auto* box = Host::context(about_->owner).black_box; box != nullptr) {
     note(about_->owner, BlackBox::Note::Kind::kProperty, about_->name, value.text());
   }
   tell_followers();
@@ -104,7 +108,7 @@ base::Result<void> PropertyBase::set(const types::Value& value) {
 
 void PropertyBase::apply(Mandatory) noexcept {
   about_->mandatory = true;
-  owner().declare().mandatory.push_back(this);
+  Host::declare(owner()).mandatory.push_back(this);
 }
 
 Tap& PropertyBase::tap(std::size_t capacity) {

@@ -34,6 +34,11 @@ struct Mandatory {};
 /// The property has no useful default: a deployment must give it.
 inline constexpr Mandatory mandatory{};
 
+/// Option of a property of numbers.
+struct Sign {};
+/// It is 1 or -1; whoever sets it may also say whether it inverts: true is -1, false is 1.
+inline constexpr Sign sign{};
+
 class Tap;
 namespace internal {
 class PropertyTap;
@@ -72,6 +77,8 @@ class PropertyBase {
   bool changeable() const { return about_->changeable; }
   bool is_mandatory() const { return about_->mandatory; }
   bool is_by_operator() const { return about_->by_operator; }
+  /// It takes a boolean, too.
+  bool is_sign() const { return about_->sign; }
   bool was_set() const { return about_->set; }
   const std::optional<Range>& limits() const { return about_->limits; }
 
@@ -108,6 +115,7 @@ class PropertyBase {
   void apply(ChangeableWhileRunning) noexcept { about_->changeable = true; }
   void apply(Mandatory) noexcept;
   void apply(ByOperator) noexcept { about_->by_operator = true; }
+  void apply(Sign) noexcept { about_->sign = true; }
   void tell_followers();
 
  private:
@@ -124,6 +132,7 @@ class PropertyBase {
     bool changeable = false;
     bool mandatory = false;
     bool by_operator = false;
+    bool sign = false;
     bool set = false;
     std::optional<Range> limits{};
     std::vector<PropertyFollower*> followers{};

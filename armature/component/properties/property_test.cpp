@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -68,7 +70,7 @@ TEST_F(Properties, KnowTheirNameDocumentationUnitTypeAndFlags) {
 
 TEST_F(Properties, AreListedInTheOrderOfDeclaration) {
   std::vector<std::string_view> names;
-  for (const PropertyBase* property : controller_.interface().properties) {
+  for (const PropertyBase* property : interface_of(controller_).properties) {
     names.push_back(property->name());
   }
   EXPECT_THAT(names, ElementsAre("Kp", "PeerName", "limits", "gains", "retries", "cycles"));
@@ -110,7 +112,7 @@ TEST_F(Properties, WhileTheComponentRunsOnlyAChangeableOneChanges) {
   EXPECT_EQ(refusal.error(),
             "property 'PeerName' of 'joint1.pid' cannot change while the component runs; stop it "
             "first");
-  controller_.stop();
+  Host::stop(controller_);
   EXPECT_TRUE(controller_.peer.set(Value::of(std::string("card2"))));
 }
 
@@ -170,11 +172,11 @@ TEST_F(PortArrays, FollowTheirPropertyUpAndDown) {
   EXPECT_EQ(mux_.positions.size(), 2u);
   ASSERT_TRUE(mux_.joints.set(Value::of(4)));
   EXPECT_EQ(mux_.voltages.size(), 4u);
-  EXPECT_THAT(names_of(mux_.interface().inputs),
+  EXPECT_THAT(names_of(interface_of(mux_).inputs),
               ElementsAre("Position1", "Position2", "Position3", "Position4"));
   ASSERT_TRUE(mux_.joints.set(Value::of(1)));
-  EXPECT_THAT(names_of(mux_.interface().inputs), ElementsAre("Position1"));
-  EXPECT_EQ(mux_.interface().outputs.size(), 1u);
+  EXPECT_THAT(names_of(interface_of(mux_).inputs), ElementsAre("Position1"));
+  EXPECT_EQ(interface_of(mux_).outputs.size(), 1u);
   ASSERT_TRUE(mux_.joints.set(Value::of(0)));
   EXPECT_EQ(mux_.positions.size(), 0u);
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::component {
@@ -97,7 +98,7 @@ TEST(MachineTable, AMachineCanBeMadeOfItAtRunTime) {
                                 &script, ""};
   {
     StateMachine machine(&component, "from a script", "made at run time", table);
-    EXPECT_THAT(component.interface().machines, ElementsAre(&machine));
+    EXPECT_THAT(interface_of(component).machines, ElementsAre(&machine));
     start(component);
     EXPECT_EQ(machine.post(0), TriggerStatus::kTaken);
     EXPECT_EQ(machine.path(), "Moving/Fast");
@@ -105,11 +106,11 @@ TEST(MachineTable, AMachineCanBeMadeOfItAtRunTime) {
     EXPECT_EQ(machine.post(1), TriggerStatus::kTaken);
     EXPECT_EQ(machine.path(), "Moving/Slow");
     EXPECT_EQ(script.entered, 1);
-    component.stop();
+    Host::stop(component);
   }
-  EXPECT_THAT(component.interface().machines, ElementsAre());
+  EXPECT_THAT(interface_of(component).machines, ElementsAre());
   start(component);
-  component.update();
+  Host::update(component);
 }
 
 // --- mistakes ------------------------------------------------------------------------------------
@@ -225,7 +226,7 @@ TEST(MachineDefinition, AMisspeltStateIsFoundWhenConfiguringWithASuggestion) {
           "a transition to 'Idle' stands outside of all states",
           "a transition of state 'Idle' goes to 'Movin', which does not exist; did you mean "
           "'Moving'?"));
-  const Outcome outcome = component.configure();
+  const Outcome outcome = Host::configure(component);
   EXPECT_FALSE(outcome);
   EXPECT_EQ(outcome.reason(),
             "state machine 'mode': a transition to 'Idle' stands outside of all states");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/host.hpp"
 
 namespace armature::component {
 namespace {
@@ -88,8 +89,8 @@ class StateMachine::OwnEvent final : public EventListener {
 
 StateMachine::StateMachine(Component& owner, std::string_view name, std::string_view doc) noexcept
     : owner_(owner), name_(name), doc_(doc) {
-  owner_.declare().machines.push_back(this);
-  owner_.add_step(*this, true);
+  Host::declare(owner_).machines.push_back(this);
+  Host::add_step(owner_, *this, true);
 }
 
 StateMachine::StateMachine(Component* owner, std::string_view name, std::string_view doc,
@@ -100,8 +101,8 @@ StateMachine::StateMachine(Component* owner, std::string_view name, std::string_
 }
 
 StateMachine::~StateMachine() {
-  std::erase(owner_.declare().machines, this);
-  owner_.remove_step(*this);
+  std::erase(Host::declare(owner_).machines, this);
+  Host::remove_step(owner_, *this);
 }
 
 // --- definition ----------------------------------------------------------------------------------
@@ -230,7 +231,7 @@ void StateMachine::halt(std::string_view) {
     const bool interrupted = std::exchange(changing_, state) == state;
     const MachineAction& exit = at(state).exit;
     if (interrupted || exit.call == nullptr) continue;
-    owner_.run(owner_.context(), [&exit] { exit.call(exit.self); });
+    Host::run(owner_, Host::context(owner_), [&exit] { exit.call(exit.self); });
   }
   changing_ = kNoState;
   current_.store(kNoState, std::memory_order_relaxed);

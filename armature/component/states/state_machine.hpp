@@ -16,6 +16,7 @@
 #include "armature/component/events/event.hpp"
 #include "armature/component/states/machine_table.hpp"
 #include "armature/component/states/state_definition.hpp"
+#include "armature/component/step.hpp"
 #include "armature/component/trigger.hpp"
 
 namespace armature::component {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_chassis.hpp"
 
 namespace armature::component {
@@ -94,9 +95,9 @@ class Superior : public Component {
 TEST_F(Machine, AnOperationTriggersAndSaysWhetherTheMachineReacted) {
   Superior superior("superior");
   thread_.add(superior);
-  ASSERT_EQ(chassis_.interface().operations.front()->name(), "drive");
-  ASSERT_TRUE(chassis_.interface().operations.front()->runs_in_own_thread());
-  superior.drive.connect(*chassis_.interface().operations.front());
+  ASSERT_EQ(interface_of(chassis_).operations.front()->name(), "drive");
+  ASSERT_TRUE(interface_of(chassis_).operations.front()->runs_in_own_thread());
+  superior.drive.connect(*interface_of(chassis_).operations.front());
   EXPECT_TRUE(superior.drive().value);
   EXPECT_EQ(path(), "Moving/Accelerating");
   EXPECT_FALSE(superior.drive().value) << "it moves already";
@@ -106,7 +107,7 @@ TEST_F(Machine, AnOperationFromAnotherThreadTriggersInItsOwn) {
   Superior superior("superior");
   TestThread other(superior);
   thread_.context.live = true;
-  superior.drive.connect(*chassis_.interface().operations.front());
+  superior.drive.connect(*interface_of(chassis_).operations.front());
   SendHandle<bool> handle = superior.drive.send();
   EXPECT_EQ(path(), "Idle");
   thread_.deliver();
@@ -137,8 +138,8 @@ TEST(MachineEvents, APeersEventTriggersAndGuardsSeeWhatCameWithIt) {
   Guarded guarded("guarded");
   TestThread one(motor);
   TestThread other(guarded);
-  ASSERT_EQ(guarded.interface().handlers.size(), 1u) << "bound by name, like any handler";
-  motor.overheated.subscribe(*guarded.interface().handlers.front());
+  ASSERT_EQ(interface_of(guarded).handlers.size(), 1u) << "bound by name, like any handler";
+  motor.overheated.subscribe(*interface_of(guarded).handlers.front());
   start(motor, guarded);
   motor.overheated.raise(75.0);
   other.deliver();
@@ -181,8 +182,8 @@ TEST_P(MachineException, FaultsTheComponentAndLeavesWhatWasEntered) {
   chassis_.then = [&](const std::string& action) {
     if (action == place.action) throw std::runtime_error("in " + action);
   };
-  chassis_.run(thread_.context, [&] { chassis_.drive.raise(); });
-  chassis_.update();
+  Host::run(chassis_, thread_.context, [&] { chassis_.drive.raise(); });
+  Host::update(chassis_);
   EXPECT_EQ(chassis_.state(), State::kException);
   EXPECT_EQ(chassis_.reason(), "exception: in " + std::string(place.action));
   EXPECT_EQ(path(), "");
@@ -190,8 +191,8 @@ TEST_P(MachineException, FaultsTheComponentAndLeavesWhatWasEntered) {
   ASSERT_NE(at, chassis_.log.end());
   EXPECT_EQ(std::vector<std::string>(at + 1, chassis_.log.end()), place.left);
   chassis_.then = nullptr;
-  ASSERT_TRUE(chassis_.reset());
-  ASSERT_TRUE(chassis_.start());
+  ASSERT_TRUE(Host::reset(chassis_));
+  ASSERT_TRUE(Host::start(chassis_));
   EXPECT_EQ(path(), "Idle") << "it can begin again";
   EXPECT_EQ(chassis_.drive.raise(), TriggerStatus::kTaken);
 }
@@ -208,7 +209,7 @@ TEST_F(Machine, AnExceptionInAnExitActionWhileStoppingDoesNotSkipTheOuterOnes) {
   chassis_.then = [](const std::string& action) {
     if (action == "-Accelerating") throw 42;
   };
-  chassis_.stop();
+  Host::stop(chassis_);
   EXPECT_THAT(chassis_.take_log(), ElementsAre("-Accelerating", "-Moving"));
   EXPECT_EQ(chassis_.state(), State::kException);
   EXPECT_EQ(path(), "");
@@ -218,22 +219,22 @@ TEST_F(Machine, AnExceptionInTheInitialEntryIsARefusalToStart) {
   Chassis other("other");
   thread_.add(other);
   other.then = [](const std::string&) { throw std::runtime_error("no brake"); };
-  ASSERT_TRUE(other.configure());
-  const Outcome outcome = other.start();
+  ASSERT_TRUE(Host::configure(other));
+  const Outcome outcome = Host::start(other);
   EXPECT_EQ(outcome.reason(), "exception: no brake");
   EXPECT_EQ(other.state(), State::kException);
 }
 
 TEST_F(Machine, AnActionMayStopItsComponentAndNothingOfTheTransitionGoesOn) {
   chassis_.then = [&](const std::string& action) {
-    if (action == "+Moving") chassis_.stop();
+    if (action == "+Moving") Host::stop(chassis_);
   };
   chassis_.drive.raise();
   EXPECT_EQ(chassis_.state(), State::kStopped);
   EXPECT_EQ(path(), "");
   EXPECT_THAT(chassis_.take_log(), ElementsAre("-Idle", "release", "+Moving"));
   chassis_.then = nullptr;
-  ASSERT_TRUE(chassis_.start());
+  ASSERT_TRUE(Host::start(chassis_));
   EXPECT_EQ(path(), "Idle");
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/internal/test_chassis.hpp"
 
 namespace armature::component {
@@ -22,7 +23,7 @@ TEST_F(Machine, StartingEntersTheInitialStateAndStoppingLeavesEverything) {
   EXPECT_THAT(other.take_log(), ElementsAre("+Idle"));
   ASSERT_EQ(other.drive.raise(), TriggerStatus::kTaken);
   other.log.clear();
-  other.stop();
+  Host::stop(other);
   EXPECT_THAT(other.take_log(), ElementsAre("-Accelerating", "-Moving"));
   EXPECT_EQ(other.mode.path(), "");
 }
@@ -95,7 +96,7 @@ TEST_F(Machine, ATriggerWithoutATransitionIsIgnoredAndCounted) {
 }
 
 TEST_F(Machine, ATriggerOfWhatDoesNotRunSaysSo) {
-  chassis_.stop();
+  Host::stop(chassis_);
   EXPECT_EQ(chassis_.drive.raise(), TriggerStatus::kNotRunning);
   chassis_.fault("for the test");
   EXPECT_EQ(chassis_.drive.raise(), TriggerStatus::kNotRunning);
@@ -187,8 +188,8 @@ TEST_F(Machine, ARestartForgetsWhereItWas) {
   chassis_.drive.raise();
   chassis_.fast = true;
   step();
-  chassis_.stop();
-  ASSERT_TRUE(chassis_.start());
+  Host::stop(chassis_);
+  ASSERT_TRUE(Host::start(chassis_));
   EXPECT_EQ(path(), "Idle");
   chassis_.resume.raise();
   EXPECT_EQ(path(), "Moving/Accelerating");
@@ -216,11 +217,11 @@ TEST_F(Machine, StaysAsItIsDuringARunTimeError) {
   chassis.drive.raise();
   chassis.error("for the test");
   chassis.fast = true;
-  chassis.update();
+  Host::update(chassis);
   EXPECT_EQ(chassis.halt.raise(), TriggerStatus::kNotRunning);
   EXPECT_EQ(chassis.mode.path(), "Moving/Accelerating");
-  ASSERT_TRUE(chassis.recover());
-  chassis.update();
+  ASSERT_TRUE(Host::recover(chassis));
+  Host::update(chassis);
   EXPECT_EQ(chassis.mode.path(), "Moving/Cruising");
 }
 

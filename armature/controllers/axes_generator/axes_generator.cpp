@@ -47,6 +47,7 @@ Outcome AxesGeneratorPos::set_up() {
   trajectory_ = std::move(made.value());
   numbers_.assign(axes, 0.0);
   peers_limit_.resize(axes);
+  move_to_.prepare(numbers_, 0.0);
   changes_.take();
   return component::accepted();
 }
@@ -90,6 +91,13 @@ Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, doubl
   return component::accepted();
 }
 
+/// Whatever does not depend on where the motion begins.
+Outcome AxesGeneratorPos::may_wait(const std::vector<double>& positions, double time_s) const {
+  const Trajectory::Answer answer = trajectory_->check_request(positions, time_s);
+  return answer.accepted() ? component::accepted()
+                           : component::refused(refusal_of(answer, positions, time_s));
+}
+
 void AxesGeneratorPos::reset_position() {
   if (state() != component::State::kRunning || !knows_position()) return;
   begin_anew(trajectory_->stop_from(measured_.read().value, trajectory_->velocities()),
@@ -97,8 +105,9 @@ void AxesGeneratorPos::reset_position() {
 }
 
 void AxesGeneratorPos::settle() {
-  if (!knows_position()) return;
-  begin_anew(trajectory_->hold(measured_.read().value), "the robot was disarmed or armed");
+  constexpr std::string_view kWhy = "the robot was disarmed or armed";
+  if (!knows_position()) return move_to_.fail(kWhy);
+  begin_anew(trajectory_->hold(measured_.read().value), kWhy);
 }
 
 void AxesGeneratorPos::on_disarm() {
@@ -135,13 +144,13 @@ double AxesGeneratorPos::PeersLimit::used(std::span<const double> positions,
 /// @param why     the motion before ended
 void AxesGeneratorPos::begin_anew(const Trajectory::Answer& answer, std::string_view why) {
   stepped_at_ = time();
-  if (move_to_.active()) move_to_.fail(why);
+  move_to_.fail(why);
   if (!answer.accepted()) refuse_measured(answer.axis);
 }
 
 void AxesGeneratorPos::stop() {
   trajectory_->stop();
-  if (move_to_.active()) move_to_.fail("stopped");
+  move_to_.fail("stopped");
 }
 
 void AxesGeneratorPos::refuse_measured(std::size_t axis) {

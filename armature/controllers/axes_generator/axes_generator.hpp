@@ -16,18 +16,28 @@
 namespace armature::controllers {
 
 /// Moves N axes from rest to rest with trapezoidal velocities that begin and end together (paper 2,
-/// section 4.1, nAxesGeneratorPos): control::Trajectory. For a periodic activity; writes the three
-/// desired vectors in each cycle.
+/// section 4.2.4, nAxesGeneratorPos): control::Trajectory. For a periodic activity; writes the
+/// three desired vectors in each cycle.
 ///
 /// After a start, also one behind a fault, the desired position is the measured one, and nothing
 /// moves before `moveTo`. Refused with the reason, and nothing changes: another number of
 /// positions, a target outside the limits, a number that is not finite, a negative time, one in
-/// which the limits do not allow the motion, a motion or stop under way, a robot that is not armed
-/// (if Arming is a peer), and a moveTo before anything was measured. A peer that offers
+/// which the limits do not allow the motion, a stop under way, a robot that is not armed (if Arming
+/// is a peer), and a moveTo before anything was measured. A peer that offers
 /// `motionLimitUsed` limits motions too, such as by the speed of the robot's tip. Cancelling a
 /// motion is a smooth deceleration to rest, where it then holds. So is Stop; Settle and Disarm make
 /// the measured position the desired one (see Arming). Limits are one number for each axis, or one
 /// for all.
+///
+/// Up to 8 motions wait for the one under way (paper 1, section 2). Each begins where the one
+/// before it ended: its shortest time is known then, and it is refused then if its own is shorter.
+/// Whatever is wrong with its positions and its time itself is refused at once. Where a motion ends
+/// in any other way than done, by cancel, Stop, Settle, Disarm, a stop or a fault, those that wait
+/// end too.
+///
+/// Paper 2, section 4.2.4, has resetPosition set the desired velocity to zero. In motion that is a
+/// step of the reference, which the joints answer with all their voltage. Here the motion is braked
+/// from the measured position with the largest acceleration, and the velocity is zero afterwards.
 /// @rt nonblocking, no allocation, O(axes)
 class AxesGeneratorPos final : public component::Component {
  public:
@@ -41,6 +51,7 @@ class AxesGeneratorPos final : public component::Component {
   component::Outcome set_up();
   bool knows_position();
   component::Outcome begin_move(const std::vector<double>& positions, double time);
+  component::Outcome may_wait(const std::vector<double>& positions, double time) const;
   bool arrived() { return !trajectory_->under_way(); }
   void brake() { trajectory_->stop(); }
   void reset_position();
@@ -56,6 +67,7 @@ class AxesGeneratorPos final : public component::Component {
   void write_desired();
 
   using Vector = std::vector<double>;
+  static constexpr std::size_t kMostWaiting = 8;
 
   /// What a peer says of it.
   class PeersLimit final : public control::MotionLimit {
@@ -96,10 +108,11 @@ class AxesGeneratorPos final : public component::Component {
       this,
       "moveTo",
       component::serve<&AxesGeneratorPos::begin_move>,
-      "moves all axes to positions in a time; 0: as fast as the limits allow",
+      "moves all axes to positions in a time; 0: as fast as the limits allow; 8 may wait",
       component::args("positions [rad]", "time [s]"),
       component::done_when<&AxesGeneratorPos::arrived>,
-      component::cancelled_by<&AxesGeneratorPos::brake>};
+      component::cancelled_by<&AxesGeneratorPos::brake>,
+      component::may_wait<&AxesGeneratorPos::may_wait>(kMostWaiting)};
   component::Operation<void()> reset_position_{
       this, "resetPosition", component::serve<&AxesGeneratorPos::reset_position>,
       "desired := measured; a motion is braked smoothly from there, and its moveTo fails",

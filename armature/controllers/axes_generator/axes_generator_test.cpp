@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/controllers/axes_generator/axes_generator.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
+#include "armature/controllers/internal/test_generator.hpp"
 #include "armature/exec/application.hpp"
-#include "armature/testing/harness.hpp"
 
 namespace armature::controllers {
 namespace {
@@ -24,41 +22,6 @@ using component::CommandStage;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-using Vector = std::vector<double>;
-
-class AxesGenerator : public ::testing::Test {
- protected:
-  AxesGenerator() { set_limits(2); }
-  void set_limits(int axes) {
-    generator.set("num_axes", axes);
-    generator.set("max_vel", "[1.0]");
-    generator.set("max_acc", "[2.0]");
-    generator.set("lower", "[-0.5]");
-    generator.set("upper", "[4.5]");
-  }
-  void start_at(const Vector& positions) {
-    measured = positions;
-    ASSERT_TRUE(generator.start()) << generator.reason();
-    cycle();
-  }
-  void cycle(int count = 1) {
-    for (int i = 0; i < count; ++i) {
-      generator.write("nAxesSensorPosition", measured);
-      generator.run_cycles();
-    }
-  }
-  std::string refusal_of(const Vector& positions, double time) {
-    const auto answer = generator.call("moveTo", positions, time);
-    return answer ? "accepted" : answer.error();
-  }
-  const Vector& desired() { return generator.output<Vector>("nAxesDesiredPosition"); }
-  const Vector& velocity() { return generator.output<Vector>("nAxesDesiredVelocity"); }
-  const Vector& acceleration() { return generator.output<Vector>("nAxesDesiredAcceleration"); }
-
-  Vector measured{0.25, 0.5};
-  testing::Harness generator{std::make_unique<AxesGeneratorPos>("Generator"), 10ms};
-};
 
 TEST_F(AxesGenerator, TheReferenceIsTheMeasuredPositionBeforeTheFirstMotion) {
   start_at({0.25, 0.5});
@@ -136,16 +99,6 @@ TEST_F(AxesGenerator, ATimeThatTheLimitsJustAllowIsAccepted) {
   EXPECT_EQ(refusal_of({2.25, 1.0}, 2.5), "accepted");
 }
 
-/// With an Arming among its peers.
-class OfAnArmedRobot : public AxesGenerator {
- protected:
-  OfAnArmedRobot() {
-    generator.serve<bool()>("isArmed", [this] { return armed; });
-    start_at({0.25, 0.5});
-  }
-  bool armed = false;
-};
-
 TEST_F(OfAnArmedRobot, MotionsAreRefusedUntilItIsArmedAndOnceItIsDisarmed) {
   EXPECT_EQ(refusal_of({1.0, 1.0}, 2.0), "the robot is not armed: arm first");
   armed = true;
@@ -184,7 +137,7 @@ TEST(AxesGeneratorWithEvents, BelievesAnArmingThatCannotBeAskedItsEvents) {
   exec::ApplicationOptions options;
   options.simulated = true;
   exec::Application application(std::move(blueprint), std::move(options));
-  for (component::PropertyBase* property : generator.interface().properties) {
+  for (component::PropertyBase* property : component::interface_of(generator).properties) {
     const bool axes = property->name() == "num_axes";
     const double limit = property->name() == "lower" ? -0.5 : 4.5;
     ASSERT_TRUE(property->set(axes ? types::Value::of(2) : types::Value::of(Vector{limit})));
@@ -233,18 +186,6 @@ TEST_F(WithALimitOfAPeer, AskedForNoTimeItKeepsWithinThatToo) {
   }
   EXPECT_EQ(cycles, 500);
   EXPECT_NEAR(fastest, 0.5, 1e-9);
-}
-
-TEST_F(AxesGenerator, RefusesASecondMotionAndTheFirstGoesOn) {
-  start_at({0.25, 0.5});
-  auto first = generator.send("moveTo", Vector{1.25, 1.0}, 2.0);
-  cycle(10);
-  auto second = generator.send("moveTo", Vector{0.0, 0.0}, 2.0);
-  EXPECT_EQ(second.stage(), CommandStage::kRefused);
-  EXPECT_NE(second.reason(), "");
-  cycle(200);
-  EXPECT_EQ(first.stage(), CommandStage::kDone);
-  EXPECT_THAT(desired(), ElementsAre(1.25, 1.0));
 }
 
 TEST_F(AxesGenerator, CancellingIsASmoothStopWhereItThenHolds) {

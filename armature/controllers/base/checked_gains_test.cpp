@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
+
 namespace armature::controllers {
 namespace {
 
@@ -71,7 +73,7 @@ class Controller : public Component {
 
 class CheckedGainsTest : public ::testing::Test {
  protected:
-  CheckedGainsTest() { controller.set_pace({.period = 1ms, .owner = &sampler}); }
+  CheckedGainsTest() { component::Host::set_pace(controller, {.period = 1ms, .owner = &sampler}); }
   std::string said() {
     Notes notes;
     controller.checked.check(notes);
@@ -86,7 +88,7 @@ class CheckedGainsTest : public ::testing::Test {
 TEST_F(CheckedGainsTest, AreJudgedWithThePeriodOfThePlan) {
   EXPECT_EQ(said(), "");
   ASSERT_TRUE(controller.gain.set(Value::of(10.0)));
-  controller.set_pace({.period = 500us, .owner = &sampler});
+  component::Host::set_pace(controller, {.period = 500us, .owner = &sampler});
   EXPECT_EQ(said(), "error: it shakes");
 }
 
@@ -102,10 +104,11 @@ TEST_F(CheckedGainsTest, AreJudgedAtEachChangeAfterTheCheck) {
 }
 
 TEST_F(CheckedGainsTest, WithTwoPeriodsAreRefusedAndWithoutOneWarnedOf) {
-  controller.set_pace({.period = 1ms, .owner = &sampler, .other = 2ms, .other_owner = &other});
+  component::Host::set_pace(
+      controller, {.period = 1ms, .owner = &sampler, .other = 2ms, .other_owner = &other});
   EXPECT_THAT(said(),
               HasSubstr("error: its gains cannot be checked: 'Sampler' and 'Other' run it"));
-  controller.set_pace({});
+  component::Host::set_pace(controller, {});
   EXPECT_EQ(said(), "warning: its gains are not checked: no periodic component runs it");
 }
 

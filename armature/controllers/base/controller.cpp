@@ -25,9 +25,10 @@ Outcome Controller::on_start() {
   followed_ = base::Time::min();
   late_ = false;
   braking_ = false;
-  take_over();
   sampled_ = false;
+  take_over();
   samples_without_sensor_.assign(0);
+  sensor_without_sample_.assign(0);
   brakings_.assign(0);
   return component::accepted();
 }
@@ -66,6 +67,7 @@ void Controller::take_over() {
   takes_over_ = present != nullptr;
   if (!takes_over_) return;
   const Controller* const other = predecessor();
+  sampled_ = other != nullptr && other->sampled_;
   const auto rested = other == nullptr ? std::span<const double>() : other->lately_.get();
   takes_over_ = hand_over_.begin(*present, rested.empty() ? 0.0 : kLearning, rested);
 }
@@ -83,6 +85,19 @@ const Controller* Controller::predecessor() const {
 
 void Controller::sample_now() {
   if (std::exchange(sampled_, true)) samples_without_sensor_.assign(samples_without_sensor_ + 1);
+}
+
+/// What is no number is a fault of whoever measured it, at any time.
+void Controller::count_without_sample(const std::vector<double>& measured) {
+  if (sensor_without_sample_ == 0) {
+    log_warning(
+        "a value of `sensor` came without a Sample: nothing is computed (attribute "
+        "sensor_without_sample counts them)");
+  }
+  sensor_without_sample_.assign(sensor_without_sample_ + 1);
+  const bool finite =
+      std::ranges::all_of(measured, [](double number) { return std::isfinite(number); });
+  if (!finite) fault("sensor has a number that is not finite, expected finite numbers");
 }
 
 const std::vector<double>* Controller::reference_now(const std::vector<double>& measured) {

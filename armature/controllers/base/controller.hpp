@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "armature/base/seconds.hpp"
@@ -20,6 +21,10 @@
 namespace armature::controllers {
 
 /// The controller of a robot with N joints (paper 1, figure 4): to be extended by a control law.
+///
+/// Each Sample enables one computation, on the `sensor` that comes after it (paper 1, sections 3
+/// and 3.3.2). A `sensor` without one is counted, and nothing is computed. A controller that takes
+/// over has the Sample of the one before.
 ///
 /// A reference that is older than declared is not followed any more: the component stops, and so
 /// do the joints. With MaxAcceleration they are braked smoothly instead, from the first sampling
@@ -44,8 +49,8 @@ class Controller : public component::Component, public PassesSamples, public Dri
                                          const component::Check& check) override;
 
  protected:
-  /// A sampling period begins; by default that is noted, to count those in which nothing was
-  /// measured.
+  /// A sampling period begins; by default that is noted: it enables one computation, and those in
+  /// which nothing was measured are counted. Whoever overrides it calls it.
   /// Runs in real time: nonblocking, no allocation.
   /// @thread the component's own
   virtual void sample_now();
@@ -125,9 +130,11 @@ class Controller : public component::Component, public PassesSamples, public Dri
   };
 
   void sensor_arrived(const std::vector<double>& measured) {
-    sampled_ = false;
+    if (!std::exchange(sampled_, false)) [[unlikely]]
+      return count_without_sample(measured);
     controller_now(measured);
   }
+  void count_without_sample(const std::vector<double>& measured);
   component::Outcome set_up();
   void write(const std::vector<double>& signals) {
     lately_.add(signals, rests_);
@@ -171,6 +178,9 @@ class Controller : public component::Component, public PassesSamples, public Dri
   component::Attribute<int> samples_without_sensor_{
       this, "samples_without_sensor", 0,
       "sampling periods since the start in which nothing was measured"};
+  component::Attribute<int> sensor_without_sample_{
+      this, "sensor_without_sample", 0,
+      "values of `sensor` since the start that came without a Sample: nothing was computed"};
   component::EventHandler<> arm_{this,
                                  "Arm",
                                  component::serve<&Controller::forget_other>,
@@ -193,7 +203,7 @@ class Controller : public component::Component, public PassesSamples, public Dri
   bool late_ = false;      ///< nothing came since, and it is not too old yet
   bool braking_ = false;
   bool takes_over_ = false;  ///< until the first sample
-  bool sampled_ = false;
+  bool sampled_ = false;     ///< and nothing computed since
 };
 
 }  // namespace armature::controllers

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "armature/component/interface.hpp"
+
 namespace armature::controllers {
 
 using component::Outcome;
@@ -78,7 +80,7 @@ std::vector<DrivenJoint> ControllerOfPids::joints_behind(const component::InputP
 
 void ControllerOfPids::on_check(component::Check& check) const {
   Controller::on_check(check);
-  for (const component::InputPortBase* const input : interface().inputs) {
+  for (const component::InputPortBase* const input : component::interface_of(*this).inputs) {
     const std::string_view name = input->name();
     const bool of_a_pid = name.starts_with("Out") &&
                           name.find_first_not_of("0123456789", 3) == std::string_view::npos;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/operators_word.hpp"
 #include "armature/controllers/base/limited_effort.hpp"
 
@@ -21,6 +22,10 @@ class JointHardware : public component::Component {
  public:
   using Component::Component;
 
+  /// Turns that DisplacementSensor tells for one of the motor's axis, > 0: 1 if it is of that axis.
+  /// @thread configuration only
+  virtual double sensor_turns() const { return 1.0; }
+
  protected:
   virtual bool actuator_on() = 0;
   virtual bool actuator_off() = 0;
@@ -35,7 +40,8 @@ class JointHardware : public component::Component {
   /// the operator has looked. It goes on if it is armed, and is not armed again before.
   /// @rt nonblocking, no allocation
   void lose_position() {
-    tell_exact(false);
+    is_exact_ = false;
+    tell_exact();
     position_confirmed_.withdraw();
   }
 
@@ -50,23 +56,33 @@ class JointHardware : public component::Component {
  private:
   /// Uses up the operator's word, if it is needed.
   bool position_known() {
-    tell_exact(is_exact_ || position_confirmed_.take());
-    return is_exact_;
+    const bool known = is_exact_ && !is_doubted_;
+    if (!known && position_confirmed_.take()) {
+      is_exact_ = true;
+      is_doubted_ = false;
+    }
+    tell_exact();
+    return is_exact_ && !is_doubted_;
   }
-  void tell_exact(bool exact) {
-    is_exact_ = exact;
-    position_exact_.assign(exact);
+  /// The joint was given its position, and nobody has looked. A word that was given counts.
+  bool doubt_position() {
+    is_doubted_ = true;
+    tell_exact();
+    return true;
   }
+  bool position_exact() { return is_exact_; }
+  void tell_exact() { position_exact_.assign(is_exact_ && !is_doubted_); }
 
   /// Whatever it is that ends a run: a stop, a fault, an exception.
   class Ending final : public component::Step {
    public:
     explicit Ending(JointHardware& hardware) : hardware_(hardware) {
-      hardware.add_step(*this, true);
+      component::Host::add_step(hardware, *this, true);
     }
     void step() override {}
     void halt(std::string_view /*reason*/) override {
-      hardware_.run(hardware_.context(), [this] { hardware_.make_safe(); });
+      component::Host::run(hardware_, component::Host::context(hardware_),
+                           [this] { hardware_.make_safe(); });
     }
 
    private:
@@ -125,13 +141,28 @@ class JointHardware : public component::Component {
       this, "positionKnown", component::serve<&JointHardware::position_known>,
       "nothing that moved was lost, or the operator has confirmed where the joint is",
       component::in_own_thread};
-  bool is_exact_ = true;  ///< not the attribute, which tools may set
-  component::Attribute<bool> position_exact_{this, "position_exact", true,
-                                             "nothing that moved was lost"};
+  component::Operation<bool()> doubt_position_{
+      this,
+      "doubtPosition",
+      component::serve<&JointHardware::doubt_position>,
+      "the joint is not armed before the operator has confirmed where it is",
+      component::in_own_thread,
+      component::in_any_state};
+  component::Operation<bool()> is_position_exact_{this,
+                                                  "positionExact",
+                                                  component::serve<&JointHardware::position_exact>,
+                                                  "nothing that moved was lost",
+                                                  component::in_own_thread,
+                                                  component::in_any_state};
+  bool is_exact_ = true;     ///< not the attribute, which tools may set
+  bool is_doubted_ = false;  ///< until the operator has looked
+  component::Attribute<bool> position_exact_{
+      this, "position_exact", true,
+      "nothing that moved was lost, and it does not begin with a position that nobody confirmed"};
   component::OperatorsWord position_confirmed_{
       this, "position_confirmed",
       "the operator has looked: the joint is where its Position says; counts for a sample that was "
-      "lost before"};
+      "lost before, and for a position that was kept"};
   component::Operation<bool()> brake_apply_{this,
                                             "brakeApply",
                                             component::serve<&JointHardware::brake_apply>,

@@ -6,6 +6,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "armature/component/interface.hpp"
+
 namespace armature::controllers {
 namespace {
 
@@ -22,7 +24,8 @@ std::unordered_set<const Component*> triggered_by(const InputPortBase& sampled,
   while (!open.empty()) {
     const InputPortBase& handler = *open.back();
     open.pop_back();
-    for (const component::OutputPortBase* const output : handler.owner().interface().outputs) {
+    for (const component::OutputPortBase* const output :
+         component::interface_of(handler.owner()).outputs) {
       if (!handler.effects().includes(output->name())) continue;
       for (const InputPortBase* const reader : check.readers_of(*output)) {
         if (!reader->triggers() || !handlers.insert(reader).second) continue;
@@ -36,7 +39,7 @@ std::unordered_set<const Component*> triggered_by(const InputPortBase& sampled,
 }
 
 const SampleInput* sample_input_of(const Component& component) {
-  for (const component::Checked* const each : component.interface().checked) {
+  for (const component::Checked* const each : component::interface_of(component).checked) {
     if (const auto* const input = dynamic_cast<const SampleInput*>(each)) return input;
   }
   return nullptr;

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/controllers/base/actuator.hpp"
 #include "armature/controllers/base/sensor.hpp"
 #include "armature/controllers/sampler/sampler.hpp"
@@ -63,7 +64,7 @@ class SampleInputTest : public ::testing::Test {
     auto& writer = blueprint.add<ActWriter>("Writer", exec::Activity::periodic(10ms));
     static_cast<void>(writer);
     for (auto& entry : blueprint.components) {
-      for (auto* property : entry.component->interface().mandatory) {
+      for (auto* property : component::interface_of(*entry.component).mandatory) {
         EXPECT_TRUE(property->set(types::Value::of(1)));
       }
     }

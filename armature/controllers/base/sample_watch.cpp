@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/host.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 
 namespace armature::controllers {
@@ -53,9 +54,9 @@ void SampleWatch::count(double off, bool any_side) {
 }
 
 SampleWatch::Measure SampleWatch::measure_of(const component::Component& sampled) {
-  const component::ExecutionContext& context = sampled.context();
+  const component::ExecutionContext& context = component::Host::context(sampled);
   const component::Component* const owner = sampled.pace().owner;
-  const bool own_thread = owner != nullptr && &owner->context() == &context;
+  const bool own_thread = owner != nullptr && &component::Host::context(*owner) == &context;
   if (own_thread && context.period > base::Duration::zero()) return Measure::kCycles;
   if (context.simulated) return Measure::kExactClock;
   return owner == nullptr ? Measure::kClock : Measure::kNothing;

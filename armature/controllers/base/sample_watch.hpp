@@ -6,6 +6,7 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/host.hpp"
 #include "armature/component/outcome.hpp"
 
 namespace armature::controllers {
@@ -49,7 +50,7 @@ class SampleWatch {
   static Measure measure_of(const component::Component& sampled);
   static base::Duration now_of(const component::Component& sampled, Measure measure) {
     if (measure != Measure::kCycles) return sampled.time().time_since_epoch();
-    const component::ExecutionContext& context = sampled.context();
+    const component::ExecutionContext& context = component::Host::context(sampled);
     return static_cast<std::int64_t>(context.cycle) * context.period;
   }
   void count(double off, bool any_side);

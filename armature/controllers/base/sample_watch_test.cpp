@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/controllers/sampler/sampler.hpp"
 #include "armature/exec/application.hpp"
 
@@ -43,7 +44,7 @@ class Watched final : public component::Component {
 class SampleWatchOfTheClock : public ::testing::Test {
  protected:
   SampleWatchOfTheClock() {
-    sampled.assign_context(context);
+    component::Host::assign_context(sampled, context);
     watch.begin(10ms);
     sample_after(0ms);
   }
@@ -101,7 +102,7 @@ TEST_F(SampleWatchOfTheClock, InSimulatedTimeHalfAPeriodOffIsAFaultAtOnce) {
 
 TEST_F(SampleWatchOfTheClock, InAnotherThreadThanThatOfThePeriodNothingIsMeasuredInRealTime) {
   const component::Component owner("Sampler");
-  sampled.set_pace({.period = 10ms, .owner = &owner});
+  component::Host::set_pace(sampled, {.period = 10ms, .owner = &owner});
   EXPECT_TRUE(all_are_right(10, 30ms, 30ms));
 }
 

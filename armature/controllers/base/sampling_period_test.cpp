@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/controllers/sampler/sampler.hpp"
 #include "armature/exec/plan.hpp"
 
@@ -86,7 +87,7 @@ TEST_F(SamplingPeriodOfPlan, OfTwoPeriodsThePropertySaysWhichCounts) {
   Sampled& joint = add_sampled();
   const Sampler quick("Quick");
   const Sampler slow("Slow");
-  joint.set_pace({2ms, &quick, 20ms, &slow});
+  component::Host::set_pace(joint, {2ms, &quick, 20ms, &slow});
   EXPECT_FALSE(joint.period.known());
   EXPECT_TRUE(joint.period.property().set(types::Value::of(0.02)));
   EXPECT_TRUE(joint.period.known());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "armature/component/author.hpp"
@@ -15,10 +16,20 @@ class Sensor : public component::Component {
   using Component::Component;
 
  protected:
-  /// A sampling period begins: reads the sensors, or has them read, and writes `sensor`.
+  /// A sampling period begins; by default that is noted, for `take_sample`. What extends it reads
+  /// the sensors here, or has them read, and writes `sensor`.
   /// Runs in real time: nonblocking, no allocation.
   /// @thread the component's own
-  virtual void sample_now() = 0;
+  virtual void sample_now() { sampled_ = true; }
+
+  /// Whether a sampling period began since this was asked last; for those that leave `sample_now`
+  /// as it is.
+  bool take_sample() { return std::exchange(sampled_, false); }
+
+  component::Outcome on_start() override {
+    sampled_ = false;
+    return component::accepted();
+  }
 
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
@@ -39,6 +50,7 @@ class Sensor : public component::Component {
       component::may_stay_open,
       component::on_lost(component::Reaction::kHold)};
   SampleInput sample_input_{this, sample_, sample_port_};
+  bool sampled_ = false;
 };
 
 }  // namespace armature::controllers

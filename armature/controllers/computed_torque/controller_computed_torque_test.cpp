@@ -44,6 +44,7 @@ TEST_F(ComputedTorque, DrivesTheTorqueOfTheWantedAcceleration) {
   start();
   controller.write("reference", Vector{0.3, 0.7, 0.0, 0.5, 0.0, 2.0});
   // The tilt joint moves with 0.1 rad/s, which the first sample takes for settled.
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.3, 0.65, 0.0, 0.1 * kPeriod});
   const double acceleration = 2.0 + 40.0 * (0.5 - 0.1) + 400.0 * (0.7 - 0.65);
   const double friction = 3e-4 * 50 * 50 * 0.5;
@@ -56,6 +57,7 @@ TEST_F(ComputedTorque, TheMotorsOfADifferentialMayCoupleTheJoints) {
   controller.set("motor_turns", "[50, 50, -50, 50]");
   start();
   controller.write("reference", Vector{0.0, 0.7, 0.0, 0.0, 0.0, 2.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.7, 0.0, 0.0});
   EXPECT_NEAR(act()[0], 50 * 50 * (1e-5 - 2e-5) * 2.0, 1e-12);
 }
@@ -63,6 +65,7 @@ TEST_F(ComputedTorque, TheMotorsOfADifferentialMayCoupleTheJoints) {
 TEST_F(ComputedTorque, DrivesNothingBeforeAReference) {
   controller.set("motor_turns", "[100]");
   start();
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.0, 0.0, 0.0});
   EXPECT_EQ(controller.writes("act"), 0u);
 }
@@ -72,7 +75,9 @@ TEST_F(ComputedTorque, TheErrorOfTheVelocityIsBehindALowPass) {
   controller.set("gravity", "[0, 0, 0]");
   start();
   controller.write("reference", Vector{0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.0, 0.0, 0.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.0, 0.0, kPeriod});
   const double velocity = 180.0 * kPeriod / (1.0 + 180.0 * kPeriod);
   EXPECT_NEAR(act()[1], -(kTilting + 2e-5) * 40.0 * velocity, 1e-12);
@@ -86,6 +91,7 @@ TEST_F(ComputedTorque, AGainThatChangedWhileItWasStoppedCounts) {
   controller.set("Kp", "[1000]");
   start();
   controller.write("reference", Vector{0.0, 0.1, 0.0, 0.0, 0.0, 0.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.0, 0.0, 0.0});
   EXPECT_NEAR(act()[1], (kTilting + 2e-5) * 100.0, 1e-12);
 }
@@ -94,6 +100,7 @@ TEST_F(ComputedTorque, ANumberThatIsNotFiniteIsAFaultAndDrivesNothing) {
   controller.set("motor_turns", "[1]");
   start();
   controller.write("reference", Vector{0.0, std::nan(""), 0.0, 0.0, 0.0, 0.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.0, 0.0, 0.0});
   EXPECT_EQ(controller.state(), component::State::kException);
   EXPECT_THAT(controller.reason(), HasSubstr("is nan, expected finite numbers in reference"));

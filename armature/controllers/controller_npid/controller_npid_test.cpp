@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/testing/harness.hpp"
 
 namespace armature::controllers {
@@ -29,6 +30,7 @@ class ControllerNpid : public ::testing::Test {
     controller.write("reference", std::vector<double>{first, second, 0.1, 0.2, 0.3, 0.4});
   }
   void measure(double first, double second) {
+    controller.raise("Sample");
     controller.write("sensor", std::vector<double>{first, second, 0.01, 0.02});
   }
   void answer(int pid, double out) { controller.write("Out" + std::to_string(pid), out); }
@@ -130,7 +132,6 @@ TEST_F(ControllerNpid, GoesOnWithWhatItHasIfNoPidAnswered) {
 TEST_F(ControllerNpid, CountsSamplesInWhichNothingWasMeasured) {
   start();
   desire(1.0, 2.0);
-  controller.raise("Sample");
   controller.raise("Sample");
   measure(0.5, 0.6);
   controller.raise("Sample");
@@ -264,7 +265,7 @@ class ControllerNpidInPlaceOfAnother : public ControllerNpid {
     port("act").take_over_from(nullptr);
   }
   component::OutputPortBase& port(std::string_view name) {
-    for (auto* output : controller.component().interface().outputs) {
+    for (auto* output : component::interface_of(controller.component()).outputs) {
       if (output->name() == name) return *output;
     }
     throw std::invalid_argument("there is no such port");

@@ -32,6 +32,7 @@ class ControllerNpidFf : public ::testing::Test {
   void start() { ASSERT_TRUE(controller.start()) << controller.reason(); }
   void ask() {
     controller.write("reference", reference);
+    controller.raise("Sample");
     controller.write("sensor", Vector{0.5, 0.6, 0.0, 0.0});
   }
   void answer(int pid, double out) { controller.write("Out" + std::to_string(pid), out); }
@@ -67,6 +68,7 @@ TEST_F(ControllerNpidFf, AsksTheModelBeforeThePids) {
   start();
   controller.write("reference", reference);
   EXPECT_EQ(controller.writes("In_model"), 0u);
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.5, 0.6, 0.0, 0.0});
   EXPECT_EQ(controller.writes("In_model"), 1u);
   EXPECT_EQ(controller.output<double>("Ref2"), 2.0);

@@ -36,6 +36,7 @@ class GravityPd : public ::testing::Test {
 TEST_F(GravityPd, HoldsTheWeightAndPullsToTheReference) {
   start();
   controller.write("reference", Vector{0.2, 0.7, 0.0, 0.5, 3.0, 2.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.3, 0.65, 0.0, 0.1 * kPeriod});
   EXPECT_NEAR(act()[0], 10.0 * (0.2 - 0.3), 1e-12);
   EXPECT_NEAR(act()[1], 1.1 * 9.81 * 0.08 * std::cos(0.65) + 20.0 * 0.05 + (0.5 - 0.1), 1e-12);
@@ -45,6 +46,7 @@ TEST_F(GravityPd, WhereTheHardwareHoldsTheWeightGravityIsNone) {
   controller.set("gravity", "[0, 0, 0]");
   start();
   controller.write("reference", Vector{0.0, 0.7, 0.0, 0.0, 0.0, 0.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.7, 0.0, 0.0});
   EXPECT_NEAR(act()[1], 0.0, 1e-12);
 }
@@ -59,9 +61,11 @@ TEST_F(GravityPd, RefusesGainsOfAnotherNumberOfJoints) {
 TEST_F(GravityPd, StopsWithoutAReferenceThatIsYoungEnough) {
   start();
   controller.write("reference", Vector{0.0, 0.7, 0.0, 0.0, 0.0, 0.0});
+  controller.raise("Sample");
   controller.write("sensor", Vector{0.0, 0.7, 0.0, 0.0});
   for (int i = 0; i < 11; ++i) {
     controller.advance(std::chrono::milliseconds(10));
+    controller.raise("Sample");
     controller.write("sensor", Vector{0.0, 0.7, 0.0, 0.0});
   }
   EXPECT_EQ(controller.state(), component::State::kStopped);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,7 @@ class JointTest : public ::testing::Test {
     joint.write("Voltage", 0.0);  // connects it; before the start, so that it does not count
     joint.serve<bool()>("sensorRead", [this] {
       calls.emplace_back("sensorRead");
+      if (on_read) on_read();
       return true;
     });
   }
@@ -101,6 +103,7 @@ class JointTest : public ::testing::Test {
 
   std::vector<std::string_view> calls;
   std::string_view broken;
+  std::function<void()> on_read;                              ///< what the hardware does at once
   testing::Harness joint{std::make_unique<Joint>("Joint1")};  // last: it stops its hardware
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/stand_in.hpp"
@@ -27,12 +28,20 @@ constexpr base::Duration kSettlingPatience = 2s;
 constexpr base::Duration kWatchTime = 200ms;
 /// Over which signs of the effort are counted.
 constexpr base::Duration kAlternationTime = 500ms;
+/// A joint that was not measured for so long, and for two periods, may have moved when it stops.
+constexpr base::Duration kMeasuredLastly = 100ms;
 /// How long a joint may take to come to rest once it is to stand.
 constexpr base::Duration kComingToRest = 2s;
 
 bool is_sign(double number) { return number == 1.0 || number == -1.0; }
 
 }  // namespace
+
+Outcome Joint::on_configure() {
+  initial_position_ = settings_->initial_position;
+  measured_ = {.position = kept_.initial(), .velocity = 0.0};
+  return set_up();
+}
 
 Outcome Joint::on_start() {
   if (changes_.take()) {
@@ -50,7 +59,26 @@ Outcome Joint::on_start() {
   intervals_.begin(period_.duration());
   measured_since_start_ = false;
   switch_off();
+  kept_.note_start();
+  if (kept_.is_doubtful() && !succeeds(doubt_position_)) {
+    return component::refused(
+        "autosave needs hardware that asks the operator for position_confirmed, and '" +
+        peer_name_.get() + "' does not: leave out autosave");
+  }
   return component::accepted();
+}
+
+void Joint::on_stop() {
+  const base::Duration unseen = time() - measured_at_;
+  const bool measured =
+      measured_since_start_ && unseen <= std::max(kMeasuredLastly, 2 * period_.duration());
+  const bool at_rest = measured && std::abs(measured_.velocity) <= kRest;
+  const bool braked = brake_at_once();
+  cut_power();
+  kept_.note_stop({.position = measured_.position,
+                   .at_rest = at_rest,
+                   .braked = braked,
+                   .exact = succeeds(position_exact_)});
 }
 
 Outcome Joint::set_up() {
@@ -72,7 +100,10 @@ Outcome Joint::set_up() {
   sequence_ = sequence.value();
   watch_ = watch.value();
   sensor_ratio_ = settings_->sensor_sign * settings_->gear_ratio;
-  measured_ = {.position = settings_->initial_position, .velocity = 0.0};
+  if (settings_->initial_position != initial_position_) {
+    initial_position_ = settings_->initial_position;
+    measured_ = {.position = initial_position_, .velocity = 0.0};
+  }
   clipped_.assign(0);
   changes_.take();
   return component::accepted();
@@ -131,9 +162,10 @@ void Joint::on_sample() {
 }
 
 /// Without Sampler, whoever calls this samples it.
-bool Joint::sensor_read() {
-  if (!sampler_ && !is_in_time()) return false;
-  return succeeds(read_hardware_);
+double Joint::sensor_read() {
+  displacement_read_ = std::numeric_limits<double>::quiet_NaN();
+  if (sampler_ || is_in_time()) succeeds(read_hardware_);
+  return displacement_read_;
 }
 
 /// Out of service if it is sampled otherwise than everything is computed for.
@@ -154,6 +186,7 @@ void Joint::on_displacement(double of_motor) {
   measured_.position += displacement;
   measured_at_ = time();
   measured_since_start_ = true;
+  displacement_read_ = displacement;
   displacement_.write(displacement);
   position_.write(measured_.position);
   if (off_at_rest_) cut_power_at_rest();

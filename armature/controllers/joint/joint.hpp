@@ -17,6 +17,7 @@
 #include "armature/controllers/base/sampling_period.hpp"
 #include "armature/controllers/joint/joint_model.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
+#include "armature/controllers/joint/kept_position.hpp"
 
 namespace armature::controllers {
 
@@ -36,8 +37,14 @@ namespace armature::controllers {
 ///
 /// Between Rest and Motion, events of Arming, the armed joint is to stand: beyond what the
 /// properties Holding... say it is braked, and faults (control::HoldingWatch).
+///
+/// With `autosave` it begins where the run before has left it, and is not armed before the operator
+/// has confirmed that it is there (KeptPosition).
 /// @rt nonblocking but for the hardware's answers, no allocation
-class Joint final : public component::Component, public DrivesJoints, public PassesSamples {
+class Joint final : public component::Component,
+                    public DrivesJoints,
+                    public PassesSamples,
+                    public component::Keeps {
  public:
   using Component::Component;
 
@@ -47,6 +54,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
       const component::OutputPortBase& /*output*/) const override {
     return {&displacement_sensor_};
   }
+  component::Keeping& keeping() override { return kept_; }
 
  private:
   static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
@@ -58,9 +66,9 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
     kArmed,
   };
 
-  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_configure() override;
   component::Outcome on_start() override;
-  void on_stop() override { switch_off(); }
+  void on_stop() override;
 
   component::Outcome set_up();
   control::JointLimiter::Config limits() const;
@@ -72,7 +80,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   bool is_in_time();
   void on_displacement(double of_motor);
   void on_index(bool closed) { index_.write(closed); }
-  bool sensor_read();
+  double sensor_read();
   bool measured_lately() const;
 
   // Driving.
@@ -105,7 +113,7 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   bool motor_on(control::DrivePermit permit) {
     return limiter_->armed() && succeeds(actuator_on_, permit);
   }
-  bool brake_apply() { return disarm() && brake_; }
+  bool brake_apply() { return disarm(); }
   bool brake_release(control::DrivePermit permit);
   template <typename... Arguments>
   static bool succeeds(component::OperationCaller<bool(Arguments...)>& call,
@@ -123,11 +131,18 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   SamplingPeriod period_{this};
 
   JointModel model_{this, settings_};
+  KeptPosition kept_{this, settings_};
 
   component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
                                                     component::from(peer_name_)};
   component::OperationCaller<bool()> position_known_{
       this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
+      component::optional};
+  component::OperationCaller<bool()> position_exact_{this, "positionExact", "no sample was lost",
+                                                     component::from(peer_name_),
+                                                     component::optional};
+  component::OperationCaller<bool()> doubt_position_{
+      this, "doubtPosition", "has it ask for position_confirmed", component::from(peer_name_),
       component::optional};
   component::OperationCaller<bool(control::DrivePermit)> actuator_on_{
       this, "actuatorOn", "switches the actuator on", component::from(peer_name_)};
@@ -219,22 +234,25 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
       "applies a voltage until the next; false if the limiter did not pass it as it is",
       component::args("voltage [V]"),
       component::in_own_thread};
-  component::Operation<bool()> read_sensor_{this, "sensorRead",
-                                            component::serve<&Joint::sensor_read>,
-                                            "has the sensors read", component::in_own_thread};
+  component::Operation<double()> read_sensor_{
+      this, "sensorRead", component::serve<&Joint::sensor_read>,
+      "has the sensors read, and returns the displacement [rad]; nan if none came meanwhile",
+      component::in_own_thread};
   component::Operation<bool()> brake_apply_{this,
                                             "brakeApply",
                                             component::serve<&Joint::brake_apply>,
-                                            "disarms, and applies the brake; false without one",
+                                            "disarms, and applies the brake; with Brake only",
                                             component::in_own_thread,
-                                            component::in_any_state};
+                                            component::in_any_state,
+                                            component::only_if(brake_)};
   component::Operation<bool(control::DrivePermit)> brake_release_{
       this,
       "brakeRelease",
       component::serve<&Joint::brake_release>,
-      "releases the brake; false without one, or while disarmed",
+      "releases the brake; false while disarmed; with Brake only",
       component::args("permit"),
-      component::in_own_thread};
+      component::in_own_thread,
+      component::only_if(brake_)};
 
   component::Attribute<double> arming_moved_{
       this, "arming_moved", 0.0, "by how much it moved when it was armed last, or failed to [rad]"};
@@ -261,6 +279,8 @@ class Joint final : public component::Component, public DrivesJoints, public Pas
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
   double sensor_ratio_ = 1.0;
+  double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
+  double initial_position_ = 0.0;   ///< that it was set to
 };
 
 }  // namespace armature::controllers

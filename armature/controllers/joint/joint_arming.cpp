@@ -28,10 +28,12 @@ double told(double number) { return std::round(number * 1e4) / 1e4; }
 void Joint::on_arm() {
   if (phase_ != Phase::kDisarmed) return;
   if (position_known_.bound() && !succeeds(position_known_)) {
+    if (kept_.is_doubtful()) return fail_to_arm(kept_.question(told(measured_.position)));
     return fail_to_arm(
         "a sample of it was lost for good: look whether it is where its Position says, then set "
         "position_confirmed of its hardware");
   }
+  kept_.be_sure();
   if (!measured_lately()) {
     return fail_to_arm("it was not measured in this sampling period");
   }
@@ -227,7 +229,7 @@ void Joint::cut_power_at_rest() {
 
 bool Joint::brake_release(control::DrivePermit permit) {
   const bool held = phase_ == Phase::kLetGo || phase_ == Phase::kArmed;
-  return held && brake_ && succeeds(release_brake_, permit);
+  return held && succeeds(release_brake_, permit);
 }
 
 }  // namespace armature::controllers

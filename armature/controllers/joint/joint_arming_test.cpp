@@ -159,7 +159,7 @@ TEST_F(JointTest, WithoutABrakeNobodyAsksForOne) {
   arm();
   joint.raise("Disarm");
   EXPECT_THAT(commands(), ElementsAre("actuatorOn", "actuatorOff"));
-  EXPECT_FALSE(joint.call<bool>("brakeApply").value());
+  EXPECT_FALSE(joint.call<bool>("brakeApply")) << "there is no such operation";
 }
 
 TEST_F(JointTest, IsNotArmedIfItWasNotMeasuredJustBefore) {

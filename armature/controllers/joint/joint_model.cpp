@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "armature/component/interface.hpp"
+#include "armature/controllers/base/joint_hardware.hpp"
+
 namespace armature::controllers {
 
 using control::JointLimits;
@@ -74,10 +77,23 @@ void JointModel::check(component::Check& check) const {
         "RobotJoint needs exactly one component of the model Robot, found none or several");
   auto found = find(*model);
   if (!found) return check.error(found.error());
+  found.value().sensor_turns = sensor_turns(check);
   if (const std::string wrong = objection(found.value(), limits); !wrong.empty()) {
     check.error(wrong);
   }
   known_ = std::move(found).value();
+}
+
+/// Hardware that has the gear itself tells of the joint's axis.
+double JointModel::sensor_turns(const component::Check& check) const {
+  for (const component::InputPortBase* const input : component::interface_of(owner_).inputs) {
+    if (input->name() != "DisplacementSensor") continue;
+    for (const component::OutputPortBase* const writer : check.writers_of(*input)) {
+      const auto* const hardware = dynamic_cast<const JointHardware*>(&writer->owner());
+      if (hardware != nullptr) return hardware->sensor_turns();
+    }
+  }
+  return 1.0;
 }
 
 std::optional<DrivenJoint> JointModel::driven(const component::Check& check) const {
@@ -141,11 +157,15 @@ std::string JointModel::objection(const Known& known, const JointSettings& limit
 /// What a joint takes for its position is what its drive moves: a sensor tells of the motor's axis.
 std::string JointModel::objection_to_gear(const Known& known, double gear_ratio) {
   const double turns = known.joint.motor_turns;
-  if (turns == 0.0 || std::abs(gear_ratio * turns - 1.0) <= kSameGear) return {};
-  return "GearRatio is " + figure(gear_ratio) + ", expected " + figure(1.0 / turns) +
+  const double told = turns * known.sensor_turns;
+  if (turns == 0.0 || std::abs(gear_ratio * told - 1.0) <= kSameGear) return {};
+  const std::string of_sensor =
+      known.sensor_turns == 1.0
+          ? "is of the motor's axis"
+          : "has a gear of " + figure(1.0 / known.sensor_turns) + " taken into account";
+  return "GearRatio is " + figure(gear_ratio) + ", expected " + figure(1.0 / told) +
          ": the Robot's motor_gear_ratio says " + figure(turns) +
-         " turns of the motor for one of "
-         "the joint, and DisplacementSensor is of the motor's axis";
+         " turns of the motor for one of the joint, and DisplacementSensor " + of_sensor;
 }
 
 std::string JointModel::objection_to(const component::PropertyBase& property,

@@ -35,10 +35,12 @@ class JointModel final : public component::Checked, public component::PropertyFo
   struct Known {
     DrivenJoint joint;
     control::JointLimits described;
+    double sensor_turns = 1.0;  ///< that DisplacementSensor tells for one of the motor's axis
   };
 
   const DescribesRobot* robot(const component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
+  double sensor_turns(const component::Check& check) const;
   static std::string objection(const Known& known, const JointSettings& limits);
   static std::string objection_to_gear(const Known& known, double gear_ratio);
 

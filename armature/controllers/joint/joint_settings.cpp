@@ -6,13 +6,15 @@ namespace armature::controllers {
 using component::mandatory;
 using component::member;
 using component::range;
+using component::sign;
 
 JointProperties::JointProperties(component::Component* owner)
     : Properties(
           owner, {},
           member(&JointSettings::actuator_sign, "ActuatorSign",
-                 "-1 if a positive voltage moves the joint backwards"),
-          member(&JointSettings::sensor_sign, "SensorSign", "-1 if the sensor counts backwards"),
+                 "-1, or true, if a positive voltage moves the joint backwards", "", sign),
+          member(&JointSettings::sensor_sign, "SensorSign",
+                 "-1, or true, if the sensor counts backwards", "", sign),
           member(&JointSettings::gear_ratio, "GearRatio",
                  "motion of the joint per motion of its sensor", "", mandatory),
           member(&JointSettings::initial_position, "InitialPos",

@@ -2,6 +2,7 @@
 #include "armature/controllers/joint/joint.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/controllers/internal/test_joint.hpp"
 
 namespace armature::controllers {
@@ -26,6 +28,39 @@ TEST_F(JointTest, ReadsItsHardwareAtSample) {
   joint.advance(10ms);
   joint.raise("Sample");
   EXPECT_THAT(calls, ElementsAre("sensorRead"));
+}
+
+TEST_F(JointTest, SensorReadReturnsTheDisplacementOfTheJoint) {
+  joint.set("SensorSign", -1.0);
+  start();
+  on_read = [this] { joint.write("DisplacementSensor", -20.0); };
+  EXPECT_DOUBLE_EQ(joint.call<double>("sensorRead").value(), 0.2);
+  on_read = nullptr;
+  EXPECT_TRUE(std::isnan(joint.call<double>("sensorRead").value())) << "nothing was measured";
+}
+
+TEST_F(JointTest, HasBrakeOperationsOnlyWithABrake) {
+  start();
+  EXPECT_TRUE(joint.call<bool>("brakeApply"));
+  joint.stop();
+  joint.set("Brake", false);
+  start();
+  const auto answer = joint.call<bool>("brakeApply");
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error(), "'Joint1' has no operation 'brakeApply': its property Brake is false");
+  EXPECT_TRUE(joint.call<bool>("motorOff")) << "whoever wants it off has this";
+}
+
+TEST_F(JointTest, SignsMayBeSaidAsBooleansOfWhichTrueInverts) {
+  for (component::PropertyBase* each : component::interface_of(joint.component()).properties) {
+    if (each->name() == "SensorSign") static_cast<void>(each->set(types::Value::of(true)));
+    if (each->name() == "ActuatorSign") static_cast<void>(each->set(types::Value::of(false)));
+  }
+  EXPECT_EQ(joint.get<double>("SensorSign"), -1.0);
+  EXPECT_EQ(joint.get<double>("ActuatorSign"), 1.0);
+  start();
+  sample(-20.0);
+  EXPECT_DOUBLE_EQ(joint.output<double>("Displacement"), 0.2);
 }
 
 TEST_F(JointTest, PositionIsTheInitialOneAndAllDisplacementsInTheUnitsOfTheJoint) {
@@ -47,6 +82,24 @@ TEST_F(JointTest, AStartDoesNotLoseThePosition) {
   EXPECT_DOUBLE_EQ(position(), 1.2);
 }
 
+TEST_F(JointTest, AStartWithAnotherLimitDoesNotLoseThePosition) {
+  start();
+  sample(20.0);
+  joint.stop();
+  joint.set("MaxVoltage", 11.0);
+  start();
+  EXPECT_DOUBLE_EQ(position(), 1.2);
+}
+
+TEST_F(JointTest, AnInitialPositionThatIsGivenMeanwhileCounts) {
+  start();
+  sample(20.0);
+  joint.stop();
+  joint.set("InitialPos", 2.0);
+  start();
+  EXPECT_DOUBLE_EQ(position(), 2.0);
+}
+
 TEST_F(JointTest, HandsTheIndexOn) {
   start();
   joint.write("IndexSensor", true);
@@ -60,6 +113,16 @@ TEST_F(JointTest, AppliesVoltageAtActInTheDirectionOfTheHardware) {
   EXPECT_EQ(effort(), 0.0) << "before Act";
   joint.raise("Act");
   EXPECT_EQ(effort(), -3.0);
+}
+
+/// Without Act, and through the same limiter.
+TEST_F(JointTest, MotorSetAppliesAVoltageAtOnceInTheDirectionOfTheHardware) {
+  joint.set("ActuatorSign", -1.0);
+  start_armed();
+  EXPECT_TRUE(joint.call<bool>("motorSet", 3.0).value());
+  EXPECT_EQ(effort(), -3.0);
+  EXPECT_FALSE(joint.call<bool>("motorSet", 20.0).value()) << "more than MaxVoltage";
+  EXPECT_EQ(effort(), -12.0);
 }
 
 TEST_F(JointTest, AVoltageFromBeforeTheStartIsNotApplied) {

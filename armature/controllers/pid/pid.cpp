@@ -96,7 +96,15 @@ void Pid::on_check(component::Check& check) const {
     check.error(wrong);
   }
   const component::OperationBase* const target = check.target_of(motor_set_);
-  if (target == nullptr) return;
+  if (target == nullptr) {
+    const std::string& peer = peer_name_.get();
+    if (!peer.empty()) {
+      check.error("PeerName is '" + peer + "', and nothing of that peer serves motorSet",
+                  "name a Joint, or bind what a composite exports: bind: {sensorRead: " + peer +
+                      ".EncoderRead, motorSet: " + peer + ".MotorSet}");
+    }
+    return;
+  }
   const component::Component& joint = target->owner();
   for (const component::OutputPortBase* const writer : check.writers_of(measured_)) {
     if (&writer->owner() == &joint) continue;

@@ -92,8 +92,9 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
                                  component::optional,
                                  component::leads_to_nothing()};
 
-  component::OperationCaller<bool()> read_sensor_{this, "sensorRead", "has the joint measure",
-                                                  component::from(peer_name_), component::optional};
+  component::OperationCaller<double()> read_sensor_{this, "sensorRead", "has the joint measure",
+                                                    component::from(peer_name_),
+                                                    component::optional};
   component::OperationCaller<bool(double)> motor_set_{
       this, "motorSet", "drives the joint", component::from(peer_name_), component::optional};
 

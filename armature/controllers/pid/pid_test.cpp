@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/testing/harness.hpp"
 
 namespace armature::controllers {
@@ -137,7 +138,7 @@ TEST_F(PidTest, GoesOnFromWhatItsPredecessorWroteAndDesired) {
   other.port.set_sample(3.0);
   pid.write("Ref", 1.0);
   pid.advance(10ms);
-  auto& out = *pid.component().interface().outputs.front();
+  auto& out = *component::interface_of(pid.component()).outputs.front();
   out.take_over_from(&other.port);
   ASSERT_TRUE(pid.start()) << pid.reason();
   out.take_over_from(nullptr);

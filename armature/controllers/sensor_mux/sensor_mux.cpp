@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "armature/component/interface.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
 namespace armature::controllers {
@@ -60,7 +61,7 @@ void SensorNMux::note_missing() {
 
 std::vector<const component::InputPortBase*> SensorNMux::samples_behind(
     const component::OutputPortBase& /*output*/) const {
-  const auto& inputs = interface().inputs;
+  const auto& inputs = component::interface_of(*this).inputs;
   return {inputs.begin(), inputs.end()};
 }
 

@@ -14,7 +14,9 @@
 namespace armature::controllers {
 
 /// Makes one vector of what N joints measured: writes `sensor` once all 2N values arrived after a
-/// Sample (paper 1, section 3.2, SensorNMux).
+/// Sample (paper 1, section 3.2, SensorNMux). Equation 4 of the paper has velocities as its second
+/// half; what the paper's SensorNMux is given are displacements, and so is this: in rad, since the
+/// sample before. The velocity is the displacement by the period.
 ///
 /// A joint of which not both values came by the next Sample is missing in that round: it is counted
 /// and named, and the round that begins goes on in time without it, with its last position and

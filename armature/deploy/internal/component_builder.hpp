@@ -10,6 +10,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/registry.hpp"
 #include "armature/deploy/builder.hpp"
+#include "armature/deploy/internal/rtai_priorities.hpp"
 #include "armature/document/document.hpp"
 #include "armature/exec/blueprint.hpp"
 
@@ -22,7 +23,11 @@ class ComponentBuilder {
  public:
   ComponentBuilder(const Document& document, const component::Registry& registry,
                    const BuildOptions& options, base::Diagnostics& diagnostics)
-      : document_(document), registry_(registry), options_(options), diagnostics_(diagnostics) {}
+      : document_(document),
+        registry_(registry),
+        options_(options),
+        diagnostics_(diagnostics),
+        priorities_(document, diagnostics) {}
 
   /// Adds the component to the blueprint, or its name to those that are absent.
   void build(const Component& written, exec::Blueprint& blueprint);
@@ -38,6 +43,11 @@ class ComponentBuilder {
   void report_machines(const Component& written, const component::Component& component);
   void report_unknown_model(const Component& written);
   bool set_properties(const Component& written, component::Component& component);
+  void refuse_attributes(const Component& written, const std::vector<Property>& properties,
+                         component::Component& component);
+  /// The property that a name such as `Sensor2Mux` gives; nothing may give it another value.
+  bool set_number_in_name(const Component& written, component::Component& component);
+  void check_number_in_name(const Component& written, const component::Component& component);
   bool apply_property_file(const Component& written, const PropertyFile& file,
                            component::Component& component);
   bool apply(const Component& written, const std::vector<Property>& properties,
@@ -49,6 +59,7 @@ class ComponentBuilder {
   const component::Registry& registry_;
   const BuildOptions& options_;
   base::Diagnostics& diagnostics_;
+  RtaiPriorities priorities_;
   std::vector<std::string> model_names_;
   std::unordered_set<const component::Registry::Model*> known_models_;  ///< looked at already
   std::map<std::string, std::unique_ptr<std::vector<Property>>> files_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 
 namespace armature::exec::internal {
 namespace {
@@ -93,7 +94,7 @@ void BlackBoxes::set_engines(const std::vector<std::unique_ptr<Engine>>& engines
     Box& box = *boxes_.back().box;
     for (const Index each : plan.threads[t].members) {
       const Component& component = *blueprint.components[each].component;
-      if (&component.context() == &engines[t]->context()) box.add(component);
+      if (&component::Host::context(component) == &engines[t]->context()) box.add(component);
     }
     intervals.push_back(std::max(interval_for(box.values(), rate), period_of(plan.threads[t])));
     wanted += static_cast<double>(box.picture_size()) *

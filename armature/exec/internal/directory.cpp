@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/internal/directory.hpp"
 
+#include "armature/component/interface.hpp"
+
 namespace armature::exec::internal {
 namespace {
 
@@ -39,9 +41,9 @@ Directory::Directory(const Blueprint& blueprint, base::Diagnostics& diagnostics)
                         "give each its own name");
     }
     ports_[i].first_input = input_count_;
-    input_count_ += component.interface().inputs.size();
-    index_many(component.interface().inputs, ports_[i].inputs);
-    index_many(component.interface().outputs, ports_[i].outputs);
+    input_count_ += component::interface_of(component).inputs.size();
+    index_many(component::interface_of(component).inputs, ports_[i].inputs);
+    index_many(component::interface_of(component).outputs, ports_[i].outputs);
   }
 }
 
@@ -51,14 +53,15 @@ Index Directory::component(std::string_view name) const {
 }
 
 Directory::Input Directory::input(Index component, std::string_view name) const {
-  const auto& inputs = blueprint_.components[component].component->interface().inputs;
+  const auto& inputs = component::interface_of(*blueprint_.components[component].component).inputs;
   const Index place = place_of(name, inputs, ports_[component].inputs);
   if (place == kNone) return {};
   return {inputs[place], first_input(component) + place};
 }
 
 component::OutputPortBase* Directory::output(Index component, std::string_view name) const {
-  const auto& outputs = blueprint_.components[component].component->interface().outputs;
+  const auto& outputs =
+      component::interface_of(*blueprint_.components[component].component).outputs;
   const Index place = place_of(name, outputs, ports_[component].outputs);
   return place == kNone ? nullptr : outputs[place];
 }
@@ -73,7 +76,8 @@ std::vector<std::string> Directory::component_names() const {
 
 std::vector<std::string> Directory::input_names(Index component) const {
   std::vector<std::string> names;
-  for (const auto* port : blueprint_.components[component].component->interface().inputs) {
+  for (const auto* port :
+       component::interface_of(*blueprint_.components[component].component).inputs) {
     names.push_back(port->name());
   }
   return names;
@@ -81,7 +85,8 @@ std::vector<std::string> Directory::input_names(Index component) const {
 
 std::vector<std::string> Directory::output_names(Index component) const {
   std::vector<std::string> names;
-  for (const auto* port : blueprint_.components[component].component->interface().outputs) {
+  for (const auto* port :
+       component::interface_of(*blueprint_.components[component].component).outputs) {
     names.push_back(port->name());
   }
   return names;

@@ -69,10 +69,12 @@ TEST(PlanPriorities, AConsumerIsNotMoreUrgentThanItsProducer) {
   blueprint.add<Probe>("Producer", Activity::triggered(50));
   blueprint.add<Probe>("Consumer", Activity::triggered(60));
   blueprint.connect("Producer.Out", "Consumer.In");
-  EXPECT_EQ(problems_of(blueprint),
-            "error: 'Consumer' (priority 60) is triggered by 'Producer' (priority 50) but is more "
-            "urgent: it would interrupt its producer (give the consumer at most the producer's "
-            "priority)\n");
+  EXPECT_EQ(
+      problems_of(blueprint),
+      "warning: 'Consumer' (priority 60) is triggered by 'Producer' (priority 50) but is more "
+      "urgent: it interrupts its producer [priority_inversion] (give the consumer at most the "
+      "producer's "
+      "priority)\n");
   for (const int priority : {50, 49}) {
     blueprint.components[1].activity.priority = priority;
     EXPECT_EQ(problems_of(blueprint), "");
@@ -87,8 +89,9 @@ TEST(PlanPriorities, TheProducersThreadCountsAlsoIfItOnlyHostsTheProducer) {
   blueprint.connect("Host.Out", "Guest.In");
   blueprint.connect("Guest.Out", "Consumer.In");
   EXPECT_EQ(problems_of(blueprint),
-            "error: 'Consumer' (priority 60) is triggered by 'Guest' (priority 50) but is more "
-            "urgent: it would interrupt its producer (give the consumer at most the producer's "
+            "warning: 'Consumer' (priority 60) is triggered by 'Guest' (priority 50) but is more "
+            "urgent: it interrupts its producer [priority_inversion] (give the consumer at most "
+            "the producer's "
             "priority)\n");
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "armature/component/check.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -142,7 +143,8 @@ class PlannedCheck final : public component::Check {
 
 void check_component(const Component& component, component::Check& check) {
   try {
-    for (const component::Checked* part : component.interface().checked) part->check(check);
+    for (const component::Checked* part : component::interface_of(component).checked)
+      part->check(check);
     component.on_check(check);
   } catch (const std::exception& thrown) {
     check.error(std::string("its check failed: ") + thrown.what());

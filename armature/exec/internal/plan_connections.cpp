@@ -9,6 +9,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/base/unit.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -228,7 +229,7 @@ class ConnectionPlanner {
   void check_open_inputs(Index component) {
     const ComponentEntry& entry = blueprint_.components[component];
     Index number = directory_.first_input(component);
-    for (const InputPortBase* input : entry.component->interface().inputs) {
+    for (const InputPortBase* input : component::interface_of(*entry.component).inputs) {
       const Index here = number++;
       if (input->stays_open()) continue;
       const bool never = writers_[here].port == nullptr;

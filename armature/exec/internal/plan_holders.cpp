@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/holding.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -17,7 +18,7 @@ class HolderCheck {
 
   void run() {
     for (Index i = 0; i < blueprint_.components.size(); ++i) {
-      const auto& holdings = blueprint_.components[i].component->interface().holdings;
+      const auto& holdings = component::interface_of(*blueprint_.components[i].component).holdings;
       if (holdings.empty()) continue;
       expect_in_all_modes(i, "which holds something");
       for (const component::Holding* const holding : holdings) check_keepers(i, *holding);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include "armature/component/interface.hpp"
 #include "armature/component/observer.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -28,7 +29,7 @@ std::vector<component::Component*> components_of(const Blueprint& blueprint) {
 
 void plan_observers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics) {
   for (Index i = 0; i < blueprint.components.size(); ++i) {
-    if (!blueprint.components[i].component->interface().observers.empty())
+    if (!component::interface_of(*blueprint.components[i].component).observers.empty())
       plan.observers.push_back(i);
   }
   if (plan.observers.empty()) return;
@@ -37,7 +38,7 @@ void plan_observers(const Blueprint& blueprint, Plan& plan, base::Diagnostics& d
     const ComponentEntry& entry = blueprint.components[index];
     check_period(entry, diagnostics);
     if (!blueprint.absent.empty()) continue;  // it may look for these, which was reported
-    for (const auto* observer : entry.component->interface().observers) {
+    for (const auto* observer : component::interface_of(*entry.component).observers) {
       for (auto& objection : observer->check_view(components)) {
         diagnostics.error(entry.where, quoted(entry.component->name()) + ": " + objection.message,
                           std::move(objection.hint));

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/interface.hpp"
 #include "armature/component/observer.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
@@ -34,8 +35,8 @@ class Watcher final : public component::Component, private component::Observer {
     seen = surroundings;
     for (auto* each : surroundings.components) {
       if (each->name() != wanted) continue;
-      tap = &each->interface().outputs.front()->tap(100);
-      property = &each->interface().properties.front()->tap(4);
+      tap = &component::interface_of(*each).outputs.front()->tap(100);
+      property = &component::interface_of(*each).properties.front()->tap(4);
     }
   }
 };
@@ -131,7 +132,7 @@ TEST(Observers, LookAgainWhenTheApplicationIsStartedAgain) {
     EXPECT_TRUE(application.stop().ok());
   }
   for (const auto& entry : application.blueprint().components) {
-    for (const auto* output : entry.component->interface().outputs) {
+    for (const auto* output : component::interface_of(*entry.component).outputs) {
       EXPECT_FALSE(output->is_tapped());
     }
   }

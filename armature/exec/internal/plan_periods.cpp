@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/grouped.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -117,7 +118,7 @@ class PacePlanner {
 void plan_periods(const Blueprint& blueprint, const Plan& plan) {
   const std::vector<Pace> paces = PacePlanner(blueprint, plan).run();
   for (Index i = 0; i < paces.size(); ++i) {
-    blueprint.components[i].component->set_pace(paces[i]);
+    component::Host::set_pace(*blueprint.components[i].component, paces[i]);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/operations/requirement.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -19,6 +20,12 @@ struct Candidate {
   Member* member = nullptr;
 };
 
+/// Why a peer's member cannot be used, empty if it can.
+std::string why_not(const component::OperationBase& operation) {
+  return operation.is_offered() ? "" : operation.why_not_offered();
+}
+std::string why_not(const component::EventBase& /*event*/) { return {}; }
+
 class RequirementPlanner {
  public:
   RequirementPlanner(const Blueprint& blueprint, const Directory& directory, Plan& plan,
@@ -30,8 +37,9 @@ class RequirementPlanner {
       const ComponentEntry& entry = blueprint_.components[i];
       find_peers(entry);
       check_bindings(entry);
-      for (auto* caller : entry.component->interface().callers) plan_call(i, entry, *caller);
-      for (auto* handler : entry.component->interface().handlers) {
+      for (auto* caller : component::interface_of(*entry.component).callers)
+        plan_call(i, entry, *caller);
+      for (auto* handler : component::interface_of(*entry.component).handlers) {
         plan_subscription(i, entry, *handler);
       }
     }
@@ -57,8 +65,9 @@ class RequirementPlanner {
 
   void check_bindings(const ComponentEntry& entry) {
     std::vector<std::string> required;
-    for (auto* caller : entry.component->interface().callers) required.emplace_back(caller->name());
-    for (auto* handler : entry.component->interface().handlers) {
+    for (auto* caller : component::interface_of(*entry.component).callers)
+      required.emplace_back(caller->name());
+    for (auto* handler : component::interface_of(*entry.component).handlers) {
       required.emplace_back(handler->name());
     }
     for (const BindingEntry& binding : entry.bindings) {
@@ -119,16 +128,22 @@ class RequirementPlanner {
     const std::string wanted_peer = requirement.peer_name();
     if (!wanted_peer.empty() && !is_peer(entry, requirement, wanted_peer)) return {};
     std::vector<Candidate<Member>> found;
+    std::string missing;
     for (const Index peer : peers_) {
       const component::Component& component = *blueprint_.components[peer].component;
       if (!wanted_peer.empty() && component.name() != wanted_peer) continue;
-      for (Member* member : members(component.interface())) {
-        if (member->name() == requirement.name()) found.push_back({peer, member});
+      for (Member* member : members(component::interface_of(component))) {
+        if (member->name() != requirement.name()) continue;
+        if (why_not(*member).empty()) {
+          found.push_back({peer, member});
+        } else {
+          missing = why_not(*member);
+        }
       }
     }
     if (found.size() == 1) return found.front();
     const bool needed = !requirement.is_optional() && !peer_missing_;
-    if (found.empty() && needed) report_missing(entry, requirement, kind);
+    if (found.empty() && needed) report_missing(entry, requirement, kind, missing);
     if (found.size() > 1) report_ambiguous(entry, requirement, kind, found);
     return {};
   }
@@ -149,8 +164,14 @@ class RequirementPlanner {
     }
     const std::string& name = binding.member.empty() ? binding.requirement : binding.member;
     std::vector<std::string> names;
-    for (Member* member : members(blueprint_.components[peer].component->interface())) {
-      if (member->name() == name) return {peer, member};
+    for (Member* member :
+         members(component::interface_of(*blueprint_.components[peer].component))) {
+      if (member->name() == name) {
+        const std::string missing = why_not(*member);
+        if (missing.empty()) return {peer, member};
+        diagnostics_.error(binding.where, user_of(entry, binding.requirement) + ": " + missing);
+        return {};
+      }
       names.emplace_back(member->name());
     }
     diagnostics_.error(binding.where, quoted(binding.peer) + " has no " + kind + " " + quoted(name),
@@ -180,11 +201,15 @@ class RequirementPlanner {
     return false;
   }
 
+  /// @param missing  why a peer has it and does not offer it, empty if none has it
   void report_missing(const ComponentEntry& entry, const Requirement& requirement,
-                      const std::string& kind) {
+                      const std::string& kind, const std::string& missing) {
+    if (!missing.empty()) {
+      return diagnostics_.error(entry.where, user_of(entry, requirement) + ": " + missing);
+    }
     std::vector<std::string> who_has_it;
     for (const ComponentEntry& other : blueprint_.components) {
-      const component::Interface& interface = other.component->interface();
+      const component::Interface& interface = component::interface_of(*other.component);
       for (const auto* operation : interface.operations) {
         if (operation->name() == requirement.name()) who_has_it.push_back(other.component->name());
       }
@@ -218,7 +243,10 @@ class RequirementPlanner {
   }
 
   static std::string user_of(const ComponentEntry& entry, const Requirement& requirement) {
-    return quoted(entry.component->name()) + " uses " + quoted(requirement.name());
+    return user_of(entry, std::string(requirement.name()));
+  }
+  static std::string user_of(const ComponentEntry& entry, const std::string& requirement) {
+    return quoted(entry.component->name()) + " uses " + quoted(requirement);
   }
   static std::string kind_text(bool command) { return command ? " (a command)" : ""; }
 

@@ -14,7 +14,8 @@ using namespace component;
 class Axis final : public Component {
  public:
   using Component::Component;
-  Operation<double()> read{this, "read", serve<&Axis::do_read>, "the position"};
+  Property<bool> measures{this, "Measures", true, "has a sensor"};
+  Operation<double()> read{this, "read", serve<&Axis::do_read>, "the position", only_if(measures)};
   Operation<double()> read_again{this, "readAgain", serve<&Axis::do_read>, "the position"};
   Command<double> move{this, "moveTo", serve<&Axis::do_move>, "goes there"};
   Event<double> arrived{this, "arrived", "it is there"};
@@ -114,6 +115,28 @@ TEST(PlanRequirements, WithoutAPeerItSaysWhoCouldServe) {
   EXPECT_EQ(problems_of(make_blueprint()),
             "error: 'User' uses 'read': no peer has this operation (add a peer that has it, for "
             "example 'Axis1')\n");
+}
+
+/// Another peer that has it serves in its place.
+TEST(PlanRequirements, APeerServesOnlyWhatItOffers) {
+  for (const bool has_another : {false, true}) {
+    Blueprint blueprint = make_blueprint();
+    blueprint.add_peer("User", "Axis1");
+    if (has_another) blueprint.add_peer("User", "Axis2");
+    auto& first = static_cast<Axis&>(*blueprint.components[1].component);
+    first.measures.assign(false);
+    base::Diagnostics diagnostics;
+    const Plan plan = make_plan(blueprint, diagnostics);
+    if (has_another) {
+      EXPECT_EQ(diagnostics.to_text(), "");
+      ASSERT_EQ(plan.calls.size(), 1u);
+      EXPECT_EQ(plan.calls.front().operation->owner().name(), "Axis2");
+    } else {
+      EXPECT_EQ(diagnostics.to_text(),
+                "error: 'User' uses 'read': 'Axis1' has no operation 'read': its property Measures "
+                "is false\n");
+    }
+  }
 }
 
 TEST(PlanRequirements, IfNobodyCouldServeItSaysThat) {
@@ -234,6 +257,20 @@ TEST(PlanRequirements, WhatAPeerThatCouldNotBeMadeMightServeIsNotReported) {
   blueprint.components[0].peers.push_back({"Axis", {}});
   blueprint.absent.insert("Axis");
   EXPECT_EQ(problems_of(blueprint), "");
+}
+
+/// A relation of one direction: what B offers is for A, what A offers is not for B (paper 1,
+/// section 2).
+TEST(PlanRequirements, ThePeerOfAUserUsesNothingOfThatUserItself) {
+  Blueprint blueprint;
+  blueprint.add<User>("User");
+  blueprint.add<Axis>("Axis1");
+  blueprint.add_peer("Axis1", "User");
+  EXPECT_EQ(problems_of(blueprint),
+            "error: 'User' uses 'read': no peer has this operation (add a peer that has it, for "
+            "example 'Axis1')\n");
+  blueprint.add_peer("User", "Axis1");
+  EXPECT_EQ(problems_of(blueprint), "") << "each is a peer of the other";
 }
 
 TEST(PlanRequirements, SignaturesMustMatch) {

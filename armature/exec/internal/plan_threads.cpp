@@ -252,13 +252,13 @@ void check_priorities(const Blueprint& blueprint, const Plan& plan,
                             reader.scheduler == Activity::Scheduler::kRealtime &&
                             reader.priority > writer.priority;
     if (!interrupts) continue;
-    diagnostics.error(connection.entry->where,
-                      quoted(connection.entry->to_component) + " (priority " +
-                          std::to_string(reader.priority) + ") is triggered by " +
-                          quoted(connection.entry->from_component) + " (priority " +
-                          std::to_string(writer.priority) +
-                          ") but is more urgent: it would interrupt its producer",
-                      "give the consumer at most the producer's priority");
+    // It costs time and harms no data: a reader of another thread may run beside its writer anyway.
+    diagnostics.named_warning(
+        "priority_inversion", connection.entry->where,
+        quoted(connection.entry->to_component) + " (priority " + std::to_string(reader.priority) +
+            ") is triggered by " + quoted(connection.entry->from_component) + " (priority " +
+            std::to_string(writer.priority) + ") but is more urgent: it interrupts its producer",
+        "give the consumer at most the producer's priority");
   }
 }
 

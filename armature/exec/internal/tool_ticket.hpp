@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "armature/component/host.hpp"
 #include "armature/component/operations/command.hpp"
 #include "armature/component/operations/command_ticket.hpp"
 
@@ -16,7 +17,9 @@ class ToolTicket final : public component::CommandTicket {
   void belong_to(component::CommandBase& command) { command_ = &command; }
 
  private:
-  component::ExecutionContext& executor() const override { return command_->owner().context(); }
+  component::ExecutionContext& executor() const override {
+    return component::Host::context(command_->owner());
+  }
   void cancel_now() override { command_->cancel(*this); }
 
   component::CommandBase* command_ = nullptr;

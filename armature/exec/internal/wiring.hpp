@@ -58,7 +58,7 @@ std::vector<Index> who_runs_for(const Blueprint& blueprint, const Plan& plan, In
 /// Refuses modes that leave out what holds something, or whom it needs for that.
 void check_holders(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 
-/// Refuses a triggered consumer that is more urgent than its producer.
+/// Warns of a triggered consumer that is more urgent than its producer.
 void check_priorities(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
 
 }  // namespace armature::exec::internal

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/record/console_writer.hpp"
 #include "armature/record/csv_writer.hpp"
 #include "armature/record/mcap_writer.hpp"
@@ -107,7 +108,9 @@ void Reporter::follow_port(const component::PortBase& named, std::string name,
   tracks_.push_back({&output.tap(static_cast<std::size_t>(buffer_.get()),
                                  static_cast<std::uint64_t>(every_.get())),
                      false});
-  const bool in_one_thread = &output.owner().context() == &context() && !context().simulated;
+  const bool in_one_thread =
+      &component::Host::context(output.owner()) == &component::Host::context(*this) &&
+      !is_simulated();
   if (in_one_thread) {
     log_warning("{} waits for the disk as well: give this component a thread of its own",
                 output.owner().name());

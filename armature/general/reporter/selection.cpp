@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/interface.hpp"
 
 namespace armature::general {
 namespace {
@@ -13,7 +14,7 @@ using component::Component;
 
 std::vector<Source> outputs_of(const Component& component) {
   std::vector<Source> sources;
-  for (auto* output : component.interface().outputs) {
+  for (auto* output : component::interface_of(component).outputs) {
     sources.push_back({component.name() + "." + output->name(), output, nullptr, nullptr});
   }
   return sources;
@@ -21,10 +22,10 @@ std::vector<Source> outputs_of(const Component& component) {
 
 std::vector<Source> members_of(const Component& component) {
   std::vector<Source> sources = outputs_of(component);
-  for (auto* input : component.interface().inputs) {
+  for (auto* input : component::interface_of(component).inputs) {
     sources.push_back({component.name() + "." + input->name(), nullptr, input, nullptr});
   }
-  for (auto* property : component.interface().properties) {
+  for (auto* property : component::interface_of(component).properties) {
     sources.push_back(
         {component.name() + "." + std::string(property->name()), nullptr, nullptr, property});
   }

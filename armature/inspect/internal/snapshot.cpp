@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/inspect/internal/snapshot.hpp"
 
+#include "armature/component/interface.hpp"
+
 namespace armature::inspect::internal {
 namespace {
 
@@ -24,23 +26,23 @@ void take_requirement(const component::Requirement& from, std::uint64_t not_take
 }  // namespace
 
 Snapshot::Snapshot(const component::Component& component)
-    : raised(component.interface().events.size()),
-      callers(component.interface().callers.size()),
-      handlers(component.interface().handlers.size()),
-      machines(component.interface().machines.size()),
+    : raised(component::interface_of(component).events.size()),
+      callers(component::interface_of(component).callers.size()),
+      handlers(component::interface_of(component).handlers.size()),
+      machines(component::interface_of(component).machines.size()),
       component_(component) {
   const auto make_room = [&](const auto& members, std::vector<Reading>& readings) {
     for (const auto* one : members) readings.push_back(room_for(member(component, *one)));
   };
-  make_room(component.interface().properties, properties);
-  make_room(component.interface().inputs, inputs);
-  make_room(component.interface().outputs, outputs);
+  make_room(component::interface_of(component).properties, properties);
+  make_room(component::interface_of(component).inputs, inputs);
+  make_room(component::interface_of(component).outputs, outputs);
   input_counters.resize(inputs.size());
   output_counters.resize(outputs.size());
 }
 
 void Snapshot::take(base::Time now) {
-  const component::Interface& all = component_.interface();
+  const component::Interface& all = component::interface_of(component_);
   const auto read = [&](const auto& members, std::vector<Reading>& readings) {
     for (std::size_t i = 0; i < readings.size(); ++i) {
       take_reading(member(component_, *members[i]), now, readings[i]);

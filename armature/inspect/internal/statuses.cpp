@@ -9,6 +9,7 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/exec/modes.hpp"
 #include "armature/platform/clock.hpp"
 
@@ -43,7 +44,7 @@ ThreadStatus status_of(const exec::ThreadStatistics& thread, const exec::ThreadP
 
 bool is_simulated(const exec::Application& application) {
   const auto& components = application.blueprint().components;
-  return !components.empty() && components.front().component->context().simulated;
+  return !components.empty() && component::Host::context(*components.front().component).simulated;
 }
 
 /// The present one; empty if there are none.
@@ -128,7 +129,7 @@ std::vector<ComponentStatus> statuses_of(exec::Application& application,
   for (std::size_t i = 0; i < components.size(); ++i) {
     all.push_back(status_without_reason(application, *components[i]));
     const bool runs = all.back().state == component::State::kRunning;
-    if (!runs) resting[&components[i]->context()].push_back(i);
+    if (!runs) resting[&component::Host::context(*components[i])].push_back(i);
   }
   for (const auto& [context, indices] : resting) {
     std::vector<Component*> asked;

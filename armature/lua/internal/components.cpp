@@ -10,6 +10,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/inspect/acts.hpp"
 #include "armature/inspect/items.hpp"
 #include "armature/lua/internal/subscriptions.hpp"
@@ -118,18 +119,21 @@ int write_member(lua_State* lua) {
   const Component& component = component_at(lua, 1);
   const std::string name = text_at(lua, 2);
   const std::optional<Member> member = inspect::member_of(component, name);
-  if (!member || member->property == nullptr) {
-    if (member) {
-      if (const auto right = inspect::check_no_port(*member); !right) refuse(lua, right.error());
-    }
+  const Access& access = access_of(lua);
+  if (member) {
+    const auto right = inspect::check_settable(access.application, *member, access.caller);
+    if (!right) refuse(lua, right.error());
+  }
+  if (!member || (member->property == nullptr && member->input == nullptr)) {
     std::vector<std::string> known;
-    for (const auto* one : component.interface().properties) known.emplace_back(one->name());
+    for (const auto* one : component::interface_of(component).properties)
+      known.emplace_back(one->name());
     refuse(lua, "'" + component.name() + "' has no property '" + name + "'" +
                     base::suggestion_in_brackets(name, known));
   }
-  const auto value = value_at(lua, 3, member->type());
+  const bool inverts = member->property->is_sign() && lua_isboolean(lua, 3);
+  const auto value = value_at(lua, 3, inverts ? types::type_of<bool>() : member->type());
   if (!value) refuse(lua, component.name() + "." + name + value.error());
-  const Access& access = access_of(lua);
   const auto set = inspect::set(access.application, *member, value.value(), access.caller);
   if (!set) refuse(lua, set.error());
   return 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/lua/internal/machines.hpp"
 #include "armature/lua/internal/schedule.hpp"
 #include "armature/lua/internal/subscriptions.hpp"
@@ -34,7 +35,7 @@ Machine::Machine(MachineDefinition definition, Machines& machines)
       entered_at_(definition_.states.size()),
       runs_(definition_.states.size(), nullptr),
       arguments_(definition_.triggers.size(), LUA_NOREF) {
-  owner_.assign_context(context_);
+  component::Host::assign_context(owner_, context_);
   for (MachineFunction& function : definition_.functions) function.machine = this;
   for (std::size_t i = 0; i < definition_.states.size(); ++i) {
     periodic_[i] = definition_.table.states[i].during.call != nullptr;
@@ -87,15 +88,16 @@ void Machine::start(lua_State* lua) {
   next_period_ = base::later(stepped_at_, definition_.period);
   listen(lua);
   component::Outcome ready = component::accepted();
-  if (owner_.state() == component::State::kException) ready = owner_.reset();
-  if (owner_.state() == component::State::kPreOperational) ready = owner_.configure();
-  if (ready) ready = owner_.start();
+  if (owner_.state() == component::State::kException) ready = component::Host::reset(owner_);
+  if (owner_.state() == component::State::kPreOperational)
+    ready = component::Host::configure(owner_);
+  if (ready) ready = component::Host::start(owner_);
   if (!ready && !running()) machines_.note_mistake(std::string(ready.reason()));
 }
 
 void Machine::stop() {
   const Turn turn(*this);
-  owner_.stop();
+  component::Host::stop(owner_);
 }
 
 component::TriggerStatus Machine::send(std::size_t trigger, int arguments) {
@@ -103,7 +105,7 @@ component::TriggerStatus Machine::send(std::size_t trigger, int arguments) {
   if (!running()) return component::TriggerStatus::kNotRunning;
   const Turn turn(*this);
   component::TriggerStatus status = component::TriggerStatus::kNotRunning;
-  owner_.run(context_, [&] { status = machine_.post(trigger); });
+  component::Host::run(owner_, context_, [&] { status = machine_.post(trigger); });
   return status;
 }
 
@@ -114,7 +116,7 @@ void Machine::step() {
     const auto passed = (stepped_at_ - next_period_) / definition_.period + 1;
     next_period_ += passed * definition_.period;
   }
-  owner_.update();
+  component::Host::update(owner_);
 }
 
 /// A time that came without effect, its guard being against it, is looked at in each period.

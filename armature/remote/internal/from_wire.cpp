@@ -34,8 +34,9 @@ std::optional<State> state_named(const std::string& name) {
 }
 
 CommandStage stage_named(const std::string& name) {
-  return named(name, {CommandStage::kQueued, CommandStage::kAccepted, CommandStage::kRefused,
-                      CommandStage::kDone, CommandStage::kFailed, CommandStage::kCancelled})
+  return named(name, {CommandStage::kQueued, CommandStage::kWaiting, CommandStage::kAccepted,
+                      CommandStage::kRefused, CommandStage::kDone, CommandStage::kFailed,
+                      CommandStage::kCancelled})
       .value_or(CommandStage::kFree);
 }
 

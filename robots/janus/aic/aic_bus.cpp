@@ -6,7 +6,7 @@
 namespace armature::janus {
 
 component::Outcome AicBus::begin_to_guard() {
-  if (context().simulated) return component::accepted();
+  if (is_simulated()) return component::accepted();
   const component::Outcome outcome =
       period() == base::Duration::zero()
           ? guard_.do_without("no component calls it in a cycle of one period")

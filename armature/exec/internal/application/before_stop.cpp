@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/base/quoted.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec::internal {
@@ -81,7 +82,8 @@ bool BeforeStop::cancel_all(const platform::StopSignal* stop) {
 /// A component that could hold something, and holds nothing now.
 bool BeforeStop::holds_nothing(std::string_view name) const {
   Component* const component = roster_.find(name);
-  const bool may_hold = component != nullptr && !component->interface().holdings.empty();
+  const bool may_hold =
+      component != nullptr && !component::interface_of(*component).holdings.empty();
   return may_hold && !holders_.held_by(*component);
 }
 

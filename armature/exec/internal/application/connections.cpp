@@ -3,6 +3,7 @@
 
 #include "armature/base/quoted.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/component/observer.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -18,7 +19,7 @@ void Connections::declare_reactions() const {
 
 void Connections::make(base::Diagnostics& diagnostics) const {
   for (const ComponentEntry& entry : blueprint_.components) {
-    for (auto* output : entry.component->interface().outputs) output->prepare();
+    for (auto* output : component::interface_of(*entry.component).outputs) output->prepare();
   }
   for (const ConnectionPlan& connection : plan_.connections) connect(connection, diagnostics);
   for (const SubscriptionPlan& subscription : plan_.subscriptions) {
@@ -43,7 +44,8 @@ void Connections::connect(const ConnectionPlan& connection, base::Diagnostics& d
 void Connections::let_observers_look() const {
   const component::Surroundings surroundings{components_of(blueprint_), output_folder_};
   for (const Index index : plan_.observers) {
-    for (auto* observer : blueprint_.components[index].component->interface().observers) {
+    for (auto* observer :
+         component::interface_of(*blueprint_.components[index].component).observers) {
       observer->observe(surroundings);
     }
   }
@@ -51,7 +53,7 @@ void Connections::let_observers_look() const {
 
 void Connections::undo() const {
   for (const ComponentEntry& entry : blueprint_.components) {
-    const component::Interface& interface = entry.component->interface();
+    const component::Interface& interface = component::interface_of(*entry.component);
     for (auto* output : interface.outputs) output->disconnect_all();
     for (auto* event : interface.events) event->unsubscribe_all();
     for (auto* caller : interface.callers) caller->disconnect();

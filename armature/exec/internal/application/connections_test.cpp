@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/application/test_parts.hpp"
 
 namespace armature::exec::internal {
@@ -27,13 +28,13 @@ class ConnectionsTest : public ::testing::Test {
   void run_all() {
     for (const Index each : parts_.plan.start_order) {
       component::Component& component = parts_.component(each);
-      ASSERT_TRUE(component.configure());
+      ASSERT_TRUE(component::Host::configure(component));
     }
   }
   void start_all() {
     for (const Index each : parts_.plan.start_order) {
-      ASSERT_TRUE(parts_.component(each).activate());
-      ASSERT_TRUE(parts_.component(each).start());
+      ASSERT_TRUE(component::Host::activate(parts_.component(each)));
+      ASSERT_TRUE(component::Host::start(parts_.component(each)));
     }
     for (const auto& engine : parts_.engines) engine->begin({});
   }

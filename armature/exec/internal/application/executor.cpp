@@ -6,14 +6,15 @@
 
 #include "armature/base/quoted.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/exec/task.hpp"
 
 namespace armature::exec::internal {
 
 bool Executor::run_in_thread_of(component::Component& component, std::function<void()> work) const {
-  component::ExecutionContext& context = component.context();
+  component::ExecutionContext& context = component::Host::context(component);
   const auto as_its_own = [&component, &context, work = std::move(work)] {
-    component.run(context, work);
+    component::Host::run(component, context, work);
   };
   if (unreachable_.includes(component)) return false;
   if (context.live) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/application/test_parts.hpp"
 
 namespace armature::exec::internal {
@@ -25,7 +26,7 @@ TEST(Executor, WorkIsDoneHereWhileTheThreadDoesNotRunAtTheTimeOfTheApplication) 
   component::Component& gain = parts.component(0);
   EXPECT_TRUE(parts.executor.run_in_thread_of(gain, [&] {
     where = std::this_thread::get_id();
-    who = gain.context().running();
+    who = component::Host::context(gain).running();
   }));
   EXPECT_EQ(where, std::this_thread::get_id());
   EXPECT_EQ(who, &gain) << "it is known as the component's own work";
@@ -47,7 +48,7 @@ TEST(Executor, WorkIsDoneByTheThreadThatRuns) {
 
 TEST(Executor, ThereIsNoWayToAThreadThatHangs) {
   PlannedParts parts(one_thread());
-  parts.unreachable.give_up(parts.component(0).context());
+  parts.unreachable.give_up(component::Host::context(parts.component(0)));
   bool done = false;
   EXPECT_FALSE(parts.executor.run_in_thread_of(parts.component(0), [&] { done = true; }));
   EXPECT_FALSE(done);
@@ -60,7 +61,8 @@ TEST(Executor, NobodyWaitsLongerThanTheLimitNorForAThreadThatHasDied) {
   EXPECT_FALSE(impatient.executor.run_in_thread_of(impatient.component(0), [] {}));
   PlannedParts mourning(one_thread(), false, 1000h);
   mourning.engine_of(0).begin({});
-  mourning.death_notice.send(&mourning.component(0).context(), "it died of this work");
+  mourning.death_notice.send(&component::Host::context(mourning.component(0)),
+                             "it died of this work");
   EXPECT_FALSE(mourning.executor.run_in_thread_of(mourning.component(0), [] {}));
   impatient.engine_of(0).deliver_leftovers();  // what waits there is freed by who takes it
   mourning.engine_of(0).deliver_leftovers();

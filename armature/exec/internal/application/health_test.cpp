@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/application/test_parts.hpp"
 
 namespace armature::exec::internal {
@@ -52,13 +53,13 @@ TEST_F(HealthTest, WhoLeavesRunsOnAfterAFaultUntilTheNextStart) {
 }
 
 TEST_F(HealthTest, ADeathEndsTheRunWhateverFaultsMeanAndTakesItsThreadOutOfService) {
-  ASSERT_TRUE(parts_.component(0).configure());
-  ASSERT_TRUE(parts_.component(0).activate());
-  ASSERT_TRUE(parts_.component(0).start());
+  ASSERT_TRUE(component::Host::configure(parts_.component(0)));
+  ASSERT_TRUE(component::Host::activate(parts_.component(0)));
+  ASSERT_TRUE(component::Host::start(parts_.component(0)));
   health().begin_to_leave();
-  parts_.death_notice.send(&parts_.component(0).context(), "it divided by nothing");
-  EXPECT_TRUE(parts_.death_notice.is_about(parts_.component(0).context()));
-  EXPECT_FALSE(parts_.death_notice.is_about(parts_.component(1).context()));
+  parts_.death_notice.send(&component::Host::context(parts_.component(0)), "it divided by nothing");
+  EXPECT_TRUE(parts_.death_notice.is_about(component::Host::context(parts_.component(0))));
+  EXPECT_FALSE(parts_.death_notice.is_about(component::Host::context(parts_.component(1))));
   health().take_leave_of_the_dead(parts_.engines);
   EXPECT_TRUE(health().died());
   EXPECT_TRUE(health().hangs());
@@ -66,7 +67,8 @@ TEST_F(HealthTest, ADeathEndsTheRunWhateverFaultsMeanAndTakesItsThreadOutOfServi
   EXPECT_TRUE(parts_.unreachable.includes(parts_.component(0)));
   EXPECT_FALSE(parts_.unreachable.includes(parts_.component(1)));
   EXPECT_EQ(parts_.component(0).reason(), "it divided by nothing");
-  EXPECT_FALSE(parts_.death_notice.is_about(parts_.component(0).context())) << "it was taken";
+  EXPECT_FALSE(parts_.death_notice.is_about(component::Host::context(parts_.component(0))))
+      << "it was taken";
 }
 
 TEST_F(HealthTest, TheDeathOfAThreadThatRunsNoComponentEndsTheRunToo) {
@@ -81,7 +83,7 @@ TEST_F(HealthTest, AComponentThatHangsAloneLeavesItsThreadToTheOthers) {
   EXPECT_TRUE(health().hangs());
   EXPECT_FALSE(health().died());
   EXPECT_TRUE(parts_.unreachable.includes(parts_.component(0)));
-  EXPECT_FALSE(parts_.unreachable.includes(parts_.component(0).context()));
+  EXPECT_FALSE(parts_.unreachable.includes(component::Host::context(parts_.component(0))));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {
@@ -21,9 +22,10 @@ std::vector<Held> Holders::held() const {
 }
 
 std::optional<Held> Holders::held_by(Component& component) const {
-  if (!health_.running() || component.interface().holdings.empty()) return std::nullopt;
+  if (!health_.running() || component::interface_of(component).holdings.empty())
+    return std::nullopt;
   const auto what = std::make_shared<component::Reason>();
-  for (const component::Holding* holding : component.interface().holdings) {
+  for (const component::Holding* holding : component::interface_of(component).holdings) {
     const bool asked =
         executor_.run_in_thread_of(component, [what, holding] { *what = holding->held(); });
     if (!asked) return Held{component.name(), "something, but its thread does not answer", false};
@@ -37,7 +39,7 @@ std::optional<Held> Holders::held_by_help_of(const Component& component) const {
   for (const ComponentEntry& entry : blueprint_.components) {
     Component& holder = *entry.component;
     if (&holder == &component) continue;
-    const auto& holdings = holder.interface().holdings;
+    const auto& holdings = component::interface_of(holder).holdings;
     const auto needs_it = [&](const auto* holding) { return needs(*holding, component); };
     if (std::ranges::none_of(holdings, needs_it)) continue;
     if (std::optional<Held> one = held_by(holder)) return one;

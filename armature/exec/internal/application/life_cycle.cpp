@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "armature/base/quoted.hpp"
+#include "armature/component/host.hpp"
 
 namespace armature::exec::internal {
 namespace {
@@ -19,12 +20,12 @@ bool is_running(const Component& component) {
 }
 
 Outcome stop_one(Component& component) {
-  component.stop();
+  component::Host::stop(component);
   return component::accepted();
 }
 
 Outcome clean_up_one(Component& component) {
-  component.retire();
+  component::Host::retire(component);
   return component.state() == State::kException ? component::refused(component.reason())
                                                 : component::accepted();
 }
@@ -41,8 +42,8 @@ bool LifeCycle::configure(base::Diagnostics& diagnostics) const {
     const ComponentEntry& entry = blueprint_.components[index];
     if (entry.autoconfigure) components.push_back(entry.component.get());
   }
-  const Stage configure{[](Component& component) { return component.configure(); }, "on_configure",
-                        "configure", false};
+  const Stage configure{[](Component& component) { return component::Host::configure(component); },
+                        "on_configure", "configure", false};
   return run(configure, std::move(components), diagnostics);
 }
 
@@ -56,10 +57,10 @@ bool LifeCycle::start(base::Diagnostics& diagnostics) const {
     if (plan_.runs_at_start(index)) starting.push_back(entry.component.get());
   }
   // Whoever starts may call the others: so first all begin to serve.
-  const Stage activate{[](Component& component) { return component.activate(); }, "on_activate",
-                       "start", true};
-  const Stage start{[](Component& component) { return component.start(); }, "on_start", "start",
-                    true};
+  const Stage activate{[](Component& component) { return component::Host::activate(component); },
+                       "on_activate", "start", true};
+  const Stage start{[](Component& component) { return component::Host::start(component); },
+                    "on_start", "start", true};
   if (!run(activate, components, diagnostics)) return false;
   if (!run(start, starting, diagnostics)) return false;
   for (const Component* component : components) {
@@ -93,8 +94,10 @@ void LifeCycle::stop(base::Diagnostics& diagnostics) const {
   for (auto each = plan_.start_order.rbegin(); each != plan_.start_order.rend(); ++each) {
     Component& component = *blueprint_.components[*each].component;
     if (!is_running(component)) continue;
-    const bool same_thread = group.empty() || &group.back()->context() == &component.context() ||
-                             !component.context().live;
+    const bool same_thread =
+        group.empty() ||
+        &component::Host::context(*group.back()) == &component::Host::context(component) ||
+        !component::Host::context(component).live;
     if (!same_thread) {
       stop_group(group, diagnostics);
       group.clear();
@@ -106,7 +109,7 @@ void LifeCycle::stop(base::Diagnostics& diagnostics) const {
 
 void LifeCycle::stop_group(const Group& group, base::Diagnostics& diagnostics) const {
   if (group.empty()) return;
-  if (group.front()->context().live) {
+  if (component::Host::context(*group.front()).live) {
     stop_in_thread(group, diagnostics);
   } else {
     stop_here(group, diagnostics);
@@ -121,7 +124,7 @@ void LifeCycle::stop_here(const Group& group, base::Diagnostics& diagnostics) co
 }
 
 void LifeCycle::stop_in_thread(const Group& group, base::Diagnostics& diagnostics) const {
-  component::ExecutionContext& context = group.front()->context();
+  component::ExecutionContext& context = component::Host::context(*group.front());
   threads_.make_prompt(context);
   // If the thread is known to hang, nobody waits; its components stop when it goes on.
   const base::Duration limit =

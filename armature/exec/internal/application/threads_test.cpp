@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/application/test_parts.hpp"
 #include "armature/exec/task.hpp"
 
@@ -37,12 +38,12 @@ TEST_F(ThreadsTest, ServeTheirEnginesFromGoToEnd) {
   std::atomic<int> done{0};
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(Task::run_in(
-        parts_.component(i).context(), [&] { ++done; }, 60s));
+        component::Host::context(parts_.component(i)), [&] { ++done; }, 60s));
   }
   EXPECT_EQ(done, 2);
   threads_.end(diagnostics_);
   EXPECT_EQ(diagnostics_.to_text(), "");
-  EXPECT_FALSE(parts_.component(0).context().live);
+  EXPECT_FALSE(component::Host::context(parts_.component(0)).live);
   EXPECT_FALSE(parts_.unreachable.any());
 }
 
@@ -50,7 +51,7 @@ TEST_F(ThreadsTest, EndWithoutHavingServedIfTheyNeverWent) {
   ASSERT_TRUE(threads_.prepare(diagnostics_));
   begin();
   std::atomic<int> done{0};
-  Task::post(parts_.component(0).context(), [&] { ++done; });
+  Task::post(component::Host::context(parts_.component(0)), [&] { ++done; });
   threads_.end(diagnostics_);
   EXPECT_EQ(done, 0);
   EXPECT_EQ(diagnostics_.to_text(), "");

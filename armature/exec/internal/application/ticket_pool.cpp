@@ -7,7 +7,8 @@ namespace armature::exec::internal {
 namespace {
 
 constexpr auto is_under_way = [](const auto& ticket) {
-  return ticket->stage() == component::CommandStage::kAccepted;
+  const component::CommandStage stage = ticket->stage();
+  return stage == component::CommandStage::kAccepted || stage == component::CommandStage::kWaiting;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ class TicketPool {
  public:
   /// One that nobody has, for this command.
   ToolTicket& claim(component::CommandBase& command);
-  /// Has all commands that are under way come to an end.
+  /// Has all commands that are under way, or wait, come to an end.
   /// @return whether there was one
   bool cancel_all();
   bool any_under_way() const;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/exec/internal/application/test_parts.hpp"
 
 namespace armature::exec::internal {
@@ -24,9 +25,9 @@ class Mover final : public component::Component {
 class TicketPoolTest : public ::testing::Test {
  protected:
   TicketPoolTest() {
-    EXPECT_TRUE(mover().configure());
-    EXPECT_TRUE(mover().activate());
-    EXPECT_TRUE(mover().start());
+    EXPECT_TRUE(component::Host::configure(mover()));
+    EXPECT_TRUE(component::Host::activate(mover()));
+    EXPECT_TRUE(component::Host::start(mover()));
   }
   static Blueprint one_mover() {
     Blueprint blueprint;

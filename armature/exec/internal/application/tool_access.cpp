@@ -8,6 +8,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/base/quoted.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/interface.hpp"
 
 namespace armature::exec::internal {
 namespace {
@@ -42,7 +43,7 @@ base::Result<void> ToolAccess::set_property(std::string_view name, std::string_v
                                             const types::Value& value, Caller caller) const {
   Component* const component = roster_.find(name);
   if (component == nullptr) return base::Error{roster_.unknown(name)};
-  const auto& properties = component->interface().properties;
+  const auto& properties = component::interface_of(*component).properties;
   component::PropertyBase* const property = find_in(properties, property_name);
   if (property == nullptr) {
     return base::Error{no_such("property", property_name, *component, names_of(properties))};
@@ -62,7 +63,7 @@ base::Result<types::Value> ToolAccess::value_of(std::string_view name,
                                                 std::string_view item) const {
   Component* const component = roster_.find(name);
   if (component == nullptr) return base::Error{roster_.unknown(name)};
-  const component::Interface& interface = component->interface();
+  const component::Interface& interface = component::interface_of(*component);
   if (auto* property = find_in(interface.properties, item)) {
     return value_of(*component, property->type(), [property] { return property->data(); });
   }
@@ -108,11 +109,12 @@ base::Result<component::OperationBase*> ToolAccess::operation_for(std::string_vi
                                                                   Caller caller) const {
   Component* const component = roster_.find(name);
   if (component == nullptr) return base::Error{roster_.unknown(name)};
-  const auto& operations = component->interface().operations;
+  const auto& operations = component::interface_of(*component).operations;
   component::OperationBase* const operation = find_in(operations, operation_name);
   if (operation == nullptr) {
     return base::Error{no_such("operation", operation_name, *component, names_of(operations))};
   }
+  if (!operation->is_offered()) return base::Error{operation->why_not_offered()};
   if (operation->is_by_operator()) {
     if (const auto may = granted(*component, operation_name, caller); !may) {
       return base::Error{may.error()};

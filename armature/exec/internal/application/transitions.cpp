@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "armature/component/host.hpp"
+
 namespace armature::exec::internal {
 
 using component::Component;
@@ -24,25 +26,26 @@ Outcome Transitions::start(std::string_view name) const {
   return change(name, [modes = modes_.switcher()](Component& component) {
     Outcome outcome = modes == nullptr ? component::accepted() : modes->admit(component);
     const bool fresh = component.state() == component::State::kPreOperational;
-    if (outcome && fresh) outcome = component.configure();
-    if (outcome && component.state() == component::State::kStopped) outcome = component.activate();
-    return outcome ? component.start() : outcome;
+    if (outcome && fresh) outcome = component::Host::configure(component);
+    if (outcome && component.state() == component::State::kStopped)
+      outcome = component::Host::activate(component);
+    return outcome ? component::Host::start(component) : outcome;
   });
 }
 
 Outcome Transitions::stop(std::string_view name) const {
   return change(name, [](Component& component) {
-    component.stop();
+    component::Host::stop(component);
     return component::accepted();
   });
 }
 
 Outcome Transitions::recover(std::string_view name) const {
-  return change(name, [](Component& component) { return component.recover(); });
+  return change(name, [](Component& component) { return component::Host::recover(component); });
 }
 
 Outcome Transitions::reset(std::string_view name) const {
-  return change(name, [](Component& component) { return component.reset(); });
+  return change(name, [](Component& component) { return component::Host::reset(component); });
 }
 
 Outcome Transitions::clean_up(std::string_view name) const {
@@ -50,7 +53,7 @@ Outcome Transitions::clean_up(std::string_view name) const {
     if (component.state() != component::State::kStopped) {
       return component::refused("cannot be cleaned up: stop it first");
     }
-    component.cleanup();
+    component::Host::cleanup(component);
     return component::accepted();
   });
 }

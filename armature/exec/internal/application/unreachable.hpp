@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "armature/component/component.hpp"
+#include "armature/component/host.hpp"
 
 namespace armature::exec::internal {
 
@@ -15,7 +16,7 @@ class Unreachable {
 
   /// It hangs itself, or its thread does.
   bool includes(const component::Component& component) const {
-    return stuck_.count(&component) > 0 || includes(component.context());
+    return stuck_.count(&component) > 0 || includes(component::Host::context(component));
   }
   bool includes(const component::ExecutionContext& thread) const {
     return stuck_.count(&thread) > 0;
