@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/host.hpp"
 #include "armature/testing/realtime_guard.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -71,7 +72,7 @@ class QueuedCommands : public ::testing::Test {
   CommandHandle send(double place) { return send({place, 0.0}); }
   void arrive() {
     queue_.is_there = true;
-    queue_.update();
+    Host::update(queue_);
     queue_.is_there = false;
   }
 
@@ -93,7 +94,7 @@ TEST_F(QueuedCommands, BeginInTheirOrderEachWhenTheOneBeforeIsDone) {
   EXPECT_EQ(queue_.visit.waiting(), 2u);
   queue_.visit.report(0.5);
   EXPECT_EQ(second.progress(), 0.0);
-  queue_.update();
+  Host::update(queue_);
   EXPECT_THAT(queue_.visited, ElementsAre(1.0));
   arrive();
   EXPECT_EQ(first.stage(), CommandStage::kDone);
@@ -157,10 +158,10 @@ TEST_F(QueuedCommands, NeverGoOnBehindOneThatWasNotDone) {
     EXPECT_EQ(second.stage(), CommandStage::kCancelled) << reason;
     EXPECT_EQ(second.reason(), kWaited + reason);
     if (queue_.state() == State::kException) {
-      ASSERT_TRUE(queue_.reset());
+      ASSERT_TRUE(Host::reset(queue_));
     }
     if (queue_.state() == State::kStopped) {
-      ASSERT_TRUE(queue_.start());
+      ASSERT_TRUE(Host::start(queue_));
     }
     arrive();
     EXPECT_THAT(queue_.visited, ElementsAre(1.0)) << reason;
