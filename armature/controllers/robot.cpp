@@ -46,6 +46,6 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<Bridge>("Bridge", "between a generator and joints with controllers of their own");
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
   registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest",
-                                 {{"nAxisGenPos"}});
+                                 {{"nAxisGenPos"}, {"nAxesGenerator"}});
   registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }

@@ -160,7 +160,9 @@ TEST(UnsampledOwnRobot, OneSampleIsOneComputation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Arrangements, Unsampled, ::testing::ValuesIn(kAll),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& arrangement) {
+                           return std::string(arrangement.param.name);
+                         });
 
 }  // namespace
 }  // namespace armature

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/component/host.hpp"
 #include "armature/controllers/internal/test_generator.hpp"
 #include "armature/testing/realtime_guard.hpp"
 
@@ -119,7 +120,7 @@ TEST_F(AxesGenerator, CancelResetAStopAndAFaultEndThoseThatWait) {
       {"fault", [this](component::CommandHandle&) { generator.component().fault("lost"); }}};
   for (const auto& [name, end] : ends) {
     if (generator.state() == component::State::kException) {
-      static_cast<void>(generator.component().reset());
+      static_cast<void>(component::Host::reset(generator.component()));
     }
     generator.stop();
     start_at({0.0, 0.0});

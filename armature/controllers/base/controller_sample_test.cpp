@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/host.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
 #include "armature/testing/harness.hpp"
@@ -86,7 +87,7 @@ class ControllersThatTakeTurns : public ::testing::Test {
   ControllersThatTakeTurns() {
     for (auto* output : component::interface_of(around).outputs) output->prepare();
     for (ControllerNPID* each : {&first, &second}) {
-      EXPECT_TRUE(each->configure());
+      EXPECT_TRUE(component::Host::configure(*each));
       for (auto* output : component::interface_of(*each).outputs) output->prepare();
       around.sample.subscribe(*component::interface_of(*each).handlers.front());
       connect(around.sensor, input(*each, "sensor"));
