@@ -131,7 +131,7 @@ TEST(Phases, StandInReportJsonWithTheirTimeOnTheBus) {
       {.name = "sense", .components = {"Joint"}, .bus = "/io/slow/bus_us", .elsewhere_us = 259.0},
       {.name = "compute", .components = {"PID"}},
       {.name = "act", .components = {"Joint"}, .bus = "/io/fast/bus_us"}};
-  Run run;
+  report::Run run;
   run.name = "realtime";
   run.phase_computing_us = {15.0, 30.0, 7.0};
   runs.runs = {run};
