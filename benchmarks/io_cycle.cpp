@@ -47,6 +47,8 @@ struct Cycle {
 
 struct Times {
   double bus_us = 0.0;
+  std::array<double, kJoints> sensing_us{};  ///< of it until each joint's report has come
+  double actuation_us = 0.0;                 ///< of it behind the last report
   double computing_us = 0.0;
   double cycle_us = 0.0;
   double wire_us = 0.0;
@@ -74,32 +76,50 @@ class Wire {
     bus.set_tap([this](const can::WireEvent& event) { events_.push_back(event); });
   }
 
-  /// Heartbeats are no part of a cycle; they may be in its way, which the median does not see.
   Times times_of(const std::vector<Cycle>& cycles) const {
-    std::vector<double> bus_us;
-    std::vector<double> computing_us;
-    std::vector<double> cycle_us;
-    std::vector<double> wire_us;
+    std::vector<Times> each;
     auto event = events_.begin();
-    for (const Cycle& cycle : cycles) {
-      base::Time end = cycle.begin;
-      base::Duration busy{};
-      while (event != events_.end() && event->begin < cycle.begin) ++event;
-      for (; event != events_.end() && event->begin < cycle.begin + kPeriod; ++event) {
-        const auto address = address_of(event->frame);
-        if (!address || address->function == AicFunction::kHeartbeat) continue;
-        busy += event->end - event->begin;
-        end = event->end;
-      }
-      bus_us.push_back(in_us(end - cycle.begin));
-      wire_us.push_back(in_us(busy));
-      computing_us.push_back(cycle.computing_us);
-      cycle_us.push_back(bus_us.back() + cycle.computing_us);
+    for (const Cycle& cycle : cycles) each.push_back(times_of(cycle, event));
+    const auto median_of = [&](auto of) {
+      std::vector<double> values;
+      for (const Times& times : each) values.push_back(of(times));
+      return median(std::move(values));
+    };
+    Times all{.bus_us = median_of([](const Times& one) { return one.bus_us; }),
+              .actuation_us = median_of([](const Times& one) { return one.actuation_us; }),
+              .computing_us = median_of([](const Times& one) { return one.computing_us; }),
+              .cycle_us = median_of([](const Times& one) { return one.cycle_us; }),
+              .wire_us = median_of([](const Times& one) { return one.wire_us; })};
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      all.sensing_us[i] = median_of([i](const Times& one) { return one.sensing_us[i]; });
     }
-    return {median(bus_us), median(computing_us), median(cycle_us), median(wire_us)};
+    return all;
   }
 
  private:
+  /// Heartbeats are no part of a cycle; they may be in its way, which the median does not see.
+  /// @param event  the first that is not known to be before the cycle; then the first behind it
+  Times times_of(const Cycle& cycle, std::vector<can::WireEvent>::const_iterator& event) const {
+    Times times;
+    base::Time end = cycle.begin;
+    base::Time sensed = cycle.begin;
+    while (event != events_.end() && event->begin < cycle.begin) ++event;
+    for (; event != events_.end() && event->begin < cycle.begin + kPeriod; ++event) {
+      const auto address = address_of(event->frame);
+      if (!address || address->function == AicFunction::kHeartbeat) continue;
+      times.wire_us += in_us(event->end - event->begin);
+      end = event->end;
+      if (address->function != AicFunction::kSensor) continue;
+      times.sensing_us.at(static_cast<std::size_t>(address->number - 1)) = in_us(end - sensed);
+      sensed = end;
+    }
+    times.actuation_us = in_us(end - sensed);
+    times.bus_us = in_us(end - cycle.begin);
+    times.computing_us = cycle.computing_us;
+    times.cycle_us = times.bus_us + cycle.computing_us;
+    return times;
+  }
+
   std::vector<can::WireEvent> events_;
 };
 
@@ -247,6 +267,9 @@ nlohmann::ordered_json measure(const std::string& janus, const std::string& libr
           {"bus_us", ours.bus_us},
           {"computing_us", ours.computing_us},
           {"wire_us", ours.wire_us},
+          {"joint1_sensing_us", ours.sensing_us[0]},
+          {"joint2_sensing_us", ours.sensing_us[1]},
+          {"actuation_us", ours.actuation_us},
           {"monolithic_cycle_us", its.cycle_us},
           {"monolithic_bus_us", its.bus_us},
           {"monolithic_computing_us", its.computing_us},

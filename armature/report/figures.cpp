@@ -109,6 +109,26 @@ Json efforts_of(const Run& run) {
   return efforts;
 }
 
+/// Unknown is what its parts do not tell; a phase without a bus is its computing.
+Json phases_of(const Run& run, const Phases& phases, const Json& report) {
+  Json all = Json::array();
+  for (std::size_t i = 0; i < run.phase_computing_us.size(); ++i) {
+    const Phase& phase = phases.all[i];
+    const std::optional<double>& computing = run.phase_computing_us[i];
+    std::optional<double> whole = computing;
+    Json one{{"name", phase.name}, {"us", Json()}, {"computing_us", or_null(computing)}};
+    if (!phase.bus.empty()) {
+      const std::optional<double> bus = number_at(report, phase.bus);
+      one["bus_us"] = or_null(bus);
+      whole = computing && bus ? std::optional(*computing + *bus) : std::nullopt;
+    }
+    one["us"] = or_null(whole);
+    one["elsewhere_us"] = or_null(phase.elsewhere_us);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 Json reached_of(const std::vector<Goal>& goals, const Json& report) {
   const std::string text = report.dump(-1, ' ', false, Json::error_handler_t::replace);
   Json all = Json::array();
@@ -141,6 +161,10 @@ Json report_of(const Runs& runs) {
                                        {"joints", std::move(joints)}};
   }
   if (Json cycle = cycle_of(runs); !cycle.is_null()) report["io"] = std::move(cycle);
+  for (const Run& run : runs.runs) {
+    if (run.phase_computing_us.empty()) continue;
+    report["runs"][run.name]["phases"] = phases_of(run, runs.phases, report);
+  }
   if (!runs.goals.empty()) report["to_reach"] = reached_of(runs.goals, report);
   return report;
 }

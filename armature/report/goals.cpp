@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/report/goals.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "armature/report/internal/json.hpp"
 
 namespace armature::report {
 namespace {
-
-std::optional<double> number_in(const Json& entry, const char* key) {
-  const auto found = entry.find(key);
-  if (found == entry.end() || !found->is_number()) return std::nullopt;
-  return found->get<double>();
-}
-
-bool is_pointer(const std::string& text) {
-  try {
-    return !Json::json_pointer(text).empty();
-  } catch (const Json::exception&) {
-    return false;
-  }
-}
 
 /// Empty: nothing.
 std::string mistake_in(const Goal& goal) {
@@ -35,12 +20,6 @@ std::string mistake_in(const Goal& goal) {
   }
   if (goal.most.has_value() == goal.least.has_value()) return "needs a number, most or least";
   return {};
-}
-
-std::optional<double> number_at(const Json& report, const std::string& place) {
-  const Json::json_pointer pointer(place);
-  if (!report.contains(pointer) || !report[pointer].is_number()) return std::nullopt;
-  return report[pointer].get<double>();
 }
 
 }  // namespace

@@ -137,13 +137,24 @@ Json page_of(const Run& run, const Points& points) {
   return one;
 }
 
+/// Those that are found in all of report.json.
+void add_figures(const Runs& runs, Json& page) {
+  const Json report = internal::report_of(runs);
+  if (report.contains("to_reach")) page["to_reach"] = report["to_reach"];
+  page["elsewhere"] = runs.phases.elsewhere;
+  for (Json& run : page["runs"]) {
+    const Json& figures = report["runs"][run["name"].get<std::string>()];
+    if (figures.contains("phases")) run["phases"] = figures["phases"];
+  }
+}
+
 std::string page_with(const Runs& runs, const Points& points) {
   Json page{{"title", title_of(runs)},
             {"name", runs.name},
             {"runs", Json::array()},
             {"io", internal::cycle_of(runs)}};
   for (const Run& run : runs.runs) page["runs"].push_back(page_of(run, points));
-  if (!runs.goals.empty()) page["to_reach"] = internal::report_of(runs)["to_reach"];
+  if (!runs.goals.empty() || !runs.phases.all.empty()) add_figures(runs, page);
   const std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());

@@ -119,16 +119,19 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
   }
 }
 
-void load_timeline(const fs::path& path, Run& run, base::Diagnostics& diagnostics) {
+void load_trace(const fs::path& path, const Phases& phases, Run& run,
+                base::Diagnostics& diagnostics) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return;
   const auto text = platform::read_file(path.string(), kLargestText);
   if (!text) return diagnostics.error({}, text.error());
-  auto timeline = parse_timeline(text.value(), path.string());
-  if (!timeline) {
-    diagnostics.error({}, timeline.error());
-  } else if (!timeline.value().lanes.empty()) {
-    run.timeline = std::move(timeline).value();
+  const auto trace = parse_trace(text.value(), path.string());
+  if (!trace) return diagnostics.error({}, trace.error());
+  Timeline timeline = find_timeline(trace.value());
+  if (timeline.lanes.empty()) return;
+  run.timeline = std::move(timeline);
+  for (const Phase& phase : phases.all) {
+    run.phase_computing_us.push_back(computing_of(phase, trace.value()));
   }
 }
 
@@ -138,7 +141,7 @@ std::string name_of(const fs::path& folder) {
   return whole.filename().empty() ? folder.string() : whole.filename().string();
 }
 
-std::optional<Run> load_run(const fs::path& folder, const Content& content,
+std::optional<Run> load_run(const fs::path& folder, const Content& content, const Phases& phases,
                             base::Diagnostics& diagnostics) {
   Run run;
   run.name = name_of(folder);
@@ -151,7 +154,7 @@ std::optional<Run> load_run(const fs::path& folder, const Content& content,
         "give each run a folder of its own");
   }
   if (!content.recordings.empty()) load_recording(content.recordings[0], run, diagnostics);
-  load_timeline(folder / kTraceFile, run, diagnostics);
+  load_trace(folder / kTraceFile, phases, run, diagnostics);
   return run;
 }
 
@@ -161,12 +164,14 @@ Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics) {
   Runs runs;
   runs.name = name_of(folder);
   const Content content = content_of(folder, diagnostics);
-  if (auto run = load_run(folder, content, diagnostics)) runs.runs.push_back(std::move(*run));
-  for (const std::string& inner : content.folders) {
-    if (auto run = load_run(inner, content_of(inner, diagnostics), diagnostics)) {
-      runs.runs.push_back(std::move(*run));
-    }
-  }
+  const fs::path phases = fs::path(folder) / kPhasesFile;
+  runs.phases = parse_phases(load_json(phases, diagnostics), phases.string(), diagnostics);
+  const auto load = [&](const fs::path& from, const Content& has) {
+    auto run = load_run(from, has, runs.phases, diagnostics);
+    if (run) runs.runs.push_back(std::move(*run));
+  };
+  load(folder, content);
+  for (const std::string& inner : content.folders) load(inner, content_of(inner, diagnostics));
   runs.cycle_json = load_json(fs::path(folder) / kCycleFile, diagnostics);
   const fs::path goals = fs::path(folder) / kGoalsFile;
   runs.goals = parse_goals(load_json(goals, diagnostics), goals.string(), diagnostics);

@@ -9,6 +9,7 @@
 #include "armature/report/effort.hpp"
 #include "armature/report/goals.hpp"
 #include "armature/report/moments.hpp"
+#include "armature/report/phases.hpp"
 #include "armature/report/signals.hpp"
 #include "armature/report/timeline.hpp"
 #include "armature/report/tracking.hpp"
@@ -22,6 +23,8 @@ inline constexpr const char* kTraceFile = "trace.json";
 inline constexpr const char* kCycleFile = "io.json";
 /// What the runs are to reach, in their folder.
 inline constexpr const char* kGoalsFile = "to_reach.json";
+/// The phases of a cycle, in that folder, too.
+inline constexpr const char* kPhasesFile = "phases.json";
 
 /// A run as its folder has it. Something of it is there: a recording or a summary.
 struct Run {
@@ -35,6 +38,8 @@ struct Run {
   Moments moments;
   std::string summary;  ///< JSON of `write_run_summary`; empty: none
   std::optional<Timeline> timeline;
+  /// Of each phase of the folder, beside a timeline [us].
+  std::vector<std::optional<double>> phase_computing_us;
 };
 
 /// Everything that a folder of runs has.
@@ -43,6 +48,7 @@ struct Runs {
   std::vector<Run> runs;   ///< of the folder itself, or of those in it, by their names
   std::string cycle_json;  ///< the content of kCycleFile; empty: none
   std::vector<Goal> goals;
+  Phases phases{};
 };
 
 /// Reads a run's folder or a folder of run folders. Errors name the file, what was expected and

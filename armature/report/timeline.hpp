@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/base/result.hpp"
+#include "armature/report/trace.hpp"
 
 namespace armature::report {
 
@@ -28,12 +28,9 @@ struct Timeline {
   std::size_t cycles = 0;   ///< of that thread in the trace
 };
 
-/// Finds a cycle to show in a trace of `armature run --trace`, in Chrome's format: complete events
-/// ("X") of the category `cycle`, and of the category `step` for what components did, named after
-/// them. Of the thread that had the most to do it is the cycle of median length among those with
-/// steps; what other threads did until its next cycle, without a pause of half a period, belongs to
-/// it. A trace that was cut off is read as far as it goes.
-/// @param file  the name for errors, which say what was expected
-base::Result<Timeline> parse_timeline(const std::string& text, const std::string& file);
+/// Finds a cycle to show. Of the thread that had the most to do it is the cycle of median length
+/// among those with steps; what other threads did until its next cycle, without a pause of half a
+/// period, belongs to it. Empty, if nothing has steps.
+Timeline find_timeline(const StepTrace& trace);
 
 }  // namespace armature::report

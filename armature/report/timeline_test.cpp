@@ -37,9 +37,9 @@ class Trace {
 };
 
 Timeline parse(const std::string& text) {
-  auto parsed = parse_timeline(text, "trace.json");
+  const auto parsed = parse_trace(text, "trace.json");
   EXPECT_TRUE(parsed) << parsed.error();
-  return parsed ? parsed.value() : Timeline{};
+  return parsed ? find_timeline(parsed.value()) : Timeline{};
 }
 
 TEST(Timeline, ShowsTheCycleOfMedianLengthWithWhatFollowsItInOtherThreads) {
@@ -102,13 +102,13 @@ TEST(Timeline, OfAnEmptyTraceIsEmpty) {
 
 TEST(Timeline, WhatIsNoTraceIsRefusedByItsName) {
   for (const char* text : {"{}", "not json", "", R"({"traceEvents": 5})"}) {
-    const auto parsed = parse_timeline(text, "folder/trace.json");
+    const auto parsed = parse_trace(text, "folder/trace.json");
     ASSERT_FALSE(parsed) << text;
     EXPECT_THAT(parsed.error(), HasSubstr("folder/trace.json: expected a trace"));
   }
   for (const char* event : {R"({"ph":"X","name":"a","ts":"soon","dur":1})",
                             R"({"ph":"X","ts":1,"dur":1})", R"({"ph":1})", "5"}) {
-    EXPECT_FALSE(parse_timeline(std::string("[") + event + "]", "trace.json")) << event;
+    EXPECT_FALSE(parse_trace(std::string("[") + event + "]", "trace.json")) << event;
   }
 }
 

@@ -261,6 +261,19 @@
     area.addEventListener('dblclick', reset);
   }
 
+  function phases() {
+    const runs = data.runs.filter((run) => run.phases);
+    if (runs.length === 0) return;
+    const part = section('The phases of a cycle',
+      'Computing: the median of the traced cycles. On the bus: simulated time, the median of its cycles.');
+    for (const run of runs) {
+      part.append(el('p', {class: 'eyebrow', style: 'margin: 16px 0 0'}, run.name), table(
+        [['phase', ''], ['here', 'µs'], ['of it computing', 'µs'], ['on the bus', 'µs'], [data.elsewhere || 'elsewhere', 'µs', 'wide']],
+        run.phases.map((phase) => row([phase.name,
+          ...[phase.us, phase.computing_us, phase.bus_us, phase.elsewhere_us].map((us) => short(us))]))));
+    }
+  }
+
   function busCycle() {
     if (!data.io) return;
     const part = section('The cycle on the bus', data.io.doc ?? '');
@@ -373,6 +386,7 @@
   velocities();
   efforts();
   timelines();
+  phases();
   busCycle();
   health();
   others();
