@@ -117,9 +117,10 @@ TEST_F(WamWeightless, ShiftIdleEndsItAndTheNextActivationBeginsAnew) {
 
 class WamWithALoad : public WamWeightless {
  protected:
-  /// The host takes the arm for lighter than it is.
+  /// The host takes the arm for heavier than it is: the other way round a stop would bear the
+  /// difference, since home lies at two of them.
   WamWithALoad()
-      : WamWeightless({kFloats, "WAM.gravity=[0, 0, -9.71]", "WAM.WeightlessMaxLoad=[0.1]"}) {}
+      : WamWeightless({kFloats, "WAM.gravity=[0, 0, -9.89]", "WAM.WeightlessMaxLoad=[0.05]"}) {}
 };
 
 TEST_F(WamWithALoad, StaysHeldAndSaysWhichJointNeedsMore) {
