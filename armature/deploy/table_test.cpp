@@ -107,7 +107,8 @@ TEST(InputOfTheOperator, IsWrittenWhileTheApplicationRuns) {
   opened.options.simulated = true;
   exec::Application application(std::move(opened.blueprint), opened.options);
   ASSERT_TRUE(application.start().ok());
-  const component::InputPortBase& input = *component::interface_of(*application.find("B")).inputs.front();
+  const component::InputPortBase& input =
+      *component::interface_of(*application.find("B")).inputs.front();
   ASSERT_TRUE(exec::write_for_operator(application, input, types::Value::of(1.5)));
   application.run_for(10ms);
   EXPECT_EQ(application.value_of("B", "In").value().text(), "1.5");

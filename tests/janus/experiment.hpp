@@ -64,7 +64,7 @@ class Robot {
   void run_for(base::Duration duration) { application_->run_for(duration); }
   /// Where a sample was lost, the operator has looked.
   void confirm_positions() {
-    for (const char* card : {"AIC1", "AIC2", "AIC1.Card", "AIC2.Card"}) {
+    for (const char* card : {"AIC1", "AIC2", "aic01", "aic02", "AIC1.Card", "AIC2.Card"}) {
       const bool known = application_->find(card) != nullptr;
       if (!known || value<bool>(card, "position_exact")) continue;
       ASSERT_TRUE(application_->set_property(card, "position_confirmed", types::Value::of(true)));
@@ -122,6 +122,8 @@ inline Figures run_experiment(Robot& robot) {
   constexpr base::Duration kPeriod = 10ms;
   auto metrics = control::ErrorMetrics::make({.joints = kJoints, .period = kPeriod}).value();
   Figures figures;
+  const bool of_table = robot.application().find("pid1") != nullptr;  // paper 1 writes them small
+  const char* const pids[] = {of_table ? "pid1" : "PID1", of_table ? "pid2" : "PID2"};
   robot.start_armed();
   const base::Time begin = robot.application().now();
   std::size_t next = 0;
@@ -134,8 +136,8 @@ inline Figures run_experiment(Robot& robot) {
     }
     robot.run_for(kPeriod);
     const std::array<double, kJoints> errors{
-        robot.value<double>("PID1", "Ref") - robot.value<double>("PID1", "Sen"),
-        robot.value<double>("PID2", "Ref") - robot.value<double>("PID2", "Sen")};
+        robot.value<double>(pids[0], "Ref") - robot.value<double>(pids[0], "Sen"),
+        robot.value<double>(pids[1], "Ref") - robot.value<double>(pids[1], "Sen")};
     metrics.step(errors);
     const bool resting =
         now > rest_from && (next == kTable2.size() || now < begin + kTable2[next].at);
