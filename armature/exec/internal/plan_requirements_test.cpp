@@ -122,7 +122,10 @@ TEST(PlanRequirements, APeerServesOnlyWhatItOffers) {
   for (const bool has_another : {false, true}) {
     Blueprint blueprint = make_blueprint();
     blueprint.add_peer("User", "Axis1");
-    if (has_another) blueprint.add_peer("User", "Axis2");
+    if (has_another) {
+      blueprint.add_peer("User", "Axis2");
+      bind(blueprint, "arrived", "Axis1");
+    }
     auto& first = static_cast<Axis&>(*blueprint.components[1].component);
     first.measures.assign(false);
     base::Diagnostics diagnostics;
