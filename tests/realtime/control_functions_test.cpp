@@ -18,6 +18,7 @@
 #include "armature/control/dynamics/forward_kinematics.hpp"
 #include "armature/control/dynamics/gravity_pd.hpp"
 #include "armature/control/dynamics/inverse_dynamics.hpp"
+#include "armature/control/dynamics/quaternion.hpp"
 #include "armature/control/error_metrics.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/low_pass.hpp"
@@ -81,6 +82,8 @@ TEST(RealtimeFunctions, Trajectory) {
   std::string_view text;
   expect_realtime("Trajectory::hold",
                   [&] { accepted = accepted && trajectory.hold(start).accepted(); });
+  expect_realtime("Trajectory::check_request",
+                  [&] { accepted = accepted && trajectory.check_request(target, 1.0).accepted(); });
   expect_realtime("Trajectory::move_to", [&] {
     accepted = accepted && trajectory.hold(start).accepted();
     accepted = accepted && trajectory.move_to(target, 2.0).accepted();
@@ -239,6 +242,14 @@ TEST(RealtimeFunctions, ForwardKinematics) {
   control::Pose pose;
   expect_realtime("ForwardKinematics::step", [&] { model->step(position, pose); });
   EXPECT_NEAR(pose.rotation[0], std::cos(0.1), 1e-12);
+}
+
+TEST(RealtimeFunctions, QuaternionOf) {
+  const std::array<double, 9> half_a_turn_about_z{-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0};
+  std::array<double, 4> quaternion{};
+  expect_realtime("control::quaternion_of",
+                  [&] { quaternion = control::quaternion_of(half_a_turn_about_z); });
+  EXPECT_NEAR(std::abs(quaternion[2]), 1.0, 1e-12);
 }
 
 TEST(RealtimeFunctions, Transmission) {

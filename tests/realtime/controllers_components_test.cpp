@@ -17,6 +17,7 @@
 #include "armature/controllers/computed_torque/controller_computed_torque.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
 #include "armature/controllers/controller_npid_ff/controller_npid_ff.hpp"
+#include "armature/controllers/forward_kinematics/forward_kinematics.hpp"
 #include "armature/controllers/gravity_pd/controller_gravity_pd.hpp"
 #include "armature/controllers/joint/joint.hpp"
 #include "armature/controllers/model/model.hpp"
@@ -204,6 +205,19 @@ TEST(RealtimeComponents, Model) {
   EXPECT_EQ(model.writes("Out"), 100u);
   expect_realtime_on_bench("Model", [&] { model.write("In", Vector(6, NAN)); });
   EXPECT_EQ(model.state(), component::State::kException);
+}
+
+TEST(RealtimeComponents, ForwardKinematics) {
+  testing::Harness tool(std::make_unique<ForwardKinematics>("Tool"));
+  tool.set("joints", 2);
+  tool.set("robot_description", std::string_view(TESTDATA "/pan_tilt.urdf"));
+  start(tool);
+  expect_realtime_on_bench("ForwardKinematics",
+                           [&] { tool.write("nAxesSensorPosition", Vector(2, 0.1)); });
+  EXPECT_EQ(tool.writes("pose"), 100u);
+  expect_realtime_on_bench("ForwardKinematics",
+                           [&] { tool.write("nAxesSensorPosition", Vector(2, NAN)); });
+  EXPECT_EQ(tool.state(), component::State::kException);
 }
 
 /// Held, let go, driven, watched, disarmed while it turns and switched off, again and again.

@@ -144,8 +144,8 @@ TEST_P(Unsampled, AnActuatorDrivesNothing) {
 
 TEST_P(Unsampled, AControllerWithoutASamplerIsRefusedAtCheck) {
   const Robot robot(GetParam(), "  Controller: {override: true, peers: [Arming]}\n");
-  EXPECT_THAT(robot.mistakes(), HasSubstr("'Controller' uses 'Sample': no peer has this event"));
-  EXPECT_THAT(robot.mistakes(), HasSubstr("add a peer that has it"));
+  EXPECT_THAT(robot.mistakes(), HasSubstr("'Controller': nobody samples it"));
+  EXPECT_THAT(robot.mistakes(), HasSubstr("add the Sampler to its peers"));
 }
 
 TEST(UnsampledOwnRobot, OneSampleIsOneComputation) {
