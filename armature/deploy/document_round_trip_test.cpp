@@ -21,6 +21,9 @@ application: everything
 on_fault: stop_all
 black_box: {history: 5 s, memory_kB: 200}
 threads: 100
+priorities: rtai
+accept: [priority_inversion, missing_cpu]
+operator_inputs: [C.Raw]
 libraries: [robot, ./local.so]
 parameters: {joints: 2, gains: [1.0, 2]}
 components:

@@ -69,8 +69,8 @@ class OperatorInputCheck {
     return reached;
   }
 
-  /// What of the component moves something: it takes or gives an effort, or a permit to drive, or
-  /// it drives a real robot.
+  /// What of the component moves something: it takes or gives an effort, or a permit to drive,
+  /// holds something that would fall, or drives a real robot.
   std::string moving(Index i) const {
     const component::Interface& interface = component::interface_of(component(i));
     const auto named = [&](std::string_view member) {
@@ -90,6 +90,9 @@ class OperatorInputCheck {
       const bool sealed =
           std::ranges::any_of(arguments, [](const auto& each) { return each.type->sealed; });
       if (sealed) return named(operation->name());
+    }
+    if (!interface.holdings.empty()) {
+      return "'" + component(i).name() + "', which holds something";
     }
     const bool real = std::ranges::any_of(plan_.hardware, [&](const exec::HardwarePlan& one) {
       return one.component == &component(i);

@@ -11,6 +11,7 @@
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/internal/test_models.hpp"
 #include "armature/exec/inlets.hpp"
+#include "armature/inspect/acts.hpp"
 
 namespace armature::deploy {
 namespace {
@@ -28,12 +29,24 @@ class Drive final : public component::Component {
   component::OutputPort<double> out_{this, "Out", "for a motor", "V"};
 };
 
+/// Keeps something from falling, by a bus of its own: no port tells.
+class Keeper final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Reason held() { return component::Reason("a load"); }
+  component::InputPort<double> in_{this, "In", "an angle", "rad", component::may_stay_open};
+  component::Holding holding_{this, component::serve<&Keeper::held>};
+};
+
 Deployment deployment(const std::string& text) {
   DeploymentOptions options;
   options.cpus = 2;
   options.models = [](component::Registry& models) {
     test::add_models(models);
     models.add<Drive>("Drive", "turns a motor", {});
+    models.add<Keeper>("Keeper", "holds a load", {});
   };
   return parse_deployment(text, "robot.yaml", options);
 }
@@ -128,6 +141,28 @@ components: {A: {model: Source, activity: {periodic: 10 ms}}, B: {model: Echo}}
 connections: [A.Out -> B.In]
 )")
                    .ok());
+}
+
+TEST(InputOfTheOperator, MayNotLeadToWhatHoldsSomething) {
+  EXPECT_THAT(messages("operator_inputs: [B.In]\ncomponents: {B: {model: Echo}, K: {model: "
+                       "Keeper}}\nconnections: [B.Out -> K.In]\n"),
+              HasSubstr("error: 'B.In' leads to 'K', which holds something by 'B'"));
+}
+
+TEST(InputOfTheOperator, IsClosedToScriptsAndOtherProcesses) {
+  Deployment opened = deployment("operator_inputs: [B.In]\ncomponents: {B: {model: Echo}}\n");
+  opened.options.simulated = true;
+  exec::Application application(std::move(opened.blueprint), opened.options);
+  ASSERT_TRUE(application.start().ok());
+  inspect::Member member;
+  member.component = application.find("B");
+  member.input = component::interface_of(*member.component).inputs.front();
+  EXPECT_TRUE(inspect::check_settable(application, member, exec::Caller::kOperator));
+  for (const exec::Caller caller : {exec::Caller::kScript, exec::Caller::kRemote}) {
+    const auto refused = inspect::check_settable(application, member, caller);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error(), "'B.In' is an input of the operator: only the operator writes it");
+  }
 }
 
 TEST(InputOfTheOperator, OfAnUnknownPortIsRefused) {

@@ -165,5 +165,13 @@ TEST(Cycle, HasTheOrderOfFigureTwentyInOneThread) {
   expect_order_of_figure_20(cycle_of("pid.yaml", {}));
 }
 
+TEST(TableOne, RefusesAnotherNumberOfJointsThanThatInTheNameOfAModel) {
+  const deploy::Deployment table = Robot::load("orocos/table1.xml", {"Sensor.joints=3"});
+  EXPECT_FALSE(table.ok());
+  EXPECT_THAT(table.diagnostics.to_text(),
+              ::testing::HasSubstr(
+                  "'Sensor' has joints 2 by its model 'Sensor2Mux', found '3' (leave out joints"));
+}
+
 }  // namespace
 }  // namespace armature::janus
