@@ -9,7 +9,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/interface.hpp"
-#include "armature/component/keeping.hpp"
+#include "armature/component/properties/keeping.hpp"
 #include "armature/component/states/state_machine.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/overrides.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "armature/component/interface.hpp"
-#include "armature/component/keeping.hpp"
+#include "armature/component/properties/keeping.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/document/property_value.hpp"
 #include "armature/document/value_tree.hpp"

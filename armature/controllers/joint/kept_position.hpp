@@ -7,7 +7,7 @@
 #include <string>
 
 #include "armature/component/author.hpp"
-#include "armature/component/keeping.hpp"
+#include "armature/component/properties/keeping.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
 
 namespace armature::controllers {
