@@ -53,6 +53,7 @@ class Attack:
     tls: bool = False  # the honest peer uses TLS too
     may: set = field(default_factory=set)  # codes that it may get as well
     peers: int = 1  # connections that it has at a time
+    patient: bool = False  # the node gives a message the time that a slow machine needs for large ones
 
 
 # By default peers may make a node keep 64 MB; what else a process takes for them has 16 MB.
@@ -83,7 +84,8 @@ ATTACKS = [
            mib=MOST_MIB),
     Attack("endless_bodies_of_who_may_not", peers=16, logged=r"NOT_ALLOWED \(local may not command 'robot'\)",
            large=True, codes={NOT_ALLOWED}, ended=True),
-    Attack("unread_answers", peers=9, logged=r"BUSY|other connections need the memory", large=True, mib=MOST_MIB),
+    Attack("unread_answers", peers=9, logged=r"BUSY|other connections need the memory", large=True, mib=MOST_MIB,
+           patient=True),
     Attack("unread_answers_without_memory", peers=9, of="unread_answers", large=True, mib=MOST_MIB, room_mib=24),
     Attack("values_that_grow", peers=9, logged=r"BUSY", large=True, codes={BUSY}, mib=MOST_MIB),
     Attack("values_that_grow_without_memory", peers=9, of="values_that_grow", large=True, may={BUSY}, mib=MOST_MIB,
@@ -176,11 +178,11 @@ def start(command, cpu, place=be_first, **how):
 
 
 class Server:
-    def __init__(self, folder, large=False):
+    def __init__(self, folder, large=False, patient=False):
         self.log_path = folder / "log"
         with open(self.log_path, "w", encoding="utf-8") as log:
-            self.process = start([server_program, str(folder)] + ["large"] * large, cpus()[0], stdin=subprocess.PIPE, stdout=log,
-                                 env=os.environ | GIVES_BACK)
+            self.process = start([server_program, str(folder)] + ["large"] * large + ["patient"] * patient, cpus()[0],
+                                 stdin=subprocess.PIPE, stdout=log, env=os.environ | GIVES_BACK)
         self.plain, self.tls = self.wait_for(r"(tcp://\S+) (tls://\S+)\n").groups()
 
     def log(self):
@@ -299,7 +301,7 @@ class Hostile(unittest.TestCase):
         return measured, json.loads(out)
 
     def check(self, attack):
-        server = Server(self.folder, attack.large)
+        server = Server(self.folder, attack.large, attack.patient)
         honest = HonestPeer(server.tls if attack.tls else server.plain, self.folder)
         rounds, pairs = (latency_rounds, 500) if latency_rounds else (3, 100)
         try:

@@ -2,9 +2,10 @@
 // A node for others to attack: listens at TCP and TLS, prints both addresses and then its log, and
 // ends with its standard input.
 //
-// usage: ride_hostile_server FOLDER_OF_CERTIFICATES [large]
+// usage: ride_hostile_server FOLDER_OF_CERTIFICATES [large [patient]]
 //
-// It takes little; with `large` as much as a node takes by default.
+// It takes little; with `large` as much as a node takes by default. A message has to end within 0.3
+// s; with `patient` within 5 s, so that a slow machine, too, receives several large ones at a time.
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -57,14 +58,14 @@ class Robot : public ride::Service {
   std::uint64_t moves_ = 0;
 };
 
-ride::NodeOptions options_of(const std::string& folder, bool large) {
+ride::NodeOptions options_of(const std::string& folder, bool large, bool patient) {
   armature::base::Diagnostics diagnostics;
   ride::NodeOptions options;
   if (!large) {
     options.limits.body_bytes = 1 << 20;
     options.limits.unsent_bytes = 256 << 10;
   }
-  options.limits.time_to_complete = 300ms;
+  options.limits.time_to_complete = patient ? 5s : 300ms;
   options.transports = {tls_of(folder, "robot")};
   options.allows = [policy = ride::Policy::parse("allow local read robot\n"
                                                  "allow *@tls read robot\n"
@@ -90,7 +91,7 @@ bool input_has_ended() {
 int main(int count, char** arguments) {
   if (count < 2) return 2;
   Robot robot;
-  ride::Node node(options_of(arguments[1], count > 2));
+  ride::Node node(options_of(arguments[1], count > 2, count > 3));
   robot.node = &node;
   const auto plain = node.listen("tcp://127.0.0.1:0");
   const auto tls = node.listen("tls://127.0.0.1:0");
