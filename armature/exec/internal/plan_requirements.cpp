@@ -134,10 +134,11 @@ class RequirementPlanner {
       if (!wanted_peer.empty() && component.name() != wanted_peer) continue;
       for (Member* member : members(component::interface_of(component))) {
         if (member->name() != requirement.name()) continue;
-        if (why_not(*member).empty()) {
+        const std::string reason = why_not(*member);
+        if (reason.empty()) {
           found.push_back({peer, member});
         } else {
-          missing = why_not(*member);
+          missing = reason;
         }
       }
     }
