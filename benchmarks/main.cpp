@@ -17,6 +17,7 @@ void add_all(const armature::benchmarks::Suite& suite) {
   add_cycles(suite);
   add_timelines(suite);
   add_threaded_cycles(suite);
+  add_models(suite);
   add_calls(suite);
   add_crossings(suite);
   add_latency(suite);

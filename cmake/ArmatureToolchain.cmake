@@ -89,6 +89,7 @@ if(ARMATURE_CCACHE)
   # Paths inside the checkout are not part of the key: clones and worktrees share what was compiled.
   set(CMAKE_CXX_COMPILER_LAUNCHER
       ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros
       ${ARMATURE_CCACHE})
 endif()
 find_program(ARMATURE_MOLD mold)

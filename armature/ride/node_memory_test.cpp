@@ -76,6 +76,7 @@ TEST_F(NodeMemory, NothingIsKeptForWhatIsNotThere) {
 
 TEST_F(NodeMemory, BodiesThatNeverEndKeepToTheBoundAndOthersAreServed) {
   options_.limits.memory_bytes = 16 * kMiB;
+  options_.limits.time_to_complete = 60s;  // so that none of them ends by its age
   auto honest = client();
   std::vector<RawClient> hogs;
   for (int k = 0; k < 20; ++k) {

@@ -4,11 +4,9 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "armature/base/seconds.hpp"
-#include "armature/component/interface.hpp"
 #include "armature/controllers/actuator_demux/actuator_demux.hpp"
 #include "armature/controllers/arming/arming.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
@@ -18,6 +16,7 @@
 #include "armature/controllers/sensor_mux/sensor_mux.hpp"
 #include "benchmarks/control_cycle/pacer.hpp"
 #include "benchmarks/control_cycle/stand_ins.hpp"
+#include "benchmarks/set_property.hpp"
 
 namespace armature::benchmarks {
 namespace {
@@ -25,18 +24,6 @@ namespace {
 using component::Component;
 
 constexpr double kUnwatched = 1e3;
-
-template <typename T>
-void set(Component& component, std::string_view name, const T& value) {
-  for (component::PropertyBase* property : component::interface_of(component).properties) {
-    if (property->name() != name) continue;
-    if (const auto done = property->set(types::Value::of(value)); !done) {
-      throw std::runtime_error(component.name() + ": " + done.error());
-    }
-    return;
-  }
-  throw std::runtime_error(component.name() + " has no property " + std::string(name));
-}
 
 template <typename Model>
 Model& add(exec::Blueprint& blueprint, const std::string& name,

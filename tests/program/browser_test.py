@@ -21,6 +21,19 @@ import unittest
 
 PROGRAM, EXAMPLES = sys.argv[1:3]
 WAVE = os.path.join(EXAMPLES, "02_ports_and_triggers", "wave.yaml")
+OPENED = """application: quiet
+libraries: [wave, record]
+components:
+  Filter: {model: LowPass, activity: sequential, properties: {Weight: 0.5}}
+  Watcher: {model: Watcher, activity: {periodic: 200 ms}}
+connections:
+  - Filter.Filtered -> Watcher.Value
+operator_inputs: [Filter.Raw]
+"""
+PROMPT = """include: quiet.yaml
+components:
+  TaskBrowser: {model: TaskBrowser}
+"""
 ESCAPES = re.compile(rb"\r\x1b\[[0-9]+G|\x1b\[[0-9;?]*[A-Za-z]|\x1b[()=>][B0]?|\x0f")
 LONG = 30.0
 
@@ -131,14 +144,63 @@ class Pipe(unittest.TestCase):
         self.assertEqual(browse("", "--script", "x.lua").returncode, 2)
 
 
+class InputsOfTheOperator(unittest.TestCase):
+    """A deployment that opens an input without a writer (paper 2, section 4.2.1)."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.deployment = self.file("quiet.yaml", OPENED)
+
+    def file(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def run_it(self, *arguments, text=""):
+        return subprocess.run([PROGRAM, "run", self.deployment, "--sim", *arguments], input=text,
+                              capture_output=True, text=True, timeout=120)
+
+    def test_the_prompt_writes_them_also_within_lines_of_lua(self):
+        done = self.run_it("--browse", text="Filter.Raw = 1\nFilter.Filtered\n"
+                           "Filter.Raw = 180 deg\nFilter.Raw\n"
+                           "for i = 1, 2 do\n  Filter.Raw = 0.0\nend\nFilter.Raw\n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.splitlines(), ["0.5 rad", "3.14159265 rad", "0 rad"])
+
+    def test_what_is_no_value_of_theirs_is_refused(self):
+        done = self.run_it("--browse", text="Filter.Raw = {1}\nFilter.Raw = 1 V\n"
+                           "for i = 1, 2 do Filter.Raw = 'high' end\n"
+                           "Watcher.Value = 1\nFilter.Raw\n")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("error: "), 4, done.stderr)
+        self.assertIn("'Watcher.Value' is an input", done.stderr)
+        self.assertEqual(done.stdout, "not yet written\n")
+
+    def test_a_script_may_not_write_them(self):
+        script = self.file("write.lua", "Filter.Raw = 1\n")
+        done = self.run_it("--script", script, "--for", "1s")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("write.lua:1: error: 'Filter.Raw' is an input of the operator: only the "
+                      "operator writes it", done.stderr)
+
+    def test_without_a_terminal_a_task_browser_asks_for_no_prompt(self):
+        self.deployment = self.file("prompt.yaml", PROMPT)
+        done = self.run_it("--for", "1s", text="Filter.Raw = 1\nFilter.Raw\n")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+
+
 class Terminal:
     """The program behind a pseudo-terminal of 60 columns."""
 
-    def __init__(self, *arguments, state, **environment):
+    def __init__(self, *arguments, state, deployment=WAVE, browse=True, **environment):
         self.process_id, self.end = pty.fork()
         if self.process_id == 0:
             os.environ.update(TERM="xterm", XDG_STATE_HOME=state, **environment)
-            os.execv(PROGRAM, [PROGRAM, "run", WAVE, "--browse", *arguments])
+            asked = ["--browse"] if browse else []
+            os.execv(PROGRAM, [PROGRAM, "run", deployment, *asked, *arguments])
         fcntl.ioctl(self.end, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
         self.raw = b""
         self.all = b""
@@ -213,6 +275,16 @@ class AtATerminal(unittest.TestCase):
         terminal.type("Source.\t\t")
         terminal.expect("Source.Position")
         terminal.type("\x03")
+        terminal.leave()
+
+    def test_a_task_browser_in_the_deployment_opens_the_prompt(self):
+        for name, text in (("quiet.yaml", OPENED), ("prompt.yaml", PROMPT)):
+            with open(os.path.join(self.folder.name, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        terminal = self.browse(
+            "--sim", deployment=os.path.join(self.folder.name, "prompt.yaml"), browse=False)
+        terminal.type("Filter.Raw = 1\rFilter.Filtered\r")
+        terminal.expect("0.5 rad")
         terminal.leave()
 
     def test_interrupt_clears_the_line_and_what_runs(self):

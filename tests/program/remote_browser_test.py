@@ -29,18 +29,28 @@ components:
   Lift: {model: Lift, activity: {periodic: 10 ms}, properties: {Top: 3 m, Speed: 1 m/s}}
 network: {%s}
 """
+OPENED = """application: quiet
+libraries: [wave]
+components:
+  Filter: {model: LowPass, activity: sequential, properties: {Weight: 0.5}}
+  Watcher: {model: Watcher, activity: {periodic: 200 ms}}
+connections:
+  - Filter.Filtered -> Watcher.Value
+operator_inputs: [Filter.Raw]
+network: {%s}
+"""
 ALL = "allow local read,command,configure *\n"
 
 
 class Robot:
-    """A lift that runs and listens at a socket file of its own folder."""
+    """A lift, or another, that runs and listens at a socket file of its own folder."""
 
-    def __init__(self, folder, policy, listen=None, network=""):
+    def __init__(self, folder, policy, listen=None, network="", application=LIFT):
         deployment = os.path.join(folder, "lift.yaml")
         with open(os.path.join(folder, "policy"), "w", encoding="utf-8") as file:
             file.write(policy)
         with open(deployment, "w", encoding="utf-8") as file:
-            file.write(LIFT % ("policy: policy" + network))
+            file.write(application % ("policy: policy" + network))
         self.process = subprocess.Popen(
             [PROGRAM, "run", deployment, "--realtime", "off", "--listen",
              listen or "unix:" + os.path.join(folder, "robot")],
@@ -87,6 +97,22 @@ class WithARobot(unittest.TestCase):
     def browse(self, lines, *arguments):
         return subprocess.run([PROGRAM, "browse", self.robot.address, *arguments], input=lines,
                               capture_output=True, text=True, timeout=120)
+
+
+class InputsOfTheOperator(WithARobot):
+    """Who may do everything from another process is not the operator at this one."""
+
+    def start(self):
+        robot = Robot(self.folder.name, ALL, application=OPENED)
+        self.addCleanup(robot.stop)
+        return robot
+
+    def test_they_are_closed_to_other_processes(self):
+        done = self.browse("Filter.Raw = 1\nFilter.Raw\n")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("error: 'Filter.Raw' is an input of the operator: only the operator writes it",
+                      done.stderr)
+        self.assertEqual(done.stdout, "not yet written\n")
 
 
 class Pipe(WithARobot):

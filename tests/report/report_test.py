@@ -120,6 +120,7 @@ class Demonstration(unittest.TestCase):
             run_demo(os.path.join(cls.folder, controller), controller)
         with open(os.path.join(cls.folder, "pid", "trace.json"), "w", encoding="utf-8") as file:
             json.dump(trace_of_cycles(), file)
+        shutil.copy(f"{JANUS}/demo/phases.json", cls.folder)
         if IO_CYCLE:
             with open(os.path.join(cls.folder, "io.json"), "w", encoding="utf-8") as file:
                 subprocess.run([IO_CYCLE, JANUS, LIBRARIES], stdout=file, check=True, timeout=120)
@@ -175,6 +176,19 @@ class Demonstration(unittest.TestCase):
         for mode in (sequential, synchronous):
             self.assertGreater(mode["wire_us"], 4 * 47)  # four frames or more, of 47 bits or more
             self.assertGreater(mode["bus_us"], mode["wire_us"] + 89)
+
+    def test_the_phases_of_a_traced_cycle_are_beside_those_of_the_paper(self):
+        phases = {phase["name"]: phase for phase in self.report["runs"]["pid"]["phases"]}
+        computing = {name: phase["computing_us"] for name, phase in phases.items()}
+        self.assertEqual(computing["Joint1 senses"], 210)  # with its card, until PID1 runs
+        self.assertEqual(computing["Controller, with its PIDs"], 40)
+        self.assertIsNone(computing["Sensor"], "it is not in the trace")
+        elsewhere = [phase["elsewhere_us"] for phase in phases.values()]
+        self.assertEqual(elsewhere, [259, 259, 20, 30, 10, 150, 724])
+        if IO_CYCLE:
+            bus = self.report["io"]["sequential"]["joint1_sensing_us"]
+            self.assertEqual(phases["Joint1 senses"]["us"], 210 + bus)
+        self.assertNotIn("phases", self.report["runs"]["pid_feedforward"], "it has no trace")
 
     def test_a_run_says_how_it_fared(self):
         run = self.report["runs"]["pid"]["summary"]
@@ -240,7 +254,8 @@ class Demonstration(unittest.TestCase):
     @unittest.skipUnless(CHROMIUM, "chromium is not installed: nobody has run the page")
     def test_the_page_runs_at_the_width_of_a_desk_and_of_a_phone(self):
         texts = ["10.0 <small>mrad s</small>", ">Sampler</div>", ">Controller</div>",
-                 "<h1>janus-pid, janus-pid-feed-forward</h1>", ">Velocity</h2>", ">Effort</h2>"]
+                 "<h1>janus-pid, janus-pid-feed-forward</h1>", ">Velocity</h2>", ">Effort</h2>",
+                 ">The phases of a cycle</h2>", "Both joints actuate"]
         for width in (1280, 390):
             probed = probe(self.page, width, texts, self.folder)
             self.assertEqual(probed["width"], width)
