@@ -5,6 +5,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
+#include "armature/deploy/internal/event_command_builder.hpp"
 #include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
@@ -26,9 +27,7 @@ ConnectionBuilder::ConnectionBuilder(const Document& document, exec::Blueprint& 
 
 void ConnectionBuilder::build() {
   blueprint_.connections.reserve(document_.connections.size());
-  for (const Connection& connection : document_.connections) {
-    add(connection.from, connection.to, connection.policy, connection.where);
-  }
+  add_connections();
   for (const NamedConnection& named : document_.named_connections) add_named(named);
   for (const auto* inputs : {&document_.network.inputs, &document_.operator_inputs}) {
     for (const Connection& input : *inputs) {
@@ -38,6 +37,35 @@ void ConnectionBuilder::build() {
     }
   }
   apply_delays();
+}
+
+/// What gives a command has events of its own, so one may begin where another one ends.
+void ConnectionBuilder::add_connections() {
+  EventCommandBuilder commands(blueprint_, components_, diagnostics_);
+  std::vector<const Connection*> open;
+  for (const Connection& connection : document_.connections) open.push_back(&connection);
+  for (std::size_t before = 0; before != open.size();) {
+    before = open.size();
+    std::erase_if(open, [&](const Connection* connection) {
+      const bool is_one = commands.is_one(*connection);
+      if (is_one) commands.add(*connection);
+      return is_one;
+    });
+  }
+  for (const Connection* connection : open) {
+    add(connection->from, connection->to, connection->policy, connection->where);
+    check_is_command(*connection);
+  }
+}
+
+void ConnectionBuilder::check_is_command(const Connection& connection) {
+  if (connection.name.empty() && connection.with.empty()) return;
+  const bool known = components_.find(connection.from.component) != components_.end();
+  if (!known) return;  // which the plan tells
+  diagnostics_.error(connection.where,
+                     path(connection.from) + " is no event, and only an event that commands has " +
+                         (connection.with.empty() ? "a name" : "parameters"),
+                     "leave out name and with, or begin at an event");
 }
 
 void ConnectionBuilder::add(const Endpoint& from, const Endpoint& to,

@@ -80,7 +80,27 @@ class Resolver {
     report();
   }
 
+  /// Its ends may be an event and a command, and then parameters come from ports.
+  void resolve_connection(Connection& connection, const std::string& scope) {
+    resolve_member(
+        scope, {ExportKind::kPort, ExportKind::kEvent},
+        {connection.from.component, connection.from.port, connection.from.where});
+    resolve_member(scope, {ExportKind::kPort, ExportKind::kOperation},
+                   {connection.to.component, connection.to.port, connection.to.where});
+    if (!connection.name.empty()) connection.name = inside(scope, connection.name);
+    for (Property& parameter : connection.with) resolve_parameter(parameter.value, scope);
+    report();
+  }
+
  private:
+  void resolve_parameter(Value& value, const std::string& scope) {
+    if (value.kind != Value::Kind::kText || value.literal) return;
+    auto [component, port] = split_last_dot(value.text);
+    if (!names_.contains(names_.resolve(scope, component))) return;  // a constant
+    resolve_member(scope, {ExportKind::kPort}, {component, port, value.where});
+    value.text = component + "." + port;
+  }
+
   const Composite* composite(const std::string& name) const {
     const auto found = composites_.find(name);
     return found == composites_.end() ? nullptr : found->second;
@@ -222,8 +242,7 @@ void resolve_names(Document& document, const Scopes& scopes, const NameTable& na
     resolver.resolve_component(document.components[i], scopes.components[i]);
   }
   for (std::size_t i = 0; i < document.connections.size(); ++i) {
-    resolver.resolve_endpoint(document.connections[i].from, scopes.connections[i]);
-    resolver.resolve_endpoint(document.connections[i].to, scopes.connections[i]);
+    resolver.resolve_connection(document.connections[i], scopes.connections[i]);
   }
   for (std::size_t i = 0; i < document.named_connections.size(); ++i) {
     for (Endpoint& port : document.named_connections[i].ports) {

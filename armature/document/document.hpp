@@ -115,12 +115,15 @@ struct Endpoint {
 /// `Component.Port`.
 std::string to_text(const Endpoint& endpoint);
 
-/// A connection from an output port to an input port.
+/// A connection from an output port to an input port, or from an event to the command that it
+/// gives. Which of them it is, the models say.
 struct Connection {
   Endpoint from;
   Endpoint to;
   ConnectionPolicy policy;
   base::Location where;
+  std::string name;            ///< full name of the component that gives the command; empty: any
+  std::vector<Property> with;  ///< parameters of the command: constants, `Component.Port`, members
 };
 
 /// Ports that share a connection's name: each output among them goes to each input.

@@ -38,6 +38,15 @@ std::optional<Endpoint> read_endpoint(const Value& value, std::string_view what,
   return std::nullopt;
 }
 
+/// An event that commands may say it so: `{on: Button.Pressed, do: Lift.travel}`.
+Value with_ends(Value map) {
+  for (const auto& [own, end] : {std::pair("on", "from"), std::pair("do", "to")}) {
+    Property* const entry = find(map.entries, own);
+    if (entry != nullptr && find(map.entries, end) == nullptr) entry->name = end;
+  }
+  return map;
+}
+
 void read_fifo(const Value& value, const ValueReader& reader, ConnectionPolicy& policy) {
   Fields fields(value, reader);
   if (const Value* size = fields.take("fifo")) {
@@ -96,7 +105,23 @@ std::optional<Connection> read_directed(const Value* from, const Value* to, cons
   std::optional<Endpoint> source = read_endpoint(*from, "from", reader);
   std::optional<Endpoint> sink = read_endpoint(*to, "to", reader);
   if (!source || !sink) return std::nullopt;
-  return Connection{std::move(*source), std::move(*sink), {}, value.where};
+  return Connection{std::move(*source), std::move(*sink), {}, value.where, {}, {}};
+}
+
+std::string read_name(const Value& value, const ValueReader& reader) {
+  std::optional<std::string> name = reader.text(value, "name");
+  if (!name) return {};
+  if (is_dotted_name(*name)) return std::move(*name);
+  reader.error(value.where, "name must be a name of letters, digits, _ and -, found " +
+                                in_quotes(*name));
+  return {};
+}
+
+std::vector<Property> read_parameters(const Value& value, const ValueReader& reader) {
+  if (value.kind == Value::Kind::kMap) return value.entries;
+  reader.error(value.where, "with must be a map, found " + std::string(name_of(value.kind)),
+               "for example {on: Button.Pressed, do: Lift.travel, with: {height: 2 m}}");
+  return {};
 }
 
 std::optional<NamedConnection> read_named(const Value* name, const Value& ports, const Value& value,
@@ -174,7 +199,7 @@ void check_connections(Document& document, base::Diagnostics& diagnostics) {
 
 std::optional<Value> connection_map(const Value& value, base::Diagnostics& diagnostics) {
   const ValueReader reader("connection", diagnostics);
-  if (value.kind == Value::Kind::kMap) return value;
+  if (value.kind == Value::Kind::kMap) return with_ends(value);
   if (value.kind != Value::Kind::kText) {
     reader.error(value.where, "expected text or a map, found " + std::string(name_of(value.kind)),
                  kArrowHint);
@@ -205,9 +230,10 @@ std::optional<std::variant<Connection, NamedConnection>> read_connection(
   const Value* name = fields.take("name");
   const Value* from = fields.take("from");
   const Value* to = fields.take("to");
+  const Value* with = fields.take("with");
   const ConnectionPolicy policy = read_policy(fields, reader);
   fields.refuse_others();
-  if ((ports != nullptr || name != nullptr) && (from != nullptr || to != nullptr)) {
+  if (ports != nullptr && (from != nullptr || to != nullptr)) {
     reader.error(map.where, "it has both ends, from and to, and a name with ports",
                  "write from and to, or name and ports");
   }
@@ -217,7 +243,10 @@ std::optional<std::variant<Connection, NamedConnection>> read_connection(
     return named;
   }
   std::optional<Connection> directed = read_directed(from, to, map, reader);
-  if (directed) directed->policy = policy;
+  if (!directed) return std::nullopt;
+  directed->policy = policy;
+  if (name != nullptr) directed->name = read_name(*name, reader);
+  if (with != nullptr) directed->with = read_parameters(*with, reader);
   return directed;
 }
 

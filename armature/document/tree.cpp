@@ -198,12 +198,15 @@ void add_policy(const ConnectionPolicy& policy, Value& map) {
 Value to_tree(const Connection& connection) {
   Value map = make_map();
   add_policy(connection.policy, map);
-  if (map.entries.empty()) {
+  const bool commands = !connection.name.empty() || !connection.with.empty();
+  if (map.entries.empty() && !commands) {
     return make_text(to_text(connection.from) + " -> " + to_text(connection.to));
   }
   Value whole = make_map();
-  add(whole, "from", to_text(connection.from));
-  add(whole, "to", to_text(connection.to));
+  add(whole, commands ? "on" : "from", to_text(connection.from));
+  add(whole, commands ? "do" : "to", to_text(connection.to));
+  if (!connection.name.empty()) add(whole, "name", connection.name);
+  if (!connection.with.empty()) add(whole, "with", map_of(connection.with));
   for (Property& entry : map.entries) whole.entries.push_back(std::move(entry));
   return whole;
 }

@@ -10,6 +10,7 @@
 #include "armature/component/internal/arguments.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/component/stand_in.hpp"
+#include "armature/component/untyped.hpp"
 #include "armature/rt/entry_pool.hpp"
 
 namespace armature::component {
@@ -129,6 +130,8 @@ void EventBase::subscribe(EventHandlerBase& handler) {
   handler.about().source = this;
   const bool same_thread = &Host::context(owner()) == &Host::context(handler.owner());
   const bool direct = same_thread || handler.runs_in_raisers_thread();
+  auto* const untyped = dynamic_cast<UntypedEventHandler*>(&handler);
+  if (direct && untyped != nullptr) return untyped->listen(*this);
   (direct ? direct_ : queue_to(handler).handlers).push_back(&handler);
 }
 
@@ -146,7 +149,11 @@ EventBase::Queue& EventBase::queue_to(EventHandlerBase& handler) {
 }
 
 void EventBase::unsubscribe_all() {
-  for (EventHandlerBase* handler : subscribers_) handler->about().source = nullptr;
+  for (EventHandlerBase* handler : subscribers_) {
+    handler->about().source = nullptr;
+    auto* const untyped = dynamic_cast<UntypedEventHandler*>(handler);
+    if (untyped != nullptr) untyped->listen_no_more(*this);
+  }
   subscribers_.clear();
   direct_.clear();
   queues_.clear();

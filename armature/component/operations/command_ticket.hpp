@@ -70,8 +70,17 @@ class CommandTicket : public rt::Message, public BasicCommandState<Reason, rt::S
   /// Why it was refused, failed or was cancelled; empty until it ended.
   std::string_view reason() const { return ended() ? given_reason().view() : std::string_view(); }
   void request_cancel();
+  /// The command ends so.
+  /// @thread the executing one
+  void end(CommandStage stage, const Reason& reason) {
+    ending(stage, reason);
+    BasicCommandState::end(stage, reason);
+  }
 
  protected:
+  /// For a sender that wants to be told; what it tells him on may share the record once more.
+  /// @thread the executing one
+  virtual void ending(CommandStage /*stage*/, const Reason& /*reason*/) {}
   virtual ExecutionContext& executor() const = 0;
   /// Ends the command if it is under way, or waits, for this ticket.
   virtual void cancel_now() = 0;

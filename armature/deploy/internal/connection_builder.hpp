@@ -37,6 +37,9 @@ class ConnectionBuilder {
     bool complete = true;  ///< every port was found
   };
 
+  void add_connections();
+  /// Ports have no use for what only an event that commands has.
+  void check_is_command(const Connection& connection);
   void add(const Endpoint& from, const Endpoint& to, const ConnectionPolicy& policy,
            const base::Location& where);
   void add_named(const NamedConnection& named);

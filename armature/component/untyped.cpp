@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/component/untyped.hpp"
+
+#include "armature/component/host.hpp"
+#include "armature/component/internal/arguments.hpp"
+#include "armature/component/operations/command_ticket.hpp"
+
+namespace armature::component {
+namespace {
+
+constexpr std::size_t kLargestSmall = 256;  // internal::is_small
+
+bool is_small(const types::Type& type) {
+  return type.fixed_size() && type.size <= kLargestSmall && type.alignment <= sizeof(void*);
+}
+
+}  // namespace
+
+UntypedEventHandler::UntypedEventHandler(Component& owner, std::string_view name,
+                                         std::string_view doc, const EventBase& like,
+                                         Function function, void* self) noexcept
+    : EventHandlerBase(owner, name, doc, like.signature()), function_(function), self_(self) {}
+
+void UntypedEventHandler::listen(EventBase& event) { event.add_tap(tap_); }
+
+void UntypedEventHandler::listen_no_more(EventBase& event) { event.remove_tap(tap_); }
+
+void UntypedEventHandler::Tap::event_raised(const void* const* arguments) noexcept {
+  Component& raiser = handler.source()->owner();
+  Host::call_out(raiser, handler.owner(),
+                 [&] { handler.handle_from(Host::context(raiser), arguments); });
+}
+
+void UntypedEventHandler::handle_from(ExecutionContext& where,
+                                      const void* const* arguments) noexcept {
+  handle_with(where, [&] { function_(self_, arguments); });
+}
+
+/// A command on its way there, and its end on the way back.
+class UntypedCommandCaller::Order final : public CommandTicket {
+ public:
+  Order(UntypedCommandCaller& caller, CommandBase& command)
+      : CommandTicket(&Order::deliver),
+        caller_(caller),
+        command_(command),
+        arguments_(command.signature()) {}
+
+  void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
+
+ private:
+  struct End final : rt::Message {
+    explicit End(Order& its_order) : rt::Message(&deliver), order(its_order) {}
+    static void deliver(rt::Message& message) {
+      const End& end = static_cast<End&>(message);
+      Order& order = end.order;
+      order.caller_.ended_(order.caller_.self_, end.stage, end.reason);
+      order.release();
+    }
+    Order& order;
+    CommandStage stage = CommandStage::kFree;
+    Reason reason;
+  };
+
+  static void deliver(rt::Message& message) {
+    auto& order = static_cast<Order&>(message);
+    static_cast<void>(order.command_.begin_from(&order, order.arguments_.places()));
+  }
+  ExecutionContext& executor() const override { return Host::context(command_.owner()); }
+  void cancel_now() override { command_.cancel(*this); }
+  void ending(CommandStage stage, const Reason& reason) override {
+    end_.stage = stage;
+    end_.reason = reason;
+    share_once_more();
+    Host::context(caller_.owner()).post(end_);
+  }
+
+  UntypedCommandCaller& caller_;
+  CommandBase& command_;
+  internal::Arguments arguments_;
+  End end_{*this};
+};
+
+void UntypedCommandCaller::LetGo::operator()(Order* order) const { order->release(); }
+
+UntypedCommandCaller::UntypedCommandCaller(Component& owner, std::string_view name,
+                                           std::string_view doc, const CommandBase& like,
+                                           std::size_t most, Ended ended, void* self) noexcept
+    : CommandCallerBase(owner, name, doc, like.signature()),
+      most_(most),
+      ended_(ended),
+      self_(self) {
+  apply(Outstanding{0});  // it has orders
+}
+
+UntypedCommandCaller::~UntypedCommandCaller() = default;
+
+void UntypedCommandCaller::prepare(const void* const* sample) {
+  orders_.clear();
+  if (target() == nullptr) return;
+  for (std::size_t i = 0; i < most_; ++i) {
+    orders_.emplace_back(new Order(*this, static_cast<CommandBase&>(*target())));
+    orders_.back()->set_arguments(sample);
+  }
+}
+
+CallStatus UntypedCommandCaller::send(const void* const* arguments) {
+  if (target() == nullptr) return CallStatus::kNotConnected;
+  for (const auto& order : orders_) {
+    if (!order->try_claim()) continue;
+    order->set_arguments(arguments);
+    Host::context(target()->owner()).post(*order);
+    order->release();  // nobody holds on to it
+    return CallStatus::kPending;
+  }
+  count_refused();
+  return CallStatus::kQueueFull;
+}
+
+UntypedInputPort::UntypedInputPort(Component& owner, std::string_view name, std::string_view doc,
+                                   const OutputPortBase& like) noexcept
+    : InputPortBase(owner, {name, doc, like.unit(), like.type(), is_small(like.type())}) {}
+
+}  // namespace armature::component

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/deploy/internal/event_command_builder.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "armature/base/near_name.hpp"
+#include "armature/base/unit.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/document/fields.hpp"
+#include "armature/document/property_value.hpp"
+#include "armature/document/value_tree.hpp"
+
+namespace armature::deploy::internal {
+namespace {
+
+using component::Signature;
+using From = exec::CommandParameter::From;
+
+std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
+
+/// `position [rad]` is `position`, in rad.
+struct NameAndUnit {
+  std::string name;
+  std::string unit;
+};
+
+NameAndUnit parts_of(std::string_view text) {
+  const std::size_t open = text.find(" [");
+  if (open == std::string_view::npos || !text.ends_with(']')) return {std::string(text), {}};
+  return {std::string(text.substr(0, open)),
+          std::string(text.substr(open + 2, text.size() - open - 3))};
+}
+
+/// Arguments that nobody named are called by their number.
+NameAndUnit argument(const Signature& signature, std::size_t index) {
+  NameAndUnit named = parts_of(signature.arguments[index].name);
+  if (named.name.empty()) named.name = "argument" + std::to_string(index + 1);
+  return named;
+}
+
+std::vector<std::string> names_of(const Signature& signature) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < signature.arguments.size(); ++i) {
+    names.push_back(argument(signature, i).name);
+  }
+  return names;
+}
+
+std::optional<std::size_t> find_argument(const Signature& signature, std::string_view name) {
+  const std::vector<std::string> names = names_of(signature);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+bool same_unit(std::string_view a, std::string_view b) {
+  if (a == b) return true;
+  const auto first = base::parse_unit(a);
+  const auto second = base::parse_unit(b);
+  return first && second && first.value().same_kind(second.value()) &&
+         first.value().factor == second.value().factor;
+}
+
+std::string in_unit(const types::Type& type, std::string_view unit) {
+  return type.name + (unit.empty() ? "" : " in " + in_quotes(unit));
+}
+
+template <typename List>
+std::vector<std::string> member_names(const List& members) {
+  std::vector<std::string> names;
+  for (const auto* member : members) names.emplace_back(member->name());
+  return names;
+}
+
+const component::OutputPortBase* output_of(const component::Component& component,
+                                           std::string_view name) {
+  for (const auto* port : component::interface_of(component).outputs) {
+    if (port->name() == name) return port;
+  }
+  return nullptr;
+}
+
+/// A name that scripts and the task browser can say.
+std::string usual_name(const Connection& connection) {
+  std::string name = to_text(connection.from) + "_" + to_text(connection.to);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+}  // namespace
+
+const component::Component* EventCommandBuilder::component_of(const std::string& name) const {
+  const auto found = components_.find(name);
+  return found == components_.end() ? nullptr : found->second;
+}
+
+const component::EventBase* EventCommandBuilder::event_of(const Endpoint& end) const {
+  const component::Component* const component = component_of(end.component);
+  if (component == nullptr || output_of(*component, end.port) != nullptr) return nullptr;
+  for (const auto* event : component::interface_of(*component).events) {
+    if (event->name() == end.port) return event;
+  }
+  return nullptr;
+}
+
+void EventCommandBuilder::add(const Connection& connection) {
+  const bool simple = check_policy(connection);
+  const component::CommandBase* const command = command_of(connection);
+  if (command == nullptr) return;
+  Wire wire{connection, *event_of(connection.from), *command, {}};
+  bool complete = check_names(wire) && simple;
+  for (std::size_t i = 0; i < command->signature().arguments.size(); ++i) {
+    auto one = parameter(wire, i);
+    complete = complete && one;
+    if (one) wire.parameters.push_back(std::move(*one));
+  }
+  if (complete) make(std::move(wire));
+}
+
+bool EventCommandBuilder::check_policy(const Connection& connection) {
+  const ConnectionPolicy& policy = connection.policy;
+  const bool plain = policy.kind == ConnectionPolicy::Kind::kLatest && !policy.one_cycle_delay &&
+                     !policy.fan_in && !policy.on_old && !policy.on_lost;
+  if (plain) return true;
+  diagnostics_.error(connection.where,
+                     path(connection.from) +
+                         " is an event, and an event that commands has no other policy than "
+                         "max_age, of the ports that its parameters come from",
+                     "leave out policy, on_old, on_lost, delay and fan_in");
+  return false;
+}
+
+const component::CommandBase* EventCommandBuilder::command_of(const Connection& connection) {
+  const Endpoint& to = connection.to;
+  const component::Component* const target = component_of(to.component);
+  if (target == nullptr) {
+    if (blueprint_.absent.count(to.component) > 0) return nullptr;
+    std::vector<std::string> names;
+    for (const auto& [name, component] : components_) names.emplace_back(name);
+    std::sort(names.begin(), names.end());
+    diagnostics_.error(to.where, "unknown component " + in_quotes(to.component),
+                       base::suggestion(to.component, names));
+    return nullptr;
+  }
+  for (const auto* operation : component::interface_of(*target).operations) {
+    if (operation->name() != to.port || !operation->is_command()) continue;
+    if (operation->is_by_operator()) {
+      diagnostics_.error(to.where, path(to) + " is an act of the operator: no event does it",
+                         "do it at the prompt of the task browser, or in a script that it is "
+                         "granted to");
+      return nullptr;
+    }
+    if (!operation->is_offered()) {
+      diagnostics_.error(to.where, operation->why_not_offered());
+      return nullptr;
+    }
+    return static_cast<const component::CommandBase*>(operation);
+  }
+  refuse_target(connection, *target);
+  return nullptr;
+}
+
+void EventCommandBuilder::refuse_target(const Connection& connection,
+                                        const component::Component& target) {
+  const Endpoint& to = connection.to;
+  const component::Interface& interface = component::interface_of(target);
+  const auto has = [&](const auto& members) {
+    return std::ranges::any_of(members,
+                               [&](const auto* member) { return member->name() == to.port; });
+  };
+  std::vector<std::string> commands;
+  for (const auto* operation : interface.operations) {
+    if (operation->is_command()) commands.emplace_back(operation->name());
+  }
+  const std::string event = path(connection.from) + " is an event, and gives a command; ";
+  if (has(interface.inputs)) {
+    diagnostics_.error(to.where, event + path(to) + " is an input port");
+  } else if (has(interface.handlers)) {
+    diagnostics_.error(to.where, event + path(to) + " is a handler of events",
+                       "have " + in_quotes(to.component) + " handle it by its peers: peers: [" +
+                           connection.from.component + "]");
+  } else if (has(interface.operations)) {
+    diagnostics_.error(to.where, event + path(to) + " is an operation, whose end nobody is told");
+  } else {
+    diagnostics_.error(to.where, in_quotes(to.component) + " has no command " + in_quotes(to.port),
+                       base::suggestion(to.port, commands));
+  }
+}
+
+/// Every name in `with` is one of the command's parameters.
+bool EventCommandBuilder::check_names(const Wire& wire) {
+  const std::vector<std::string> known = names_of(wire.command.signature());
+  bool good = true;
+  for (const Property& written : wire.connection.with) {
+    if (std::find(known.begin(), known.end(), written.name) != known.end()) continue;
+    good = false;
+    diagnostics_.error(written.where,
+                       path(wire.connection.to) + " has no parameter " + in_quotes(written.name),
+                       base::suggestion(written.name, known));
+  }
+  return good;
+}
+
+/// As `with` says; else the event's member of that name; else, if nothing is said of any, the one
+/// at the same place.
+std::optional<exec::CommandParameter> EventCommandBuilder::parameter(const Wire& wire,
+                                                                     std::size_t index) {
+  const NameAndUnit wanted = argument(wire.command.signature(), index);
+  const Property* const written = find(wire.connection.with, wanted.name);
+  if (written != nullptr) return given(wire, index, *written);
+  const Signature& event = wire.event.signature();
+  const base::Location& where = wire.connection.where;
+  if (const auto named = find_argument(event, wanted.name)) {
+    return from_member(wire, index, *named, where);
+  }
+  const bool one_by_one = wire.connection.with.empty() &&
+                          event.arguments.size() == wire.command.signature().arguments.size();
+  if (one_by_one) return from_member(wire, index, index, where);
+  diagnostics_.error(where,
+                     "nothing gives the parameter " + in_quotes(wanted.name) + " of " +
+                         path(wire.connection.to),
+                     "say where it comes from: with: {" + wanted.name +
+                         ": a value, Component.Port or a member of the event}");
+  return std::nullopt;
+}
+
+std::optional<exec::CommandParameter> EventCommandBuilder::given(const Wire& wire,
+                                                                 std::size_t index,
+                                                                 const Property& written) {
+  const Value& value = written.value;
+  if (value.kind == Value::Kind::kText && !value.literal) {
+    const auto [component, port] = split_last_dot(value.text);
+    if (component_of(component) != nullptr) return from_port(wire, index, value);
+    if (const auto member = find_argument(wire.event.signature(), value.text)) {
+      return from_member(wire, index, *member, value.where);
+    }
+  }
+  const NameAndUnit wanted = argument(wire.command.signature(), index);
+  const types::Type& type = *wire.command.signature().arguments[index].type;
+  const std::string subject =
+      "parameter " + in_quotes(wanted.name) + " of " + path(wire.connection.to);
+  if (type.sealed) {
+    diagnostics_.error(value.where, subject + " has the type " + type.name +
+                                        ", whose values only its own class makes");
+    return std::nullopt;
+  }
+  auto constant = make_value(value, type, wanted.unit, subject, diagnostics_);
+  if (!constant) return std::nullopt;
+  Parameter made;
+  made.from = From::kConstant;
+  made.constant = std::make_shared<const types::Value>(std::move(*constant));
+  return made;
+}
+
+std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
+    const Wire& wire, std::size_t index, std::size_t member, const base::Location& where) {
+  const Signature& event = wire.event.signature();
+  const Signature& command = wire.command.signature();
+  const NameAndUnit has = argument(event, member);
+  const NameAndUnit wants = argument(command, index);
+  const types::Type& given = *event.arguments[member].type;
+  const types::Type& wanted = *command.arguments[index].type;
+  if (types::same_type(given, wanted) && same_unit(has.unit, wants.unit)) {
+    Parameter made;
+    made.member = member;
+    return made;
+  }
+  diagnostics_.error(where,
+                     in_quotes(has.name) + " of " + path(wire.connection.from) + " is " +
+                         in_unit(given, has.unit) + ", but " + in_quotes(wants.name) + " of " +
+                         path(wire.connection.to) + " is " + in_unit(wanted, wants.unit),
+                     "give it a value of that type and unit in with");
+  return std::nullopt;
+}
+
+std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire& wire,
+                                                                     std::size_t index,
+                                                                     const Value& written) {
+  const auto [name, port_name] = split_last_dot(written.text);
+  const component::Component& owner = *component_of(name);
+  const component::OutputPortBase* const port = output_of(owner, port_name);
+  if (port == nullptr) {
+    diagnostics_.error(written.where,
+                       in_quotes(name) + " has no output port " + in_quotes(port_name),
+                       base::suggestion(port_name,
+                                        member_names(component::interface_of(owner).outputs)));
+    return std::nullopt;
+  }
+  const NameAndUnit wants = argument(wire.command.signature(), index);
+  const types::Type& wanted = *wire.command.signature().arguments[index].type;
+  if (types::same_type(port->type(), wanted) && same_unit(port->unit(), wants.unit)) {
+    Parameter made;
+    made.from = From::kPort;
+    made.input = wants.name;
+    made.port = port;
+    return made;
+  }
+  diagnostics_.error(written.where,
+                     in_quotes(written.text) + " is " + in_unit(port->type(), port->unit()) +
+                         ", but " + in_quotes(wants.name) + " of " + path(wire.connection.to) +
+                         " is " + in_unit(wanted, wants.unit),
+                     "connect it to a component that converts it, and take that one's output");
+  return std::nullopt;
+}
+
+void EventCommandBuilder::make(Wire&& wire) {
+  const Connection& connection = wire.connection;
+  const std::string name = connection.name.empty() ? usual_name(connection) : connection.name;
+  if (component_of(name) != nullptr) {
+    return diagnostics_.error(connection.where,
+                              in_quotes(name) + " is already the name of a component",
+                              "give this one another: name: Follow");
+  }
+  for (const Parameter& parameter : wire.parameters) {
+    if (parameter.port == nullptr) continue;
+    blueprint_.connections.push_back({parameter.port->owner().name(), parameter.port->name(), name,
+                                      parameter.input, {}, {}, {}, connection.where});
+  }
+  exec::ComponentEntry entry;
+  entry.component = std::make_unique<exec::EventCommand>(
+      name, wire.event, wire.command, std::move(wire.parameters),
+      connection.policy.max_age.value_or(base::Duration::zero()));
+  entry.model = "EventCommand";
+  entry.peers = {{connection.from.component, connection.from.where}};
+  if (connection.to.component != connection.from.component) {
+    entry.peers.push_back({connection.to.component, connection.to.where});
+  }
+  entry.bindings = {{std::string(exec::EventCommand::kOn), connection.from.component,
+                     connection.from.port, connection.from.where},
+                    {std::string(exec::EventCommand::kDo), connection.to.component,
+                     connection.to.port, connection.to.where}};
+  entry.where = connection.where;
+  blueprint_.components.push_back(std::move(entry));
+  const component::Component& made = *blueprint_.components.back().component;
+  components_.emplace(made.name(), &made);
+}
+
+}  // namespace armature::deploy::internal

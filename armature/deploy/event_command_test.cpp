@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Events that command (paper 4, section II.B): what they give, what becomes of it, and mistakes.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/base/seconds.hpp"
+#include "armature/deploy/deployment.hpp"
+#include "armature/deploy/internal/test_models.hpp"
+#include "armature/document/yaml.hpp"
+
+namespace armature::deploy {
+namespace {
+
+using namespace std::chrono_literals;
+using component::Outcome;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Raises its events in every tenth update.
+class Button final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void on_update() override {
+    height_.write(0.001 * ++updates_);
+    if (updates_ % 10 != 0) return;
+    pressed_.raise();
+    passed_.raise(0.1 * updates_, updates_ % 20 == 0);
+    turned_.raise(1.0);
+  }
+
+  component::Event<> pressed_{this, "Pressed", "by somebody"};
+  component::Event<double, bool> passed_{this, "Passed", "a place", {"height [m]", "fast"}};
+  component::Event<double> turned_{this, "Turned", "a wheel", {"height [rad]"}};
+  component::OutputPort<double> height_{this, "Height", "of somebody", "m"};
+  component::OutputPort<double> never_{this, "Never", "is not written", "m"};
+  component::OutputPort<double> angle_{this, "Angle", "of somebody", "rad"};
+  int updates_ = 0;
+};
+
+/// Travels for three updates; refuses what is below 0.
+class Lift final : public component::Component {
+ public:
+  using Component::Component;
+  std::vector<double> heights;
+  std::vector<bool> fast;
+  std::vector<double> began_at;  ///< [s]
+  int levelled = 0;
+
+ private:
+  Outcome travel(double height, bool quickly) {
+    if (height < 0.0) return component::refused("there is nothing below");
+    heights.push_back(height);
+    fast.push_back(quickly);
+    began_at.push_back(base::to_seconds(time() - base::Time{}));
+    left_ = 3;
+    return component::accepted();
+  }
+  Outcome level() {
+    ++levelled;
+    return component::accepted();
+  }
+  Outcome move(double) { return component::accepted(); }
+  bool is_there() { return left_ == 0 || --left_ == 0; }
+  bool at_once() { return true; }
+  void stop_now() {}
+  void on_update() override {}
+
+  component::Command<double, bool> travel_{this,
+                                           "travel",
+                                           component::serve<&Lift::travel>,
+                                           "goes there",
+                                           component::done_when<&Lift::is_there>,
+                                           component::args("height [m]", "quickly")};
+  component::Command<> level_{this, "level", component::serve<&Lift::level>, "levels the cabin",
+                              component::done_when<&Lift::at_once>};
+  component::Command<double> move_{
+      this,        "move", component::serve<&Lift::move>, "by hand", component::by_operator,
+      component::args("height [m]")};
+  component::Operation<void()> stop_{this, "stop", component::serve<&Lift::stop_now>, "stops it"};
+  component::InputPort<double> load_{this, "Load", "in it", "kg", component::may_stay_open};
+  int left_ = 0;
+};
+
+constexpr const char* kParts = R"(
+components:
+  Button: {model: Button, activity: {periodic: 10 ms}}
+  Lift: {model: Lift, activity: {periodic: 10 ms}}
+)";
+
+Deployment deployment(const std::string& connections, const std::string& parts = kParts) {
+  DeploymentOptions options;
+  options.cpus = 2;
+  options.models = [](component::Registry& models) {
+    test::add_models(models);
+    models.add<Button>("Button", "is pressed", {});
+    models.add<Lift>("Lift", "travels", {});
+  };
+  return parse_deployment(parts + "connections:\n" + connections, "robot.yaml", options);
+}
+
+std::string messages(const std::string& connections) {
+  return deployment(connections).diagnostics.to_text();
+}
+
+/// Runs in simulated time.
+class Running {
+ public:
+  explicit Running(const std::string& connections, const std::string& parts = kParts) {
+    Deployment made = deployment(connections, parts);
+    EXPECT_TRUE(made.ok()) << made.diagnostics.to_text();
+    made.options.simulated = true;
+    application_ = std::make_unique<exec::Application>(std::move(made.blueprint), made.options);
+    EXPECT_EQ(application_->start().to_text(), "");
+  }
+  void run_for(base::Duration time) { application_->run_for(time); }
+  const Lift& lift(const char* name = "Lift") const {
+    return dynamic_cast<const Lift&>(*application_->find(name));
+  }
+  std::string text_of(const char* component, const char* item) {
+    return application_->value_of(component, item).value().text();
+  }
+
+ private:
+  std::unique_ptr<exec::Application> application_;
+};
+
+TEST(EventCommand, TakesItsParametersFromTheDeployment) {
+  Running robot("  - {on: Button.Pressed, do: Lift.travel, with: {height: 250 cm, quickly: true}}\n");
+  robot.run_for(1s);
+  EXPECT_EQ(robot.lift().heights, std::vector<double>(10, 2.5));
+  EXPECT_EQ(robot.lift().fast, std::vector<bool>(10, true));
+  EXPECT_EQ(robot.text_of("Button_Pressed_Lift_travel", "Given"), "10");
+}
+
+TEST(EventCommand, TakesItsParametersFromTheEvent) {
+  Running by_place("  - Button.Passed -> Lift.travel\n");
+  by_place.run_for(300ms);
+  EXPECT_THAT(by_place.lift().heights, ElementsAre(1.0, 2.0, 3.0));
+  EXPECT_THAT(by_place.lift().fast, ElementsAre(false, true, false));
+  Running by_name("  - {on: Button.Passed, do: Lift.travel, with: {quickly: fast}}\n");
+  by_name.run_for(300ms);
+  EXPECT_EQ(by_name.lift().fast, by_place.lift().fast);
+}
+
+TEST(EventCommand, TakesItsParametersFromPortsAsTheyAreThen) {
+  Running robot("  - {on: Button.Pressed, do: Lift.travel, with: {height: Button.Height, quickly: no}}\n");
+  robot.run_for(300ms);
+  EXPECT_THAT(robot.lift().heights, ElementsAre(0.010, 0.020, 0.030));
+}
+
+TEST(EventCommand, WithoutAValueOfAPortIsRefusedCountedAndTold) {
+  Running robot(
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call,"
+      " with: {height: Button.Never, quickly: no}}\n"
+      "  - Call.Failed -> Lift.level\n");
+  robot.run_for(300ms);
+  EXPECT_THAT(robot.lift().heights, ElementsAre());
+  EXPECT_EQ(robot.text_of("Call", "Refused"), "3");
+  EXPECT_EQ(robot.text_of("Call", "Given"), "0");
+  EXPECT_EQ(robot.lift().levelled, 3);
+}
+
+TEST(EventCommand, WithAValueThatIsTooOldIsRefused) {
+  Running robot(
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, max_age: 50 ms,"
+      " with: {height: Slow.Height, quickly: no}}\n",
+      std::string(kParts) + "  Slow: {model: Button, activity: {periodic: 170 ms}}\n");
+  robot.run_for(1s);
+  const auto refused = std::stoi(robot.text_of("Call", "Refused"));
+  EXPECT_GE(refused, 5);
+  EXPECT_EQ(refused + std::stoi(robot.text_of("Call", "Given")), 10);
+  EXPECT_GE(robot.lift().heights.size(), 1u);
+}
+
+TEST(EventCommand, ThatTheComponentRefusesIsCountedAndTold) {
+  Running robot(
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: -1 m, quickly: no}}\n"
+      "  - Call.Failed -> Lift.level\n");
+  robot.run_for(310ms);
+  EXPECT_EQ(robot.text_of("Call", "Refused"), "3");
+  EXPECT_EQ(robot.lift().levelled, 3);
+}
+
+/// Figure 3 of paper 4: initialize, then the next, then the next.
+TEST(EventCommand, EndsInAnEventThatBeginsTheNext) {
+  Running robot(
+      "  - Second.Done -> Other.level\n"  // the order in the file is the user's
+      "  - {on: First.Done, do: Other.travel, name: Second, with: {height: 1 m, quickly: no}}\n"
+      "  - {on: Button.Pressed, do: Lift.travel, name: First, with: {height: 2 m, quickly: no}}\n",
+      std::string(kParts) + "  Other: {model: Lift, activity: {periodic: 10 ms}}\n");
+  robot.run_for(310ms);
+  ASSERT_EQ(robot.lift().heights.size(), 3u);
+  ASSERT_EQ(robot.lift("Other").heights.size(), 3u);
+  EXPECT_GT(robot.lift("Other").began_at[0], robot.lift().began_at[0] + 0.02) << "when it is done";
+  EXPECT_GE(robot.lift("Other").levelled, 2);
+}
+
+TEST(EventCommand, OfTheSameRunIsTheSame) {
+  const char* connections = "  - {on: Button.Passed, do: Lift.travel, with: {quickly: fast}}\n";
+  Running first(connections);
+  Running second(connections);
+  first.run_for(1s);
+  for (int i = 0; i < 100; ++i) second.run_for(10ms);
+  EXPECT_EQ(first.lift().began_at, second.lift().began_at);
+  EXPECT_EQ(first.lift().heights, second.lift().heights);
+}
+
+
+TEST(EventCommand, MayBeInACompositeAndInARange) {
+  const std::string parts = R"(
+composites:
+  Hoist:
+    components:
+      Button: {model: Button, activity: {periodic: 10 ms}}
+      Lift: {model: Lift, activity: {periodic: 10 ms}}
+    connections:
+      - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: Button.Height, quickly: no}}
+    exports:
+      events: {Pressed: Button.Pressed}
+      operations: {level: Lift.level}
+components:
+  H{1..2}: {model: Hoist}
+)";
+  Running robot("  - H{i}.Pressed -> H{i}.level\n", parts);
+  robot.run_for(100ms);
+  for (const char* name : {"H1.Lift", "H2.Lift"}) {
+    EXPECT_THAT(robot.lift(name).heights, ElementsAre(0.010)) << name;
+    EXPECT_EQ(robot.lift(name).levelled, 1) << name;
+  }
+  EXPECT_EQ(robot.text_of("H2.Call", "Given"), "1");
+}
+
+TEST(EventCommand, ReadsBackAsItWasWritten) {
+  const std::string written =
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: 2 m, quickly: no}, "
+      "max_age: 50 ms}\n  - Button.Passed -> Lift.travel\n";
+  const Deployment first = deployment(written);
+  ASSERT_TRUE(first.ok()) << first.diagnostics.to_text();
+  const std::string text = document::write_yaml(first.document);
+  EXPECT_THAT(text, HasSubstr("do: Lift.travel"));
+  base::Diagnostics diagnostics;
+  const std::size_t begin = text.find("connections:\n");
+  const Deployment second = deployment(text.substr(begin + std::string("connections:\n").size()));
+  EXPECT_EQ(document::write_yaml(second.document), text);
+}
+
+struct Mistake {
+  const char* connections;
+  const char* text;
+};
+
+class WrongEventCommand : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(WrongEventCommand, IsToldAtItsPlace) {
+  const std::string told = messages(std::string("  - ") + GetParam().connections + "\n");
+  EXPECT_THAT(told, AllOf(HasSubstr("robot.yaml:6:"), HasSubstr(GetParam().text)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, WrongEventCommand,
+    ::testing::Values(
+        Mistake{"Button.Pressed -> Lift.trave", "'Lift' has no command 'trave' (did you mean 'travel'?)"},
+        Mistake{"Button.Pressed -> Lyft.travel", "unknown component 'Lyft' (did you mean 'Lift'?)"},
+        Mistake{"Button.Presssed -> Lift.travel", "'Button' has no output port 'Presssed'"},
+        Mistake{"Button.Pressed -> Lift.travel",
+                "nothing gives the parameter 'height' of 'Lift.travel' (say where it comes from: "
+                "with: {height: a value, Component.Port or a member of the event})"},
+        Mistake{"Button.Turned -> Lift.move", "'Lift.move' is an act of the operator: no event does it"},
+        Mistake{"Button.Pressed -> Lift.Load", "'Lift.Load' is an input port"},
+        Mistake{"Button.Pressed -> Lift.stop", "'Lift.stop' is an operation"},
+        Mistake{"{on: Button.Pressed, do: Lift.travel, with: {heigth: 1, quickly: no}}",
+                "'Lift.travel' has no parameter 'heigth' (did you mean 'height'?)"},
+        Mistake{"{on: Button.Turned, do: Lift.travel, with: {quickly: no}}",
+                "'height' of 'Button.Turned' is double in 'rad', but 'height' of 'Lift.travel' is "
+                "double in 'm'"},
+        Mistake{"{on: Button.Pressed, do: Lift.travel, with: {height: Button.Angle, quickly: no}}",
+                "'Button.Angle' is double in 'rad', but 'height' of 'Lift.travel' is double in 'm'"},
+        Mistake{"{on: Button.Pressed, do: Lift.travel, with: {height: Button.Hight, quickly: no}}",
+                "'Button' has no output port 'Hight' (did you mean 'Height'?)"},
+        Mistake{"{on: Button.Pressed, do: Lift.travel, with: {height: 1 V, quickly: no}}",
+                "parameter 'height' of 'Lift.travel'"},
+        Mistake{"{on: Button.Passed, do: Lift.travel, policy: {fifo: 3}}",
+                "an event that commands has no other policy than max_age"},
+        Mistake{"{on: Button.Passed, do: Lift.travel, name: Lift}",
+                "'Lift' is already the name of a component"},
+        Mistake{"{on: Button.Passed, do: Lift.travel, name: 7 up}", "name must be a name"},
+        Mistake{"{on: Button.Passed, do: Lift.travel, with: 3}", "with must be a map"},
+        Mistake{"{from: Button.Height, to: Lift.Load, with: {a: 1}}",
+                "'Button.Height' is no event, and only an event that commands has parameters"}));
+
+}  // namespace
+}  // namespace armature::deploy

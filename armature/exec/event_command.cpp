@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/exec/event_command.hpp"
+
+#include <utility>
+
+#include "armature/base/seconds.hpp"
+
+namespace armature::exec {
+
+using component::CommandStage;
+using component::Outcome;
+using component::Reason;
+
+EventCommand::EventCommand(std::string name, const component::EventBase& event,
+                           const component::CommandBase& command,
+                           std::vector<CommandParameter> parameters, base::Duration max_age)
+    : Component(std::move(name)),
+      on_(
+          *this, kOn, "what commands", event,
+          [](void* self, const void* const* members) {
+            static_cast<EventCommand*>(self)->give(members);
+          },
+          this),
+      do_(
+          *this, kDo, "what is commanded", command, kMost,
+          [](void* self, CommandStage stage, std::string_view reason) {
+            static_cast<EventCommand*>(self)->ended(stage, reason);
+          },
+          this),
+      parameters_(std::move(parameters)),
+      max_age_(max_age),
+      places_(parameters_.size()) {
+  for (const CommandParameter& parameter : parameters_) {
+    auto& input = inputs_.emplace_back();
+    if (parameter.from != CommandParameter::From::kPort) continue;
+    input = std::make_unique<component::UntypedInputPort>(*this, parameter.input,
+                                                          "a parameter of the command",
+                                                          *parameter.port);
+  }
+}
+
+Outcome EventCommand::on_configure() {
+  if (!do_.bound()) return component::refused("it has no command");
+  return component::accepted();
+}
+
+/// Vectors have their sizes by now.
+Outcome EventCommand::on_start() {
+  std::vector<types::Value> members;
+  for (const auto& argument : on_.signature().arguments) members.emplace_back(*argument.type);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const CommandParameter& parameter = parameters_[i];
+    switch (parameter.from) {
+      case CommandParameter::From::kMember:
+        places_[i] = members[parameter.member].data();
+        break;
+      case CommandParameter::From::kPort:
+        places_[i] = inputs_[i]->current();
+        break;
+      case CommandParameter::From::kConstant:
+        places_[i] = parameter.constant->data();
+        break;
+    }
+  }
+  do_.prepare(places_.data());
+  return component::accepted();
+}
+
+void EventCommand::give(const void* const* members) {
+  const Reason missing = collect(members);
+  if (!missing.empty()) {
+    refused_.assign(refused_ + 1);
+    return fail(missing);
+  }
+  if (do_.send(places_.data()) == component::CallStatus::kPending) {
+    given_.assign(given_ + 1);
+  } else {
+    refused_.assign(refused_ + 1);
+    fail("too many of its commands are under way");
+  }
+}
+
+Reason EventCommand::collect(const void* const* members) {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const CommandParameter& parameter = parameters_[i];
+    if (parameter.from == CommandParameter::From::kMember) places_[i] = members[parameter.member];
+    if (parameter.from != CommandParameter::From::kPort) continue;
+    const auto read = inputs_[i]->read();
+    Reason why(parameter.input);
+    if (read.status < component::ReadStatus::kOld) return why.append(" was never written");
+    if (max_age_ > base::Duration::zero() && time() - read.time > max_age_) {
+      return why.append(" is too old");
+    }
+    places_[i] = read.value;
+  }
+  return {};
+}
+
+void EventCommand::ended(CommandStage stage, std::string_view reason) {
+  if (state() != component::State::kRunning) return;  // nobody waits for it any more
+  if (stage == CommandStage::kDone) {
+    last_why_ = {};
+    done_.raise();
+    return;
+  }
+  component::Attribute<std::int64_t>& counted =
+      stage == CommandStage::kRefused ? refused_ : failures_;
+  counted.assign(counted + 1);
+  fail(reason);
+}
+
+void EventCommand::fail(std::string_view reason) {
+  const Why why(reason);
+  if (why.view() != last_why_.view()) log_warning("{}", reason);
+  last_why_ = why;
+  failed_.raise(why);
+}
+
+}  // namespace armature::exec

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "armature/base/fixed_text.hpp"
+#include "armature/base/time.hpp"
+#include "armature/component/author.hpp"
+#include "armature/component/untyped.hpp"
+#include "armature/types/type.hpp"
+
+namespace armature::exec {
+
+/// Where one parameter of a command comes from.
+struct CommandParameter {
+  enum class From { kMember, kPort, kConstant };
+  From from = From::kMember;
+  std::size_t member = 0;                           ///< of the event
+  std::string input;                                ///< its name, for a port
+  const component::OutputPortBase* port = nullptr;  ///< whose latest value it is
+  std::shared_ptr<const types::Value> constant;     ///< of the parameter's type
+};
+
+/// An event that commands: each time that `On` is raised, `Do` is given, with parameters from the
+/// event, from ports and from the deployment (paper 4, section II.B: signals and slots). It runs in
+/// the raiser's thread, the command in its own component's.
+///
+/// A port that was never written, or whose value is older than `max_age`, is a refusal, and so is
+/// more than kMost commands under way. Each refusal and failure is counted, raises Failed, and is
+/// logged when its reason is another one than before.
+/// @rt nonblocking, no allocation, O(parameters)
+class EventCommand final : public component::Component {
+ public:
+  using Why = base::FixedText<127>;
+  static constexpr std::size_t kMost = 16;
+  /// How it calls what it uses; a deployment binds them.
+  static constexpr std::string_view kOn = "On";
+  static constexpr std::string_view kDo = "Do";
+
+  /// @param max_age  of the values of ports; 0: any
+  EventCommand(std::string name, const component::EventBase& event,
+               const component::CommandBase& command, std::vector<CommandParameter> parameters,
+               base::Duration max_age);
+
+ private:
+  component::Outcome on_configure() override;
+  component::Outcome on_start() override;
+  void give(const void* const* members);
+  /// Empty if all parameters are there.
+  component::Reason collect(const void* const* members);
+  void ended(component::CommandStage stage, std::string_view reason);
+  void fail(std::string_view reason);
+
+  component::UntypedEventHandler on_;
+  component::UntypedCommandCaller do_;
+  component::Event<> done_{this, "Done", "the command was done", component::occasional};
+  component::Event<Why> failed_{this,
+                                "Failed",
+                                "the command was refused, failed or was cancelled",
+                                component::occasional,
+                                {"why"}};
+  component::Attribute<std::int64_t> given_{this, "Given", 0, "commands that were sent"};
+  component::Attribute<std::int64_t> refused_{
+      this, "Refused", 0, "commands that were refused, or not sent for want of a value"};
+  component::Attribute<std::int64_t> failures_{this, "Failures", 0,
+                                               "commands that failed or were cancelled"};
+
+  std::vector<CommandParameter> parameters_;
+  std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
+  base::Duration max_age_;
+  std::vector<const void*> places_;
+  Why last_why_;
+};
+
+}  // namespace armature::exec
