@@ -110,15 +110,14 @@ void run_model(benchmark::State& state, const Robot& robot) {
   exec::Application application(asked_model(robot), simulated());
   check(application.start());
   Bare bare(robot);
-  publish(state, measure_in_turn(
-                     state,
-                     [&](std::int64_t count) {
-                       application.run_for(std::chrono::milliseconds(count));
-                     },
-                     [&](std::int64_t count) {
-                       for (std::int64_t i = 0; i < count; ++i) bare.step();
-                     },
-                     kBatch));
+  publish(
+      state,
+      measure_in_turn(
+          state, [&](std::int64_t count) { application.run_for(std::chrono::milliseconds(count)); },
+          [&](std::int64_t count) {
+            for (std::int64_t i = 0; i < count; ++i) bare.step();
+          },
+          kBatch));
 }
 
 /// A step now and then, as in a cycle of 100 Hz, beside one step after another.

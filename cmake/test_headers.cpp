@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Precompiled for the tests (ArmatureLibrary.cmake).
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -22,3 +19,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>

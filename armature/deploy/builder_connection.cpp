@@ -11,12 +11,6 @@
 namespace armature::deploy::internal {
 
 using namespace document;
-namespace {
-
-std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
-
-}  // namespace
-
 ConnectionBuilder::ConnectionBuilder(const Document& document, exec::Blueprint& blueprint,
                                      base::Diagnostics& diagnostics)
     : document_(document), blueprint_(blueprint), diagnostics_(diagnostics) {

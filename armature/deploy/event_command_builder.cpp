@@ -19,8 +19,6 @@ namespace {
 using component::Signature;
 using From = exec::CommandParameter::From;
 
-std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
-
 /// `position [rad]` is `position`, in rad.
 struct NameAndUnit {
   std::string name;
@@ -219,11 +217,11 @@ std::optional<exec::CommandParameter> EventCommandBuilder::parameter(const Wire&
   const bool one_by_one = wire.connection.with.empty() &&
                           event.arguments.size() == wire.command.signature().arguments.size();
   if (one_by_one) return from_member(wire, index, index, where);
-  diagnostics_.error(where,
-                     "nothing gives the parameter " + in_quotes(wanted.name) + " of " +
-                         path(wire.connection.to),
-                     "say where it comes from: with: {" + wanted.name +
-                         ": a value, Component.Port or a member of the event}");
+  diagnostics_.error(
+      where,
+      "nothing gives the parameter " + in_quotes(wanted.name) + " of " + path(wire.connection.to),
+      "say where it comes from: with: {" + wanted.name +
+          ": a value, Component.Port or a member of the event}");
   return std::nullopt;
 }
 
@@ -283,10 +281,9 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire&
   const component::Component& owner = *component_of(name);
   const component::OutputPortBase* const port = output_of(owner, port_name);
   if (port == nullptr) {
-    diagnostics_.error(written.where,
-                       in_quotes(name) + " has no output port " + in_quotes(port_name),
-                       base::suggestion(port_name,
-                                        member_names(component::interface_of(owner).outputs)));
+    diagnostics_.error(
+        written.where, in_quotes(name) + " has no output port " + in_quotes(port_name),
+        base::suggestion(port_name, member_names(component::interface_of(owner).outputs)));
     return std::nullopt;
   }
   const NameAndUnit wants = argument(wire.command.signature(), index);
@@ -316,8 +313,14 @@ void EventCommandBuilder::make(Wire&& wire) {
   }
   for (const Parameter& parameter : wire.parameters) {
     if (parameter.port == nullptr) continue;
-    blueprint_.connections.push_back({parameter.port->owner().name(), parameter.port->name(), name,
-                                      parameter.input, {}, {}, {}, connection.where});
+    blueprint_.connections.push_back({parameter.port->owner().name(),
+                                      parameter.port->name(),
+                                      name,
+                                      parameter.input,
+                                      {},
+                                      {},
+                                      {},
+                                      connection.where});
   }
   exec::ComponentEntry entry;
   entry.component = std::make_unique<exec::EventCommand>(

@@ -82,9 +82,8 @@ class Resolver {
 
   /// Its ends may be an event and a command, and then parameters come from ports.
   void resolve_connection(Connection& connection, const std::string& scope) {
-    resolve_member(
-        scope, {ExportKind::kPort, ExportKind::kEvent},
-        {connection.from.component, connection.from.port, connection.from.where});
+    resolve_member(scope, {ExportKind::kPort, ExportKind::kEvent},
+                   {connection.from.component, connection.from.port, connection.from.where});
     resolve_member(scope, {ExportKind::kPort, ExportKind::kOperation},
                    {connection.to.component, connection.to.port, connection.to.where});
     if (!connection.name.empty()) connection.name = inside(scope, connection.name);

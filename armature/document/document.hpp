@@ -122,8 +122,9 @@ struct Connection {
   Endpoint to;
   ConnectionPolicy policy;
   base::Location where;
-  std::string name;            ///< full name of the component that gives the command; empty: any
-  std::vector<Property> with;  ///< parameters of the command: constants, `Component.Port`, members
+  std::string name{};  ///< full name of the component that gives the command; empty: any
+  std::vector<Property>
+      with{};  ///< parameters of the command: constants, `Component.Port`, members
 };
 
 /// Ports that share a connection's name: each output among them goes to each input.

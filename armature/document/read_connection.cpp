@@ -105,15 +105,15 @@ std::optional<Connection> read_directed(const Value* from, const Value* to, cons
   std::optional<Endpoint> source = read_endpoint(*from, "from", reader);
   std::optional<Endpoint> sink = read_endpoint(*to, "to", reader);
   if (!source || !sink) return std::nullopt;
-  return Connection{std::move(*source), std::move(*sink), {}, value.where, {}, {}};
+  return Connection{std::move(*source), std::move(*sink), {}, value.where};
 }
 
 std::string read_name(const Value& value, const ValueReader& reader) {
   std::optional<std::string> name = reader.text(value, "name");
   if (!name) return {};
   if (is_dotted_name(*name)) return std::move(*name);
-  reader.error(value.where, "name must be a name of letters, digits, _ and -, found " +
-                                in_quotes(*name));
+  reader.error(value.where,
+               "name must be a name of letters, digits, _ and -, found " + in_quotes(*name));
   return {};
 }
 

@@ -33,15 +33,9 @@ EventCommand::EventCommand(std::string name, const component::EventBase& event,
   for (const CommandParameter& parameter : parameters_) {
     auto& input = inputs_.emplace_back();
     if (parameter.from != CommandParameter::From::kPort) continue;
-    input = std::make_unique<component::UntypedInputPort>(*this, parameter.input,
-                                                          "a parameter of the command",
-                                                          *parameter.port);
+    input = std::make_unique<component::UntypedInputPort>(
+        *this, parameter.input, "a parameter of the command", *parameter.port);
   }
-}
-
-Outcome EventCommand::on_configure() {
-  if (!do_.bound()) return component::refused("it has no command");
-  return component::accepted();
 }
 
 /// Vectors have their sizes by now.

@@ -48,7 +48,6 @@ class EventCommand final : public component::Component {
                base::Duration max_age);
 
  private:
-  component::Outcome on_configure() override;
   component::Outcome on_start() override;
   void give(const void* const* members);
   /// Empty if all parameters are there.

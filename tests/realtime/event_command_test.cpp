@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events that command, in one thread and between two.
+#include "armature/exec/event_command.hpp"
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,7 +9,6 @@
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
 #include "armature/component/interface.hpp"
-#include "armature/exec/event_command.hpp"
 #include "armature/rt/inbox.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -30,8 +31,7 @@ class Server final : public component::Component {
   using Component::Component;
   int begun = 0;
   component::Command<double, const std::vector<double>&> move{
-      this, "move", component::serve<&Server::begin>, "",
-      component::args("number", "places")};
+      this, "move", component::serve<&Server::begin>, "", component::args("number", "places")};
 
  private:
   component::Outcome begin(double number, const std::vector<double>&) {

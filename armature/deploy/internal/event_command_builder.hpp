@@ -10,12 +10,16 @@
 #include "armature/component/events/event.hpp"
 #include "armature/component/operations/command.hpp"
 #include "armature/document/document.hpp"
+#include "armature/document/value_tree.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/event_command.hpp"
 
 namespace armature::deploy::internal {
 
 using namespace document;
+
+/// How messages name an end.
+inline std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
 
 /// Makes the components that give a command when an event is raised.
 class EventCommandBuilder {

@@ -131,7 +131,8 @@ int write_member(lua_State* lua) {
     refuse(lua, "'" + component.name() + "' has no property '" + name + "'" +
                     base::suggestion_in_brackets(name, known));
   }
-  const bool inverts = member->property != nullptr && member->property->is_sign() && lua_isboolean(lua, 3);
+  const bool inverts =
+      member->property != nullptr && member->property->is_sign() && lua_isboolean(lua, 3);
   const auto value = value_at(lua, 3, inverts ? types::type_of<bool>() : member->type());
   if (!value) refuse(lua, component.name() + "." + name + value.error());
   const auto set = inspect::set(access.application, *member, value.value(), access.caller);
