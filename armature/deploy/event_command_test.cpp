@@ -90,6 +90,31 @@ class Lift final : public component::Component {
   int left_ = 0;
 };
 
+/// Tells what comes in.
+class Bell final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void ring(double) { rung_.raise(); }
+  component::InputPort<double> in_{this, "In", "rings it", "", component::on_data<&Bell::ring>};
+  component::Event<> rung_{this, "Rung", "by somebody"};
+};
+
+/// Its command gives a voltage.
+class Winch final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  Outcome pull() {
+    out_.write(1.0);
+    return component::accepted();
+  }
+  component::Command<> pull_{this, "pull", component::serve<&Winch::pull>, "pulls"};
+  component::OutputPort<double> out_{this, "Volts", "for a motor", "V"};
+};
+
 constexpr const char* kParts = R"(
 components:
   Button: {model: Button, activity: {periodic: 10 ms}}
@@ -103,6 +128,8 @@ Deployment deployment(const std::string& connections, const std::string& parts =
     test::add_models(models);
     models.add<Button>("Button", "is pressed", {});
     models.add<Lift>("Lift", "travels", {});
+    models.add<Bell>("Bell", "is rung", {});
+    models.add<Winch>("Winch", "pulls", {});
   };
   return parse_deployment(parts + "connections:\n" + connections, "robot.yaml", options);
 }
@@ -252,6 +279,15 @@ TEST(EventCommand, ReadsBackAsItWasWritten) {
   const std::size_t begin = text.find("connections:\n");
   const Deployment second = deployment(text.substr(begin + std::string("connections:\n").size()));
   EXPECT_EQ(document::write_yaml(second.document), text);
+}
+
+TEST(EventCommand, IsNoWayFromTheOperatorToAnEffort) {
+  const std::string parts =
+      "operator_inputs: [Bell.In]\ncomponents: {Bell: {model: Bell}, "
+      "Winch: {model: Winch, activity: {periodic: 10 ms}}}\n";
+  EXPECT_THAT(deployment("  - Bell.Rung -> Winch.pull\n", parts).diagnostics.to_text(),
+              HasSubstr("error: 'Bell.In' leads to 'Winch.Volts' by 'Bell', "
+                        "'Bell_Rung_Winch_pull'"));
 }
 
 struct Mistake {
