@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Part of the installed package: the same function inside this tree and after find_package(armature).
 
+set(ARMATURE_COMPONENT_LIBRARY_EXPORTS ${CMAKE_CURRENT_LIST_DIR}/component_library.map)
+
 # armature_component_library(NAME motion SOURCES pid.cpp axes_generator.cpp LINK ...)
 #
 # A library of components that the deployment loads: lib/armature/lib<NAME>.so. It exports
@@ -15,7 +17,8 @@ function(armature_component_library)
   target_link_libraries(${arg_NAME} PRIVATE armature::component ${arg_LINK})
   target_compile_options(${arg_NAME} PRIVATE -ffp-contract=off)
   # Templates of the standard library run from here, also if another library has them too.
-  target_link_options(${arg_NAME} PRIVATE LINKER:-Bsymbolic-functions)
+  target_link_options(${arg_NAME} PRIVATE LINKER:-Bsymbolic-functions
+                                          LINKER:--version-script=${ARMATURE_COMPONENT_LIBRARY_EXPORTS})
   set_target_properties(
     ${arg_NAME}
     PROPERTIES PREFIX lib

@@ -19,6 +19,6 @@ install(DIRECTORY armature DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHIN
 
 write_basic_package_version_file(armatureConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/armatureConfig.cmake cmake/ArmatureComponentLibrary.cmake
-              cmake/ArmatureIdl.cmake
+              cmake/component_library.map cmake/ArmatureIdl.cmake
               ${PROJECT_BINARY_DIR}/armatureConfigVersion.cmake
         DESTINATION ${package_dir})

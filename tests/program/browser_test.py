@@ -168,7 +168,9 @@ class InputsOfTheOperator(unittest.TestCase):
                            "Filter.Raw = 180 deg\nFilter.Raw\n"
                            "for i = 1, 2 do\n  Filter.Raw = 0.0\nend\nFilter.Raw\n")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout.splitlines(), ["0.5 rad", "3.14159265 rad", "0 rad"])
+        self.assertEqual(done.stdout.splitlines(),
+                         ["Filter.Raw = 1 rad", "0.5 rad", "Filter.Raw = 3.14159265 rad",
+                          "3.14159265 rad", "0 rad"])
 
     def test_what_is_no_value_of_theirs_is_refused(self):
         done = self.run_it("--browse", text="Filter.Raw = {1}\nFilter.Raw = 1 V\n"
@@ -176,7 +178,7 @@ class InputsOfTheOperator(unittest.TestCase):
                            "Watcher.Value = 1\nFilter.Raw\n")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(done.stderr.count("error: "), 4, done.stderr)
-        self.assertIn("'Watcher.Value' is an input", done.stderr)
+        self.assertIn("'Watcher.Value' is a port: only components write it", done.stderr)
         self.assertEqual(done.stdout, "not yet written\n")
 
     def test_a_script_may_not_write_them(self):
