@@ -44,9 +44,12 @@ class Listener final : public component::Component {
     add_up.complete();
     return component::accepted();
   }
-  component::InputPort<double> number_{
-      this, "Number", "a number", "", component::on_data<&Listener::hear>,
-      component::may_stay_open};
+  component::InputPort<double> number_{this,
+                                       "Number",
+                                       "a number",
+                                       "",
+                                       component::on_data<&Listener::hear>,
+                                       component::may_stay_open};
 
  public:
   component::Command<double> add_up{this, "addUp", component::serve<&Listener::add>, "adds up",
@@ -66,9 +69,9 @@ exec::Blueprint speech(By by) {
     return blueprint;
   }
   exec::ComponentEntry wire;
-  wire.component = std::make_unique<exec::EventCommand>(
-      "Wire", speaker.said, listener.add_up, std::vector<exec::CommandParameter>(1),
-      base::Duration::zero());
+  wire.component = std::make_unique<exec::EventCommand>("Wire", speaker.said, listener.add_up,
+                                                        std::vector<exec::CommandParameter>(1),
+                                                        base::Duration::zero());
   wire.bindings = {{std::string(exec::EventCommand::kOn), "Speaker", "Said", {}},
                    {std::string(exec::EventCommand::kDo), "Listener", "addUp", {}}};
   wire.peers = {{"Speaker", {}}, {"Listener", {}}};

@@ -19,7 +19,9 @@ bool is_small(const types::Type& type) {
 UntypedEventHandler::UntypedEventHandler(Component& owner, std::string_view name,
                                          std::string_view doc, const EventBase& like,
                                          Function function, void* self) noexcept
-    : EventHandlerBase(owner, name, doc, like.signature()), function_(function), self_(self) {}
+    : EventHandlerBase(owner, name, doc, like.signature()), function_(function), self_(self) {
+  apply(leads_to_nothing());
+}
 
 void UntypedEventHandler::listen(EventBase& event) { event.add_tap(tap_); }
 

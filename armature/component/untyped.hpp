@@ -17,7 +17,8 @@
 
 namespace armature::component {
 
-/// Handles an event of any signature. In the raiser's thread it is told after the typed handlers.
+/// Handles an event of any signature, and leads to nothing: what it is to cause is sent by message.
+/// In the raiser's thread it is told after the typed handlers.
 class UntypedEventHandler final : public EventHandlerBase {
  public:
   /// @param arguments  where they are, as the event's signature describes them

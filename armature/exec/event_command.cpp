@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "armature/base/seconds.hpp"
+#include "armature/component/host.hpp"
 
 namespace armature::exec {
 
@@ -62,16 +62,24 @@ Outcome EventCommand::on_start() {
 
 void EventCommand::give(const void* const* members) {
   const Reason missing = collect(members);
-  if (!missing.empty()) {
-    refused_.assign(refused_ + 1);
-    return fail(missing);
+  if (!missing.empty()) return refuse(missing);
+  if (do_.send(places_.data()) != component::CallStatus::kPending) {
+    return refuse("too many of its commands are under way");
   }
-  if (do_.send(places_.data()) == component::CallStatus::kPending) {
-    given_.assign(given_ + 1);
-  } else {
-    refused_.assign(refused_ + 1);
-    fail("too many of its commands are under way");
-  }
+  given_.assign(given_ + 1);
+}
+
+void EventCommand::refuse(std::string_view reason) {
+  refused_.assign(refused_ + 1);
+  refusal_.why = reason;
+  if (std::exchange(refusal_.on_its_way, true)) return;
+  component::Host::context(*this).post(refusal_);
+}
+
+void EventCommand::Refusal::deliver(rt::Message& message) {
+  auto& refusal = static_cast<Refusal&>(message);
+  refusal.on_its_way = false;
+  refusal.owner.fail(refusal.why);
 }
 
 Reason EventCommand::collect(const void* const* members) {

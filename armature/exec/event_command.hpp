@@ -12,6 +12,7 @@
 #include "armature/base/time.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/untyped.hpp"
+#include "armature/rt/inbox.hpp"
 #include "armature/types/type.hpp"
 
 namespace armature::exec {
@@ -32,7 +33,8 @@ struct CommandParameter {
 ///
 /// A port that was never written, or whose value is older than `max_age`, is a refusal, and so is
 /// more than kMost commands under way. Each refusal and failure is counted, raises Failed, and is
-/// logged when its reason is another one than before.
+/// logged when its reason is another one than before. Done and Failed are raised by a message,
+/// never while On is handled, so that what follows may begin it again.
 /// @rt nonblocking, no allocation, O(parameters)
 class EventCommand final : public component::Component {
  public:
@@ -52,8 +54,18 @@ class EventCommand final : public component::Component {
   void give(const void* const* members);
   /// Empty if all parameters are there.
   component::Reason collect(const void* const* members);
+  void refuse(std::string_view reason);
   void ended(component::CommandStage stage, std::string_view reason);
   void fail(std::string_view reason);
+
+  /// Of what was refused here; one on its way tells of those that come meanwhile, too.
+  struct Refusal final : rt::Message {
+    explicit Refusal(EventCommand& its_owner) : rt::Message(&deliver), owner(its_owner) {}
+    static void deliver(rt::Message& message);
+    EventCommand& owner;
+    bool on_its_way = false;
+    Why why;
+  };
 
   component::UntypedEventHandler on_;
   component::UntypedCommandCaller do_;
@@ -73,6 +85,7 @@ class EventCommand final : public component::Component {
   std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
   base::Duration max_age_;
   std::vector<const void*> places_;
+  Refusal refusal_{*this};
   Why last_why_;
 };
 
