@@ -27,6 +27,8 @@ AT_RUN_TIME = (
 )
 OTHERS = (
     [f"timeline_on/{n}" for n in JOINTS] +
+    [f"model/{n}{after}" for n in (2, 7) for after in ("", "/after_10_ms")] +
+    ["janus_feed_forward", "event_command"] +
     [f"{what}_per_component/{n}" for what in ("start", "load", "memory") for n in COMPONENTS]
     + ["resident_two_joints", "resident_two_joints/locked", "compile_time", "queries/p99.9"]
 )
