@@ -19,6 +19,7 @@ namespace armature::exec {
 
 /// Where one parameter of a command comes from.
 struct CommandParameter {
+  /// Which of the members below counts.
   enum class From { kMember, kPort, kConstant };
   From from = From::kMember;
   std::size_t member = 0;                           ///< of the event
