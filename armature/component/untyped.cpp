@@ -48,6 +48,8 @@ class UntypedCommandCaller::Order final : public CommandTicket {
         arguments_(command.signature()) {}
 
   void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
+  void set_forgotten(bool forgotten) { forgotten_.store(forgotten, std::memory_order_release); }
+  bool under_way() const { return stage() != CommandStage::kFree && !ended(); }
 
  private:
   struct End final : rt::Message {
@@ -55,7 +57,7 @@ class UntypedCommandCaller::Order final : public CommandTicket {
     static void deliver(rt::Message& message) {
       const End& end = static_cast<End&>(message);
       Order& order = end.order;
-      order.caller_.ended_(order.caller_.self_, end.stage, end.reason);
+      if (!order.is_forgotten()) order.caller_.tell(end.stage, end.reason);
       order.release();
     }
     Order& order;
@@ -65,11 +67,17 @@ class UntypedCommandCaller::Order final : public CommandTicket {
 
   static void deliver(rt::Message& message) {
     auto& order = static_cast<Order&>(message);
+    if (order.cancel_requested() || order.caller_.rests()) {
+      return order.end(CommandStage::kCancelled, "cancelled before it began");
+    }
     static_cast<void>(order.command_.begin_from(&order, order.arguments_.places()));
   }
+  bool is_forgotten() const { return forgotten_.load(std::memory_order_acquire); }
   ExecutionContext& executor() const override { return Host::context(command_.owner()); }
   void cancel_now() override { command_.cancel(*this); }
+  /// Whoever forgot it may be gone.
   void ending(CommandStage stage, const Reason& reason) override {
+    if (is_forgotten()) return;
     end_.stage = stage;
     end_.reason = reason;
     share_once_more();
@@ -79,6 +87,7 @@ class UntypedCommandCaller::Order final : public CommandTicket {
   UntypedCommandCaller& caller_;
   CommandBase& command_;
   internal::Arguments arguments_;
+  std::atomic<bool> forgotten_{false};
   End end_{*this};
 };
 
@@ -109,6 +118,7 @@ CallStatus UntypedCommandCaller::send(const void* const* arguments) {
   if (target() == nullptr) return CallStatus::kNotConnected;
   for (const auto& order : orders_) {
     if (!order->try_claim()) continue;
+    order->set_forgotten(false);
     order->set_arguments(arguments);
     Host::context(target()->owner()).post(*order);
     order->release();  // nobody holds on to it
@@ -116,6 +126,21 @@ CallStatus UntypedCommandCaller::send(const void* const* arguments) {
   }
   count_refused();
   return CallStatus::kQueueFull;
+}
+
+void UntypedCommandCaller::forget() {
+  for (const auto& order : orders_) order->set_forgotten(true);
+}
+
+void UntypedCommandCaller::rest() {
+  rests_.store(true, std::memory_order_release);
+  for (const auto& order : orders_) {
+    if (order->under_way()) order->request_cancel();
+  }
+}
+
+void UntypedCommandCaller::tell(CommandStage stage, std::string_view reason) {
+  Host::run_handler(owner(), Host::context(owner()), [&] { ended_(self_, stage, reason); });
 }
 
 UntypedInputPort::UntypedInputPort(Component& owner, std::string_view name, std::string_view doc,

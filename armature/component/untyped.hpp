@@ -4,6 +4,7 @@
 // Members of a component whose types are known when it is made, not when it is compiled: for
 // components that the runtime makes from a deployment.
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <string_view>
@@ -69,13 +70,25 @@ class UntypedCommandCaller final : public CommandCallerBase {
   /// @rt nonblocking, no allocation
   /// @thread the component's own
   CallStatus send(const void* const* arguments);
+  /// Nobody is told of the end of those that are under way now.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  void forget();
+  /// No command begins from now on, and those under way are cancelled; until `resume`.
+  /// @thread any
+  void rest();
+  /// @rt nonblocking, no allocation
+  void resume() { rests_.store(false, std::memory_order_release); }
+  bool rests() const { return rests_.load(std::memory_order_acquire); }
 
  private:
   class Order;
+  void tell(CommandStage stage, std::string_view reason);
   struct LetGo {
     void operator()(Order* order) const;
   };
 
+  std::atomic<bool> rests_{false};
   std::size_t most_;
   Ended ended_;
   void* self_;

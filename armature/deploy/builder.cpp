@@ -247,8 +247,8 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   for (const Component& component : document.components) components.build(component, blueprint);
   add_inlets(document, options, blueprint, diagnostics);
   add_operator_inputs(document, blueprint, diagnostics);
-  internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   add_modes(document, blueprint);
+  internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   check_exports(document, blueprint, diagnostics);
   check_operations(document.script_grants, blueprint, kCanBeGranted, diagnostics);
   check_operations(document.remote_grants, blueprint, kCanBeGranted, diagnostics);

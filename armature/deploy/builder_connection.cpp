@@ -35,7 +35,8 @@ void ConnectionBuilder::build() {
 
 /// What gives a command has events of its own, so one may begin where another one ends.
 void ConnectionBuilder::add_connections() {
-  EventCommandBuilder commands(blueprint_, components_, diagnostics_);
+  EventCommandBuilder commands(blueprint_, components_, document_.on_fault == OnFault::kKeepRunning,
+                               diagnostics_);
   std::vector<const Connection*> open;
   for (const Connection& connection : document_.connections) open.push_back(&connection);
   for (std::size_t before = 0; before != open.size();) {

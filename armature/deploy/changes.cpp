@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/deploy/internal/expand_names.hpp"
 #include "armature/document/value_tree.hpp"
 
 namespace armature::deploy::internal {
@@ -15,10 +16,6 @@ namespace {
 bool is_marked(const Value& body, std::string_view mark) {
   const Property* const entry = find(body.entries, mark);
   return entry != nullptr && entry->value.text == "true";
-}
-
-std::string full_name(const std::string& instance, const std::string& name) {
-  return instance.empty() ? name : instance + "." + name;
 }
 
 void remove_entry(Value& base, const Property& removal, base::Diagnostics& diagnostics) {
@@ -112,6 +109,11 @@ void Removals::apply(Document& document, Scopes& scopes, base::Diagnostics& diag
     for (std::size_t i = 0; i < connections_.size(); ++i) {
       if (connections_[i].instance != in || !same_ends(connections_[i].what, one)) continue;
       found[i] = true;
+      return true;
+    }
+    for (std::size_t i = 0; i < named_.size(); ++i) {
+      if (named_[i].instance != in || named_[i].what.name != one.name) continue;
+      found_named[i] = true;
       return true;
     }
     return of_removed(one.from, in) || of_removed(one.to, in);

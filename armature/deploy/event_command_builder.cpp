@@ -81,8 +81,9 @@ const component::OutputPortBase* output_of(const component::Component& component
   return nullptr;
 }
 
-/// A name that scripts and the task browser can say.
-std::string usual_name(const Connection& connection) {
+/// A name that scripts and the task browser can say, where the deployment gives none.
+std::string name_of(const Connection& connection) {
+  if (!connection.name.empty()) return connection.name;
   std::string name = to_text(connection.from) + "_" + to_text(connection.to);
   std::replace(name.begin(), name.end(), '.', '_');
   return name;
@@ -105,9 +106,13 @@ const component::EventBase* EventCommandBuilder::event_of(const Endpoint& end) c
 }
 
 void EventCommandBuilder::add(const Connection& connection) {
+  if (!try_add(connection)) blueprint_.absent.insert(name_of(connection));
+}
+
+bool EventCommandBuilder::try_add(const Connection& connection) {
   const bool simple = check_policy(connection);
   const component::CommandBase* const command = command_of(connection);
-  if (command == nullptr) return;
+  if (command == nullptr) return false;
   Wire wire{connection, *event_of(connection.from), *command, {}};
   bool complete = check_names(wire) && simple;
   for (std::size_t i = 0; i < command->signature().arguments.size(); ++i) {
@@ -115,7 +120,19 @@ void EventCommandBuilder::add(const Connection& connection) {
     complete = complete && one;
     if (one) wire.parameters.push_back(std::move(*one));
   }
-  if (complete) make(std::move(wire));
+  complete = complete && check_max_age(wire);
+  return complete && make(std::move(wire));
+}
+
+/// Only what comes by ports has an age.
+bool EventCommandBuilder::check_max_age(const Wire& wire) {
+  const auto is_port = [](const Parameter& one) { return one.from == From::kPort; };
+  if (!wire.connection.policy.max_age || std::ranges::any_of(wire.parameters, is_port)) return true;
+  diagnostics_.error(
+      wire.connection.where,
+      "max_age has no effect: no parameter of " + path(wire.connection.to) + " comes from a port",
+      "leave it out");
+  return false;
 }
 
 bool EventCommandBuilder::check_policy(const Connection& connection) {
@@ -202,21 +219,37 @@ bool EventCommandBuilder::check_names(const Wire& wire) {
   return good;
 }
 
-/// As `with` says; else the event's member of that name; else, if nothing is said of any, the one
-/// at the same place.
+/// Every parameter is given by name: in `with`, or as a member of the event.
+bool EventCommandBuilder::are_named(const Wire& wire) {
+  const std::vector<std::string> wanted = names_of(wire.command.signature());
+  return std::ranges::all_of(wanted, [&](const std::string& name) {
+    return find(wire.connection.with, name) != nullptr ||
+           find_argument(wire.event.signature(), name).has_value();
+  });
+}
+
+/// As `with` says; else the event's member of that name; where nothing is said and the names do not
+/// fit, the one at the same place.
 std::optional<exec::CommandParameter> EventCommandBuilder::parameter(const Wire& wire,
                                                                      std::size_t index) {
   const NameAndUnit wanted = argument(wire.command.signature(), index);
+  if (const types::Type& type = *wire.command.signature().arguments[index].type; type.sealed) {
+    diagnostics_.error(wire.connection.to.where,
+                       path(wire.connection.to) + " takes a " + type.name +
+                           ", which its own class gives a component that may have it: no event "
+                           "gives this command");
+    return std::nullopt;
+  }
   const Property* const written = find(wire.connection.with, wanted.name);
   if (written != nullptr) return given(wire, index, *written);
   const Signature& event = wire.event.signature();
   const base::Location& where = wire.connection.where;
+  const bool one_by_one = wire.connection.with.empty() && !are_named(wire) &&
+                          event.arguments.size() == wire.command.signature().arguments.size();
+  if (one_by_one) return from_member(wire, index, index, where);
   if (const auto named = find_argument(event, wanted.name)) {
     return from_member(wire, index, *named, where);
   }
-  const bool one_by_one = wire.connection.with.empty() &&
-                          event.arguments.size() == wire.command.signature().arguments.size();
-  if (one_by_one) return from_member(wire, index, index, where);
   diagnostics_.error(
       where,
       "nothing gives the parameter " + in_quotes(wanted.name) + " of " + path(wire.connection.to),
@@ -240,11 +273,6 @@ std::optional<exec::CommandParameter> EventCommandBuilder::given(const Wire& wir
   const types::Type& type = *wire.command.signature().arguments[index].type;
   const std::string subject =
       "parameter " + in_quotes(wanted.name) + " of " + path(wire.connection.to);
-  if (type.sealed) {
-    diagnostics_.error(value.where, subject + " has the type " + type.name +
-                                        ", whose values only its own class makes");
-    return std::nullopt;
-  }
   auto constant = make_value(value, type, wanted.unit, subject, diagnostics_);
   if (!constant) return std::nullopt;
   Parameter made;
@@ -303,14 +331,16 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire&
   return std::nullopt;
 }
 
-void EventCommandBuilder::make(Wire&& wire) {
+bool EventCommandBuilder::make(Wire&& wire) {
   const Connection& connection = wire.connection;
-  const std::string name = connection.name.empty() ? usual_name(connection) : connection.name;
+  const std::string name = name_of(connection);
   if (component_of(name) != nullptr) {
-    return diagnostics_.error(connection.where,
-                              in_quotes(name) + " is already the name of a component",
-                              "give this one another: name: Follow");
+    diagnostics_.error(connection.where, in_quotes(name) + " is already the name of a component",
+                       "give this one another: name: Follow");
+    return false;
   }
+  std::optional<component::OnLost> on_lost;
+  if (keeps_running_) on_lost = component::on_lost(component::Reaction::kHold);
   for (const Parameter& parameter : wire.parameters) {
     if (parameter.port == nullptr) continue;
     blueprint_.connections.push_back({parameter.port->owner().name(),
@@ -319,7 +349,7 @@ void EventCommandBuilder::make(Wire&& wire) {
                                       parameter.input,
                                       {},
                                       {},
-                                      {},
+                                      on_lost,
                                       connection.where});
   }
   exec::ComponentEntry entry;
@@ -339,6 +369,7 @@ void EventCommandBuilder::make(Wire&& wire) {
   blueprint_.components.push_back(std::move(entry));
   const component::Component& made = *blueprint_.components.back().component;
   components_.emplace(made.name(), &made);
+  return true;
 }
 
 }  // namespace armature::deploy::internal

@@ -10,6 +10,7 @@
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/internal/test_models.hpp"
 #include "armature/document/yaml.hpp"
+#include "armature/orocos/deployer_file.hpp"
 
 namespace armature::deploy {
 namespace {
@@ -32,11 +33,13 @@ class Button final : public component::Component {
     pressed_.raise();
     passed_.raise(0.1 * updates_, updates_ % 20 == 0);
     turned_.raise(1.0);
+    crossed_.raise(0.1 * updates_, false);
   }
 
   component::Event<> pressed_{this, "Pressed", "by somebody"};
   component::Event<double, bool> passed_{this, "Passed", "a place", {"height [m]", "fast"}};
   component::Event<double> turned_{this, "Turned", "a wheel", {"height [rad]"}};
+  component::Event<double, bool> crossed_{this, "Crossed", "a place", {"place [m]", "height"}};
   component::OutputPort<double> height_{this, "Height", "of somebody", "m"};
   component::OutputPort<double> never_{this, "Never", "is not written", "m"};
   component::OutputPort<double> angle_{this, "Angle", "of somebody", "rad"};
@@ -63,11 +66,12 @@ class Lift final : public component::Component {
   }
   Outcome level() {
     ++levelled;
+    levelled_.raise();
+    level_.complete();
     return component::accepted();
   }
   Outcome move(double) { return component::accepted(); }
   bool is_there() { return left_ == 0 || --left_ == 0; }
-  bool at_once() { return true; }
   void stop_now() {}
   void on_update() override {}
 
@@ -77,8 +81,8 @@ class Lift final : public component::Component {
                                            "goes there",
                                            component::done_when<&Lift::is_there>,
                                            component::args("height [m]", "quickly")};
-  component::Command<> level_{this, "level", component::serve<&Lift::level>, "levels the cabin",
-                              component::done_when<&Lift::at_once>};
+  component::Command<> level_{this, "level", component::serve<&Lift::level>, "levels the cabin"};
+  component::Event<> levelled_{this, "Levelled", "the cabin is level"};
   component::Command<double> move_{this,
                                    "move",
                                    component::serve<&Lift::move>,
@@ -152,6 +156,7 @@ class Running {
   const Lift& lift(const char* name = "Lift") const {
     return dynamic_cast<const Lift&>(*application_->find(name));
   }
+  exec::Application& application() { return *application_; }
   std::string text_of(const char* component, const char* item) {
     return application_->value_of(component, item).value().text();
   }
@@ -267,9 +272,112 @@ components:
   EXPECT_EQ(robot.text_of("H2.Call", "Given"), "1");
 }
 
+TEST(EventCommand, IsAPartOfTheCompositeThatHasIt) {
+  const std::string parts = R"(
+composites:
+  Hoist:
+    components:
+      Button: {model: Button, activity: {periodic: 10 ms}}
+      Lift: {model: Lift, activity: {periodic: 10 ms}}
+    connections:
+      - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: -1 m, quickly: no}}
+      - Call.Failed -> Lift.level
+    exports:
+      events: {Broken: Call.Failed}
+components:
+  Hoist: {model: Hoist}
+  Button: {model: Button, activity: {periodic: 10 ms}}
+  Lift: {model: Lift, activity: {periodic: 10 ms}}
+)";
+  Running robot(
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: 1 m, quickly: no}}\n"
+      "  - Hoist.Broken -> Lift.level\n",
+      parts);
+  robot.run_for(150ms);
+  EXPECT_EQ(robot.lift("Hoist.Lift").levelled, 1) << "its own Call, not that beside it";
+  EXPECT_EQ(robot.lift("Lift").levelled, 1);
+}
+
+TEST(EventCommand, GoesByPlaceWhereTheNamesDoNotFit) {
+  Running robot("  - Button.Crossed -> Lift.travel\n");
+  robot.run_for(100ms);
+  EXPECT_THAT(robot.lift().heights, ElementsAre(1.0)) << "not the one that is called height";
+}
+
+TEST(EventCommand, SaysNothingWhileItIsStoppedNorOfWhatItGaveBefore) {
+  Running robot(
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: 1 m, quickly: no}}\n"
+      "  - Call.Done -> Lift.level\n");
+  robot.run_for(105ms);
+  ASSERT_EQ(robot.lift().heights.size(), 1u);
+  ASSERT_TRUE(robot.application().stop_component("Call"));
+  ASSERT_TRUE(robot.application().start_component("Call"));
+  robot.run_for(90ms);
+  EXPECT_EQ(robot.lift().levelled, 0) << "what was given before the stop";
+  robot.run_for(100ms);
+  EXPECT_EQ(robot.lift().heights.size(), 2u);
+  EXPECT_EQ(robot.lift().levelled, 1);
+}
+
+TEST(EventCommand, RestsBeforeTheStopAndIsCancelled) {
+  Running robot(
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: 1 m, quickly: no}}\n"
+      "  - {on: Call.Failed, do: Lift.travel, with: {height: 1 m, quickly: no}}\n");
+  robot.run_for(105ms);
+  ASSERT_EQ(robot.lift().heights.size(), 1u);
+  robot.application().run_before_stop(exec::RunEnd::kConditionMet);
+  robot.run_for(500ms);
+  EXPECT_EQ(robot.lift().heights.size(), 1u);
+  EXPECT_EQ(robot.text_of("Call", "Failures"), "1") << "cancelled";
+  EXPECT_GE(std::stoi(robot.text_of("Call", "Refused")), 4);
+}
+
+TEST(EventCommand, ThatSetsItselfOffWithoutEndIsAFault) {
+  Running robot("  - Lift.Levelled -> Lift.level\n  - Button.Pressed -> Lift.level\n");
+  robot.run_for(300ms);
+  EXPECT_EQ(robot.application().find("Lift_Levelled_Lift_level")->state(),
+            component::State::kException);
+}
+
+TEST(EventCommand, CanBeRemovedByItsName) {
+  const std::string first =
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: 1 m, quickly: no}}\n";
+  EXPECT_EQ(deployment(first + "  - {name: Call, remove: true}\n").document.connections.size(), 0u);
+}
+
+TEST(EventCommand, MayBeGivenTwiceWithDifferentNamesOnly) {
+  const std::string one = "{on: Button.Passed, do: Lift.travel, name: One}";
+  const std::string two = "{on: Button.Passed, do: Lift.travel, name: Two}";
+  EXPECT_EQ(messages("  - " + one + "\n  - " + two + "\n"), "");
+  EXPECT_THAT(messages("  - " + one + "\n  - " + one + "\n"),
+              HasSubstr("'One' is already the name of a component"));
+}
+
+TEST(EventCommand, SwitchesModes) {
+  Running robot("  - {on: Button.Pressed, do: Modes.switch, with: {mode: second}}\n", R"(
+modes: {first: [Lift], second: [Other]}
+components:
+  Button: {model: Button, activity: {periodic: 10 ms}}
+  Lift: {model: Lift, activity: {periodic: 10 ms, thread: lifts}}
+  Other: {model: Lift, activity: {periodic: 10 ms, thread: lifts}}
+)");
+  robot.run_for(150ms);
+  EXPECT_EQ(robot.application().find("Other")->state(), component::State::kRunning);
+  EXPECT_EQ(robot.application().find("Lift")->state(), component::State::kStopped);
+}
+
+TEST(EventCommand, HasNoFormInOrocosFiles) {
+  const Deployment made =
+      deployment("  - {on: Button.Pressed, do: Lift.travel, with: {height: 1 m, quickly: no}}\n");
+  base::Diagnostics diagnostics;
+  orocos::write_xml(made.document, diagnostics);
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("gives a command, which OROCOS files do not have"));
+}
+
 TEST(EventCommand, ReadsBackAsItWasWritten) {
   const std::string written =
-      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: 2 m, quickly: no}, "
+      "  - {on: Button.Pressed, do: Lift.travel, name: Call, with: {height: Button.Height, "
+      "quickly: no}, "
       "max_age: 50 ms}\n  - Button.Passed -> Lift.travel\n";
   const Deployment first = deployment(written);
   ASSERT_TRUE(first.ok()) << first.diagnostics.to_text();
@@ -328,6 +436,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "'Button' has no output port 'Hight' (did you mean 'Height'?)"},
         Mistake{"{on: Button.Pressed, do: Lift.travel, with: {height: 1 V, quickly: no}}",
                 "parameter 'height' of 'Lift.travel'"},
+        Mistake{"{on: Button.Passed, do: Lift.travel, max_age: 1 s}",
+                "max_age has no effect: no parameter of 'Lift.travel' comes from a port"},
         Mistake{"{on: Button.Passed, do: Lift.travel, policy: {fifo: 3}}",
                 "an event that commands has no other policy than max_age"},
         Mistake{"{on: Button.Passed, do: Lift.travel, name: Lift}",

@@ -343,12 +343,22 @@ class DocumentBuilder {
     auto connection = read_connection(map, found);
     if (!connection) return;
     if (auto* directed = std::get_if<Connection>(&*connection)) {
+      add_name(*directed, level, found);
       document_.connections.push_back(std::move(*directed));
       scopes_.connections.push_back(level.instance);
     } else {
       document_.named_connections.push_back(std::get<NamedConnection>(std::move(*connection)));
       scopes_.named_connections.push_back(level.instance);
     }
+  }
+
+  /// What gives a command is known by its name, as the components beside it are.
+  void add_name(const Connection& connection, const Level& level, base::Diagnostics& found) {
+    if (connection.name.empty()) return;
+    const std::string full = full_name(level.instance, connection.name);
+    if (names_.add(full, level.instance, connection.where)) return;
+    found.error(connection.where, in_quotes(full) + " is already the name of a component",
+                "give this one another: name: Follow");
   }
 
   /// By its two ends, or by its name.

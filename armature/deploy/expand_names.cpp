@@ -16,10 +16,6 @@ namespace armature::deploy::internal {
 using namespace document;
 namespace {
 
-std::string inside(std::string_view scope, const std::string& name) {
-  return scope.empty() ? name : std::string(scope) + "." + name;
-}
-
 /// What an entry refers to: a component and what it has.
 struct Member {
   std::string& component;
@@ -39,6 +35,15 @@ class Resolver {
       for (; !owner.empty(); owner = names.parent_of(owner)) {
         parts_[owner].push_back(component.name.substr(owner.size() + 1));
       }
+    }
+  }
+
+  /// What gives a command is a part of the composite whose connection it is.
+  void name_part(Connection& connection, const std::string& scope) {
+    if (connection.name.empty()) return;
+    connection.name = full_name(scope, connection.name);
+    for (std::string owner = scope; !owner.empty(); owner = names_.parent_of(owner)) {
+      parts_[owner].push_back(connection.name.substr(owner.size() + 1));
     }
   }
 
@@ -86,7 +91,6 @@ class Resolver {
                    {connection.from.component, connection.from.port, connection.from.where});
     resolve_member(scope, {ExportKind::kPort, ExportKind::kOperation},
                    {connection.to.component, connection.to.port, connection.to.where});
-    if (!connection.name.empty()) connection.name = inside(scope, connection.name);
     for (Property& parameter : connection.with) resolve_parameter(parameter.value, scope);
     report();
   }
@@ -106,7 +110,7 @@ class Resolver {
   }
 
   void resolve_export(const Composite& owner, Export& one) {
-    const std::string part = inside(owner.name, one.component);
+    const std::string part = full_name(owner.name, one.component);
     if (names_.contains(part)) {
       one.component = part;
       follow_export({one.kind}, {one.component, one.member, one.where});
@@ -198,7 +202,7 @@ class Resolver {
       return;
     }
     for (const std::string& part : parts_of(*owner)) {
-      delays.push_back({inside(owner->name, part), delay.where});
+      delays.push_back({full_name(owner->name, part), delay.where});
     }
   }
 
@@ -212,6 +216,10 @@ class Resolver {
 
 }  // namespace
 
+std::string full_name(std::string_view scope, const std::string& name) {
+  return scope.empty() ? name : std::string(scope) + "." + name;
+}
+
 bool NameTable::add(const std::string& name, const std::string& parent,
                     const base::Location& where) {
   return places_.emplace(name, Place{parent, where}).second;
@@ -219,7 +227,7 @@ bool NameTable::add(const std::string& name, const std::string& parent,
 
 std::string NameTable::resolve(std::string_view scope, const std::string& name) const {
   while (true) {
-    if (std::string full = inside(scope, name); contains(full)) return full;
+    if (std::string full = full_name(scope, name); contains(full)) return full;
     if (scope.empty()) return name;
     const std::size_t dot = scope.rfind('.');
     scope = dot == std::string_view::npos ? std::string_view{} : scope.substr(0, dot);
@@ -236,6 +244,9 @@ bool NameTable::visible(std::string_view scope, const std::string& name) const {
 void resolve_names(Document& document, const Scopes& scopes, const NameTable& names,
                    base::Diagnostics& diagnostics) {
   Resolver resolver(document, names, diagnostics);
+  for (std::size_t i = 0; i < document.connections.size(); ++i) {
+    resolver.name_part(document.connections[i], scopes.connections[i]);
+  }
   resolver.resolve_exports();
   for (std::size_t i = 0; i < document.components.size(); ++i) {
     resolver.resolve_component(document.components[i], scopes.components[i]);

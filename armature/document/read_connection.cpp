@@ -181,7 +181,8 @@ void check_named(NamedConnection& connection, const std::vector<NamedConnection>
 void check_connections(Document& document, base::Diagnostics& diagnostics) {
   std::unordered_map<std::string, base::Location> first;
   std::erase_if(document.connections, [&](const Connection& one) {
-    const std::string text = to_text(one.from) + " -> " + to_text(one.to);
+    const std::string text =
+        to_text(one.from) + " -> " + to_text(one.to) + (one.name.empty() ? "" : ", " + one.name);
     const auto [earlier, is_new] = first.emplace(text, one.where);
     if (is_new) return false;
     diagnostics.error(one.where, "connection " + in_quotes(text) + " is given twice",

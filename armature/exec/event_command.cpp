@@ -38,8 +38,14 @@ EventCommand::EventCommand(std::string name, const component::EventBase& event,
   }
 }
 
-/// Vectors have their sizes by now.
 Outcome EventCommand::on_start() {
+  do_.resume();
+  last_why_ = {};
+  return component::accepted();
+}
+
+/// Vectors have their sizes by now.
+Outcome EventCommand::on_activate() {
   std::vector<types::Value> members;
   for (const auto& argument : on_.signature().arguments) members.emplace_back(*argument.type);
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -60,7 +66,17 @@ Outcome EventCommand::on_start() {
   return component::accepted();
 }
 
+/// More than any series of states needs, without time passing.
+bool EventCommand::runs_in_circles() {
+  constexpr std::size_t kLongestSeries = 256;
+  given_then_ = given_at_ == time() ? given_then_ + 1 : 1;
+  given_at_ = time();
+  return given_then_ > kLongestSeries;
+}
+
 void EventCommand::give(const void* const* members) {
+  if (runs_in_circles()) return fault("its event and its command set each other off without end");
+  if (do_.rests()) return refuse("the application is about to stop");
   const Reason missing = collect(members);
   if (!missing.empty()) return refuse(missing);
   if (do_.send(places_.data()) != component::CallStatus::kPending) {
@@ -78,8 +94,11 @@ void EventCommand::refuse(std::string_view reason) {
 
 void EventCommand::Refusal::deliver(rt::Message& message) {
   auto& refusal = static_cast<Refusal&>(message);
+  EventCommand& owner = refusal.owner;
   refusal.on_its_way = false;
-  refusal.owner.fail(refusal.why);
+  if (owner.state() != component::State::kRunning) return;
+  component::Host::run_handler(owner, component::Host::context(owner),
+                               [&] { owner.fail(refusal.why); });
 }
 
 Reason EventCommand::collect(const void* const* members) {

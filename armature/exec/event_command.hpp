@@ -33,9 +33,14 @@ struct CommandParameter {
 /// the raiser's thread, the command in its own component's.
 ///
 /// A port that was never written, or whose value is older than `max_age`, is a refusal, and so is
-/// more than kMost commands under way. Each refusal and failure is counted, raises Failed, and is
-/// logged when its reason is another one than before. Done and Failed are raised by a message,
-/// never while On is handled, so that what follows may begin it again.
+/// more than kMost commands under way. Each refusal and failure is counted; it raises Failed, of
+/// refusals on the spot once for all that come before it is raised; it is logged when its reason is
+/// another one than before. Done and Failed are raised by a message, never while On is handled, so
+/// that what follows may begin it again. Events and commands that set each other off without any
+/// time passing are a fault.
+///
+/// While it is stopped, events command nothing; a command that is under way goes on, and its end is
+/// told nobody. Before the application stops it rests: what it gave is cancelled.
 /// @rt nonblocking, no allocation, O(parameters)
 class EventCommand final : public component::Component {
  public:
@@ -50,8 +55,16 @@ class EventCommand final : public component::Component {
                const component::CommandBase& command, std::vector<CommandParameter> parameters,
                base::Duration max_age);
 
+  /// What it gave is cancelled, and it gives nothing until it is started again.
+  /// @thread any
+  void rest() { do_.rest(); }
+
  private:
+  component::Outcome on_activate() override;
   component::Outcome on_start() override;
+  void on_stop() override { do_.forget(); }
+  void on_cleanup() override { do_.forget(); }
+  bool runs_in_circles();
   void give(const void* const* members);
   /// Empty if all parameters are there.
   component::Reason collect(const void* const* members);
@@ -86,6 +99,8 @@ class EventCommand final : public component::Component {
   std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
   base::Duration max_age_;
   std::vector<const void*> places_;
+  base::Time given_at_{};
+  std::size_t given_then_ = 0;  ///< so many at that time
   Refusal refusal_{*this};
   Why last_why_;
 };

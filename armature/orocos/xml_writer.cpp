@@ -113,6 +113,11 @@ class DeployerWriter {
     for (const Connection& one : document_.connections) {
       check(one.from);
       check(one.to);
+      if (one.name.empty() && one.with.empty()) continue;
+      diagnostics_.error(one.where,
+                         "the event " + in_quotes(text_of(one.from)) +
+                             " gives a command, which OROCOS files do not have",
+                         "write it as YAML");
     }
     for (const NamedConnection& one : document_.named_connections) {
       for (const Endpoint& port : one.ports) check(port);

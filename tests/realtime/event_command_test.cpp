@@ -60,6 +60,7 @@ class EventCommandFunctions : public ::testing::TestWithParam<bool> {
     raiser_.vector.connect(*interface.inputs.front(), {});
     raiser_.raised.subscribe(*interface.handlers.front());
     interface.callers.front()->connect(server_.move);
+    for (component::Component* each : all()) ASSERT_TRUE(Host::activate(*each));
     for (component::Component* each : all()) ASSERT_TRUE(Host::start(*each));
   }
   void TearDown() override {
@@ -73,6 +74,7 @@ class EventCommandFunctions : public ::testing::TestWithParam<bool> {
     for (int round = 0; round < 2; ++round) {
       for (ExecutionContext* context : {&here_, &there_}) {
         ++context->cycle;
+        context->cycle_time = context->cycle_time.load() + std::chrono::milliseconds(1);
         context->inbox.deliver_all();
       }
     }

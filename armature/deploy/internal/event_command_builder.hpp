@@ -26,10 +26,14 @@ class EventCommandBuilder {
  public:
   using Components = std::unordered_map<std::string_view, const component::Component*>;
 
-  /// @param components  all of the blueprint; what is made is added
-  EventCommandBuilder(exec::Blueprint& blueprint, Components& components,
+  /// @param components     all of the blueprint; what is made is added
+  /// @param keeps_running  also without who writes a parameter's port
+  EventCommandBuilder(exec::Blueprint& blueprint, Components& components, bool keeps_running,
                       base::Diagnostics& diagnostics)
-      : blueprint_(blueprint), components_(components), diagnostics_(diagnostics) {}
+      : blueprint_(blueprint),
+        components_(components),
+        keeps_running_(keeps_running),
+        diagnostics_(diagnostics) {}
 
   /// It begins at an event that is there already.
   bool is_one(const Connection& connection) const { return event_of(connection.from) != nullptr; }
@@ -51,15 +55,20 @@ class EventCommandBuilder {
   void refuse_target(const Connection& connection, const component::Component& target);
   bool check_policy(const Connection& connection);
   bool check_names(const Wire& wire);
+  /// False if a mistake was told.
+  bool try_add(const Connection& connection);
+  static bool are_named(const Wire& wire);
+  bool check_max_age(const Wire& wire);
   std::optional<Parameter> parameter(const Wire& wire, std::size_t index);
   std::optional<Parameter> given(const Wire& wire, std::size_t index, const Property& written);
   std::optional<Parameter> from_member(const Wire& wire, std::size_t index, std::size_t member,
                                        const base::Location& where);
   std::optional<Parameter> from_port(const Wire& wire, std::size_t index, const Value& written);
-  void make(Wire&& wire);
+  bool make(Wire&& wire);
 
   exec::Blueprint& blueprint_;
   Components& components_;
+  const bool keeps_running_;
   base::Diagnostics& diagnostics_;
 };
 

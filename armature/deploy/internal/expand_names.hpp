@@ -13,6 +13,9 @@ namespace armature::deploy::internal {
 
 using namespace document;
 
+/// `scope.name`, or the name where the scope is the document.
+std::string full_name(std::string_view scope, const std::string& name);
+
 /// The full names of components and composites, and who may use which. A name inside a composite
 /// means its part of that name, or else what the name means where the composite is used.
 class NameTable {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/exec/event_command.hpp"
 #include "armature/exec/internal/grouped.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
@@ -112,6 +113,11 @@ void order_start(const Blueprint& blueprint, Plan& plan) {
     if (!connection.delayed) sorter.before(connection.from, connection.to);
   }
   plan.start_order = sorter.sort();
+  // What commands others starts behind them, and stops before: what ends then begins nothing.
+  std::stable_partition(plan.start_order.begin(), plan.start_order.end(), [&](Index each) {
+    const component::Component* const component = blueprint.components[each].component.get();
+    return dynamic_cast<const EventCommand*>(component) == nullptr;
+  });
   if (plan.observers.empty()) return;
   const std::unordered_set<Index> observers(plan.observers.begin(), plan.observers.end());
   std::stable_partition(plan.start_order.begin(), plan.start_order.end(),

@@ -6,6 +6,7 @@
 
 #include "armature/base/quoted.hpp"
 #include "armature/component/interface.hpp"
+#include "armature/exec/event_command.hpp"
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec::internal {
@@ -54,6 +55,7 @@ base::Diagnostics BeforeStop::run_commands(RunEnd end, const platform::StopSigna
   base::Diagnostics diagnostics;
   if (!health_.running() || health_.died()) return diagnostics;
   health_.begin_to_leave();
+  rest_event_commands();
   stop = heard(stop);
   // What is under way would have what follows refused; whoever began it has gone.
   bool cut_short = cancel_all(stop);
@@ -68,6 +70,13 @@ base::Diagnostics BeforeStop::run_commands(RunEnd end, const platform::StopSigna
     diagnostics.error({}, "before the stop, " + dotted(name) + " " + problem);
   }
   return diagnostics;
+}
+
+/// What is done now is done at the operator's word: no event begins anything beside it.
+void BeforeStop::rest_event_commands() {
+  for (const ComponentEntry& entry : roster_.blueprint().components) {
+    if (auto* wire = dynamic_cast<EventCommand*>(entry.component.get())) wire->rest();
+  }
 }
 
 /// @return whether a signal came meanwhile
@@ -115,6 +124,7 @@ base::Diagnostics BeforeStop::hold_until_told(const platform::StopSignal* stop,
   give_up_silent(held, diagnostics);
   if (held.empty()) return diagnostics;
   health_.begin_to_leave();
+  rest_event_commands();
   stop = heard(stop);
   say(held);
   const base::Time end = base::later(clock_.now(), options_.hold_at_stop);

@@ -16,6 +16,7 @@ class Roster {
  public:
   explicit Roster(const Blueprint& blueprint);
 
+  const Blueprint& blueprint() const { return blueprint_; }
   /// nullptr if there is none of this name.
   component::Component* find(std::string_view name) const;
   Index index_of(const component::Component& component) const;
