@@ -125,6 +125,21 @@ TEST_P(EventCommandFunctions, SoManyMayBeUnderWay) {
   EXPECT_EQ(told("Refused"), "101");
 }
 
+TEST_P(EventCommandFunctions, ItIsStoppedAndStartedAsAModeDoesIt) {
+  raiser_.vector.write(std::vector<double>(7, 1.0));
+  bool started = true;
+  const auto again = [&] {
+    raiser_.raised.raise(1.0);
+    Host::stop(*wire_);
+    deliver();
+    started = Host::start(*wire_) && started;
+  };
+  expect_realtime("UntypedCommandCaller::forget", again);
+  expect_realtime("UntypedCommandCaller::resume", again);
+  EXPECT_TRUE(started);
+  EXPECT_EQ(told("Given"), "202");
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, EventCommandFunctions, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "OneThread" : "TwoThreads"; });
 
