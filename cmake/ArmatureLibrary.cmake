@@ -191,6 +191,13 @@ function(armature_test)
   endif()
 endfunction()
 
+# For a test that defines operator new to count allocations, as the thread sanitizer of clang does, too.
+function(armature_counts_allocations test)
+  if(ARMATURE_SANITIZE STREQUAL thread)
+    target_link_options(${test} PRIVATE LINKER:-z,muldefs)
+  endif()
+endfunction()
+
 # The executable alone, for a test that does not run on this machine's own kernel.
 function(armature_test_program)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;USES;LINK")
