@@ -56,7 +56,12 @@ TEST_P(LinkTest, BothCardsAnswerWhateverTheApplicationsClockSays) {
 TEST_P(LinkTest, InRealTimeItIsTheMonotonicClock) {
   const base::Time before = platform::monotonic_now();
   open(SimulatedLink::Time::kReal, before);
-  ASSERT_EQ(read(platform::monotonic_now()), AicReading::kComplete);
+  // A machine that stands still for a moment spoils a reading, but not twenty.
+  auto reading = AicReading::kWaiting;
+  for (int k = 0; k < 20 && reading != AicReading::kComplete; ++k) {
+    reading = read(platform::monotonic_now());
+  }
+  ASSERT_EQ(reading, AicReading::kComplete);
   EXPECT_GT(driver->card(0).report_time, before);
   EXPECT_LE(driver->card(1).report_time, platform::monotonic_now());
 }
