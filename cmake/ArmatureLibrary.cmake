@@ -186,16 +186,22 @@ function(armature_test)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "")
   add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
   if(NOT arg_NAME MATCHES "${ARMATURE_TESTS}")
-    set_target_properties(${arg_NAME} PROPERTIES EXCLUDE_FROM_ALL TRUE)
-    set_tests_properties(${arg_NAME} PROPERTIES LABELS unneeded)
+    armature_leave_out(${arg_NAME})
   endif()
 endfunction()
 
-# For a test that defines operator new to count allocations, as the thread sanitizer of clang does, too.
+# For a test that defines operator new to count allocations: the thread sanitizer of clang has its
+# own, which cannot be replaced.
 function(armature_counts_allocations test)
   if(ARMATURE_SANITIZE STREQUAL thread)
-    target_link_options(${test} PRIVATE LINKER:-z,muldefs)
+    armature_leave_out(${test})
   endif()
+endfunction()
+
+# The test is neither built nor run in this build.
+function(armature_leave_out test)
+  set_target_properties(${test} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  set_tests_properties(${test} PROPERTIES LABELS unneeded)
 endfunction()
 
 # The executable alone, for a test that does not run on this machine's own kernel.
