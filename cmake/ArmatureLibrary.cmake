@@ -22,17 +22,25 @@ function(armature_test_options target)
 endfunction()
 
 # What nearly every test includes is read once, which halves what clang takes for a test; GCC gains
-# little. target_precompile_headers() would do it with paths of this checkout in the file, so that
-# ccache would not know it in the next one.
+# little. A precompiled header knows its source by the whole path, and ccache hands it to other
+# checkouts: so the source is one of the system's, not of this tree, which rules out
+# target_precompile_headers(), too.
 if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
-  set(ARMATURE_TEST_HEADERS CMakeFiles/armature_test_headers.dir/cmake/test_headers.cpp.o)
-  add_library(armature_test_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/test_headers.cpp)
+  find_path(ARMATURE_GMOCK_FOLDER gmock/gmock.h REQUIRED)
+  set(gmock ${ARMATURE_GMOCK_FOLDER}/gmock/gmock.h)
+  set_source_files_properties(${gmock} PROPERTIES LANGUAGE CXX)
+  add_library(armature_test_headers OBJECT ${gmock})
+  set(ARMATURE_TEST_HEADERS CMakeFiles/armature_test_headers.dir${gmock}.o)
   target_link_libraries(armature_test_headers PRIVATE GTest::gmock)
   armature_test_options(armature_test_headers)
-  set_target_properties(armature_test_headers PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  set_target_properties(armature_test_headers PROPERTIES POSITION_INDEPENDENT_CODE OFF LINKER_LANGUAGE CXX)
   target_compile_options(
     armature_test_headers PRIVATE -fPIE "SHELL:-x c++-header" -fpch-instantiate-templates
                                   "SHELL:-Xclang -emit-pch" "SHELL:-Xclang -fno-pch-timestamp")
+  foreach(header IN ITEMS algorithm array atomic chrono cmath filesystem fstream functional limits map
+                          memory optional random string string_view thread utility variant vector)
+    target_compile_options(armature_test_headers PRIVATE "SHELL:-include ${header}")
+  endforeach()
 endif()
 
 # Stops the configuration if `library` declares a use that layers.cmake does not allow.
