@@ -20,6 +20,8 @@ struct Unit {
   double factor = 1.0;  ///< value in base units = value * factor
 
   bool same_kind(const Unit& other) const { return powers == other.powers; }
+  /// A number in one is the same number in the other.
+  bool same_as(const Unit& other) const { return same_kind(other) && factor == other.factor; }
 };
 
 /// Reads a unit such as `ms`, `deg`, `V/rad`, `rad/s^2`, `N m`, `kg*m^2`; empty text is a plain

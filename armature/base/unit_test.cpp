@@ -103,6 +103,15 @@ TEST(Unit, KeepsDifferentKindsApart) {
   EXPECT_FALSE(same_kind("H", "h"));
 }
 
+TEST(Unit, IsTheSameIfANumberInItIs) {
+  const auto same = [](std::string_view a, std::string_view b) {
+    return parse_unit(a).value().same_as(parse_unit(b).value());
+  };
+  EXPECT_TRUE(same("N m", "kg m^2/s^2"));
+  EXPECT_FALSE(same("m", "mm"));
+  EXPECT_FALSE(same("rad/s", "Hz"));
+}
+
 TEST(Unit, IgnoresSpaceAroundItsParts) {
   EXPECT_EQ(convert(1, "  N  m / rad ", "Nm/rad").value(), 1);
   EXPECT_EQ(convert(1, "V / ( rad / s )", "V/(rad/s)").value(), 1);

@@ -2,8 +2,7 @@
 #include "armature/component/untyped.hpp"
 
 #include "armature/component/host.hpp"
-#include "armature/component/internal/arguments.hpp"
-#include "armature/component/operations/command_ticket.hpp"
+#include "armature/component/internal/sent_command.hpp"
 
 namespace armature::component {
 namespace {
@@ -23,14 +22,13 @@ UntypedEventHandler::UntypedEventHandler(Component& owner, std::string_view name
   apply(leads_to_nothing());
 }
 
-void UntypedEventHandler::listen(EventBase& event) { event.add_tap(tap_); }
+void UntypedEventHandler::listen(EventBase& event) { event.add_tap(*this); }
 
-void UntypedEventHandler::listen_no_more(EventBase& event) { event.remove_tap(tap_); }
+void UntypedEventHandler::listen_no_more(EventBase& event) { event.remove_tap(*this); }
 
-void UntypedEventHandler::Tap::event_raised(const void* const* arguments) noexcept {
-  Component& raiser = handler.source()->owner();
-  Host::call_out(raiser, handler.owner(),
-                 [&] { handler.handle_from(Host::context(raiser), arguments); });
+void UntypedEventHandler::event_raised(const void* const* arguments) noexcept {
+  Component& raiser = source()->owner();
+  Host::call_out(raiser, owner(), [&] { handle_from(Host::context(raiser), arguments); });
 }
 
 void UntypedEventHandler::handle_from(ExecutionContext& where,
@@ -39,15 +37,11 @@ void UntypedEventHandler::handle_from(ExecutionContext& where,
 }
 
 /// A command on its way there, and its end on the way back.
-class UntypedCommandCaller::Order final : public CommandTicket {
+class UntypedCommandCaller::Order final : public internal::SentCommand {
  public:
   Order(UntypedCommandCaller& caller, CommandBase& command)
-      : CommandTicket(&Order::deliver),
-        caller_(caller),
-        command_(command),
-        arguments_(command.signature()) {}
+      : SentCommand(command), caller_(caller) {}
 
-  void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
   void set_forgotten(bool forgotten) { forgotten_.store(forgotten, std::memory_order_release); }
   bool under_way() const { return stage() != CommandStage::kFree && !ended(); }
 
@@ -65,16 +59,8 @@ class UntypedCommandCaller::Order final : public CommandTicket {
     Reason reason;
   };
 
-  static void deliver(rt::Message& message) {
-    auto& order = static_cast<Order&>(message);
-    if (order.cancel_requested() || order.caller_.rests()) {
-      return order.end(CommandStage::kCancelled, "cancelled before it began");
-    }
-    static_cast<void>(order.command_.begin_from(&order, order.arguments_.places()));
-  }
+  bool is_called_off() const override { return cancel_requested() || caller_.rests(); }
   bool is_forgotten() const { return forgotten_.load(std::memory_order_acquire); }
-  ExecutionContext& executor() const override { return Host::context(command_.owner()); }
-  void cancel_now() override { command_.cancel(*this); }
   /// Whoever forgot it may be gone.
   void ending(CommandStage stage, const Reason& reason) override {
     if (is_forgotten()) return;
@@ -85,8 +71,6 @@ class UntypedCommandCaller::Order final : public CommandTicket {
   }
 
   UntypedCommandCaller& caller_;
-  CommandBase& command_;
-  internal::Arguments arguments_;
   std::atomic<bool> forgotten_{false};
   End end_{*this};
 };

@@ -20,7 +20,7 @@ namespace armature::component {
 
 /// Handles an event of any signature, and leads to nothing: what it is to cause is sent by message.
 /// In the raiser's thread it is told after the typed handlers.
-class UntypedEventHandler final : public EventHandlerBase {
+class UntypedEventHandler final : public EventHandlerBase, private EventTap {
  public:
   /// @param arguments  where they are, as the event's signature describes them
   using Function = void (*)(void* self, const void* const* arguments);
@@ -35,17 +35,11 @@ class UntypedEventHandler final : public EventHandlerBase {
   void listen_no_more(EventBase& event);
 
  private:
-  struct Tap final : EventTap {
-    explicit Tap(UntypedEventHandler& its_handler) : handler(its_handler) {}
-    void event_raised(const void* const* arguments) noexcept override;
-    UntypedEventHandler& handler;
-  };
-
+  void event_raised(const void* const* arguments) noexcept override;
   void handle_from(ExecutionContext& where, const void* const* arguments) noexcept override;
 
   Function function_;
   void* self_;
-  Tap tap_{*this};
 };
 
 /// The declared use of a command of any signature.

@@ -105,25 +105,25 @@ void Removals::apply(Document& document, Scopes& scopes, base::Diagnostics& diag
   const auto of_removed = [&](const Endpoint& end, const std::string& instance) {
     return components_.count(full_name(instance, end.component)) > 0;
   };
+  const auto by_name = [&](const std::string& name, const std::string& instance) {
+    for (std::size_t i = 0; i < named_.size(); ++i) {
+      if (named_[i].instance != instance || named_[i].what.name != name) continue;
+      found_named[i] = true;
+      return true;
+    }
+    return false;
+  };
   erase_both(document.connections, scopes.connections, [&](const auto& one, const auto& in) {
     for (std::size_t i = 0; i < connections_.size(); ++i) {
       if (connections_[i].instance != in || !same_ends(connections_[i].what, one)) continue;
       found[i] = true;
       return true;
     }
-    for (std::size_t i = 0; i < named_.size(); ++i) {
-      if (named_[i].instance != in || named_[i].what.name != one.name) continue;
-      found_named[i] = true;
-      return true;
-    }
+    if (by_name(one.name, in)) return true;
     return of_removed(one.from, in) || of_removed(one.to, in);
   });
   erase_both(document.named_connections, scopes.named_connections, [&](auto& one, const auto& in) {
-    for (std::size_t i = 0; i < named_.size(); ++i) {
-      if (named_[i].instance != in || named_[i].what.name != one.name) continue;
-      found_named[i] = true;
-      return true;
-    }
+    if (by_name(one.name, in)) return true;
     std::erase_if(one.ports, [&](const Endpoint& end) { return of_removed(end, in); });
     return one.ports.empty();
   });

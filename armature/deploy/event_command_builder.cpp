@@ -58,8 +58,7 @@ bool same_unit(std::string_view a, std::string_view b) {
   if (a == b) return true;
   const auto first = base::parse_unit(a);
   const auto second = base::parse_unit(b);
-  return first && second && first.value().same_kind(second.value()) &&
-         first.value().factor == second.value().factor;
+  return first && second && first.value().same_as(second.value());
 }
 
 std::string in_unit(const types::Type& type, std::string_view unit) {
@@ -98,9 +97,11 @@ const component::Component* EventCommandBuilder::component_of(const std::string&
 
 const component::EventBase* EventCommandBuilder::event_of(const Endpoint& end) const {
   const component::Component* const component = component_of(end.component);
-  if (component == nullptr || output_of(*component, end.port) != nullptr) return nullptr;
+  if (component == nullptr) return nullptr;
+  // Few have events, and many have thousands of outputs: the name of one is looked for last.
   for (const auto* event : component::interface_of(*component).events) {
-    if (event->name() == end.port) return event;
+    if (event->name() != end.port) continue;
+    return output_of(*component, end.port) == nullptr ? event : nullptr;
   }
   return nullptr;
 }
@@ -284,22 +285,27 @@ std::optional<exec::CommandParameter> EventCommandBuilder::given(const Wire& wir
 std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
     const Wire& wire, std::size_t index, std::size_t member, const base::Location& where) {
   const Signature& event = wire.event.signature();
-  const Signature& command = wire.command.signature();
   const NameAndUnit has = argument(event, member);
-  const NameAndUnit wants = argument(command, index);
-  const types::Type& given = *event.arguments[member].type;
-  const types::Type& wanted = *command.arguments[index].type;
-  if (types::same_type(given, wanted) && same_unit(has.unit, wants.unit)) {
-    Parameter made;
-    made.member = member;
-    return made;
-  }
-  diagnostics_.error(where,
-                     in_quotes(has.name) + " of " + path(wire.connection.from) + " is " +
-                         in_unit(given, has.unit) + ", but " + in_quotes(wants.name) + " of " +
-                         path(wire.connection.to) + " is " + in_unit(wanted, wants.unit),
-                     "give it a value of that type and unit in with");
-  return std::nullopt;
+  const Offer offer{in_quotes(has.name) + " of " + path(wire.connection.from),
+                    *event.arguments[member].type, has.unit, where,
+                    "give it a value of that type and unit in with"};
+  if (!fits(wire, index, offer)) return std::nullopt;
+  Parameter made;
+  made.member = member;
+  return made;
+}
+
+/// Its type and unit are those of the parameter.
+bool EventCommandBuilder::fits(const Wire& wire, std::size_t index, const Offer& offer) {
+  const NameAndUnit wants = argument(wire.command.signature(), index);
+  const types::Type& wanted = *wire.command.signature().arguments[index].type;
+  if (types::same_type(offer.type, wanted) && same_unit(offer.unit, wants.unit)) return true;
+  diagnostics_.error(offer.where,
+                     offer.what + " is " + in_unit(offer.type, offer.unit) + ", but " +
+                         in_quotes(wants.name) + " of " + path(wire.connection.to) + " is " +
+                         in_unit(wanted, wants.unit),
+                     offer.hint);
+  return false;
 }
 
 std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire& wire,
@@ -314,21 +320,14 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire&
         base::suggestion(port_name, member_names(component::interface_of(owner).outputs)));
     return std::nullopt;
   }
-  const NameAndUnit wants = argument(wire.command.signature(), index);
-  const types::Type& wanted = *wire.command.signature().arguments[index].type;
-  if (types::same_type(port->type(), wanted) && same_unit(port->unit(), wants.unit)) {
-    Parameter made;
-    made.from = From::kPort;
-    made.input = wants.name;
-    made.port = port;
-    return made;
-  }
-  diagnostics_.error(written.where,
-                     in_quotes(written.text) + " is " + in_unit(port->type(), port->unit()) +
-                         ", but " + in_quotes(wants.name) + " of " + path(wire.connection.to) +
-                         " is " + in_unit(wanted, wants.unit),
-                     "connect it to a component that converts it, and take that one's output");
-  return std::nullopt;
+  const Offer offer{in_quotes(written.text), port->type(), std::string(port->unit()), written.where,
+                    "connect it to a component that converts it, and take that one's output"};
+  if (!fits(wire, index, offer)) return std::nullopt;
+  Parameter made;
+  made.from = From::kPort;
+  made.input = argument(wire.command.signature(), index).name;
+  made.port = port;
+  return made;
 }
 
 bool EventCommandBuilder::make(Wire&& wire) {

@@ -30,21 +30,14 @@ class Resolver {
     for (Composite& composite : document.composites) {
       if (names.contains(composite.name)) composites_[composite.name] = &composite;
     }
-    for (const Component& component : document.components) {
-      std::string owner = names.parent_of(component.name);
-      for (; !owner.empty(); owner = names.parent_of(owner)) {
-        parts_[owner].push_back(component.name.substr(owner.size() + 1));
-      }
-    }
+    for (const Component& component : document.components) add_part(component.name);
   }
 
   /// What gives a command is a part of the composite whose connection it is.
   void name_part(Connection& connection, const std::string& scope) {
     if (connection.name.empty()) return;
     connection.name = full_name(scope, connection.name);
-    for (std::string owner = scope; !owner.empty(); owner = names_.parent_of(owner)) {
-      parts_[owner].push_back(connection.name.substr(owner.size() + 1));
-    }
+    add_part(connection.name);
   }
 
   /// Innermost first, so that an export of an export leads to a component.
@@ -96,6 +89,14 @@ class Resolver {
   }
 
  private:
+  /// Of all composites that it is in.
+  void add_part(const std::string& name) {
+    std::string owner = names_.parent_of(name);
+    for (; !owner.empty(); owner = names_.parent_of(owner)) {
+      parts_[owner].push_back(name.substr(owner.size() + 1));
+    }
+  }
+
   void resolve_parameter(Value& value, const std::string& scope) {
     if (value.kind != Value::Kind::kText || value.literal) return;
     auto [component, port] = split_last_dot(value.text);

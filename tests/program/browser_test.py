@@ -21,18 +21,10 @@ import unittest
 
 PROGRAM, EXAMPLES = sys.argv[1:3]
 WAVE = os.path.join(EXAMPLES, "02_ports_and_triggers", "wave.yaml")
-OPENED = """application: quiet
-libraries: [wave, record]
+QUIET = os.path.join(os.path.dirname(os.path.abspath(__file__)), "quiet.yaml")
+PROMPT = f"""include: {QUIET}
 components:
-  Filter: {model: LowPass, activity: sequential, properties: {Weight: 0.5}}
-  Watcher: {model: Watcher, activity: {periodic: 200 ms}}
-connections:
-  - Filter.Filtered -> Watcher.Value
-operator_inputs: [Filter.Raw]
-"""
-PROMPT = """include: quiet.yaml
-components:
-  TaskBrowser: {model: TaskBrowser}
+  TaskBrowser: {{model: TaskBrowser}}
 """
 ESCAPES = re.compile(rb"\r\x1b\[[0-9]+G|\x1b\[[0-9;?]*[A-Za-z]|\x1b[()=>][B0]?|\x0f")
 LONG = 30.0
@@ -151,7 +143,7 @@ class InputsOfTheOperator(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
-        self.deployment = self.file("quiet.yaml", OPENED)
+        self.deployment = QUIET
 
     def file(self, name, text):
         path = os.path.join(self.folder, name)
@@ -280,11 +272,10 @@ class AtATerminal(unittest.TestCase):
         terminal.leave()
 
     def test_a_task_browser_in_the_deployment_opens_the_prompt(self):
-        for name, text in (("quiet.yaml", OPENED), ("prompt.yaml", PROMPT)):
-            with open(os.path.join(self.folder.name, name), "w", encoding="utf-8") as file:
-                file.write(text)
-        terminal = self.browse(
-            "--sim", deployment=os.path.join(self.folder.name, "prompt.yaml"), browse=False)
+        deployment = os.path.join(self.folder.name, "prompt.yaml")
+        with open(deployment, "w", encoding="utf-8") as file:
+            file.write(PROMPT)
+        terminal = self.browse("--sim", deployment=deployment, browse=False)
         terminal.type("Filter.Raw = 1\rFilter.Filtered\r")
         terminal.expect("0.5 rad")
         terminal.leave()

@@ -29,16 +29,8 @@ components:
   Lift: {model: Lift, activity: {periodic: 10 ms}, properties: {Top: 3 m, Speed: 1 m/s}}
 network: {%s}
 """
-OPENED = """application: quiet
-libraries: [wave]
-components:
-  Filter: {model: LowPass, activity: sequential, properties: {Weight: 0.5}}
-  Watcher: {model: Watcher, activity: {periodic: 200 ms}}
-connections:
-  - Filter.Filtered -> Watcher.Value
-operator_inputs: [Filter.Raw]
-network: {%s}
-"""
+QUIET = os.path.join(os.path.dirname(os.path.abspath(__file__)), "quiet.yaml")
+OPENED = f"include: {QUIET}\nnetwork: {{%s}}\n"
 ALL = "allow local read,command,configure *\n"
 
 

@@ -6,7 +6,7 @@
 
 #include "armature/component/black_box.hpp"
 #include "armature/component/host.hpp"
-#include "armature/component/internal/arguments.hpp"
+#include "armature/component/internal/sent_command.hpp"
 #include "armature/component/internal/waiting_commands.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/component/operations/command_ticket.hpp"
@@ -283,28 +283,9 @@ void CommandHandle::cancel() {
   if (sent()) ticket_->request_cancel();
 }
 
-/// Of a command that a component sends; it carries the arguments there.
-class CommandCallerBase::SentTicket final : public CommandTicket {
+class CommandCallerBase::SentTicket final : public internal::SentCommand {
  public:
-  explicit SentTicket(CommandBase& command)
-      : CommandTicket(&SentTicket::deliver), command_(command), arguments_(command.signature()) {}
-
-  void set_arguments(const void* const* arguments) { arguments_.assign(arguments); }
-
- private:
-  static void deliver(rt::Message& message) {
-    auto& ticket = static_cast<SentTicket&>(message);
-    if (ticket.cancel_requested()) {
-      ticket.end(CommandStage::kCancelled, "cancelled before it began");
-      return;
-    }
-    static_cast<void>(ticket.command_.begin_from(&ticket, ticket.arguments_.places()));
-  }
-  ExecutionContext& executor() const override { return Host::context(command_.owner()); }
-  void cancel_now() override { command_.cancel(*this); }
-
-  CommandBase& command_;
-  internal::Arguments arguments_;
+  using SentCommand::SentCommand;
 };
 
 void CommandCallerBase::LetGo::operator()(SentTicket* ticket) const { ticket->release(); }

@@ -49,6 +49,15 @@ class EventCommandBuilder {
     std::vector<Parameter> parameters;
   };
 
+  /// What is given for a parameter, as messages name it, and what to do if it does not fit.
+  struct Offer {
+    std::string what;
+    const types::Type& type;
+    std::string unit;
+    base::Location where;
+    const char* hint;
+  };
+
   const component::Component* component_of(const std::string& name) const;
   const component::EventBase* event_of(const Endpoint& end) const;
   const component::CommandBase* command_of(const Connection& connection);
@@ -64,6 +73,7 @@ class EventCommandBuilder {
   std::optional<Parameter> from_member(const Wire& wire, std::size_t index, std::size_t member,
                                        const base::Location& where);
   std::optional<Parameter> from_port(const Wire& wire, std::size_t index, const Value& written);
+  bool fits(const Wire& wire, std::size_t index, const Offer& offer);
   bool make(Wire&& wire);
 
   exec::Blueprint& blueprint_;

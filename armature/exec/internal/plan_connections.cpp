@@ -132,8 +132,7 @@ class ConnectionPlanner {
     if (output.unit() == input.unit()) return true;
     const auto from = base::parse_unit(output.unit());
     const auto to = base::parse_unit(input.unit());
-    const bool same = from && to && from.value().same_kind(to.value()) &&
-                      from.value().factor == to.value().factor;
+    const bool same = from && to && from.value().same_as(to.value());
     if (same) return true;
     diagnostics_.error(
         entry.where,
