@@ -254,8 +254,8 @@ class Checker {
     if (module != nullptr && current_->count(*module) > 0) return;
     // Behind a mistake in a definition its name is unknown, and there would be no end of it.
     if (!complete_) return;
-    std::string hint = module != nullptr ? "import \"" + *module + ".idl\", which defines it"
-                                         : base::suggestion(name, names_[kind]);
+    base::Hint hint = module != nullptr ? "import \"" + *module + ".idl\", which defines it"
+                                        : base::suggestion(name, names_[kind]);
     for (const std::string other : {"struct", "event", "enum"}) {
       if (module != nullptr || module_of(name, other) == nullptr) continue;
       hint = in_quotes(name) + " is defined as " + other;

@@ -96,11 +96,11 @@ std::string TokenReader::shown(const Token& token) {
   return "'" + std::string(token.text) + "'";
 }
 
-void TokenReader::error(const Token& token, std::string message, std::string hint) {
+void TokenReader::error(const Token& token, std::string message, base::Hint hint) {
   diagnostics_.error(where(token), std::move(message), std::move(hint));
 }
 
-void TokenReader::fail(const Token& token, std::string message, std::string hint) {
+void TokenReader::fail(const Token& token, std::string message, base::Hint hint) {
   error(token, std::move(message), std::move(hint));
   throw Mistake{};
 }

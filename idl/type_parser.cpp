@@ -147,7 +147,7 @@ Type TypeParser::unknown(const std::string& of_what) {
   if (token.kind != Token::Kind::kWord || is_word_of_the_language(token.text)) {
     reader_.fail(token, "expected the type of " + of_what + ", found " + TokenReader::shown(token));
   }
-  std::string hint;
+  base::Hint hint;
   std::vector<std::string> known(structs_);
   known.insert(known.end(), enums_.begin(), enums_.end());
   for (const Basic basic : kWords) known.emplace_back(name_of(basic));

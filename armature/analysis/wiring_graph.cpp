@@ -204,9 +204,8 @@ base::Result<std::vector<std::string>> components_named(const std::string& text,
         range ? text.substr(0, range->begin) + std::to_string(number) + text.substr(range->end)
               : text;
     if (std::ranges::find(known, name) == known.end()) {
-      const std::string near = base::suggestion(name, known);
       return base::Error{"--only: unknown component '" + name + "'" +
-                         (near.empty() ? "" : " (" + near + ")")};
+                         base::suggestion_in_brackets(name, known)};
     }
     names.push_back(name);
   }

@@ -102,6 +102,12 @@ std::string to_text(const Likewise& likewise) {
   return named ? others + ", " + likewise.first + " to " + likewise.last : others;
 }
 
+Diagnostic finding(Severity severity, Location where, std::string message, Hint hint) {
+  Diagnostic found{severity, std::move(where), std::move(message), std::move(hint.text)};
+  found.fix = std::move(hint.fix);
+  return found;
+}
+
 }  // namespace
 
 std::string to_text(const Diagnostic& diagnostic) {
@@ -116,17 +122,18 @@ std::string to_text(const Diagnostic& diagnostic) {
   return visible_text(text);
 }
 
-void Diagnostics::error(Location where, std::string message, std::string hint) {
-  add({Severity::kError, std::move(where), std::move(message), std::move(hint)});
+void Diagnostics::error(Location where, std::string message, Hint hint) {
+  add(finding(Severity::kError, std::move(where), std::move(message), std::move(hint)));
 }
 
-void Diagnostics::warning(Location where, std::string message, std::string hint) {
-  add({Severity::kWarning, std::move(where), std::move(message), std::move(hint)});
+void Diagnostics::warning(Location where, std::string message, Hint hint) {
+  add(finding(Severity::kWarning, std::move(where), std::move(message), std::move(hint)));
 }
 
 void Diagnostics::named_warning(std::string_view name, Location where, std::string message,
-                                std::string hint) {
-  Diagnostic warning{Severity::kWarning, std::move(where), std::move(message), std::move(hint)};
+                                Hint hint) {
+  Diagnostic warning =
+      finding(Severity::kWarning, std::move(where), std::move(message), std::move(hint));
   warning.name = name;
   add(std::move(warning));
 }
@@ -139,12 +146,13 @@ bool Diagnostics::accept(std::string_view name) {
     one.severity = Severity::kNote;
     one.message = "accepted: " + one.message;
     one.hint.clear();
+    one.fix.reset();
   }
   return found;
 }
 
-void Diagnostics::note(Location where, std::string message, std::string hint) {
-  add({Severity::kNote, std::move(where), std::move(message), std::move(hint)});
+void Diagnostics::note(Location where, std::string message, Hint hint) {
+  add(finding(Severity::kNote, std::move(where), std::move(message), std::move(hint)));
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {

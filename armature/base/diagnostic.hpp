@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
+
+#include "armature/base/hint.hpp"
 
 namespace armature::base {
 
@@ -33,11 +36,12 @@ struct Likewise {
 struct Diagnostic {
   Severity severity = Severity::kError;
   Location where;
-  std::string message;      ///< names the object, what was found and what was expected
-  std::string hint;         ///< how to mend it; may be empty
-  Likewise likewise = {};   ///< for which others it stands
-  std::size_t unshown = 0;  ///< how many more there are that are not kept
-  std::string name = {};    ///< of a warning that may be accepted: `priority_inversion`
+  std::string message;                  ///< names the object, what was found and what was expected
+  std::string hint;                     ///< how to mend it; may be empty
+  Likewise likewise = {};               ///< for which others it stands
+  std::size_t unshown = 0;              ///< how many more there are that are not kept
+  std::string name = {};                ///< of a warning that may be accepted: `priority_inversion`
+  std::optional<Replacement> fix = {};  ///< what the hint says, for tools
 };
 
 /// `file:line:column: warning: message [name] (hint)`; parts that are unknown are left out.
@@ -51,12 +55,11 @@ class Diagnostics {
   static constexpr std::size_t kMostOfAKind = 100;
   static constexpr std::size_t kMost = 1000;
 
-  void error(Location where, std::string message, std::string hint = {});
-  void warning(Location where, std::string message, std::string hint = {});
+  void error(Location where, std::string message, Hint hint = {});
+  void warning(Location where, std::string message, Hint hint = {});
   /// A warning that a deployment may accept by its name, for what it means to do.
-  void named_warning(std::string_view name, Location where, std::string message,
-                     std::string hint = {});
-  void note(Location where, std::string message, std::string hint = {});
+  void named_warning(std::string_view name, Location where, std::string message, Hint hint = {});
+  void note(Location where, std::string message, Hint hint = {});
   void add(Diagnostic diagnostic);
   void append(const Diagnostics& others);
   /// Adds it if one at its place differs in numbers only; else it is left out.

@@ -56,11 +56,15 @@ std::string near_name(std::string_view name, const std::vector<std::string>& can
   return best;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
+Hint near_hint(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string near = near_name(name, candidates);
+  if (near.empty()) return {};
+  return {"did you mean '" + near + "'?", {std::string(name), near}};
+}
+
+Hint suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   constexpr std::size_t kMostListed = 8;
-  if (const std::string near = near_name(name, candidates); !near.empty()) {
-    return "did you mean '" + near + "'?";
-  }
+  if (Hint near = near_hint(name, candidates); !near.empty()) return near;
   if (candidates.empty() || candidates.size() > kMostListed) return {};
   std::string text = "known:";
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -71,7 +75,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
 
 std::string suggestion_in_brackets(std::string_view name,
                                    const std::vector<std::string>& candidates) {
-  const std::string text = suggestion(name, candidates);
+  const std::string text = suggestion(name, candidates).text;
   return text.empty() ? text : " (" + text + ")";
 }
 

@@ -32,17 +32,21 @@ TEST(NearName, IsEmptyWithoutCandidates) { EXPECT_EQ(near_name("act", {}), ""); 
 TEST(NearName, AcceptsAnEmptyName) { EXPECT_EQ(near_name("", kPorts), ""); }
 
 TEST(Suggestion, AsksForTheNearName) {
-  EXPECT_EQ(suggestion("positon", kPorts), "did you mean 'position'?");
+  const Hint hint = suggestion("positon", kPorts);
+  EXPECT_EQ(hint.text, "did you mean 'position'?");
+  EXPECT_EQ(hint.fix, (Replacement{"positon", "position"}));
 }
 
 TEST(Suggestion, ListsAFewKnownNames) {
-  EXPECT_EQ(suggestion("torque", kPorts), "known: reference, position, velocity, act");
+  const Hint hint = suggestion("torque", kPorts);
+  EXPECT_EQ(hint.fix, std::nullopt);
+  EXPECT_EQ(hint.text, "known: reference, position, velocity, act");
 }
 
 TEST(Suggestion, SaysNothingRatherThanListManyNames) {
   const std::vector<std::string> nine(9, "reference");
-  EXPECT_EQ(suggestion("torque", nine), "");
-  EXPECT_EQ(suggestion("torque", {}), "");
+  EXPECT_EQ(suggestion("torque", nine).text, "");
+  EXPECT_EQ(suggestion("torque", {}).text, "");
   EXPECT_EQ(suggestion_in_brackets("torque", nine), "");
 }
 

@@ -155,7 +155,7 @@ std::string hint_for(std::string_view unknown) {
   std::vector<std::string> known{"ms", "us", "ns", "kHz",  "mm", "cm", "um",
                                  "km", "kg", "kN", "mrad", "mV", "mA"};
   for (const Symbol& symbol : kSymbols) known.emplace_back(symbol.text);
-  return suggestion(unknown, known);
+  return suggestion(unknown, known).text;
 }
 
 /// Reads one unit: products by space, `*` or `·`, quotients, powers and parentheses.

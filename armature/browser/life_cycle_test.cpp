@@ -50,6 +50,9 @@ class SlowRobot final : public inspect::View {
     if (component == "Hardware") states["Reader"] = State::kStopped;
     return status_of(component);
   }
+  exec::Pace pace() override { return {}; }
+  exec::Pace set_pace(const exec::Pace& pace) override { return pace; }
+  exec::Pace step() override { return {}; }
 
   std::map<std::string, State> states{{"Reader", State::kStopped},
                                       {"Hardware", State::kPreOperational},

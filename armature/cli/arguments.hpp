@@ -33,6 +33,7 @@ struct LoadArguments {
 struct RunArguments {
   LoadArguments load;
   bool simulated = false;
+  double rate = exec::kAsFastAsPossible;  ///< of simulated time
   std::optional<base::Duration> duration;
   exec::RealtimeMode realtime = exec::RealtimeMode::kPrefer;
   std::optional<rt::GuardMode> guard;

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "armature/cli/check_service.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/exec/plan.hpp"
+#include "armature/inspect/checked_json.hpp"
+#include "armature/platform/file.hpp"
 
 namespace armature::cli {
 namespace {
@@ -15,12 +22,53 @@ struct CheckArguments {
   LoadArguments load;
   bool order = false;
   bool load_table = false;
+  bool json = false;
+  bool serve = false;
 };
 
-int check(const CheckArguments& arguments, const Console& console) {
+/// Loads as `check` does, with what the deployment says of the network.
+deploy::Deployment load_for_check(const LoadArguments& arguments, const Console& console,
+                                  deploy::FileReader read = {}) {
   NetworkOnDemand network(console);
-  deploy::Deployment deployment = load(arguments.load, network);
+  deploy::Deployment deployment = load(arguments, network, std::move(read));
   network.check(deployment.document, deployment.diagnostics);
+  return deployment;
+}
+
+int print_json(const deploy::Deployment& deployment, const std::string& file,
+               const Console& console) {
+  inspect::CheckedForm form;
+  form.text_of = [](const std::string& path) -> std::optional<std::string> {
+    auto text = platform::read_file(path);
+    return text ? std::optional(std::move(text.value())) : std::nullopt;
+  };
+  console.print(inspect::checked_as_json(
+      {file, deployment.diagnostics, deployment.blueprint, deployment.plan}, form));
+  return deployment.ok() ? kDone : kFailed;
+}
+
+/// Answers until its input ends.
+int serve(const CheckArguments& arguments, const Console& console) {
+  CheckService service(arguments.load.library_folders,
+                       [&](const LoadArguments& load, deploy::FileReader read) {
+                         return load_for_check(load, console, std::move(read));
+                       });
+  std::string line;
+  while (std::getline(std::cin, line)) {
+    console.print(service.answer(line));
+    std::fflush(stdout);
+  }
+  return kDone;
+}
+
+int check(const CheckArguments& arguments, const Console& console) {
+  if (arguments.serve) return serve(arguments, console);
+  if (arguments.load.file.empty()) {
+    console.say(rt::LogLevel::kError, "file is required; armature check --help says more");
+    return kWrongUse;
+  }
+  const deploy::Deployment deployment = load_for_check(arguments.load, console);
+  if (arguments.json) return print_json(deployment, arguments.load.file, console);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) {
     const std::size_t errors = deployment.diagnostics.error_count();
@@ -47,6 +95,11 @@ void add_check(const CommandLine& to) {
   add_load_options(*command, arguments->load);
   command->add_flag("--order", arguments->order, "prints which thread runs what, in which order");
   command->add_flag("--load", arguments->load_table, "prints the load of each thread");
+  command->add_flag("--json", arguments->json, "prints all that is known, for machines");
+  CLI::Option* const serve =
+      command->add_flag("--serve", arguments->serve,
+                        "answers an editor: requests in JSON, a line each, on standard input");
+  command->get_option("file")->required(false)->excludes(serve);
 }
 
 }  // namespace armature::cli

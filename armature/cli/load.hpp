@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
+
 #include "armature/cli/arguments.hpp"
 #include "armature/cli/network.hpp"
 #include "armature/deploy/deployment.hpp"
@@ -9,8 +11,11 @@ namespace armature::cli {
 
 /// Loads and checks the deployment that a command was given.
 /// @param network  for what lives in other processes, or is open to them
-inline deploy::Deployment load(const LoadArguments& arguments, NetworkOnDemand& network) {
+/// @param read     of its files; empty: from disk
+inline deploy::Deployment load(const LoadArguments& arguments, NetworkOnDemand& network,
+                               deploy::FileReader read = {}) {
   deploy::DeploymentOptions options;
+  options.document.read = std::move(read);
   options.make_placeholder = network.placeholders();
   options.make_inlets = network.inlets();
   options.document.overrides = arguments.overrides;

@@ -5,8 +5,8 @@
 
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
+#include "armature/cli/libraries.hpp"
 #include "armature/cli/output.hpp"
-#include "armature/deploy/loader.hpp"
 #include "armature/inspect/model_catalogue.hpp"
 
 namespace armature::cli {
@@ -20,14 +20,7 @@ struct ModelsArguments {
 };
 
 int models(const ModelsArguments& arguments, const Console& console) {
-  component::Registry registry;
-  base::Diagnostics diagnostics;
-  const std::vector<std::string> folders = deploy::library_folders(arguments.library_folders, "./");
-  std::vector<std::string> names = arguments.libraries;
-  if (names.empty()) names = deploy::available_libraries(folders);
-  std::vector<document::Reference> libraries;
-  for (const std::string& name : names) libraries.push_back({name, {}});
-  deploy::load_libraries(libraries, folders, registry, diagnostics);
+  const auto [registry, diagnostics] = models_of(arguments.libraries, arguments.library_folders);
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
   if (arguments.json) {

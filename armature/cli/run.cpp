@@ -184,6 +184,7 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
                                     const Console& console, report::RunFacts& facts) {
   exec::ApplicationOptions options = std::move(deployment.options);
   options.simulated = arguments.simulated;
+  options.pace.rate = arguments.rate;
   options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
   options.output_folder = arguments.output_folder;
   options.log = [&](const rt::LogRecord& record) {

@@ -48,7 +48,14 @@ void add_run(const CommandLine& to) {
   const auto options = std::make_shared<RunOptions>();
   RunArguments& run = options->run;
   add_load_options(*command, run.load);
-  command->add_flag("--sim", run.simulated, "runs in simulated time, as fast as possible");
+  CLI::Option* const simulated =
+      command->add_flag("--sim", run.simulated, "runs in simulated time, as fast as possible");
+  command
+      ->add_option("--pace", run.rate,
+                   "simulated seconds in a second: 1 is real time, 0.1 a tenth of it")
+      ->type_name("RATE")
+      ->check(CLI::PositiveNumber)
+      ->needs(simulated);
   command
       ->add_option_function<std::string>(
           "--for",

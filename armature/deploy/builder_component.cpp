@@ -209,7 +209,7 @@ void ComponentBuilder::report_unknown_model(const Component& written) {
   const bool may_be_missing =
       options_.models_missing && base::near_name(written.model, model_names_).empty();
   if (may_be_missing) return;
-  std::string hint = base::suggestion(written.model, model_names_);
+  base::Hint hint = base::suggestion(written.model, model_names_);
   if (hint.empty()) hint = "list its library under libraries:";
   diagnostics_.error(
       written.model_where,

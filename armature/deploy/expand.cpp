@@ -48,9 +48,9 @@ std::vector<std::string> names_of(const std::vector<Property>& properties) {
 const Value* find_parameter(std::string_view name, const Scope& scope, const base::Location& where,
                             base::Diagnostics& diagnostics) {
   if (const Property* found = find(scope.parameters, name)) return &found->value;
-  const std::string hint = scope.parameters.empty()
-                               ? "declare it under parameters:"
-                               : base::suggestion(name, names_of(scope.parameters));
+  const base::Hint hint = scope.parameters.empty()
+                              ? "declare it under parameters:"
+                              : base::suggestion(name, names_of(scope.parameters));
   diagnostics.error(where, scope.owner + " has no parameter " + in_quotes(name), hint);
   return nullptr;
 }

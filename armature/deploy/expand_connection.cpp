@@ -73,10 +73,10 @@ void refuse_pattern(const Value& end, const RangesByPattern& ranges,
   std::vector<std::string> known;
   for (const auto& [name, all] : ranges) known.push_back(name);
   const auto pattern = pattern_of(end.text);
-  const std::string near = pattern ? base::near_name(pattern->name, known) : "";
+  base::Hint hint = pattern ? base::near_hint(pattern->name, known) : base::Hint();
+  if (hint.empty()) hint = "write a range, for example {1..3}, in place of {i}";
   diagnostics.error(end.where, "connection: {i} in " + in_quotes(end.text) + " has no range",
-                    near.empty() ? "write a range, for example {1..3}, in place of {i}"
-                                 : "did you mean '" + near + "'?");
+                    std::move(hint));
 }
 
 /// Where the components that the ends name with `{i}` all exist.

@@ -171,11 +171,11 @@ std::vector<Property> take_overrides(std::vector<Override>& overrides, std::stri
 void refuse_parameter(const Document& document, const Override& setting,
                       const std::vector<std::string>& known, base::Diagnostics& diagnostics) {
   const std::string form = "properties are set as Component.Property=value";
-  std::string hint = base::suggestion(setting.path, known);
+  base::Hint hint = base::suggestion(setting.path, known);
   if (const std::string owner = owner_of(document, setting.path); !owner.empty()) {
     hint = form + ", here " + owner + "." + setting.path + "=" + to_text(setting.value);
   } else if (base::near_name(setting.path, known).empty()) {
-    hint += (hint.empty() ? "" : "; ") + form;
+    hint.text += (hint.empty() ? "" : "; ") + form;
   }
   diagnostics.error(setting.value.where, "the document has no parameter " + in_quotes(setting.path),
                     std::move(hint));

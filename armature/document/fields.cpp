@@ -54,7 +54,7 @@ std::vector<const Value*> items_of(const Value* value) {
 }
 
 void ValueReader::error(const base::Location& where, std::string_view message,
-                        std::string hint) const {
+                        base::Hint hint) const {
   diagnostics_.error(where, owner_ + ": " + std::string(message), std::move(hint));
 }
 
@@ -131,10 +131,9 @@ void ValueReader::refuse_name(const Value& value, std::string_view what,
 
 void ValueReader::refuse_choice(const Value& value, std::string_view what, const std::string& found,
                                 const std::vector<std::string>& known) const {
-  const std::string near = base::near_name(found, known);
   error(value.where,
         std::string(what) + " must be " + base::alternatives(known) + ", found " + in_quotes(found),
-        near.empty() ? "" : "did you mean '" + near + "'?");
+        base::near_hint(found, known));
 }
 
 Fields::Fields(const Value& value, const ValueReader& reader, Empty empty)

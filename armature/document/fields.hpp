@@ -68,7 +68,7 @@ class ValueReader {
     return named;
   }
 
-  void error(const base::Location& where, std::string_view message, std::string hint = {}) const;
+  void error(const base::Location& where, std::string_view message, base::Hint hint = {}) const;
   base::Diagnostics& diagnostics() const { return diagnostics_; }
   const std::string& owner() const { return owner_; }
 

@@ -185,7 +185,7 @@ class Filler {
     std::size_t outside_;
   };
 
-  bool fail(const base::Location& where, const std::string& problem, std::string hint = {}) {
+  bool fail(const base::Location& where, const std::string& problem, base::Hint hint = {}) {
     std::string subject(subject_);
     if (!path_.empty()) subject += ", part " + in_quotes(path_);
     diagnostics_.error(where, subject + ": " + problem, std::move(hint));

@@ -142,13 +142,12 @@ std::optional<NamedConnection> read_named(const Value* name, const Value& ports,
 }
 
 /// The other name that a mistyped one was probably meant to be.
-std::string other_name_hint(const std::string& name, const std::vector<NamedConnection>& all) {
+base::Hint other_name_hint(const std::string& name, const std::vector<NamedConnection>& all) {
   std::vector<std::string> others;
   for (const NamedConnection& one : all) {
     if (one.name != name) others.push_back(one.name);
   }
-  const std::string near = base::near_name(name, others);
-  return near.empty() ? "" : "did you mean '" + near + "'?";
+  return base::near_hint(name, others);
 }
 
 void check_named(NamedConnection& connection, const std::vector<NamedConnection>& all,

@@ -200,6 +200,25 @@ RunEnd Application::run_until(base::Time end, const std::function<bool()>& condi
   return parts_->loop.run_until(end, condition, stop);
 }
 
+Pace Application::pace() const { return parts_->loop.pace(); }
+
+base::Result<void> Application::set_pace(const Pace& pace) {
+  if (!parts_->options.simulated) {
+    return base::Error{"real time has no pace: only a simulated run can be slowed down or paused"};
+  }
+  if (!(pace.rate > 0.0)) {
+    return base::Error{"the pace is a number above 0: 1 is real time, 0.1 a tenth of it"};
+  }
+  parts_->loop.set_pace(pace);
+  return {};
+}
+
+base::Result<void> Application::step() {
+  if (!pace().paused) return base::Error{"only paused simulated time goes on by steps"};
+  parts_->loop.step();
+  return {};
+}
+
 base::Diagnostics Application::run_before_stop(RunEnd end, const platform::StopSignal* stop,
                                                Leave leave) {
   return parts_->before_stop.run_commands(end, stop, leave);

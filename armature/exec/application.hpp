@@ -52,6 +52,15 @@ class Application final {
   RunEnd run_until(base::Time end, const std::function<bool()>& condition,
                    const platform::StopSignal* stop = nullptr);
 
+  /// How simulated time passes: as `ApplicationOptions::pace` says at the start. A pause holds up
+  /// time, not those who ask: tools are answered, signals end the run.
+  Pace pace() const;
+  /// Refused in real time, and for a rate that is not above 0.
+  base::Result<void> set_pace(const Pace& pace);
+  /// Of a pause: goes to the next instant at which something is due, and does all of it. Refused
+  /// unless simulated time is paused.
+  base::Result<void> step();
+
   /// Cancels what is under way, so that it comes to rest, and lets it run on for the commands of
   /// `before_stop`, as the operator's and one after the other: not after a fault or a reaction, nor
   /// those of a component that holds nothing. Another signal cuts it short.

@@ -142,6 +142,13 @@ TEST_P(BeforeStop, ItsCommandsAreDoneOneAfterTheOther) {
   EXPECT_EQ(steps_gone("Right"), 5);
 }
 
+TEST_P(BeforeStop, APauseOfSimulatedTimeEndsWithTheRun) {
+  const bool paused = application_->set_pace({.paused = true}).ok();
+  EXPECT_EQ(paused, GetParam()) << "real time cannot be paused";
+  EXPECT_EQ(finish(), "");
+  EXPECT_EQ(steps_gone("Right"), 5);
+}
+
 TEST_P(BeforeStop, WhatIsUnderWayIsCancelledFirst) {
   set("Left", "holds", Value::of(true));
   auto before = application_->begin("Left", "home", {});

@@ -9,6 +9,7 @@
 
 #include "armature/base/time.hpp"
 #include "armature/exec/black_box.hpp"
+#include "armature/exec/pace.hpp"
 #include "armature/exec/timeline.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/types/enum.hpp"
@@ -56,6 +57,7 @@ struct CommandName {
 struct ApplicationOptions {
   RealtimeMode realtime = RealtimeMode::kOff;
   bool simulated = false;
+  Pace pace;  ///< of simulated time
   OnFault on_fault = OnFault::kStopDependents;
   std::vector<Grant> grants;
   std::vector<CommandName> before_stop;                        ///< for `run_before_stop`

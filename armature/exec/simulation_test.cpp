@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <csignal>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/exec/internal/test_components.hpp"
+#include "armature/platform/stop_signal.hpp"
 
 namespace armature::exec {
 namespace {
@@ -171,6 +176,80 @@ TEST(Simulation, AThousandIdleThreadsAndComponentsAreLeftAlone) {
   for (const ThreadStatistics& thread : application.thread_statistics()) {
     EXPECT_EQ(thread.cycles_run, thread.name == "Busy" ? 1000u : 0u);
   }
+}
+
+/// A run of two threads whose tools are asked at each `attend`.
+class PacedSimulation : public testing::Test {
+ protected:
+  void start(const Pace& pace) {
+    scene_.add("Fast", Activity::periodic(1ms));
+    scene_.add("Slow", Activity::periodic(3ms));
+    ApplicationOptions options = patient(true);
+    options.pace = pace;
+    options.attend = [this] {
+      ++attended_;
+      if (tool_) tool_();
+    };
+    application_.emplace(std::move(scene_.blueprint), std::move(options));
+    ASSERT_TRUE(application_->start().ok());
+  }
+
+  Scene scene_;
+  int attended_ = 0;
+  std::function<void()> tool_;
+  std::optional<Application> application_;
+};
+
+TEST_F(PacedSimulation, DoesWhatAFastOneDoes) {
+  start({.rate = 50.0});
+  EXPECT_EQ(application_->run_for(3ms), RunEnd::kTimeUp);
+  EXPECT_THAT(scene_.journal.take(), ElementsAre("Fast 1", "Fast 2", "Fast 3", "Slow 3"));
+}
+
+TEST_F(PacedSimulation, PausedTimePassesByStepsOnlyAndToolsAreAttendedTo) {
+  start({.paused = true});
+  tool_ = [this] {
+    if (attended_ == 10) EXPECT_THAT(scene_.journal.take(), ElementsAre());
+    if (attended_ == 10 || attended_ == 20) EXPECT_TRUE(application_->step());
+    if (attended_ == 30) {
+      EXPECT_EQ(application_->now(), at(2ms));
+      EXPECT_THAT(scene_.journal.take(), ElementsAre("Fast 1", "Fast 2"));
+      EXPECT_TRUE(application_->set_pace({}));
+    }
+  };
+  EXPECT_EQ(application_->run_for(4ms), RunEnd::kTimeUp);
+  EXPECT_THAT(scene_.journal.take(), ElementsAre("Fast 3", "Slow 3", "Fast 4"));
+  EXPECT_GE(attended_, 30);
+}
+
+TEST_F(PacedSimulation, ValuesOfAPausedApplicationAreReadAndSet) {
+  start({.paused = true});
+  tool_ = [this] {
+    if (attended_ != 3) return;
+    EXPECT_TRUE(application_->stop_component("Slow"));
+    EXPECT_EQ(application_->find("Slow")->state(), State::kStopped);
+    EXPECT_TRUE(application_->set_pace({}));
+  };
+  application_->run_for(3ms);
+  EXPECT_THAT(scene_.journal.take(), ElementsAre("Fast 1", "Fast 2", "Fast 3"));
+}
+
+TEST_F(PacedSimulation, ASignalEndsAPause) {
+  start({.paused = true});
+  const platform::StopSignal stop;
+  tool_ = [this] {
+    if (attended_ == 5) std::raise(SIGTERM);
+  };
+  EXPECT_EQ(application_->run_for(1h, &stop), RunEnd::kStopRequested);
+  EXPECT_EQ(application_->now(), at(0ms));
+}
+
+TEST_F(PacedSimulation, RefusesWhatIsNoPaceAndStepsWithoutAPause) {
+  start({});
+  EXPECT_FALSE(application_->set_pace({.rate = 0.0}));
+  EXPECT_FALSE(application_->set_pace({.rate = std::nan("")}));
+  EXPECT_FALSE(application_->step());
+  EXPECT_EQ(application_->pace(), Pace{});
 }
 
 TEST(Simulation, IsRealTimeForTheGuard) {

@@ -265,6 +265,18 @@ ComponentStatus ApplicationView::change(const std::string& name, LifeCycleChange
   return internal::statuses_of(application_, {&component}).front();
 }
 
+exec::Pace ApplicationView::pace() { return application_.pace(); }
+
+exec::Pace ApplicationView::set_pace(const exec::Pace& pace) {
+  answer_of(application_.set_pace(pace));
+  return application_.pace();
+}
+
+exec::Pace ApplicationView::step() {
+  answer_of(application_.step());
+  return application_.pace();
+}
+
 bool ApplicationView::remembers(std::int32_t handle) const {
   return commands_->find(handle) != nullptr;
 }

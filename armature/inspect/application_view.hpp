@@ -48,6 +48,9 @@ class ApplicationView final : public View {
   CommandStatus follow(std::int32_t handle) override;
   CommandStatus cancel(std::int32_t handle) override;
   ComponentStatus change(const std::string& component, LifeCycleChange change) override;
+  exec::Pace pace() override;
+  exec::Pace set_pace(const exec::Pace& pace) override;
+  exec::Pace step() override;
 
   /// Whether `follow` knows the command.
   bool remembers(std::int32_t handle) const;

@@ -36,6 +36,14 @@ void add_fields(const types::Type& type, std::vector<FieldDescription>& fields) 
   for (const types::Field& field : type.fields) add_fields(*field.type, fields);
 }
 
+std::vector<ArgumentDescription> arguments_of(const Signature& signature) {
+  std::vector<ArgumentDescription> arguments;
+  for (const auto& argument : signature.arguments) {
+    arguments.push_back({std::string(argument.name), argument.type->name});
+  }
+  return arguments;
+}
+
 /// Puts a component's members and what is known of their values into its description.
 class Describer {
  public:
@@ -124,9 +132,7 @@ class Describer {
     to.doc = from.doc();
     const Signature& signature = from.signature();
     to.signature = signature.text();
-    for (const auto& argument : signature.arguments) {
-      to.arguments.push_back({std::string(argument.name), argument.type->name});
-    }
+    to.arguments = arguments_of(signature);
     if (signature.result != nullptr) to.result = signature.result->name;
     to.own_thread = from.runs_in_own_thread();
     to.command = from.is_command();
@@ -139,6 +145,7 @@ class Describer {
     to.name = from.name();
     to.doc = from.doc();
     to.signature = from.signature().text();
+    to.arguments = arguments_of(from.signature());
     if (snapshot_ != nullptr) to.raised = snapshot_->raised[i];
     for (const EventHandlerBase* handler : from.subscribers()) {
       to.subscribers.push_back(handler->owner().name());

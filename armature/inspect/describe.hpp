@@ -82,7 +82,7 @@ struct PortArrayDescription {
   bool operator==(const PortArrayDescription&) const = default;
 };
 
-/// An argument of an operation.
+/// An argument of an operation or an event.
 struct ArgumentDescription {
   std::string name;  ///< may be empty; with its unit: `target [m]`
   std::string type;
@@ -109,8 +109,9 @@ struct EventDescription {
   std::string name;
   std::string doc;
   std::string signature;
-  std::uint64_t raised = 0;              ///< (here)
-  std::vector<std::string> subscribers;  ///< names of components
+  std::vector<ArgumentDescription> arguments;  ///< (here)
+  std::uint64_t raised = 0;                    ///< (here)
+  std::vector<std::string> subscribers;        ///< names of components
 
   bool operator==(const EventDescription&) const = default;
 };

@@ -155,7 +155,7 @@ base::Result<ComponentDescription> describe_model(const Registry::Model& model) 
 
 base::Result<const Registry::Model*> find_model(const Registry& registry, std::string_view name) {
   if (const Registry::Model* model = registry.find(name)) return model;
-  const std::string suggestion = base::suggestion(name, registry.names());
+  const std::string suggestion = base::suggestion(name, registry.names()).text;
   return base::Error{"unknown model " + base::quoted(name) +
                      (suggestion.empty() ? "" : "; " + suggestion)};
 }

@@ -19,7 +19,9 @@ base::Result<std::string> describe_model(const component::Registry& registry,
                                          std::string_view name);
 
 /// The same for machines: a JSON array with an object for each of `names`, all models if empty.
+/// @param indent  -1: all on one line
 base::Result<std::string> models_as_json(const component::Registry& registry,
-                                         const std::vector<std::string>& names = {});
+                                         const std::vector<std::string>& names = {},
+                                         int indent = 2);
 
 }  // namespace armature::inspect

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/base/time.hpp"
+#include "armature/exec/pace.hpp"
 #include "armature/inspect/describe.hpp"
 #include "armature/inspect/status.hpp"
 #include "armature/types/enum.hpp"
@@ -104,6 +105,13 @@ class View {
 
   /// @return how the component stands now; one that holds something may be on its way to the stop
   virtual ComponentStatus change(const std::string& component, LifeCycleChange change) = 0;
+
+  /// How simulated time passes. Real time cannot be paced, which is a Refusal of the other two.
+  virtual exec::Pace pace() = 0;
+  /// @return how it passes now
+  virtual exec::Pace set_pace(const exec::Pace& pace) = 0;
+  /// Paused simulated time goes on to the next instant at which something is due.
+  virtual exec::Pace step() = 0;
 
  protected:
   static bool everyone(const std::string&) { return true; }

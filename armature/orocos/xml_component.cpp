@@ -118,7 +118,7 @@ class ComponentReader {
     }
   }
 
-  void error(const base::Location& where, const std::string& message, std::string hint = {}) {
+  void error(const base::Location& where, const std::string& message, base::Hint hint = {}) {
     diagnostics_.error(where, "component " + in_quotes(element_.name) + ": " + message,
                        std::move(hint));
   }

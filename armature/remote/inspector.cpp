@@ -189,6 +189,20 @@ class Inspector::Service final : public InspectorService {
     });
   }
 
+  void pace(ReplyOf<Pace> reply) override {
+    in_control(reply, [this] { return to_wire(view_.pace()); });
+  }
+
+  void set_pace(const Pace& pace, ReplyOf<Pace> reply) override {
+    in_control(reply, [this, wanted = internal::from_wire(pace)] {
+      return to_wire(view_.set_pace(wanted));
+    });
+  }
+
+  void step(ReplyOf<Pace> reply) override {
+    in_control(reply, [this] { return to_wire(view_.step()); });
+  }
+
  private:
   /// A component that does something before the stop that a peer asked for.
   struct PeerStop {

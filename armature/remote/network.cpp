@@ -22,7 +22,7 @@ base::Result<void> check_transport(const ride::Address& address) {
   const std::vector<std::string> known{"tcp", "unix", "tls"};
   if (std::ranges::find(known, address.scheme) != known.end()) return {};
   return base::Error{"'" + address.text() + "' has the unknown transport '" + address.scheme +
-                     "' (" + base::suggestion(address.scheme, known) + ")"};
+                     "' (" + base::suggestion(address.scheme, known).text + ")"};
 }
 
 /// Of `tcp://host:port/Name`.

@@ -210,6 +210,14 @@ inspect::ComponentStatus PeerView::change(const std::string& component,
       client_->inspector.change(component, std::string(types::name_of(change)), kPatient));
 }
 
+exec::Pace PeerView::pace() { return told_by(client_->inspector.pace(kPatient)); }
+
+exec::Pace PeerView::set_pace(const exec::Pace& pace) {
+  return told_by(client_->inspector.set_pace(internal::to_wire(pace), kPatient));
+}
+
+exec::Pace PeerView::step() { return told_by(client_->inspector.step(kPatient)); }
+
 bool PeerView::has_application() { return client_->has_application(); }
 
 const std::string& PeerView::address() const { return client_->peer.address(); }

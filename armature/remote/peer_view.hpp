@@ -44,6 +44,9 @@ class PeerView final : public inspect::View {
   inspect::CommandStatus cancel(std::int32_t handle) override;
   inspect::ComponentStatus change(const std::string& component,
                                   inspect::LifeCycleChange change) override;
+  exec::Pace pace() override;
+  exec::Pace set_pace(const exec::Pace& pace) override;
+  exec::Pace step() override;
 
   /// Whether an application answers there, and not only a node; one that has just been started is
   /// not there at once, which is told as a change.

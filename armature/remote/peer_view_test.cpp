@@ -107,7 +107,10 @@ void forget_what_is_not_told(ComponentDescription& description) {
   }
   description.port_arrays.clear();
   for (auto& one : description.operations) one.own_thread = false;
-  for (auto& one : description.events) one.raised = 0;
+  for (auto& one : description.events) {
+    one.raised = 0;
+    one.arguments.clear();
+  }
   for (auto& one : description.requirements) {
     one.wanted = true;
     one.peer.clear();
@@ -322,6 +325,21 @@ TEST_F(Views, ChangeTheSame) {
               HasSubstr("Axis"));
   EXPECT_THAT(refusal([](View& view) { view.change("Axxis", LifeCycleChange::kStop); }),
               HasSubstr("unknown component"));
+}
+
+TEST_F(Views, PaceTheSame) {
+  const auto paced = [](View& view) {
+    return std::vector<exec::Pace>{view.pace(), view.set_pace({0.5, true}), view.step(),
+                                   view.set_pace({})};
+  };
+  expect_same(paced);
+  EXPECT_EQ(here(paced).at(1), (exec::Pace{0.5, true}));
+  EXPECT_THAT(refusal([](View& view) {
+                view.set_pace({-1.0, false});
+              }),
+              HasSubstr("the pace is a number above 0"));
+  EXPECT_THAT(refusal([](View& view) { view.step(); }),
+              HasSubstr("only paused simulated time goes on by steps"));
 }
 
 TEST_F(Views, SeveralAttendOneApplicationEachWithItsOwnCommands) {

@@ -65,9 +65,10 @@ class Line {
 
   std::optional<PolicyRule> rule_of(const std::vector<Word>& words) {
     if (words[0].text != "allow") {
-      const std::string near = base::suggestion(words[0].text, {"allow"});
+      const base::Hint near = base::suggestion(words[0].text, {"allow"});
       wrong(words[0], "expected a rule, " + std::string(kForm) + ", found " + quoted(words[0].text),
-            words[0].text == "deny" ? "leave it out: only what a rule allows is allowed" : near);
+            words[0].text == "deny" ? base::Hint("leave it out: only what a rule allows is allowed")
+                                    : near);
       return std::nullopt;
     }
     PolicyRule rule;
@@ -83,7 +84,7 @@ class Line {
   }
 
  private:
-  void wrong(const Word& at, std::string message, std::string hint) {
+  void wrong(const Word& at, std::string message, base::Hint hint) {
     ok_ = false;
     diagnostics_.error(place(at), std::move(message), std::move(hint));
   }

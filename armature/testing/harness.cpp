@@ -21,7 +21,7 @@ auto& find_in(const Items& items, const component::Component& component, const c
     if (item->name() == name) return *item;
     names.emplace_back(item->name());
   }
-  const std::string hint = base::suggestion(name, names);
+  const std::string hint = base::suggestion(name, names).text;
   throw std::invalid_argument(quoted(component.name()) + " has no " + kind + " " + quoted(name) +
                               (hint.empty() ? "" : "; " + hint));
 }

@@ -73,7 +73,7 @@ std::string unknown_enumerator(const Type& type, std::string_view name) {
 }
 
 std::string near_enumerator(const Type& type, std::string_view name) {
-  return base::suggestion(name, enumerator_names(type));
+  return base::suggestion(name, enumerator_names(type)).text;
 }
 
 }  // namespace armature::types

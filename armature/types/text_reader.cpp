@@ -206,9 +206,8 @@ const Field* TextReader::read_field_name(const Type& type) {
   if (name.empty()) {
     fail_expecting("the name of a field of " + type.name);
   } else {
-    const std::string hint = base::suggestion(name, known);
     fail(type.name + " has no field '" + std::string(name) + "'" +
-         (hint.empty() ? "" : " (" + hint + ")"));
+         base::suggestion_in_brackets(name, known));
   }
   return nullptr;
 }

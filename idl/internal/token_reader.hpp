@@ -44,9 +44,9 @@ class TokenReader {
   /// `'name'`, or `the end of the file`.
   static std::string shown(const Token& token);
 
-  void error(const Token& token, std::string message, std::string hint = {});
+  void error(const Token& token, std::string message, base::Hint hint = {});
   /// Reports at a token and throws Mistake.
-  [[noreturn]] void fail(const Token& token, std::string message, std::string hint = {});
+  [[noreturn]] void fail(const Token& token, std::string message, base::Hint hint = {});
   bool gave_up() const;
 
  private:

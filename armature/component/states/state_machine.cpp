@@ -137,7 +137,7 @@ void StateMachine::define_transitions(const StateDefinition& definition, int& st
       for (const MachineState& known : table_.states) names.push_back(known.name);
       problems_.push_back("a transition of state '" + table_.path(self) + "' goes to '" +
                           each.target + "', which does not exist; " +
-                          base::suggestion(each.target, names));
+                          base::suggestion(each.target, names).text);
       continue;
     }
     table_.transitions.push_back(std::move(transition));

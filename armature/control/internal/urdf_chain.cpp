@@ -133,10 +133,10 @@ class ChainReader {
     std::vector<Next> next;
   };
 
-  void error(const std::string& message, const std::string& hint = {}) {
+  void error(const std::string& message, const base::Hint& hint = {}) {
     diagnostics_.error({query_.file}, message, hint);
   }
-  void warning(const std::string& message, const std::string& hint = {}) {
+  void warning(const std::string& message, const base::Hint& hint = {}) {
     diagnostics_.warning({query_.file}, message, hint);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -8,9 +9,9 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
-#include "armature/base/unit.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/exec/internal/wiring.hpp"
+#include "armature/exec/mismatch.hpp"
 
 namespace armature::exec::internal {
 namespace {
@@ -53,8 +54,7 @@ class ConnectionPlanner {
       return;
     }
     check_policy(entry);
-    const bool fits = check_types(*output, *input, entry) && check_units(*output, *input, entry) &&
-                      check_sizes(*output, *input, entry);
+    const bool fits = check_fit(*output, *input, entry);
     if (check_writers({output, from}, *input, number, entry) && fits) {
       plan_.connections.push_back({from, to, output, input, &entry, input->triggers(),
                                    entry.policy.one_cycle_delay, entry.max_age || entry.on_lost});
@@ -117,54 +117,11 @@ class ConnectionPlanner {
     }
   }
 
-  bool check_types(const OutputPortBase& output, const InputPortBase& input,
-                   const ConnectionEntry& entry) {
-    if (types::same_type(output.type(), input.type())) return true;
-    diagnostics_.error(entry.where,
-                       quoted(path(output)) + " writes " + output.type().name + ", but " +
-                           quoted(path(input)) + " reads " + input.type().name,
-                       "connect ports of the same type");
-    return false;
-  }
-
-  bool check_units(const OutputPortBase& output, const InputPortBase& input,
-                   const ConnectionEntry& entry) {
-    if (output.unit() == input.unit()) return true;
-    const auto from = base::parse_unit(output.unit());
-    const auto to = base::parse_unit(input.unit());
-    const bool same = from && to && from.value().same_as(to.value());
-    if (same) return true;
-    diagnostics_.error(
-        entry.where,
-        quoted(path(output)) + " is in " + unit_text(output.unit()) + ", but " +
-            quoted(path(input)) + " expects " + unit_text(input.unit()),
-        !from ? no_such_unit(output)
-        : !to ? no_such_unit(input)
-              : "connect ports of the same unit, or convert in a component between them");
-    return false;
-  }
-
-  static std::string no_such_unit(const component::PortBase& port) {
-    return "the model of " + quoted(port.owner().name()) + " declares the unknown unit " +
-           quoted(port.unit());
-  }
-
-  static std::string unit_text(std::string_view unit) {
-    return unit.empty() ? "plain numbers" : quoted(unit);
-  }
-
-  bool check_sizes(const OutputPortBase& output, const InputPortBase& input,
-                   const ConnectionEntry& entry) {
-    const component::PortSize& writes = output.declared_size();
-    const component::PortSize& reads = input.declared_size();
-    const bool known = writes.declared() && reads.declared();
-    if (!known || writes.value() == reads.value()) return true;
-    diagnostics_.error(entry.where,
-                       quoted(path(output)) + " has " + std::to_string(writes.value()) +
-                           " elements, but " + quoted(path(input)) + " expects " +
-                           std::to_string(reads.value()),
-                       "give both the same number of elements");
-    return false;
+  bool check_fit(const OutputPortBase& output, const InputPortBase& input,
+                 const ConnectionEntry& entry) {
+    const std::optional<Mismatch> found = mismatch(output, input);
+    if (found) diagnostics_.error(entry.where, found->message, found->hint);
+    return !found;
   }
 
   struct Writer {

@@ -77,13 +77,13 @@ class Selector {
       if (component->name() == owner) return {message, suggestion_of_member(name, *component)};
       known.push_back(component->name());
     }
-    return {message, base::suggestion(owner, known)};
+    return {message, base::suggestion(owner, known).text};
   }
 
   static std::string suggestion_of_member(const std::string& name, const Component& component) {
     std::vector<std::string> known;
     for (Source& member : members_of(component)) known.push_back(std::move(member.name));
-    return base::suggestion(name, known);
+    return base::suggestion(name, known).text;
   }
 
   const std::vector<Component*>& components_;

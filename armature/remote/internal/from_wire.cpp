@@ -197,4 +197,6 @@ inspect::CommandStatus from_wire(const CommandStatus& from) {
           from.ended,  from.progress, from.reason};
 }
 
+exec::Pace from_wire(const Pace& from) { return {from.rate, from.paused}; }
+
 }  // namespace armature::remote::internal

@@ -21,6 +21,7 @@ ComponentDetails to_wire(const inspect::ComponentDescription& from);
 ItemValue to_wire(const inspect::ItemValue& from);
 CallResult to_wire(const inspect::CallResult& from);
 CommandStatus to_wire(const inspect::CommandStatus& from);
+Pace to_wire(const exec::Pace& from);
 
 inspect::ApplicationStatus from_wire(const ApplicationStatus& from);
 inspect::ComponentStatus from_wire(const ComponentStatus& from);
@@ -29,6 +30,7 @@ inspect::ComponentDescription from_wire(const ComponentDetails& from);
 inspect::ItemValue from_wire(const ItemValue& from);
 inspect::CallResult from_wire(const CallResult& from);
 inspect::CommandStatus from_wire(const CommandStatus& from);
+exec::Pace from_wire(const Pace& from);
 
 /// `all`, each by `convert`.
 template <typename From, typename Convert>

@@ -152,4 +152,6 @@ CommandStatus to_wire(const inspect::CommandStatus& from) {
           from.ended,  from.progress, from.reason};
 }
 
+Pace to_wire(const exec::Pace& from) { return {from.rate, from.paused}; }
+
 }  // namespace armature::remote::internal

@@ -173,7 +173,7 @@ base::Error unknown(const Words& words) {
   std::vector<std::string> known;
   for (const std::string& word : words) said += (said.empty() ? "" : " ") + word;
   for (const Form& form : kForms) known.emplace_back(form.words);
-  const std::string hint = base::suggestion(said, known);
+  const std::string hint = base::suggestion(said, known).text;
   return {"'" + said + "' is not a command; " + (hint.empty() ? "'help' lists them all" : hint)};
 }
 

@@ -54,8 +54,7 @@ base::Diagnostics BeforeStop::run_commands(RunEnd end, const platform::StopSigna
                                            Leave leave) {
   base::Diagnostics diagnostics;
   if (!health_.running() || health_.died()) return diagnostics;
-  health_.begin_to_leave();
-  rest_event_commands();
+  begin_to_leave();
   stop = heard(stop);
   // What is under way would have what follows refused; whoever began it has gone.
   bool cut_short = cancel_all(stop);
@@ -72,8 +71,11 @@ base::Diagnostics BeforeStop::run_commands(RunEnd end, const platform::StopSigna
   return diagnostics;
 }
 
-/// What is done now is done at the operator's word: no event begins anything beside it.
-void BeforeStop::rest_event_commands() {
+/// What is done now is done at the operator's word: no event begins anything beside it, and nobody
+/// has to let time pass.
+void BeforeStop::begin_to_leave() {
+  health_.begin_to_leave();
+  loop_.set_pace({loop_.pace().rate, false});
   for (const ComponentEntry& entry : roster_.blueprint().components) {
     if (auto* wire = dynamic_cast<EventCommand*>(entry.component.get())) wire->rest();
   }
@@ -123,8 +125,7 @@ base::Diagnostics BeforeStop::hold_until_told(const platform::StopSignal* stop,
   std::vector<Held> held = holders_.held();
   give_up_silent(held, diagnostics);
   if (held.empty()) return diagnostics;
-  health_.begin_to_leave();
-  rest_event_commands();
+  begin_to_leave();
   stop = heard(stop);
   say(held);
   const base::Time end = base::later(clock_.now(), options_.hold_at_stop);

@@ -43,7 +43,7 @@ class BeforeStop {
                                     const std::function<bool(base::Duration)>& converse);
 
  private:
-  void rest_event_commands();
+  void begin_to_leave();
   bool cancel_all(const platform::StopSignal* stop);
   bool holds_nothing(std::string_view name) const;
   std::string run(const CommandName& name, const platform::StopSignal* stop);

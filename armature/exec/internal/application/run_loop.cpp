@@ -11,6 +11,7 @@ namespace armature::exec::internal {
 
 void RunLoop::begin_anew() {
   simulation_.reset();
+  set_pace(options_.pace);
   if (options_.simulated) simulation_.emplace(pointers_to(engines_));
 }
 
@@ -45,6 +46,7 @@ RunEnd RunLoop::attend_until(base::Time end, const std::function<bool()>& condit
 
 RunEnd RunLoop::simulate_until(base::Time end, const std::function<bool()>& condition,
                                const platform::StopSignal* stop) {
+  pacer_.set(pace().rate, clock_.now(), platform::monotonic_now());
   while (true) {
     while (Engine* const engine = simulation_->take_turn(clock_.now())) {
       outlets_.drain_after_turn(*engine);
@@ -54,7 +56,36 @@ RunEnd RunLoop::simulate_until(base::Time end, const std::function<bool()>& cond
     attend();
     if (condition && condition()) return RunEnd::kConditionMet;
     if (clock_.now() >= end) return RunEnd::kTimeUp;
-    clock_.go_to(std::min(end, simulation_->next_due()));
+    if (pace().waits() && stop != nullptr && stop->received()) return RunEnd::kStopRequested;
+    pass_to(std::min(end, simulation_->next_due()), stop);
+  }
+}
+
+void RunLoop::pass_to(base::Time next, const platform::StopSignal* stop) {
+  constexpr base::Duration kLongestWait = std::chrono::milliseconds(1);
+  if (pace().waits()) {
+    const base::Time now = platform::monotonic_now();
+    const base::Time due = pacer_.time_of(next);
+    if (due > now) {
+      const base::Time until = std::min(due, now + kLongestWait);
+      if (stop != nullptr) {
+        stop->wait_until(until);
+      } else {
+        platform::sleep_until(until);
+      }
+      return;
+    }
+    pacer_.arrive(next, now);
+  }
+  clock_.go_to(next);
+}
+
+void RunLoop::set_pace(const Pace& pace) {
+  pacer_.set(pace.rate, clock_.now(), platform::monotonic_now());
+  if (pace.paused) {
+    pacer_.pause();
+  } else {
+    pacer_.resume(clock_.now(), platform::monotonic_now());
   }
 }
 

@@ -9,6 +9,7 @@
 #include "armature/exec/internal/application/engines.hpp"
 #include "armature/exec/internal/application/health.hpp"
 #include "armature/exec/internal/application/outlets.hpp"
+#include "armature/exec/internal/application/pacer.hpp"
 #include "armature/exec/internal/application/stop_guard.hpp"
 #include "armature/exec/internal/simulation.hpp"
 #include "armature/exec/run_end.hpp"
@@ -39,11 +40,20 @@ class RunLoop {
   RunEnd run_until(base::Time end, const std::function<bool()>& condition,
                    const platform::StopSignal* stop);
 
+  // How simulated time passes; in real time none of them has an effect.
+  Pace pace() const { return pacer_.pace(); }
+  void set_pace(const Pace& pace);
+  /// While paused: one more instant at which something is due.
+  void step() { pacer_.step(); }
+
  private:
   RunEnd simulate_until(base::Time end, const std::function<bool()>& condition,
                         const platform::StopSignal* stop);
   RunEnd attend_until(base::Time end, const std::function<bool()>& condition,
                       const platform::StopSignal* stop);
+  /// Goes to `next` if its moment has come; else waits a millisecond at most, so that tools and
+  /// signals are attended to.
+  void pass_to(base::Time next, const platform::StopSignal* stop);
   std::optional<RunEnd> end_by_fault();
   void attend();
 
@@ -54,6 +64,7 @@ class RunLoop {
   Outlets& outlets_;
   StopGuard& stop_guard_;
   std::optional<Simulation> simulation_;
+  Pacer pacer_;
 };
 
 }  // namespace armature::exec::internal

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/exec/mismatch.hpp"
+
+#include <string_view>
+
+#include "armature/base/quoted.hpp"
+#include "armature/base/unit.hpp"
+#include "armature/component/component.hpp"
+
+namespace armature::exec {
+namespace {
+
+using base::quoted;
+using component::InputPortBase;
+using component::OutputPortBase;
+
+std::string path(const component::PortBase& port) {
+  return quoted(port.owner().name() + "." + std::string(port.name()));
+}
+
+std::string unit_text(std::string_view unit) {
+  return unit.empty() ? "plain numbers" : quoted(unit);
+}
+
+std::string unknown_unit(const component::PortBase& port) {
+  return "the model of " + quoted(port.owner().name()) + " declares the unknown unit " +
+         quoted(port.unit());
+}
+
+std::optional<Mismatch> mismatch_of_units(const OutputPortBase& output,
+                                          const InputPortBase& input) {
+  if (output.unit() == input.unit()) return std::nullopt;
+  const auto from = base::parse_unit(output.unit());
+  const auto to = base::parse_unit(input.unit());
+  if (from && to && from.value().same_as(to.value())) return std::nullopt;
+  return Mismatch{path(output) + " is in " + unit_text(output.unit()) + ", but " + path(input) +
+                      " expects " + unit_text(input.unit()),
+                  !from ? unknown_unit(output)
+                  : !to ? unknown_unit(input)
+                        : "connect ports of the same unit, or convert in a component between them"};
+}
+
+std::optional<Mismatch> mismatch_of_sizes(const OutputPortBase& output,
+                                          const InputPortBase& input) {
+  const component::PortSize& writes = output.declared_size();
+  const component::PortSize& reads = input.declared_size();
+  const bool known = writes.declared() && reads.declared();
+  if (!known || writes.value() == reads.value()) return std::nullopt;
+  return Mismatch{path(output) + " has " + std::to_string(writes.value()) + " elements, but " +
+                      path(input) + " expects " + std::to_string(reads.value()),
+                  "give both the same number of elements"};
+}
+
+}  // namespace
+
+std::optional<Mismatch> mismatch_but_size(const OutputPortBase& output,
+                                          const InputPortBase& input) {
+  if (!types::same_type(output.type(), input.type())) {
+    return Mismatch{path(output) + " writes " + std::string(output.type().name) + ", but " +
+                        path(input) + " reads " + std::string(input.type().name),
+                    "connect ports of the same type"};
+  }
+  return mismatch_of_units(output, input);
+}
+
+std::optional<Mismatch> mismatch(const OutputPortBase& output, const InputPortBase& input) {
+  auto found = mismatch_but_size(output, input);
+  return found ? found : mismatch_of_sizes(output, input);
+}
+
+}  // namespace armature::exec
