@@ -50,6 +50,9 @@ class SlowRobot final : public inspect::View {
     if (component == "Hardware") states["Reader"] = State::kStopped;
     return status_of(component);
   }
+  inspect::Watch watch(const Texts&, base::Duration) override { return {}; }
+  inspect::WatchedValues watched(std::int32_t) override { return {}; }
+  void end_watch(std::int32_t) override {}
   exec::Pace pace() override { return {}; }
   exec::Pace set_pace(const exec::Pace& pace) override { return pace; }
   exec::Pace step() override { return {}; }

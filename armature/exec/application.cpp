@@ -25,6 +25,7 @@
 #include "armature/exec/internal/application/tool_access.hpp"
 #include "armature/exec/internal/application/transitions.hpp"
 #include "armature/exec/internal/application/unreachable.hpp"
+#include "armature/exec/internal/application/watches.hpp"
 
 namespace armature::exec {
 namespace {
@@ -36,6 +37,7 @@ struct Remains {
   internal::Engines engines;
   std::vector<std::unique_ptr<component::Component>> components;
   std::unique_ptr<internal::Incidents> incidents;
+  std::vector<std::shared_ptr<ThreadWatch>> watches;
 
   static void keep(Remains remains) {
     static auto& all = *new std::vector<Remains>;
@@ -83,6 +85,7 @@ struct Application::Parts {
   internal::ModeControl modes{blueprint, plan, roster, executor, health};
   internal::Transitions transitions{roster, executor, modes};
   internal::Holders holders{blueprint, plan, roster, executor, health};
+  internal::Watches watches{plan, roster, engines, executor};
   internal::StopGuard stop_guard{options.before_stop, roster, holders, tools, transitions, outlets};
   internal::RunLoop loop{options, clock, engines, health, outlets, stop_guard};
   internal::BeforeStop before_stop{options, clock,  roster,  tools, tickets,
@@ -102,7 +105,10 @@ Application::Application(Blueprint blueprint, ApplicationOptions options)
 Application::~Application() {
   stop();
   if (!hangs()) return;
-  Remains remains{std::move(parts_->engines), {}, parts_->health.give_away_incidents()};
+  Remains remains{std::move(parts_->engines),
+                  {},
+                  parts_->health.give_away_incidents(),
+                  parts_->watches.give_away()};
   for (ComponentEntry& entry : parts_->blueprint.components) {
     remains.components.push_back(std::move(entry.component));
   }
@@ -187,6 +193,7 @@ void Application::take_down(base::Diagnostics& diagnostics) {
   all.outlets.drain();
   all.outlets.write_last_black_boxes(all.health.incidents());
   all.life_cycle.clean_up(diagnostics);
+  if (!hangs()) all.watches.end_all();
   if (!hangs()) all.connections.undo();
   all.outlets.end(diagnostics);
 }
@@ -323,6 +330,18 @@ base::Result<component::CommandHandle> Application::begin(std::string_view compo
                                                           Caller caller) {
   return parts_->tools.begin(component, command, std::move(arguments), caller);
 }
+
+base::Result<std::int32_t> Application::watch(const std::vector<WatchedNumber>& numbers,
+                                              base::Duration interval) {
+  if (!running()) return base::Error{base::quoted(blueprint().name) + " does not run"};
+  return parts_->watches.begin(numbers, interval);
+}
+
+const WatchSample* Application::watched(std::int32_t handle) {
+  return parts_->watches.newest(handle);
+}
+
+void Application::end_watch(std::int32_t handle) { parts_->watches.end(handle); }
 
 bool Application::run_in_thread_of(component::Component& component, std::function<void()> work) {
   return parts_->executor.run_in_thread_of(component, std::move(work));

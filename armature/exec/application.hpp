@@ -18,6 +18,7 @@
 #include "armature/exec/plan.hpp"
 #include "armature/exec/run_end.hpp"
 #include "armature/exec/verdict.hpp"
+#include "armature/exec/watch.hpp"
 
 namespace armature::platform {
 class StopSignal;
@@ -137,6 +138,15 @@ class Application final {
   /// Runs `work`, as code of `component`, in its thread, or here if that thread does not run; false
   /// if it was not done within the hook limit.
   bool run_in_thread_of(component::Component& component, std::function<void()> work);
+
+  /// Has numbers copied by their threads after a cycle, no more often than that, so that looking at
+  /// them costs no message. It ends with the run, or by `end_watch`.
+  /// @return its handle; the error says that it does not run, or whose thread does not answer
+  base::Result<std::int32_t> watch(const std::vector<WatchedNumber>& numbers,
+                                   base::Duration interval);
+  /// What was copied last; nullptr if there is no such watch. Good until the next call.
+  const WatchSample* watched(std::int32_t handle);
+  void end_watch(std::int32_t handle);
 
   std::vector<ThreadStatistics> thread_statistics() const;
 

@@ -84,6 +84,19 @@ void Engine::keep_timeline(std::shared_ptr<component::Timeline> timeline, std::u
   context_.timeline = timeline_.get();
 }
 
+void Engine::attach(ThreadWatch& watch) noexcept {
+  watch.next_ = watches_;
+  watches_ = &watch;
+}
+
+void Engine::detach(ThreadWatch& watch) noexcept {
+  for (ThreadWatch** place = &watches_; *place != nullptr; place = &(*place)->next_) {
+    if (*place != &watch) continue;
+    *place = watch.next_;
+    return;
+  }
+}
+
 void Engine::keep_black_box(std::shared_ptr<component::BlackBox> box) {
   black_box_ = std::move(box);
   context_.black_box = black_box_.get();
@@ -218,6 +231,9 @@ void Engine::close(bool cycle) {
   if (!looking_.empty()) look_at_ages();
   if (black_box_ != nullptr && black_box_->due(context_.cycle_time)) {
     black_box_->make_picture(context_.cycle_time);
+  }
+  for (ThreadWatch* one = watches_; one != nullptr; one = one->next_) {
+    if (one->due(context_.cycle_time)) one->copy(context_.cycle_time);
   }
   const std::uint64_t closed = rt::ticks();
   busy_ += closed - opened_;

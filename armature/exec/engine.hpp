@@ -15,6 +15,7 @@
 #include "armature/component/timeline.hpp"
 #include "armature/exec/activity.hpp"
 #include "armature/exec/periodic_schedule.hpp"
+#include "armature/exec/thread_watch.hpp"
 #include "armature/rt/alarms.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/rt/statistics.hpp"
@@ -44,6 +45,12 @@ class Engine {
 
   /// Has what its components write and do lately kept.
   void keep_black_box(std::shared_ptr<component::BlackBox> box);
+
+  /// Has numbers copied after its cycles, until `detach`.
+  /// @rt nonblocking, no allocation, as for `detach`
+  /// @thread its own, or one while it does not run
+  void attach(ThreadWatch& watch) noexcept;
+  void detach(ThreadWatch& watch) noexcept;
 
   /// Whether it sleeps until data becomes too old, beside messages.
   bool sleeps_until_ages() const { return !periodic() && !aging_.empty(); }
@@ -131,6 +138,7 @@ class Engine {
   std::shared_ptr<rt::Alarms> alarms_;
   std::size_t alarm_ = 0;  ///< its number there
   std::shared_ptr<component::BlackBox> black_box_;
+  ThreadWatch* watches_ = nullptr;  ///< the first of those that are attached
   std::shared_ptr<component::Timeline> timeline_;
   std::uint16_t number_ = 0;  ///< in the timeline
   std::atomic<bool> ending_{false};

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/inspect/application_view.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/base/unit.hpp"
 #include "armature/component/author.hpp"
 #include "armature/inspect/acts.hpp"
@@ -207,6 +210,40 @@ std::vector<ItemValue> ApplicationView::read(const std::vector<std::string>& tex
   }
   return values;
 }
+
+Watch ApplicationView::watch(const std::vector<std::string>& items, base::Duration interval) {
+  Watch watch;
+  std::vector<exec::WatchedNumber> numbers;
+  for (const std::string& text : items) {
+    for (WatchedPlace& place : answer_of(numbers_in(application_, text))) {
+      numbers.push_back(std::move(place.number));
+      watch.items.push_back({std::move(place.item), std::move(place.unit)});
+    }
+    if (numbers.size() > kMostNumbers) {
+      throw Refusal("at most " + std::to_string(kMostNumbers) + " numbers are watched at once");
+    }
+  }
+  if (numbers.empty()) throw Refusal("a watch needs an item, for example Joint1.Position");
+  watch.handle = answer_of(application_.watch(numbers, interval));
+  return watch;
+}
+
+WatchedValues ApplicationView::watched(std::int32_t handle) {
+  const exec::WatchSample* const sample = application_.watched(handle);
+  if (sample == nullptr) {
+    throw Refusal("unknown watch " + std::to_string(handle) + ": it has ended, or never began");
+  }
+  WatchedValues values{sample->values, {}, sample->replaced};
+  const base::Time now = application_.now();
+  for (const base::Time time : sample->times) {
+    const bool never = time == base::Time::min();
+    values.ages.push_back(never ? std::numeric_limits<double>::quiet_NaN()
+                                : std::max(base::to_seconds(now - time), 0.0));
+  }
+  return values;
+}
+
+void ApplicationView::end_watch(std::int32_t handle) { application_.end_watch(handle); }
 
 ItemValue ApplicationView::write(const std::string& text, const std::string& value) {
   const Item item = answer_of(find_item(application_, text));

@@ -25,6 +25,8 @@ class ApplicationView final : public View {
  public:
   /// Commands that it remembers; of those that have ended the oldest is forgotten.
   static constexpr std::size_t kMostCommands = 256;
+  /// Numbers of a watch.
+  static constexpr std::size_t kMostNumbers = 4096;
 
   /// @param application  outlives it
   /// @param caller       on whose behalf it writes, calls and begins
@@ -40,6 +42,9 @@ class ApplicationView final : public View {
   Faults faults(const Which& which) override;
   ComponentDescription describe(const std::string& component, Values values) override;
   std::vector<ItemValue> read(const std::vector<std::string>& items) override;
+  Watch watch(const std::vector<std::string>& items, base::Duration interval) override;
+  WatchedValues watched(std::int32_t handle) override;
+  void end_watch(std::int32_t handle) override;
   ItemValue write(const std::string& item, const std::string& value) override;
   CallResult call(const std::string& component, const std::string& operation,
                   const std::vector<std::string>& arguments) override;

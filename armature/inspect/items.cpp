@@ -74,6 +74,13 @@ bool take_field(std::string_view& rest, Item& item) {
   return false;
 }
 
+/// Whether a path is `part`, or leads on from there.
+bool lies_in(std::string_view path, std::string_view part) {
+  if (!path.starts_with(part)) return false;
+  const std::string_view rest = path.substr(part.size());
+  return rest.empty() || rest.front() == '[' || rest.front() == '.';
+}
+
 }  // namespace
 
 Component* leading_component(const Application& application, std::string_view text,
@@ -217,6 +224,33 @@ std::optional<std::vector<Reading>> read_members(Application& application,
   Component* const component = application.find(members.front().component->name());
   if (!application.run_in_thread_of(*component, read)) return std::nullopt;
   return *readings;
+}
+
+base::Result<std::vector<WatchedPlace>> numbers_in(Application& application,
+                                                   std::string_view text) {
+  const auto item = find_item(application, text);
+  if (!item) return base::Error{item.error()};
+  const Member& member = item.value().member;
+  const auto readings = read_members(application, {member});
+  if (!readings) {
+    return base::Error{"the thread of '" + member.component->name() + "' does not answer"};
+  }
+  const std::string part = item.value().text.substr(member.name().size());
+  Component* const component = application.find(member.component->name());
+  std::vector<WatchedPlace> places;
+  for (types::NumberPlace& place :
+       types::NumberPlace::all_in(member.type(), readings->front().whole.data())) {
+    if (!lies_in(place.path(), part)) continue;
+    const std::string name = member.name() + place.path();
+    places.push_back({name,
+                      find_item(application, name).value().unit,
+                      {component, member.port(), member.property, std::move(place)}});
+  }
+  if (places.empty()) {
+    return base::Error{"'" + std::string(text) + "' has no numbers to watch: it is a " +
+                       item.value().type->name};
+  }
+  return places;
 }
 
 const void* part_of(const Item& item, const types::Value& whole) {

@@ -82,6 +82,17 @@ void take_reading(const Member& member, base::Time now, Reading& to);
 std::optional<std::vector<Reading>> read_members(exec::Application& application,
                                                  const std::vector<Member>& members);
 
+/// A number in a component, for `exec::Application::watch`.
+struct WatchedPlace {
+  std::string item;  ///< that names it alone
+  std::string unit;
+  exec::WatchedNumber number;
+};
+
+/// All numbers that the item has now; an error if it has none, or its thread does not answer.
+base::Result<std::vector<WatchedPlace>> numbers_in(exec::Application& application,
+                                                   std::string_view item);
+
 /// Where the part of `item` is in a reading of its member; nullptr if the list is not so long.
 const void* part_of(const Item& item, const types::Value& whole);
 

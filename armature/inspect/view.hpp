@@ -50,6 +50,31 @@ struct CallResult {
   bool operator==(const CallResult&) const = default;
 };
 
+/// A number that is watched: an item, or a part of one that has several.
+struct WatchedItem {
+  std::string item;  ///< `Joint1.Position`, `Sensor.sensor[2]`
+  std::string unit;
+
+  bool operator==(const WatchedItem&) const = default;
+};
+
+/// Numbers that are looked at again and again.
+struct Watch {
+  std::int32_t handle = 0;
+  std::vector<WatchedItem> items;
+
+  bool operator==(const Watch&) const = default;
+};
+
+/// What watched numbers were last.
+struct WatchedValues {
+  std::vector<double> values;  ///< NaN: the port was never written, or its list is shorter now
+  std::vector<double> ages;    ///< [s] since the port was written; NaN: never
+  std::uint64_t replaced = 0;  ///< samples that newer ones replaced before they were taken
+
+  bool operator==(const WatchedValues&) const = default;
+};
+
 /// A step in a component's life.
 enum class LifeCycleChange : std::uint8_t { kStart, kStop, kReset, kRecover, kCleanup };
 ARMATURE_ENUM(LifeCycleChange, kStart, kStop, kReset, kRecover, kCleanup);
@@ -88,6 +113,13 @@ class View {
   /// `Settings.Gains.kp`: of each component all at one moment. What is wrong with one item is its
   /// `error`.
   virtual std::vector<ItemValue> read(const std::vector<std::string>& items) = 0;
+
+  /// Has the threads of properties and ports copy all numbers in them after a cycle, no more often
+  /// than `interval`, so that many can be looked at often. Of lists those that are there now. It
+  /// ends with the run, with the connection, or by `end_watch`.
+  virtual Watch watch(const std::vector<std::string>& items, base::Duration interval) = 0;
+  virtual WatchedValues watched(std::int32_t handle) = 0;
+  virtual void end_watch(std::int32_t handle) = 0;
 
   /// Sets a property. A number may have a unit, which is converted to the property's.
   /// @return what it is now

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "armature/base/seconds.hpp"
 #include "armature/inspect/items.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/remote/internal/inspection.hpp"
+#include "armature/remote/internal/peer_watches.hpp"
 #include "armature/ride/origin.hpp"
 #include "armature/types/enum.hpp"
 #include "inspection_service.hpp"
@@ -24,6 +26,8 @@ using internal::to_wire;
 using ride::Access;
 using ride::Failure;
 using ride::ReplyOf;
+
+constexpr double kLongest = 3600.0;  ///< [s] between two samples of a watch
 
 inspect::LifeCycleChange change_named(const std::string& name) {
   if (const auto change = types::value_named<inspect::LifeCycleChange>(name)) return *change;
@@ -100,6 +104,7 @@ class Inspector::Service final : public InspectorService {
   void cancel_lost() {
     const base::Time now = platform::monotonic_now();
     commands_.cancel_lost(now);
+    watches_.end_lost(now);
     std::erase_if(stops_, [&](PeerStop& stop) {
       if (!application_.is_on_way_to_stop(stop.component)) return true;
       if (!stop.line.lost(now)) return false;
@@ -189,6 +194,35 @@ class Inspector::Service final : public InspectorService {
     });
   }
 
+  void watch(const std::vector<std::string>& items, double interval,
+             ReplyOf<Watch> reply) override {
+    const std::set<std::string> components = components_in(items);
+    for (const std::string& component : components) reply.demand(component, Access::kRead);
+    const bool sensible = items.size() <= kMostItems && interval >= 0.0 && interval <= kLongest;
+    if (!sensible) {
+      throw Failure("a watch has at most " + std::to_string(kMostItems) +
+                    " items, and an interval from 0 to 3600 s");
+    }
+    in_control(reply, [this, items, components, period = base::from_seconds(interval),
+                       origin = reply.origin()] {
+      if (origin.lost()) throw Failure("the client that asked for the watch has gone");
+      watches_.make_room();
+      const inspect::Watch begun = view_.watch(items, period);
+      watches_.add(begun, components, origin);
+      return to_wire(begun);
+    });
+  }
+
+  void watched(std::int32_t handle, ReplyOf<WatchedValues> reply) override {
+    demand_watch(handle, reply);
+    in_control(reply, [this, handle] { return to_wire(view_.watched(handle)); });
+  }
+
+  void end_watch(std::int32_t handle, ReplyOf<bool> reply) override {
+    demand_watch(handle, reply);
+    in_control(reply, [this, handle] { return watches_.end(handle); });
+  }
+
   void pace(ReplyOf<Pace> reply) override {
     in_control(reply, [this] { return to_wire(view_.pace()); });
   }
@@ -250,6 +284,20 @@ class Inspector::Service final : public InspectorService {
     return [names = std::move(names)](const std::string& name) { return names.contains(name); };
   }
 
+  std::set<std::string> components_in(const std::vector<std::string>& items) const {
+    std::set<std::string> components;
+    for (const std::string& item : items) components.insert(component_in(item));
+    return components;
+  }
+
+  /// Whoever may read all that a watch shows may have it.
+  template <typename T>
+  void demand_watch(std::int32_t handle, const ReplyOf<T>& reply) const {
+    for (const std::string& component : watches_.components_of(handle)) {
+      reply.demand(component, Access::kRead);
+    }
+  }
+
   /// The component that an item begins with. What is none is refused as such by who looks for it,
   /// if the policy lets the sender know.
   std::string component_in(const std::string& item) const {
@@ -263,6 +311,7 @@ class Inspector::Service final : public InspectorService {
   std::atomic<std::size_t> waiting_{0};
   inspect::ApplicationView view_;
   PeerCommands commands_{view_, tell_};
+  internal::PeerWatches watches_{view_};
   std::vector<PeerStop> stops_;
 };
 

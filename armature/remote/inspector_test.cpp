@@ -232,6 +232,41 @@ TEST_F(InspectorTest, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOt
       HasSubstr("'Axis.moveTo' is cancelled: the connection to local, which began it, is lost"));
 }
 
+TEST_F(InspectorTest, AWatchIsSharedByWhoMayReadItAndEndsWithTheConnectionThatBeganIt) {
+  const auto watch =
+      ask(&InspectorPlaceholder::watch, std::vector<std::string>{"Axis.Position"}, 0.0).value();
+  ride::Node other;
+  InspectorPlaceholder watcher(other.connect(robot_.address()), Inspector::kName);
+  EXPECT_TRUE(watcher.peer().wait_until_connected(20s).ok());
+  const auto look = [&] {
+    return robot_.serve([&] { return watcher.watched(watch.handle, kPatient); });
+  };
+  robot_.pass(100ms);
+  EXPECT_EQ(look().value().values.size(), 1u);
+  tool_.reset();
+  client_.reset();
+  for (int i = 0; i < 20'000 && look().ok(); ++i) {
+    robot_.inspector().serve();
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_THAT(look().error(), HasSubstr("unknown watch"));
+}
+
+TEST_F(InspectorTest, KeepsNoMoreWatchesThanItsClientsNeed) {
+  const auto watch = [&] {
+    return ask(&InspectorPlaceholder::watch, std::vector<std::string>{"Axis.Position"}, 0.0);
+  };
+  const std::int32_t first = watch().value().handle;
+  for (int i = 1; i < 16; ++i) EXPECT_TRUE(watch().ok());
+  EXPECT_THAT(watch().error(), HasSubstr("16 watches of other processes are kept already"));
+  EXPECT_TRUE(ask(&InspectorPlaceholder::end_watch, first).value());
+  EXPECT_FALSE(ask(&InspectorPlaceholder::end_watch, first).value());
+  EXPECT_TRUE(watch().ok());
+  EXPECT_THAT(
+      ask(&InspectorPlaceholder::watch, std::vector<std::string>{"Axis.Position"}, -1.0).error(),
+      HasSubstr("an interval from 0 to 3600 s"));
+}
+
 TEST_F(InspectorTest, SoIsTheWayToAStopThatItAskedFor) {
   ask(&InspectorPlaceholder::write, std::string("Axis.Loaded"), std::string("true")).value();
   const auto asked =
@@ -385,6 +420,26 @@ TEST_F(InspectorPolicy, EachAccessIsAskedForTheComponentItself) {
   allowed_[static_cast<std::size_t>(Access::kRead)] = false;
   allowed_[static_cast<std::size_t>(Access::kConfigure)] = true;
   EXPECT_THAT(codes(), ElementsAre(kNo, kNo, kNo, kNo, kNo, kNo, kYes, kYes, kYes));
+}
+
+TEST_F(InspectorPolicy, AWatchIsForWhoMayReadAllThatItShows) {
+  const auto watch = [&] {
+    return ask(&InspectorPlaceholder::watch, std::vector<std::string>{"Axis.Position"}, 0.0);
+  };
+  EXPECT_EQ(watch().code(), ride::Code::kNotAllowed);
+  allowed_[static_cast<std::size_t>(Access::kRead)] = true;
+  const std::int32_t handle = watch().value().handle;
+  EXPECT_TRUE(ask(&InspectorPlaceholder::watched, handle).ok());
+  allowed_[static_cast<std::size_t>(Access::kRead)] = false;
+  EXPECT_EQ(ask(&InspectorPlaceholder::watched, handle).code(), ride::Code::kNotAllowed);
+  EXPECT_EQ(ask(&InspectorPlaceholder::end_watch, handle).code(), ride::Code::kNotAllowed);
+}
+
+TEST_F(InspectorPolicy, WhoMayOnlyReadHoldsUpNoTime) {
+  EXPECT_TRUE(ask(&InspectorPlaceholder::pace).ok());
+  EXPECT_EQ(ask(&InspectorPlaceholder::set_pace, Pace{1.0, true}).code(), ride::Code::kNotAllowed);
+  EXPECT_EQ(ask(&InspectorPlaceholder::step).code(), ride::Code::kNotAllowed);
+  EXPECT_FALSE(robot_.application().pace().paused);
 }
 
 TEST_F(InspectorPolicy, ARefusalNamesWhoAndWhatAndIsLogged) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/remote/inspector.hpp"
 #include "armature/remote/internal/harmless.hpp"
 #include "armature/remote/internal/inspection.hpp"
@@ -208,6 +209,18 @@ inspect::ComponentStatus PeerView::change(const std::string& component,
                                           inspect::LifeCycleChange change) {
   return told_by(
       client_->inspector.change(component, std::string(types::name_of(change)), kPatient));
+}
+
+inspect::Watch PeerView::watch(const std::vector<std::string>& items, base::Duration interval) {
+  return told_by(client_->inspector.watch(items, base::to_seconds(interval), kPatient));
+}
+
+inspect::WatchedValues PeerView::watched(std::int32_t handle) {
+  return told_by(client_->inspector.watched(handle, kPatient));
+}
+
+void PeerView::end_watch(std::int32_t handle) {
+  taken(client_->inspector.end_watch(handle, kPatient));
 }
 
 exec::Pace PeerView::pace() { return told_by(client_->inspector.pace(kPatient)); }

@@ -44,6 +44,9 @@ class PeerView final : public inspect::View {
   inspect::CommandStatus cancel(std::int32_t handle) override;
   inspect::ComponentStatus change(const std::string& component,
                                   inspect::LifeCycleChange change) override;
+  inspect::Watch watch(const std::vector<std::string>& items, base::Duration interval) override;
+  inspect::WatchedValues watched(std::int32_t handle) override;
+  void end_watch(std::int32_t handle) override;
   exec::Pace pace() override;
   exec::Pace set_pace(const exec::Pace& pace) override;
   exec::Pace step() override;

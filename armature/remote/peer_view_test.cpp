@@ -342,6 +342,29 @@ TEST_F(Views, PaceTheSame) {
               HasSubstr("only paused simulated time goes on by steps"));
 }
 
+TEST_F(Views, WatchTheSame) {
+  const auto begin = [](View& view) { return view.watch({"Axis.Position", "Settings"}, 0ms); };
+  EXPECT_THAT(refusal(begin), HasSubstr("'Settings' is a component"));
+  const auto watch = [](View& view) {
+    return view.watch({"Axis.Position", "Settings.Gains", "Witness.Place"}, 0ms);
+  };
+  const inspect::Watch mine = here(watch);
+  const inspect::Watch its = there(watch);
+  EXPECT_EQ(mine.items, its.items);
+  EXPECT_EQ(mine.items.at(0), (inspect::WatchedItem{"Axis.Position", "m"}));
+  EXPECT_EQ(mine.items.at(1).item, "Settings.Gains.kp");
+  pass(100ms);
+  const inspect::WatchedValues seen = here([&](View& view) { return view.watched(mine.handle); });
+  EXPECT_EQ(there([&](View& view) { return view.watched(its.handle); }), seen);
+  EXPECT_EQ(seen.values.size(), mine.items.size());
+  EXPECT_EQ(seen.ages.at(0), 0.0);
+  there([&](View& view) {
+    view.end_watch(its.handle);
+    return 0;
+  });
+  EXPECT_THAT(refusal([&](View& view) { view.watched(its.handle); }), HasSubstr("unknown watch"));
+}
+
 TEST_F(Views, SeveralAttendOneApplicationEachWithItsOwnCommands) {
   const CommandStatus mine = here([](View& view) { return view.begin("Axis", "moveTo", {"5"}); });
   EXPECT_THAT(refusal([&](View& view) { view.cancel(mine.handle + 1); }),

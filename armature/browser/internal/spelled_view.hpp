@@ -39,6 +39,9 @@ class SpelledView {
   base::Result<MemberName> member_in(std::string_view text);
 
   inspect::ApplicationStatus status() { return view_.status(); }
+  exec::Pace pace() { return view_.pace(); }
+  exec::Pace set_pace(const exec::Pace& pace) { return view_.set_pace(pace); }
+  exec::Pace step() { return view_.step(); }
   std::vector<inspect::ComponentStatus> components() { return view_.components(); }
   inspect::Faults faults() { return view_.faults(); }
   /// A component with its values.

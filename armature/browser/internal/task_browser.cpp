@@ -2,8 +2,10 @@
 #include "armature/browser/internal/task_browser.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <iterator>
+#include <optional>
 
 #include "armature/base/seconds.hpp"
 #include "armature/browser/internal/help.hpp"
@@ -36,6 +38,21 @@ bool names_part(std::string_view rest) {
   constexpr std::string_view kPart = ".[]";
   return std::ranges::all_of(
       rest, [&](char c) { return is_name_character(c) || kPart.find(c) != kPart.npos; });
+}
+
+std::string text_of(const exec::Pace& pace) {
+  if (pace.paused) return "paused";
+  if (pace.rate == exec::kAsFastAsPossible) return "as fast as possible";
+  return number_text("%.9g s in a second", pace.rate);
+}
+
+/// A text that is a number and nothing else.
+std::optional<double> number_in(const std::string& text) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  const bool whole = read.ec == std::errc{} && read.ptr == end;
+  return whole ? std::optional(number) : std::nullopt;
 }
 
 std::string as_one_text(const Words& words) {
@@ -103,6 +120,7 @@ const TaskBrowser::Command* TaskBrowser::find_command(std::string_view name) {
       {"cleanup", "cleanup", &TaskBrowser::clean_up},
       {"run", "run", &TaskBrowser::run},
       {"wait", "wait", &TaskBrowser::wait},
+      {"pace", "pace", &TaskBrowser::pace},
       {"cancel", "cancel", &TaskBrowser::cancel},
       {"quit", "quit", &TaskBrowser::quit},
       {"exit", "quit", &TaskBrowser::quit},
@@ -221,6 +239,21 @@ void TaskBrowser::wait(const Words& arguments) {
   } else {
     let_pass(arguments, "wait takes the seconds to wait, above 0: wait 5");
   }
+}
+
+void TaskBrowser::pace(const Words& arguments) {
+  const exec::Pace now = view_.pace();
+  const std::string wanted = as_one_text(arguments);
+  if (wanted.empty()) return answers_.say(text_of(now));
+  if (wanted == "pause") return answers_.say(text_of(view_.set_pace({now.rate, true})));
+  if (wanted == "go") return answers_.say(text_of(view_.set_pace({now.rate, false})));
+  if (wanted == "step") return answers_.say(text_of(view_.step()));
+  if (wanted == "most") return answers_.say(text_of(view_.set_pace({})));
+  if (const auto rate = number_in(wanted)) {
+    return answers_.say(text_of(view_.set_pace({*rate, false})));
+  }
+  answers_.mistake(
+      "pace takes simulated seconds in a second, or most, pause, step or go: pace 0.1");
 }
 
 void TaskBrowser::cancel(const Words& arguments) {

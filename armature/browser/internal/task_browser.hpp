@@ -60,6 +60,7 @@ class TaskBrowser final : public LineTaker {
   void watch(const Words& words);
   void run(const Words& arguments);
   void wait(const Words& arguments);
+  void pace(const Words& arguments);
   void cancel(const Words& arguments);
   void quit(const Words& arguments);
 

@@ -51,6 +51,9 @@ std::vector<Topic> lua_commands() {
        "Generator:moveTo(array(1.0, 1.0), 10)\nwait\n"
        "Ctrl-C cancels the commands; a second one ends the waiting. As a function it takes a "
        "command, an event or a machine: wait(motion) is true, or false and why."},
+      {"pace", "pace [RATE | most | pause | step | go]", "how simulated time passes",
+       "pace 0.1: a tenth of real time\npace most: as fast as possible\npace pause\n"
+       "pace step: to the next cycle of a paused run\npace go: on, as before the pause"},
       {"cancel", "cancel", "cancels the commands that are under way",
        "Those that were begun here. One alone: motion:cancel()."},
       {"quit", "quit", "stops the application in order; also Ctrl-D, exit, stop()", ""}};

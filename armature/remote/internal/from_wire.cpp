@@ -197,6 +197,16 @@ inspect::CommandStatus from_wire(const CommandStatus& from) {
           from.ended,  from.progress, from.reason};
 }
 
+inspect::Watch from_wire(const Watch& from) {
+  return {from.handle, each(from.items, [](const WatchedItem& one) {
+            return inspect::WatchedItem{one.item, one.unit};
+          })};
+}
+
+inspect::WatchedValues from_wire(const WatchedValues& from) {
+  return {from.values, from.ages, from.replaced};
+}
+
 exec::Pace from_wire(const Pace& from) { return {from.rate, from.paused}; }
 
 }  // namespace armature::remote::internal

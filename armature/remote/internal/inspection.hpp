@@ -21,6 +21,8 @@ ComponentDetails to_wire(const inspect::ComponentDescription& from);
 ItemValue to_wire(const inspect::ItemValue& from);
 CallResult to_wire(const inspect::CallResult& from);
 CommandStatus to_wire(const inspect::CommandStatus& from);
+Watch to_wire(const inspect::Watch& from);
+WatchedValues to_wire(const inspect::WatchedValues& from);
 Pace to_wire(const exec::Pace& from);
 
 inspect::ApplicationStatus from_wire(const ApplicationStatus& from);
@@ -30,6 +32,8 @@ inspect::ComponentDescription from_wire(const ComponentDetails& from);
 inspect::ItemValue from_wire(const ItemValue& from);
 inspect::CallResult from_wire(const CallResult& from);
 inspect::CommandStatus from_wire(const CommandStatus& from);
+inspect::Watch from_wire(const Watch& from);
+inspect::WatchedValues from_wire(const WatchedValues& from);
 exec::Pace from_wire(const Pace& from);
 
 /// `all`, each by `convert`.

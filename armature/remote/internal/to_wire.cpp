@@ -152,6 +152,16 @@ CommandStatus to_wire(const inspect::CommandStatus& from) {
           from.ended,  from.progress, from.reason};
 }
 
+Watch to_wire(const inspect::Watch& from) {
+  return {from.handle, each(from.items, [](const inspect::WatchedItem& one) {
+            return WatchedItem{one.item, one.unit};
+          })};
+}
+
+WatchedValues to_wire(const inspect::WatchedValues& from) {
+  return {from.values, from.ages, from.replaced};
+}
+
 Pace to_wire(const exec::Pace& from) { return {from.rate, from.paused}; }
 
 }  // namespace armature::remote::internal
