@@ -49,7 +49,9 @@ INSTANTIATE_TEST_SUITE_P(
         Line{"m = Axis:moveTo(20)\nwait", "Axis.moveTo: failed: the axis is stuck"},
         Line{"m = Axis:moveTo(20)\ncancel\nrun 0.1", "Axis.moveTo: cancelled by its sender"},
         Line{"m = Axis:moveTo(3)\nrun 1\nm", "Axis.moveTo: done\nAxis.moveTo: done"},
-        Line{"cancel", "no command is under way"},
+        Line{"cancel", "no command is under way"}, Line{"pace", "as fast as possible"},
+        Line{"pace 0.5\npace pause\npace step\npace go\npace most",
+             "0.5 s in a second\npaused\npaused\n0.5 s in a second\nas fast as possible"},
         Line{"stop Settings\nSettings.Fixed = 2\nstart Settings",
              "Settings: Stopped\nSettings.Fixed = 2\nSettings: Running"},
         Line{"stop Settings, Axis\nstart",
@@ -72,6 +74,10 @@ TEST_P(Mistyping, IsToldAndTheBrowserGoesOn) {
 INSTANTIATE_TEST_SUITE_P(
     Each, Mistyping,
     ::testing::Values(
+        Line{"pace fast",
+             "pace takes simulated seconds in a second, or most, pause, step or go: pace 0.1"},
+        Line{"pace 0", "the pace is a number above 0: 1 is real time, 0.1 a tenth of it"},
+        Line{"pace step", "only paused simulated time goes on by steps"},
         Line{"Axsi.Position", "unknown component or variable 'Axsi' (did you mean 'Axis'?)"},
         Line{"Axis.Positoin",
              "'Axis' has no property, port, operation or event 'Positoin' (did you mean "

@@ -129,6 +129,8 @@ void UntypedCommandCaller::tell(CommandStage stage, std::string_view reason) {
 
 UntypedInputPort::UntypedInputPort(Component& owner, std::string_view name, std::string_view doc,
                                    const OutputPortBase& like) noexcept
-    : InputPortBase(owner, {name, doc, like.unit(), like.type(), is_small(like.type())}) {}
+    : InputPortBase(owner, {name, doc, {}, like.type(), is_small(like.type())}) {
+  follow_unit_of(like);
+}
 
 }  // namespace armature::component

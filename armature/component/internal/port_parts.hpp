@@ -29,6 +29,7 @@ struct PortBase::About {
   bool is_small;
   bool may_stay_open = false;
   std::string_view unit;
+  const Property<std::string>* unit_property = nullptr;  ///< that says it instead
   PortSize size;
   std::string_view doc;
 };

@@ -258,8 +258,10 @@ bool InputPortBase::reads_zero(bool stale) const {
 class InputPortBase::Twin final : public InputPortBase {
  public:
   Twin(StandIn& owner, const InputPortBase& original)
-      : InputPortBase(owner, {original.name(), original.doc(), original.unit(), original.type(),
-                              original.about().is_small}) {
+      : InputPortBase(
+            owner,
+            {original.name(), original.doc(), {}, original.type(), original.about().is_small}) {
+    follow_unit_of(original);
     About& mine = about();
     mine.size = original.declared_size();
     mine.may_stay_open = true;  // whoever feeds the original

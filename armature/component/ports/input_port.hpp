@@ -240,7 +240,7 @@ class InputPort final : public InputPortBase {
 
  public:
   /// Name, documentation and unit are literals. Options: on_data<&X::f>, on_data_update, max_age,
-  /// on_lost, may_stay_open, fan_in, size_of(property, factor).
+  /// on_lost, may_stay_open, fan_in, size_of(property, factor), unit_of(property).
   template <typename... Options>
   InputPort(Component* owner, std::string_view name, std::string_view doc,
             std::string_view unit = {}, Options... options) noexcept

@@ -155,7 +155,8 @@ class OutputPort final : public OutputPortBase {
   static_assert(PortData<T>, ARMATURE_INTERNAL_PORT_DATA_TEXT);
 
  public:
-  /// Name, documentation and unit are literals. Options: size_of(property, factor).
+  /// Name, documentation and unit are literals. Options: size_of(property, factor),
+  /// unit_of(property).
   template <typename... Options>
   OutputPort(Component* owner, std::string_view name, std::string_view doc,
              std::string_view unit = {}, Options... options) noexcept

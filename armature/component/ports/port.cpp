@@ -49,7 +49,9 @@ const std::string& PortBase::name() const { return about_->name; }
 
 std::string_view PortBase::doc() const { return about_->doc; }
 
-std::string_view PortBase::unit() const { return about_->unit; }
+std::string_view PortBase::unit() const {
+  return about_->unit_property != nullptr ? about_->unit_property->get() : about_->unit;
+}
 
 const types::Type& PortBase::type() const { return about_->form.type(); }
 
@@ -58,6 +60,13 @@ const PortSize& PortBase::declared_size() const { return about_->size; }
 bool PortBase::stays_open() const { return about_->may_stay_open; }
 
 void PortBase::apply(PortSize size) noexcept { about_->size = size; }
+
+void PortBase::apply(UnitOf unit) noexcept { about_->unit_property = unit.property; }
+
+void PortBase::follow_unit_of(const PortBase& other) noexcept {
+  about_->unit = other.about_->unit;
+  about_->unit_property = other.about_->unit_property;
+}
 
 void PortBase::apply(MayStayOpen) noexcept { about_->may_stay_open = true; }
 

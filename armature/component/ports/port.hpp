@@ -87,6 +87,13 @@ inline PortSize size_of(const Property<int>& property, std::size_t factor = 1) {
 }
 inline PortSize fixed_size(std::size_t count) { return {nullptr, count}; }
 
+/// Option of a port, given in place of a unit that is known when the model is written: a property
+/// says it. Of components that serve any unit.
+struct UnitOf {
+  const Property<std::string>* property;
+};
+inline UnitOf unit_of(const Property<std::string>& property) { return {&property}; }
+
 /// Options of an input port, given behind its unit.
 struct MaxAge {
   base::Duration age;
@@ -146,6 +153,7 @@ class PortBase : public Entrance {
 
   const std::string& name() const;
   std::string_view doc() const;
+  /// Good as long as the property that says it, if one does, is not set anew.
   std::string_view unit() const;
   const types::Type& type() const;
   Component& owner() const { return owner_; }
@@ -167,6 +175,9 @@ class PortBase : public Entrance {
   PortBase(Component& owner, std::unique_ptr<About> about) noexcept;
 
   void apply(PortSize size) noexcept;
+  void apply(UnitOf unit) noexcept;
+  /// Is in the unit of another, which lives as long.
+  void follow_unit_of(const PortBase& other) noexcept;
   void apply(MayStayOpen) noexcept;
 
   About& about() const { return *about_; }

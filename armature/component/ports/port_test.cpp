@@ -151,6 +151,23 @@ class VectorWriter : public Component {
   InputPort<std::vector<double>> in{this, "In", "one per joint", "rad", size_of(joints)};
 };
 
+/// Serves any unit.
+class AnyUnit : public Component {
+ public:
+  using Component::Component;
+  Property<std::string> unit{this, "Unit", "rad", "of the ports"};
+  OutputPort<double> out{this, "Out", "a number", "", unit_of(unit)};
+  InputPort<double> in{this, "In", "a number", "", unit_of(unit)};
+};
+
+TEST(Port, HasTheUnitThatAPropertySays) {
+  AnyUnit component("any");
+  EXPECT_EQ(component.out.unit(), "rad");
+  ASSERT_TRUE(component.unit.set(types::Value::of(std::string("a unit with a long name"))));
+  EXPECT_EQ(component.out.unit(), "a unit with a long name");
+  EXPECT_EQ(component.in.unit(), "a unit with a long name");
+}
+
 TEST(VectorPort, TakesItsSizeFromAProperty) {
   VectorWriter component("vectors");
   TestThread thread(component);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The component library `controls`: what applications are assembled with between components that
+// do the work (paper 4, section III.C).
+#include "armature/component/registry.hpp"
+#include "armature/general/controls/adder.hpp"
+#include "armature/general/controls/button.hpp"
+#include "armature/general/controls/comparator.hpp"
+#include "armature/general/controls/constant.hpp"
+#include "armature/general/controls/displays.hpp"
+#include "armature/general/controls/integrator.hpp"
+#include "armature/general/controls/limit.hpp"
+#include "armature/general/controls/logic.hpp"
+#include "armature/general/controls/multiplier.hpp"
+#include "armature/general/controls/selector.hpp"
+#include "armature/general/controls/slider.hpp"
+#include "armature/general/controls/switch.hpp"
+#include "armature/general/controls/timer.hpp"
+
+using namespace armature::general;
+
+ARMATURE_COMPONENT_LIBRARY(controls, registry) {
+  registry.add<Constant>("Constant", "writes a number");
+  registry.add<Timer>("Timer", "raises an event each time that a period has passed");
+  registry.add<Adder>("Adder", "adds its inputs, each with its sign");
+  registry.add<Multiplier>("Multiplier", "multiplies its inputs");
+  registry.add<Comparator>("Comparator", "tells when a value passes a threshold");
+  registry.add<Selector>("Selector", "passes on one of its inputs");
+  registry.add<Limit>("Limit", "keeps a value between two bounds");
+  registry.add<Logic>("Logic", "combines truth values");
+  registry.add<Integrator>("Integrator", "sums a value up over time");
+  registry.add<Button>("Button", "something to press");
+  registry.add<Switch>("Switch", "something to turn on and off");
+  registry.add<Slider>("Slider", "a number that somebody moves");
+  registry.add<Light>("Light", "shows whether something holds");
+  registry.add<Number>("Number", "shows a number");
+  registry.add<Plot>("Plot", "shows how numbers went");
+}
