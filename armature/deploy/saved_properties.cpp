@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/deploy/saved_properties.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <string>
@@ -29,6 +30,10 @@ struct Saved {
 };
 
 std::vector<Saved> saved_in(const Document& document, const exec::Blueprint& blueprint) {
+  const auto saves = [](const Component& written) {
+    return written.autosave && !written.property_files.empty();
+  };
+  if (std::ranges::none_of(document.components, saves)) return {};
   std::unordered_map<std::string_view, component::Component*> made;
   for (const exec::ComponentEntry& entry : blueprint.components) {
     made.emplace(entry.component->name(), entry.component.get());
@@ -36,8 +41,7 @@ std::vector<Saved> saved_in(const Document& document, const exec::Blueprint& blu
   std::vector<Saved> all;
   for (const Component& written : document.components) {
     const auto found = made.find(written.name);
-    const bool saves = written.autosave && !written.property_files.empty();
-    if (!saves || found == made.end()) continue;
+    if (!saves(written) || found == made.end()) continue;
     auto* const keeps = dynamic_cast<component::Keeps*>(found->second);
     all.push_back({*found->second, written.property_files.back(),
                    keeps == nullptr ? nullptr : &keeps->keeping()});

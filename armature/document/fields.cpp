@@ -138,6 +138,7 @@ void ValueReader::refuse_choice(const Value& value, std::string_view what, const
 
 Fields::Fields(const Value& value, const ValueReader& reader, Empty empty)
     : value_(value), reader_(reader), empty_(empty) {
+  known_.reserve(kUsualKeys);
   const bool possible = value.kind == Value::Kind::kMap || value.kind == Value::Kind::kNone;
   if (possible) return;
   reader.error(value.where, "expected a map of keys, found " + std::string(name_of(value.kind)));

@@ -99,6 +99,7 @@ class Fields {
   const Value& value_;
   const ValueReader& reader_;
   Empty empty_;
+  static constexpr std::size_t kUsualKeys = 16;  ///< of a component or a connection
   std::vector<std::string> known_;
 };
 

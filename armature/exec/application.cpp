@@ -58,6 +58,16 @@ bool is_ready(const std::function<void()>& ready, base::Diagnostics& diagnostics
   return diagnostics.ok();
 }
 
+/// Simulated time passes as fast as the machine can, or stands still: no drive is to follow it.
+void refuse_hardware(const Plan& plan, base::Diagnostics& diagnostics) {
+  for (const HardwarePlan& one : plan.hardware) {
+    diagnostics.error({},
+                      base::quoted(one.component->name()) + " drives a real robot by " + one.bus +
+                          ", which does not follow simulated time",
+                      "run it in real time, or on a simulated robot");
+  }
+}
+
 }  // namespace
 
 /// What an application is made of. Each part knows those before it that it needs, so that they go
@@ -120,6 +130,7 @@ Application::~Application() {
 base::Diagnostics Application::check() {
   base::Diagnostics diagnostics;
   parts_->plan = make_plan(parts_->blueprint, diagnostics);
+  if (parts_->options.simulated) refuse_hardware(parts_->plan, diagnostics);
   return diagnostics;
 }
 

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/check.hpp"
 #include "armature/exec/internal/test_components.hpp"
 #include "armature/platform/stop_signal.hpp"
 
@@ -250,6 +251,26 @@ TEST_F(PacedSimulation, RefusesWhatIsNoPaceAndStepsWithoutAPause) {
   EXPECT_FALSE(application_->set_pace({.rate = std::nan("")}));
   EXPECT_FALSE(application_->step());
   EXPECT_EQ(application_->pace(), Pace{});
+}
+
+/// Drives what is not simulated.
+class Drive : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void on_check(component::Check& check) const override { check.drives_hardware("can0"); }
+};
+
+TEST(Simulation, ARealRobotDoesNotFollowIt) {
+  for (const bool simulated : {true, false}) {
+    Blueprint blueprint;
+    blueprint.add<Drive>("Drive", Activity::periodic(1ms));
+    Application application(std::move(blueprint), patient(simulated));
+    const std::string said = application.start().to_text();
+    EXPECT_EQ(application.running(), !simulated);
+    EXPECT_EQ(said.find("'Drive' drives a real robot by can0") != said.npos, simulated) << said;
+  }
 }
 
 TEST(Simulation, IsRealTimeForTheGuard) {

@@ -61,6 +61,14 @@ class WrongUse(unittest.TestCase):
         self.assert_wrong_use("run", WAVE, "--realtme", "off", says="did you mean '--realtime'?")
         self.assert_wrong_use("check", WAVE, "--ordr", says="did you mean '--order'?")
 
+    def test_check_needs_a_file_or_serves(self):
+        self.assert_wrong_use("check", says="file is required")
+        self.assert_wrong_use("check", WAVE, "--serve", says="--serve")
+
+    def test_a_pace_is_for_simulated_time_and_above_0(self):
+        self.assert_wrong_use("run", WAVE, "--pace", "1", says="--sim")
+        self.assert_wrong_use("run", WAVE, "--sim", "--pace", "0", says="--pace")
+
     def test_a_library_folder_that_is_not_there(self):
         self.assert_wrong_use("check", WAVE, "-L", "/nowhere", says="folder '/nowhere' does not exist")
 
@@ -103,6 +111,37 @@ class Checking(unittest.TestCase):
         done = armature("check", WAVE, "--mode", "fast")
         self.assertEqual(done.returncode, 1)
         self.assertIn("<command line>: error: unknown mode 'fast': the deployment has no modes", done.stderr)
+
+    def test_all_that_is_known_for_machines(self):
+        done = armature("check", WAVE, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)
+        self.assertEqual([one["name"] for one in found["components"]], ["Source", "Filter", "Watcher"])
+        self.assertEqual(found["connections"][0]["from"], "Source.Position")
+
+    def test_mistakes_for_machines(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wrong = os.path.join(folder, "wrong.yaml")
+            with open(WAVE) as right, open(wrong, "w") as file:
+                file.write(right.read().replace("Filter.Raw", "Filter.Row"))
+            done = armature("check", wrong, "--json")
+            self.assertEqual(done.returncode, 1)
+            fixes = [one["fix"] for one in json.loads(done.stdout)["diagnostics"] if "fix" in one]
+            self.assertEqual([(fix["found"], fix["by"]) for fix in fixes], [("Row", "Raw")])
+            with open(wrong) as file:
+                line = file.read().splitlines()[fixes[0]["line"] - 1]
+            self.assertTrue(line[fixes[0]["column"] - 1:].startswith("Row"), line)
+
+    def test_serves_an_editor_until_its_input_ends(self):
+        requests = [{"id": 1, "do": "check", "file": WAVE, "members": False},
+                    {"id": 2, "do": "fitting", "component": "Source", "member": "Position"},
+                    {"id": 3, "do": "fly"}]
+        done = armature("check", "--serve", input="".join(json.dumps(one) + "\n" for one in requests))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        check, fitting, refused = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertTrue(check["result"]["ok"])
+        self.assertEqual({end["member"] for end in fitting["result"]["ends"]}, {"Raw", "Value"})
+        self.assertIn("unknown act 'fly'", refused["error"])
 
     def test_run_refuses_what_check_refuses(self):
         done = armature("run", "--sim", "--for", "1s", WAVE, "--set", "Source.Frequency=100 Hz")
