@@ -16,6 +16,7 @@ void add_all(const armature::benchmarks::Suite& suite) {
   using namespace armature::benchmarks;
   add_cycles(suite);
   add_timelines(suite);
+  add_watches(suite);
   add_threaded_cycles(suite);
   add_models(suite);
   add_calls(suite);

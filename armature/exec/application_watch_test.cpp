@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "armature/exec/internal/test_components.hpp"
-#include "armature/testing/realtime_guard.hpp"
 
 namespace armature::exec {
 namespace {
@@ -60,7 +59,6 @@ INSTANTIATE_TEST_SUITE_P(InBothKindsOfTime, Watching, ::testing::Bool(),
 
 TEST_P(Watching, TellsWhatTheThreadsWroteLast) {
   const std::int32_t handle = watch();
-  const testing::RealtimeGuard guard;
   const RunEnd end = application_->run_until(
       application_->now() + 60s, [&] { return application_->watched(handle)->values[0] >= 10.0; });
   EXPECT_EQ(end, RunEnd::kConditionMet);

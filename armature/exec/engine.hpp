@@ -47,9 +47,11 @@ class Engine {
   void keep_black_box(std::shared_ptr<component::BlackBox> box);
 
   /// Has numbers copied after its cycles, until `detach`.
-  /// @rt nonblocking, no allocation, as for `detach`
-  /// @thread its own, or one while it does not run
+  /// @rt nonblocking, no allocation
+  /// @thread its own, or any while it does not run, as for `detach`
   void attach(ThreadWatch& watch) noexcept;
+  /// No effect if it was not attached.
+  /// @rt nonblocking, no allocation, O(watches)
   void detach(ThreadWatch& watch) noexcept;
 
   /// Whether it sleeps until data becomes too old, beside messages.
