@@ -142,7 +142,8 @@ TEST(UnitsOfControls, PortsAreInTheUnitThatThePropertySays) {
 }
 
 TEST(UnitsOfControls, WhatIsNoUnitIsRefused) {
-  EXPECT_THAT(check<Limit>({{"Unit", "radd"}}), HasSubstr("property 'Unit'"));
+  EXPECT_THAT(check<Constant>({{"Unit", "radd"}}), HasSubstr("property 'Unit'"));
+  EXPECT_THAT(check<Limit>({{"Unit", "radd"}}), HasSubstr("the unknown unit 'radd'"));
 }
 
 TEST(UnitsOfControls, AProductHasTheUnitOfItsFactors) {

@@ -19,6 +19,7 @@ class Selector final : public component::Component {
       return component::refused("no input has this number: they count from 1 to Inputs");
     }
     selected_.assign(number);
+    select_.complete();
     return component::accepted();
   }
 

@@ -34,6 +34,7 @@ class Slider final : public component::Component {
     value_ = std::max(low_.get(), std::min(high_.get(), value));
     moved_ = time();
     out_.write(value_);
+    move_.complete();
     return component::accepted();
   }
 
