@@ -128,11 +128,10 @@ void set_activity(const Targets& targets, const Value& value, const std::string&
   const std::string key = key_in(targets);
   std::vector<std::string> fresh;
   const std::vector<Site> sites = sites_in_force(targets, find_activity, shop, fresh);
-  const auto open = [&](const Site& site) { return is_open(site, targets, shop); };
   shop.expect(expect_activity(shop.before(), targets, value, text));
   Value whole = key.empty() ? value : make_map();
   if (!key.empty()) whole.entries.push_back({key, value, {}, {}});
-  if (shop.overrides() && (!fresh.empty() || !std::all_of(sites.begin(), sites.end(), open))) {
+  if (needs_override(sites, fresh, targets, shop)) {
     if (!key.empty() && !sites.empty()) {
       return shop.refuse("an activity is overridden as a whole",
                          "for example --set '" + targets.written +
@@ -143,7 +142,7 @@ void set_activity(const Targets& targets, const Value& value, const std::string&
     return add_activity(*entry, whole, shop);
   }
   for (const Site& site : sites) {
-    if (!open(site)) return refuse_site(site, targets, shop);
+    if (!is_open(site, targets, shop)) return refuse_site(site, targets, shop);
     if (key.empty()) {
       shop.layout(*site.entry->file).replace(*site.node, value);
     } else {

@@ -32,6 +32,14 @@ const Node* first_of_element(const Node& node) {
   return container->children[static_cast<std::size_t>(at - at % 2)];
 }
 
+/// An empty list that overrides another says that there is nothing.
+bool means_something_when_empty(const Node& container) {
+  const Node* override = container.parent == nullptr ? nullptr : find_value(container.parent, "override");
+  if (override == nullptr || override->text != "true") return false;
+  const std::string& key = first_of_element(container)->text;
+  return key != "properties" && key != "bind";  // which are overridden one by one
+}
+
 }  // namespace
 
 bool is_in_flow(const Node& node) {
@@ -122,10 +130,16 @@ bool Layout::is_spaced(const std::vector<Element>& elements) const {
 
 void Layout::add_in_block(const Node& container, const Element& behind,
                           const std::string& rendered) {
+  const std::string gap = is_spaced(elements_of(container)) ? std::string(file_.end_of_line()) : "";
+  add_line_behind(behind.end, gap + spaces(file_.column(container.begin)) + rendered);
+}
+
+/// Behind the line of `offset`; the last line of a file may have no end.
+void Layout::add_line_behind(std::size_t offset, const std::string& line) {
   const std::string end_of_line{file_.end_of_line()};
-  const std::size_t at = file_.line_end(behind.end);
-  const std::string gap = is_spaced(elements_of(container)) ? end_of_line : "";
-  put(at, at, gap + end_of_line + spaces(file_.column(container.begin)) + rendered);
+  const std::size_t newline = file_.text().find('\n', offset);
+  if (newline != std::string::npos) return put(newline + 1, newline + 1, line + end_of_line);
+  put(file_.text().size(), file_.text().size(), end_of_line + line);
 }
 
 void Layout::add_in_empty_flow(const Node& container, const std::string& text) {
@@ -217,6 +231,7 @@ void Layout::let_empty_ones_go() {
       const bool all = std::all_of(elements.begin(), elements.end(),
                                    [](const Element& element) { return element.removed; });
       if (!all || container->parent == nullptr || !removed_.contains(one)) continue;
+      if (means_something_when_empty(*container)) continue;
       for (const Element& element : elements) removed_.erase(element.first);
       removed_.insert(first_of_element(*container));
       changed = true;
@@ -272,6 +287,16 @@ void Layout::remove_in_flow(const std::vector<Element>& elements) {
   }
 }
 
+/// It loses all it has, and stays.
+void Layout::empty(const Node& container) {
+  if (!container.flow) {
+    const bool is_map = container.kind == Node::Kind::kMap;
+    return replace(container, is_map ? document::make_map() : document::make_list());
+  }
+  const std::vector<Element> elements = elements_of(container);
+  put(elements.front().begin, elements.back().end, "");
+}
+
 std::vector<Replacement> Layout::take() {
   let_empty_ones_go();
   std::map<const Node*, std::vector<Element>> containers;
@@ -279,8 +304,8 @@ std::vector<Replacement> Layout::take() {
   for (const auto& [container, elements] : containers) {
     const bool all = std::all_of(elements.begin(), elements.end(),
                                  [](const Element& element) { return element.removed; });
-    if (container->flow && all) {
-      put(elements.front().begin, elements.back().end, "");
+    if (all && (container->flow || container->parent != nullptr)) {
+      empty(*container);
     } else if (container->flow) {
       remove_in_flow(elements);
     } else {
@@ -288,7 +313,9 @@ std::vector<Replacement> Layout::take() {
     }
   }
   std::stable_sort(replacements_.begin(), replacements_.end(),
-                   [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
+                   [](const Replacement& a, const Replacement& b) {
+                     return std::pair(a.begin, a.end) < std::pair(b.begin, b.end);
+                   });
   return std::move(replacements_);
 }
 

@@ -12,13 +12,14 @@ namespace {
 using document::Connection;
 using document::Document;
 
-/// A peer that is known by its component's name is known by the new one.
+/// A peer that is known by its component's name, without the composites around it, is known by the
+/// new one.
 void rename_peer(document::Peer& peer, const NewName& new_name) {
-  const std::string& old = peer.component;
-  const std::string name = new_name(old);
+  const std::string old = std::exchange(peer.component, new_name(peer.component));
   const bool by_component = old == peer.name || old.ends_with("." + peer.name);
-  if (by_component && name != old) peer.name = name.substr(old.size() - peer.name.size());
-  peer.component = name;
+  const bool same = peer.component == peer.name || peer.component.ends_with("." + peer.name);
+  if (!by_component || same) return;
+  peer.name = peer.component.substr(old.size() - peer.name.size());
 }
 
 void rename_connection(Connection& connection, const NewName& new_name) {

@@ -91,12 +91,9 @@ void write_property(const Targets& targets, const Value& value, Workshop& shop) 
   std::vector<std::string> fresh;
   const auto find = [&](const Entry& entry) { return find_property_node(entry, targets.rest); };
   const std::vector<Site> sites = sites_in_force(targets, find, shop, fresh);
-  const auto open = [&](const Site& site) { return is_open(site, targets, shop); };
-  if (shop.overrides() && (!fresh.empty() || !std::all_of(sites.begin(), sites.end(), open))) {
-    return override_property(targets, value, shop);
-  }
+  if (needs_override(sites, fresh, targets, shop)) return override_property(targets, value, shop);
   for (const Site& site : sites) {
-    if (!open(site)) return refuse_site(site, targets, shop);
+    if (!is_open(site, targets, shop)) return refuse_site(site, targets, shop);
     shop.layout(*site.entry->file).replace(*site.node, value);
   }
   std::vector<const Entry*> done;
@@ -219,24 +216,26 @@ const Node* what_to_remove(const Site& site) {
   return site.entry->changes && last && nothing_else ? site.entry->key : site.node;
 }
 
+void refuse_unset(const std::string& name, const std::string& path, Workshop& shop) {
+  const Value* value = find_property(shop.document(), name, path);
+  const std::string what = "no entry of '" + name + "' sets '" + path + "'";
+  if (value == nullptr) return shop.refuse(what, "it has its default already");
+  shop.refuse(value->where, what + ", which it has from there", "change that place");
+}
+
 void unset_property(const Targets& targets, Workshop& shop) {
   std::vector<std::string> without;
   const auto find = [&](const Entry& entry) { return find_property_node(entry, targets.rest); };
   const std::vector<Site> sites = sites_in_force(targets, find, shop, without);
-  const auto open = [&](const Site& site) { return is_open(site, targets, shop); };
-  if (!without.empty()) {
-    shop.refuse("no file sets '" + targets.rest + "' of '" + without.front() + "'",
-                "it has its default already");
-    return;
-  }
+  if (!without.empty()) return refuse_unset(without.front(), targets.rest, shop);
   shop.expect(expect_unset(shop.before(), targets));
-  if (shop.overrides() && !std::all_of(sites.begin(), sites.end(), open)) {
+  if (needs_override(sites, {}, targets, shop)) {
     Value removal = make_map();
     removal.entries.push_back({"remove", document::make_text("true"), {}, {}});
     return override_property(targets, removal, shop);
   }
   for (const Site& site : sites) {
-    if (!open(site)) return refuse_site(site, targets, shop);
+    if (!is_open(site, targets, shop)) return refuse_site(site, targets, shop);
     shop.layout(*site.entry->file).remove(*what_to_remove(site));
   }
 }

@@ -2,6 +2,7 @@
 #include "armature/edit/internal/targets.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "armature/base/near_name.hpp"
 #include "armature/document/ranges.hpp"
@@ -187,22 +188,41 @@ void refuse_site(const Site& site, const Targets& targets, Workshop& shop) {
                   "' alone with --override");
 }
 
-const Entry* entry_for_new(const std::string& name, const Targets& targets, Workshop& shop) {
-  const std::vector<const Entry*> entries = shop.map().entries_of(name);
-  const SourceText* wanted = shop.file_for_new();
-  if (wanted == nullptr) return nullptr;
+const Entry* open_entry(const std::string& name, const Targets& targets, const Workshop& shop) {
+  const auto& files = shop.edit().files;
+  const SourceText* wanted =
+      files.empty() ? &shop.map().main() : shop.map().file(files.front());
+  const auto rank = [&](const Entry& entry) {
+    return std::pair(entry.file == wanted, entry.names.size());  // one for all of a range is best
+  };
   const Entry* best = nullptr;
-  for (const Entry* entry : entries) {
+  for (const Entry* entry : shop.map().entries_of(name)) {
     if (!is_open({entry, nullptr}, targets, shop)) continue;
-    if (best == nullptr || entry->file == wanted || best->file != wanted) best = entry;
+    if (best == nullptr || rank(*entry) >= rank(*best)) best = entry;
   }
-  if (best != nullptr) return best;
+  return best;
+}
+
+const Entry* entry_for_new(const std::string& name, const Targets& targets, Workshop& shop) {
+  if (const Entry* open = open_entry(name, targets, shop)) return open;
+  const std::vector<const Entry*> entries = shop.map().entries_of(name);
   if (entries.empty()) {
     shop.refuse("'" + name + "' is in an OROCOS file, which is not edited");
   } else {
     refuse_site({entries.back(), nullptr}, targets, shop);
   }
   return nullptr;
+}
+
+bool needs_override(const std::vector<Site>& sites, const std::vector<std::string>& without,
+                    const Targets& targets, const Workshop& shop) {
+  if (!shop.overrides()) return false;
+  const bool open = std::all_of(sites.begin(), sites.end(), [&](const Site& site) {
+    return is_open(site, targets, shop);
+  });
+  return !open || std::any_of(without.begin(), without.end(), [&](const std::string& name) {
+    return open_entry(name, targets, shop) == nullptr;
+  });
 }
 
 const Entry* find_override(const Targets& targets, const Workshop& shop) {

@@ -2,6 +2,7 @@
 #include "armature/edit/internal/workshop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "armature/document/value_tree.hpp"
@@ -11,6 +12,22 @@ namespace armature::edit::internal {
 using document::make_list;
 using document::make_map;
 using document::Value;
+
+namespace {
+
+/// The last of a file's sections that usually stand before that one; empty: none.
+std::string_view section_before(std::string_view section, const Node& root) {
+  constexpr std::array<std::string_view, 6> kOrder = {"include",    "application", "libraries",
+                                                      "parameters", "components",  "connections"};
+  std::string_view before;
+  for (const std::string_view one : kOrder) {
+    if (one == section) return before;
+    if (find_key(&root, one) != nullptr) before = one;
+  }
+  return {};
+}
+
+}  // namespace
 
 State read_state(const std::string& file, const deploy::FileReader& read,
                  const document::Limits& limits, base::Diagnostics& diagnostics) {
@@ -82,8 +99,7 @@ void Workshop::add_section(const SourceText& file, const std::string& section, c
   } else if (root->kind != Node::Kind::kMap) {
     refuse(file.path() + " is not a map of sections");
   } else if (const Node* value = find_value(root, section); value == nullptr) {
-    const bool wires = section == "connections" && find_key(root, "components") != nullptr;
-    layout(file).add_entry(*root, section, content, levels, wires ? "components" : "");
+    layout(file).add_entry(*root, section, content, levels, section_before(section, *root));
   } else {
     layout(file).fill(*value, content, levels);
   }

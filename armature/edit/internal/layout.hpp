@@ -36,8 +36,9 @@ class Layout {
   /// The first section of a file without content.
   void begin_file(const std::string& key, const document::Value& value, int levels);
 
-  /// Takes out an item of a list, or the entry of a map whose key or value this is. Lists and maps
-  /// that lose all they have go, too; so do comments behind it on its last line.
+  /// Takes out an item of a list, or the entry of a map whose key or value this is, with comments
+  /// behind it on its last line. Lists and maps that lose all they have go, too, unless they override
+  /// others.
   void remove(const Node& node);
 
   /// All of it, in the order of the text.
@@ -56,6 +57,7 @@ class Layout {
   void add_in_flow(const Node& container, const std::string& text);
   void add_in_empty_flow(const Node& container, const std::string& text);
   void add_in_block(const Node& container, const Element& behind, const std::string& rendered);
+  void add_line_behind(std::size_t offset, const std::string& line);
   std::string rendered(const std::string& beginning, const document::Value& value,
                        std::size_t indent, int levels) const;
   std::string aligned_key(const Node& map, const std::string& key) const;
@@ -63,6 +65,7 @@ class Layout {
   std::size_t step() const;
   std::size_t list_step() const;
   void let_empty_ones_go();
+  void empty(const Node& container);
   void remove_in_flow(const std::vector<Element>& elements);
   void remove_in_block(const Node& container, const std::vector<Element>& elements);
   void remove_lines(std::size_t begin, std::size_t end);

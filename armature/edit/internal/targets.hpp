@@ -60,7 +60,15 @@ bool is_open(const Site& site, const Targets& targets, const Workshop& shop);
 /// Says why it is not.
 void refuse_site(const Site& site, const Targets& targets, Workshop& shop);
 
-/// The entry where something new of a target is written; an error and nullptr if the edit allows
+/// The entry where the edit may write something new of a target, nullptr if it may in none.
+const Entry* open_entry(const std::string& name, const Targets& targets, const Workshop& shop);
+
+/// True if the edit may override, and cannot change all of the sites and write all of what is new
+/// where it belongs.
+bool needs_override(const std::vector<Site>& sites, const std::vector<std::string>& without,
+                    const Targets& targets, const Workshop& shop);
+
+/// Likewise; an error and nullptr if the edit allows
 /// none.
 const Entry* entry_for_new(const std::string& name, const Targets& targets, Workshop& shop);
 
