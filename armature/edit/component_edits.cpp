@@ -120,18 +120,25 @@ bool means_one_of(const Mention& mention, const std::vector<EntryNames>& gone,
   });
 }
 
+/// True if it goes with one of the entries.
+bool is_inside(const Node& node, const std::vector<const Entry*>& entries) {
+  for (const Node* around = node.parent; around != nullptr; around = around->parent) {
+    const auto is_it = [&](const Entry* entry) { return entry->value == around; };
+    if (std::any_of(entries.begin(), entries.end(), is_it)) return true;
+  }
+  return false;
+}
+
 /// Connections of what an override removes go by themselves.
 void remove_mentions(const Targets& targets, Workshop& shop) {
+  const std::vector<const Entry*> entries = entries_that_go(targets, shop).entries;
   std::vector<EntryNames> gone;
-  for (const Entry* entry : entries_that_go(targets, shop).entries) {
+  for (const Entry* entry : entries) {
     if (!entry->changes) gone.emplace_back(*entry);
   }
   for (const Mention& mention : mentions_in(shop.map())) {
-    if (!means_one_of(mention, gone, shop)) continue;
-    const bool by_itself = shop.overrides() && !shop.may_change(*mention.file) &&
-                           mention.whole->parent != nullptr && mention.whole != mention.node;
-    const bool arrow = mention.form == Mention::Form::kArrow;
-    if (by_itself || (arrow && shop.overrides() && !shop.may_change(*mention.file))) continue;
+    if (is_inside(*mention.node, entries) || !means_one_of(mention, gone, shop)) continue;
+    if (mention.in_connection && shop.overrides() && !shop.may_change(*mention.file)) continue;
     if (!shop.require(*mention.file, *mention.node, "'" + mention.node->text + "'")) return;
     shop.layout(*mention.file).remove(*mention.whole);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <unordered_map>
 
@@ -21,9 +22,19 @@ struct Part {
   std::string text;
 };
 
+/// Properties are known by name: the order in which files give them does not count.
+Value with_sorted_properties(Value body) {
+  Property* properties = document::find(body.entries, "properties");
+  if (properties != nullptr) {
+    std::ranges::sort(properties->value.entries, std::less<>(), &Property::name);
+  }
+  return body;
+}
+
 void add_parts(std::vector<Part>& parts, const std::string& kind, const Value& section) {
   for (const Property& entry : section.entries) {
-    parts.push_back({kind + " '" + entry.name + "'", document::flow_text(entry.value)});
+    const std::string text = document::flow_text(with_sorted_properties(entry.value));
+    parts.push_back({kind + " '" + entry.name + "'", text});
   }
   for (const Value& item : section.items) {
     const std::string text = document::flow_text(item);

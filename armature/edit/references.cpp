@@ -68,7 +68,9 @@ class Finder {
         add(member, named ? Form::kName : Form::kMember, composite);
       });
     });
+    in_connections_ = true;
     for (const Node* item : items_of(find_value(body, "connections"))) connection(item, composite);
+    in_connections_ = false;
   }
 
   void peers(const Node* peers, const std::string& composite) {
@@ -99,11 +101,13 @@ class Finder {
 
   void add(const Node* node, Form form, const std::string& composite, const Node* whole = nullptr) {
     if (node == nullptr || node->kind != Node::Kind::kScalar || node->is_empty()) return;
-    found_.push_back({&file_, node, form, composite, whole == nullptr ? node : whole});
+    found_.push_back(
+        {&file_, node, form, composite, whole == nullptr ? node : whole, in_connections_});
   }
 
   const SourceText& file_;
   std::vector<Mention>& found_;
+  bool in_connections_ = false;
 };
 
 }  // namespace

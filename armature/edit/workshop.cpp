@@ -74,7 +74,8 @@ bool Workshop::may_change(const SourceText& file) const {
 bool Workshop::require(const SourceText& file, const Node& node, const std::string& what) {
   if (may_change(file)) return true;
   refuse(file.place_of(node), what + " stands in " + file.path(),
-         "change that file with --in " + file.path() + ", or override it here with --override");
+         "change that file with --in " + file.path() +
+             (overrides() ? "" : ", or override it here with --override"));
   return false;
 }
 

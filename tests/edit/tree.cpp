@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "armature/document/yaml.hpp"
@@ -76,7 +77,12 @@ void Tree::undo(const Outcome& outcome) {
   }
 }
 
-std::string yaml(const document::Document& document) { return document::write_yaml(document); }
+std::string yaml(document::Document document) {
+  for (auto& component : document.components) {
+    std::ranges::sort(component.properties, std::less<>(), &document::Property::name);
+  }
+  return document::write_yaml(document);
+}
 
 std::vector<std::string> files_of(const std::string& deployment) {
   Tree tree;

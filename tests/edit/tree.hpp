@@ -28,8 +28,8 @@ class Tree {
   std::map<std::string, std::string> changed_;
 };
 
-/// What `document` says, places aside.
-std::string yaml(const document::Document& document);
+/// What `document` says, places and the order of properties aside.
+std::string yaml(document::Document document);
 
 /// Every file the deployment includes, so that an edit may change all of them.
 std::vector<std::string> files_of(const std::string& deployment);

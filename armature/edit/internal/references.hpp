@@ -20,6 +20,7 @@ struct Mention {
   std::string composite;  ///< in whose definition it stands; empty: none
   /// What goes with the component: the item or entry, of a connection the whole of it.
   const Node* whole = nullptr;
+  bool in_connection = false;  ///< of `connections`
 
   /// The parts of the text that are names, as written: one or two, or none.
   std::vector<std::string> names() const;
