@@ -35,6 +35,18 @@ std::pair<std::string, std::string> split(const std::string& word) {
   return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
+/// Gives a connection its settings; false if the change is about none.
+bool take_settings(edit::Change& change, const std::string& settings) {
+  if (auto* connect = std::get_if<edit::Connect>(&change)) {
+    connect->settings = settings;
+  } else if (auto* connection = std::get_if<edit::SetConnection>(&change)) {
+    connection->settings = settings;
+  } else {
+    return false;
+  }
+  return true;
+}
+
 /// The edits in the order in which they were typed.
 base::Result<std::vector<edit::Edit>> edits_of(const EditArguments& arguments) {
   std::vector<edit::Edit> edits;
@@ -53,9 +65,9 @@ base::Result<std::vector<edit::Edit>> edits_of(const EditArguments& arguments) {
       edits.push_back({maker->second(words), arguments.files, arguments.overrides});
       continue;
     }
-    auto* connect = edits.empty() ? nullptr : std::get_if<edit::Connect>(&edits.back().change);
-    if (connect == nullptr) return base::Error{"--policy follows the --connect that it is about"};
-    connect->settings = words[0];
+    if (edits.empty() || !take_settings(edits.back().change, words[0])) {
+      return base::Error{"--policy follows the --connect or --connection that it is about"};
+    }
   }
   if (edits.empty()) return base::Error{"nothing to edit: armature edit --help lists the edits"};
   return edits;
@@ -168,6 +180,27 @@ void add_component_options(EditOptions options) {
                });
 }
 
+/// `Component.name` as its two parts; the name has no dot.
+std::pair<std::string, std::string> split_requirement(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return {path, {}};
+  return {path.substr(0, dot), path.substr(dot + 1)};
+}
+
+void add_binding_options(EditOptions options) {
+  using namespace edit;
+  options.pair("--bind", "NAME.REQUIREMENT=PEER.MEMBER", "says which peer serves a requirement",
+               [](const std::string& path, std::string target) -> Change {
+                 auto [component, name] = split_requirement(path);
+                 return Bind{std::move(component), std::move(name), std::move(target)};
+               });
+  options.one("--unbind", "NAME.REQUIREMENT", "takes that back",
+              [](const std::string& path) -> Change {
+                auto [component, name] = split_requirement(path);
+                return Unbind{std::move(component), std::move(name)};
+              });
+}
+
 void add_other_options(EditOptions options) {
   using namespace edit;
   options.two("--connect", "FROM TO", "connects two ports, or an event and a command",
@@ -177,6 +210,11 @@ void add_other_options(EditOptions options) {
   options.two("--disconnect", "FROM TO", "removes a connection",
               [](std::string from, std::string to) -> Change {
                 return Disconnect{std::move(from), std::move(to)};
+              });
+  options.two("--connection", "FROM TO",
+              "gives a connection that is there the --policy that follows, or none",
+              [](std::string from, std::string to) -> Change {
+                return SetConnection{std::move(from), std::move(to)};
               });
   options.one("--no-connection", "NAME", "removes a connection that has this name",
               [](const std::string& name) -> Change { return Disconnect{name, {}}; });
@@ -199,10 +237,11 @@ void add_edit(const CommandLine& to) {
   arguments->command = command;
   command->add_option("file", arguments->file, "the deployment, YAML")->required();
   add_component_options(EditOptions(*arguments));
+  add_binding_options(EditOptions(*arguments));
   add_other_options(EditOptions(*arguments));
   arguments->settings =
       command->add_option("--policy")
-          ->description("keys of the connection before it: 'policy: {fifo: 8}'")
+          ->description("keys of the connection before it: 'policy: {fifo: 8}, max_age: 30 ms'")
           ->type_name("KEYS")
           ->type_size(1)
           ->expected(1, CLI::detail::expected_max_vector_size)

@@ -13,6 +13,11 @@ std::string text_of(const Connect& one) { return "connect " + one.from + " -> " 
 std::string text_of(const Disconnect& one) {
   return "disconnect " + one.from + (one.to.empty() ? "" : " -> " + one.to);
 }
+std::string text_of(const SetConnection& one) {
+  return "set connection " + one.from + " -> " + one.to;
+}
+std::string text_of(const Bind& one) { return "bind " + one.component + "." + one.name; }
+std::string text_of(const Unbind& one) { return "unbind " + one.component + "." + one.name; }
 std::string text_of(const AddPeer& one) { return "peer " + one.peer + " of " + one.component; }
 std::string text_of(const RemovePeer& one) {
   return "remove peer " + one.peer + " of " + one.component;

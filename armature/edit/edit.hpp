@@ -57,6 +57,25 @@ struct Disconnect {
   std::string to;
 };
 
+/// A connection that is there has these settings and no others; none: it is a plain one.
+struct SetConnection {
+  std::string from;
+  std::string to;
+  std::string settings{};  ///< as those of Connect
+};
+
+/// Which operation or event of a peer serves one that the component requires.
+struct Bind {
+  std::string component;
+  std::string name;    ///< what it requires
+  std::string target;  ///< `Peer.member`
+};
+
+struct Unbind {
+  std::string component;
+  std::string name;
+};
+
 struct AddPeer {
   std::string component;
   std::string peer;
@@ -82,7 +101,8 @@ struct RemoveLibrary {
 };
 
 using Change = std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Connect, Disconnect,
-                            AddPeer, RemovePeer, AddParameter, AddLibrary, RemoveLibrary>;
+                            SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddParameter,
+                            AddLibrary, RemoveLibrary>;
 
 /// For messages: `set Filter.Weight`.
 std::string to_text(const Change& change);

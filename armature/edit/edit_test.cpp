@@ -211,6 +211,33 @@ TEST(Edit, ConnectsInTheStyleOfItsNeighbours) {
             changed(flow, "A.In]", "A.In, A.P -> A.Q]"));
 }
 
+TEST(Edit, GivesAConnectionOtherSettings) {
+  EXPECT_EQ(edited(kWave, SetConnection{"Source.Position", "Filter.Raw", "policy: {fifo: 8}"}),
+            changed(kWave, "Source.Position -> Filter.Raw",
+                    "{from: Source.Position, to: Filter.Raw, policy: {fifo: 8}}"));
+  const std::string map =
+      "components:\n  A: {model: M}\nconnections:\n  - from: A.x\n    max_age: 3 ms  # soon\n    to: A.y\n";
+  EXPECT_EQ(edited(map, SetConnection{"A.x", "A.y", "max_age: 5 ms, on_old: hold"}),
+            changed(map, "3 ms  # soon\n    to: A.y\n", "5 ms  # soon\n    to: A.y\n    on_old: hold\n"));
+  EXPECT_EQ(edited(map, SetConnection{"A.x", "A.y"}), changed(map, "    max_age: 3 ms  # soon\n", ""));
+  EXPECT_NE(refusal(map, SetConnection{"A.x", "A.y", "to: A.z"}).find("is an end of the connection"),
+            std::string::npos);
+  EXPECT_NE(refusal(map, SetConnection{"A.x", "A.y", "max_age: soon"}).find("would have a mistake"),
+            std::string::npos);
+}
+
+TEST(Edit, BindsWhatAComponentRequires) {
+  const std::string text =
+      "components:\n  A: {model: M, peers: [B], bind: {x: B.y}}\n  B: {model: M}\n";
+  EXPECT_EQ(edited(text, Bind{"A", "x", "B.z"}), changed(text, "B.y", "B.z"));
+  EXPECT_EQ(edited(text, Bind{"A", "q", "B.z"}), changed(text, "B.y}", "B.y, q: B.z}"));
+  EXPECT_EQ(edited(text, Bind{"B", "q", "A.z"}),
+            changed(text, "B: {model: M}", "B: {model: M, bind: {q: A.z}}"));
+  EXPECT_EQ(edited(text, Unbind{"A", "x"}), changed(text, ", bind: {x: B.y}", ""));
+  EXPECT_NE(refusal(text, Bind{"A", "x", "C.z"}).find("unknown component 'C'"), std::string::npos);
+  EXPECT_NE(refusal(text, Unbind{"B", "x"}).find("'B' binds no 'x'"), std::string::npos);
+}
+
 TEST(Edit, RefusesConnectionsOfWhatIsNotThere) {
   EXPECT_EQ(refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
             "error: connect Filtr.Out -> Source.In is refused: unknown component 'Filtr' (did you mean "
