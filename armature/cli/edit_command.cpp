@@ -217,7 +217,9 @@ void add_other_options(EditOptions options) {
                 return SetConnection{std::move(from), std::move(to)};
               });
   options.one("--no-connection", "NAME", "removes a connection that has this name",
-              [](const std::string& name) -> Change { return Disconnect{name, {}}; });
+              [](const std::string& name) -> Change {
+                return Disconnect{name, {}};
+              });
   options.pair("--parameter", "NAME=VALUE", "adds a parameter",
                [](std::string name, std::string value) -> Change {
                  return AddParameter{std::move(name), std::move(value)};
@@ -231,8 +233,8 @@ void add_other_options(EditOptions options) {
 }  // namespace
 
 void add_edit(const CommandLine& to) {
-  CLI::App* command =
-      to.app.add_subcommand("edit", "changes a deployment's text, and proves that nothing else changes");
+  CLI::App* command = to.app.add_subcommand(
+      "edit", "changes a deployment's text, and proves that nothing else changes");
   const auto arguments = arguments_of(*command, to, edit_files);
   arguments->command = command;
   command->add_option("file", arguments->file, "the deployment, YAML")->required();

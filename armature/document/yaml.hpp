@@ -22,8 +22,8 @@ Value parse_yaml(std::string_view text, const std::string& file, const Limits& l
 Value parse_yaml_value(std::string_view text, const base::Location& where, const Limits& limits,
                        base::Diagnostics& diagnostics);
 
-/// What `{i}` and `${name}` in the texts of a value are: final text, as in a document, or what a file
-/// has them for. Those of `!literal` values are text in any case.
+/// What `{i}` and `${name}` in the texts of a value are: final text, as in a document, or what a
+/// file has them for. Those of `!literal` values are text in any case.
 enum class Braces { kText, kMeant };
 
 /// The value as YAML on one line.

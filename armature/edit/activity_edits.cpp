@@ -133,9 +133,9 @@ void set_activity(const Targets& targets, const Value& value, const std::string&
   if (!key.empty()) whole.entries.push_back({key, value, {}, {}});
   if (needs_override(sites, fresh, targets, shop)) {
     if (!key.empty() && !sites.empty()) {
-      return shop.refuse("an activity is overridden as a whole",
-                         "for example --set '" + targets.written +
-                             ".activity={periodic: 10 ms, priority: 70}'");
+      return shop.refuse(
+          "an activity is overridden as a whole",
+          "for example --set '" + targets.written + ".activity={periodic: 10 ms, priority: 70}'");
     }
     const Entry* entry = find_override(targets, shop);
     if (entry == nullptr) return add_override(targets, kActivity, whole, shop);

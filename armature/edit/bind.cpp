@@ -41,9 +41,9 @@ Expectation expect_bound(const State& before, const Targets& targets, const Bind
       const Binding* found = binding_of(after.document, component.name, bind.name);
       if (!targets.has(component.name) || found == nullptr) continue;
       if (!known.contains(found->component)) {
-        diagnostics.error({}, to_text(Change(bind)) + " is refused: unknown component '" +
-                                  found->component + "'",
-                          base::suggestion(found->component, {known.begin(), known.end()}));
+        diagnostics.error(
+            {}, to_text(Change(bind)) + " is refused: unknown component '" + found->component + "'",
+            base::suggestion(found->component, {known.begin(), known.end()}));
       }
       Binding* own = find_binding(component, bind.name);
       if (own != nullptr) *own = *found;
@@ -90,7 +90,9 @@ void draft(const Bind& bind, Workshop& shop) {
     return shop.refuse("'" + bind.name + "' is not a valid name");
   }
   std::vector<std::string> fresh;
-  const auto find = [&](const Entry& entry) { return find_value(find_map(entry, "bind"), bind.name); };
+  const auto find = [&](const Entry& entry) {
+    return find_value(find_map(entry, "bind"), bind.name);
+  };
   const std::vector<Site> sites = sites_in_force(*targets, find, shop, fresh);
   const Value value = make_text(bind.target);
   shop.expect(expect_bound(shop.before(), *targets, bind));

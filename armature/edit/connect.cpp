@@ -18,8 +18,7 @@ using document::make_text;
 /// The item that the edit has added: the last one of the list.
 const Node* added_item(const SourceMap& map, const std::string& path) {
   const SourceText* file = map.file(path);
-  const auto items =
-      items_of(find_value(file == nullptr ? nullptr : file->root(), "connections"));
+  const auto items = items_of(find_value(file == nullptr ? nullptr : file->root(), "connections"));
   return items.empty() ? nullptr : items.back();
 }
 
@@ -48,8 +47,8 @@ Expectation expect_connected(const State& before, const Connect& connect, const 
     const bool several = has_braces(make_text(connect.from + connect.to));
     const std::size_t added = count - others.connections.size();
     if (added == 0 || (added > 1 && !several)) {
-      diagnostics.error({}, what + " is refused: " + std::to_string(added) +
-                                " connections would come of it");
+      diagnostics.error(
+          {}, what + " is refused: " + std::to_string(added) + " connections would come of it");
     }
     for (const std::string& other : differences(before.document, others)) {
       diagnostics.error({}, what + " is refused: " + other + " would change");
@@ -64,7 +63,8 @@ void draft(const Connect& connect, Workshop& shop) {
   const std::optional<Value> settings = connection_settings(connect.settings, shop);
   const SourceText* file = shop.file_for_new();
   if (!settings || file == nullptr) return;
-  shop.add_item_to_section(*file, "connections", connection_item(connect.from, connect.to, *settings));
+  shop.add_item_to_section(*file, "connections",
+                           connection_item(connect.from, connect.to, *settings));
   shop.expect(expect_connected(shop.before(), connect, file->path()));
 }
 

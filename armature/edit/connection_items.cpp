@@ -59,7 +59,8 @@ bool is_command(const Value& settings) {
 
 }  // namespace
 
-std::vector<const ConnectionEntry*> find_items(const WantedConnection& wanted, const Workshop& shop) {
+std::vector<const ConnectionEntry*> find_items(const WantedConnection& wanted,
+                                               const Workshop& shop) {
   std::vector<const ConnectionEntry*> found;
   for (const ConnectionEntry& entry : shop.map().connections()) {
     const bool removal = find_value(entry.item, "remove") != nullptr;
@@ -82,11 +83,13 @@ void refuse_unknown(const WantedConnection& wanted, Workshop& shop) {
   shop.refuse("there is no such connection", base::suggestion(wanted.text(), known));
 }
 
-bool is_wanted(const WantedConnection& wanted, const ConnectionEntry& entry, const Connection& one) {
+bool is_wanted(const WantedConnection& wanted, const ConnectionEntry& entry,
+               const Connection& one) {
   return is_meant(wanted, ends_of(*entry.item)) || is_meant(wanted, one);
 }
 
-bool is_all_wanted(const WantedConnection& wanted, const ConnectionEntry& entry, const Workshop& shop) {
+bool is_all_wanted(const WantedConnection& wanted, const ConnectionEntry& entry,
+                   const Workshop& shop) {
   const auto& all = shop.document().connections;
   return std::all_of(all.begin(), all.end(), [&](const Connection& one) {
     return shop.map().entry_of(one) != &entry || is_wanted(wanted, entry, one);
@@ -109,7 +112,8 @@ std::optional<Value> connection_settings(const std::string& written, Workshop& s
   const std::string text = in_braces ? written : "{" + written + "}";
   std::optional<Value> settings = value_of(text, "the connection", shop);
   if (settings && settings->kind == Value::Kind::kMap) return settings;
-  if (settings) shop.refuse("settings of a connection must be keys with values", "policy: {fifo: 8}");
+  if (settings)
+    shop.refuse("settings of a connection must be keys with values", "policy: {fifo: 8}");
   return std::nullopt;
 }
 

@@ -57,12 +57,11 @@ void draft(const Disconnect& disconnect, Workshop& shop) {
     if (shop.overrides() && (!all || !shop.may_change(*entry->file))) {
       return shop.add_item_to_section(shop.map().main(), "connections", removal_of(wanted));
     }
-    const std::string text = entry->file->text().substr(entry->item->begin,
-                                                        entry->item->end - entry->item->begin);
+    const std::string text =
+        entry->file->text().substr(entry->item->begin, entry->item->end - entry->item->begin);
     if (!shop.require(*entry->file, *entry->item, "the connection")) return;
     if (!all) {
-      return shop.refuse(entry->file->place_of(*entry->item),
-                         "'" + text + "' makes others, too",
+      return shop.refuse(entry->file->place_of(*entry->item), "'" + text + "' makes others, too",
                          "name it as it is written, or remove one alone with --override");
     }
     shop.layout(*entry->file).remove(*entry->item);

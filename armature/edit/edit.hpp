@@ -14,8 +14,8 @@
 /// here knows a disk, but through the reader that it is given.
 namespace armature::edit {
 
-/// `path` is the name of a parameter; `Component.Property`, where the component may be as a file has
-/// it (`Joint{1..3}`) and the property inside others (`Gains.Kp`); `Component.activity`, or
+/// `path` is the name of a parameter; `Component.Property`, where the component may be as a file
+/// has it (`Joint{1..3}`) and the property inside others (`Gains.Kp`); `Component.activity`, or
 /// `Component.activity.priority`. `value` is YAML.
 struct Set {
   std::string path;
@@ -48,7 +48,8 @@ struct Rename {
 struct Connect {
   std::string from;
   std::string to;
-  std::string settings{};  ///< further keys, YAML: `policy: {fifo: 8}, max_age: 30 ms`, `name: Trip`
+  std::string
+      settings{};  ///< further keys, YAML: `policy: {fifo: 8}, max_age: 30 ms`, `name: Trip`
 };
 
 /// Ends as the file or the document has them; `to` is empty for one that `from` names.

@@ -72,9 +72,10 @@ TEST(Edit, SetsWhatParametersAndRangesStandFor) {
 
 TEST(Edit, RefusesOneOfARangeUnlessItMayOverride) {
   const std::string text = "components:\n  A{1..3}: {model: M, properties: {N: 1}}\n";
-  EXPECT_EQ(refusal(text, Set{"A2.N", "2"}),
-            "robot.yaml:2:39: error: set A2.N is refused: 'A{1..3}' says it for 'A1', 'A3', too (name "
-            "'A{1..3}', or change 'A2' alone with --override)\n");
+  EXPECT_EQ(
+      refusal(text, Set{"A2.N", "2"}),
+      "robot.yaml:2:39: error: set A2.N is refused: 'A{1..3}' says it for 'A1', 'A3', too (name "
+      "'A{1..3}', or change 'A2' alone with --override)\n");
   EXPECT_EQ(edited(text, {Set{"A2.N", "2"}, {}, true}),
             text + "  A2: {override: true, properties: {N: 2}}\n");
 }
@@ -87,7 +88,8 @@ TEST(Edit, UnsetsAPropertyAndWhatHasNothingThen) {
 }
 
 TEST(Edit, ChangesOneSettingOfAnActivity) {
-  const std::string text = "components:\n  A: {model: M, activity: {periodic: 1 ms, priority: 5}}\n";
+  const std::string text =
+      "components:\n  A: {model: M, activity: {periodic: 1 ms, priority: 5}}\n";
   EXPECT_EQ(edited(text, Set{"A.activity.periodic", "2 ms"}), changed(text, "1 ms", "2 ms"));
   EXPECT_EQ(edited(text, Set{"A.activity.triggered", "true"}),
             changed(text, "periodic: 1 ms", "triggered: true"));
@@ -163,11 +165,12 @@ modes: {one: [A, Drive], two: [C]}
 }
 
 TEST(Edit, RenamesARangeAndAPartOfAComposite) {
-  EXPECT_EQ(edited("components:\n  J{1..2}: {model: M, peers: [\"J{i}\"]}\n  J2: {override: true}\n"
-                   "connections:\n  - J{i}.Out -> J1.In{i}\n",
-                   Rename{"J{1..2}", "Axis{1..2}"}),
-            "components:\n  Axis{1..2}: {model: M, peers: [\"Axis{i}\"]}\n  Axis2: {override: true}\n"
-            "connections:\n  - Axis{i}.Out -> Axis1.In{i}\n");
+  EXPECT_EQ(
+      edited("components:\n  J{1..2}: {model: M, peers: [\"J{i}\"]}\n  J2: {override: true}\n"
+             "connections:\n  - J{i}.Out -> J1.In{i}\n",
+             Rename{"J{1..2}", "Axis{1..2}"}),
+      "components:\n  Axis{1..2}: {model: M, peers: [\"Axis{i}\"]}\n  Axis2: {override: true}\n"
+      "connections:\n  - Axis{i}.Out -> Axis1.In{i}\n");
   const std::string composite = R"(composites:
   Pair:
     components: {left: {model: M}, right: {model: M, peers: [left]}}
@@ -204,11 +207,11 @@ TEST(Edit, WarnsOfPropertiesThatMayNameWhatIsRenamed) {
 TEST(Edit, ConnectsInTheStyleOfItsNeighbours) {
   EXPECT_EQ(edited(kWave, Connect{"Filter.Out", "Source.In"}),
             std::string(kWave) + "  - Filter.Out -> Source.In\n");
-  EXPECT_EQ(edited(kWave, Connect{"Filter.Done", "Source.go", "name: Go, max_age: 30 ms"}),
-            std::string(kWave) + "  - {on: Filter.Done, do: Source.go, name: Go, max_age: 30 ms}\n");
+  EXPECT_EQ(
+      edited(kWave, Connect{"Filter.Done", "Source.go", "name: Go, max_age: 30 ms"}),
+      std::string(kWave) + "  - {on: Filter.Done, do: Source.go, name: Go, max_age: 30 ms}\n");
   const std::string flow = "components: {A: {model: M}}\nconnections: [A.Out -> A.In]\n";
-  EXPECT_EQ(edited(flow, Connect{"A.P", "A.Q"}),
-            changed(flow, "A.In]", "A.In, A.P -> A.Q]"));
+  EXPECT_EQ(edited(flow, Connect{"A.P", "A.Q"}), changed(flow, "A.In]", "A.In, A.P -> A.Q]"));
 }
 
 TEST(Edit, GivesAConnectionOtherSettings) {
@@ -216,12 +219,16 @@ TEST(Edit, GivesAConnectionOtherSettings) {
             changed(kWave, "Source.Position -> Filter.Raw",
                     "{from: Source.Position, to: Filter.Raw, policy: {fifo: 8}}"));
   const std::string map =
-      "components:\n  A: {model: M}\nconnections:\n  - from: A.x\n    max_age: 3 ms  # soon\n    to: A.y\n";
-  EXPECT_EQ(edited(map, SetConnection{"A.x", "A.y", "max_age: 5 ms, on_old: hold"}),
-            changed(map, "3 ms  # soon\n    to: A.y\n", "5 ms  # soon\n    to: A.y\n    on_old: hold\n"));
-  EXPECT_EQ(edited(map, SetConnection{"A.x", "A.y"}), changed(map, "    max_age: 3 ms  # soon\n", ""));
-  EXPECT_NE(refusal(map, SetConnection{"A.x", "A.y", "to: A.z"}).find("is an end of the connection"),
-            std::string::npos);
+      "components:\n  A: {model: M}\nconnections:\n  - from: A.x\n    max_age: 3 ms  # soon\n    "
+      "to: A.y\n";
+  EXPECT_EQ(
+      edited(map, SetConnection{"A.x", "A.y", "max_age: 5 ms, on_old: hold"}),
+      changed(map, "3 ms  # soon\n    to: A.y\n", "5 ms  # soon\n    to: A.y\n    on_old: hold\n"));
+  EXPECT_EQ(edited(map, SetConnection{"A.x", "A.y"}),
+            changed(map, "    max_age: 3 ms  # soon\n", ""));
+  EXPECT_NE(
+      refusal(map, SetConnection{"A.x", "A.y", "to: A.z"}).find("is an end of the connection"),
+      std::string::npos);
   EXPECT_NE(refusal(map, SetConnection{"A.x", "A.y", "max_age: soon"}).find("would have a mistake"),
             std::string::npos);
 }
@@ -239,9 +246,10 @@ TEST(Edit, BindsWhatAComponentRequires) {
 }
 
 TEST(Edit, RefusesConnectionsOfWhatIsNotThere) {
-  EXPECT_EQ(refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
-            "error: connect Filtr.Out -> Source.In is refused: unknown component 'Filtr' (did you mean "
-            "'Filter'?)\n");
+  EXPECT_EQ(
+      refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
+      "error: connect Filtr.Out -> Source.In is refused: unknown component 'Filtr' (did you mean "
+      "'Filter'?)\n");
   EXPECT_NE(refusal(kWave, Connect{"Source.Position", "Filter.Raw"}).find("is given twice"),
             std::string::npos);
   EXPECT_NE(refusal(kWave, Disconnect{"Source.Position", "Filter.Row"}).find("did you mean"),
@@ -253,18 +261,20 @@ TEST(Edit, SeveralAreOneChange) {
       kWave, {{AddComponent{"Log", "Watcher"}}, {Set{"Log.Rate", "2"}}, {Set{"Lag.Rate", "2"}}});
   EXPECT_FALSE(outcome.ok());
   EXPECT_TRUE(outcome.files.empty());
-  const Outcome good = internal::outcome_of(kWave, {{Set{"Filter.Weight", "1"}},
-                                               {Set{"Filter.Weight", "0.2"}}});
+  const Outcome good =
+      internal::outcome_of(kWave, {{Set{"Filter.Weight", "1"}}, {Set{"Filter.Weight", "0.2"}}});
   EXPECT_TRUE(good.ok());
   EXPECT_TRUE(good.files.empty());  // nothing has changed
 }
 
 TEST(Edit, ChangesAnIncludedFileOnlyWhenItMay) {
-  const Files files = {{"robot.yaml", "include: part.yaml\nparameters: {q: 1}\n"},
-                       {"part.yaml", "parameters: {p: 1}\ncomponents:\n  A: {model: M, peers: [A]}\n"}};
-  EXPECT_EQ(refusal(files, Set{"A.N", "1"}),
-            "part.yaml:3:3: error: set A.N is refused: 'A' stands in part.yaml (change that file with "
-            "--in part.yaml, or override it here with --override)\n");
+  const Files files = {
+      {"robot.yaml", "include: part.yaml\nparameters: {q: 1}\n"},
+      {"part.yaml", "parameters: {p: 1}\ncomponents:\n  A: {model: M, peers: [A]}\n"}};
+  EXPECT_EQ(
+      refusal(files, Set{"A.N", "1"}),
+      "part.yaml:3:3: error: set A.N is refused: 'A' stands in part.yaml (change that file with "
+      "--in part.yaml, or override it here with --override)\n");
   EXPECT_EQ(edited(files, {Set{"A.N", "1"}, {"part.yaml"}}, "part.yaml"),
             "parameters: {p: 1}\ncomponents:\n  A: {model: M, peers: [A], properties: {N: 1}}\n");
   EXPECT_EQ(edited(files, {Set{"A.N", "1"}, {}, true}),

@@ -29,13 +29,18 @@ TEST(Hostile, AFileWhoseLastLineHasNoEnd) {
 }
 
 TEST(Hostile, AByteOrderMarkAndLettersOfSeveralBytes) {
-  const std::string text = "\xef\xbb\xbf{application: Größe, components: {A: {model: M, properties: {N: ü}}}}\n";
-  EXPECT_EQ(edited(text, Set{"A.N", "ß"}),
-            "\xef\xbb\xbf{application: Größe, components: {A: {model: M, properties: {N: \"ß\"}}}}\n");
-  const std::string lines = "\xef\xbb\xbf" "components:  # äöü\n  A: {model: M}  # 日本\n";
+  const std::string text =
+      "\xef\xbb\xbf{application: Größe, components: {A: {model: M, properties: {N: ü}}}}\n";
+  EXPECT_EQ(
+      edited(text, Set{"A.N", "ß"}),
+      "\xef\xbb\xbf{application: Größe, components: {A: {model: M, properties: {N: \"ß\"}}}}\n");
+  const std::string lines =
+      "\xef\xbb\xbf"
+      "components:  # äöü\n  A: {model: M}  # 日本\n";
   EXPECT_EQ(edited(lines, AddComponent{"B", "N"}), lines + "  B: {model: N}\n");
   EXPECT_EQ(edited(lines, Rename{"A", "C"}),
-            "\xef\xbb\xbf" "components:  # äöü\n  C: {model: M}  # 日本\n");
+            "\xef\xbb\xbf"
+            "components:  # äöü\n  C: {model: M}  # 日本\n");
 }
 
 TEST(Hostile, FilesWithoutAnything) {
@@ -46,8 +51,9 @@ TEST(Hostile, FilesWithoutAnything) {
   EXPECT_EQ(edited("{}\n", AddComponent{"A", "M"}), "{components: {A: {model: M}}}\n");
   EXPECT_EQ(edited("connections: []\ncomponents: {A: {model: M}}\n", Connect{"A.x", "A.y"}),
             "connections: [A.x -> A.y]\ncomponents: {A: {model: M}}\n");
-  EXPECT_EQ(edited("connections:  # none yet\ncomponents: {A: {model: M}}\n", Connect{"A.x", "A.y"}),
-            "connections:  # none yet\n  - A.x -> A.y\ncomponents: {A: {model: M}}\n");
+  EXPECT_EQ(
+      edited("connections:  # none yet\ncomponents: {A: {model: M}}\n", Connect{"A.x", "A.y"}),
+      "connections:  # none yet\n  - A.x -> A.y\ncomponents: {A: {model: M}}\n");
 }
 
 TEST(Hostile, AnchorsStayWhereTheyAre) {
@@ -64,7 +70,8 @@ TEST(Hostile, AnchorsStayWhereTheyAre) {
 
 TEST(Hostile, MergedKeysAreOverriddenAndNotChanged) {
   const std::string text =
-      "components:\n  A: &a {model: M, properties: {N: 1}}\n  B:\n    <<: *a\n    autosave: false\n";
+      "components:\n  A: &a {model: M, properties: {N: 1}}\n  B:\n    <<: *a\n    autosave: "
+      "false\n";
   EXPECT_NE(refusal(text, Set{"B.Q", "2"}).find("more than that would change: component 'B'"),
             std::string::npos);
   EXPECT_NE(refusal(text, Set{"A.N", "2"}).find("component 'B'"), std::string::npos);
@@ -100,7 +107,8 @@ TEST(Hostile, TextsOfSeveralLines) {
         six"
   B: {model: M}
 )");
-  EXPECT_NE(edited(text, Set{"A.N", "1"}).find("        six\"\n      N: 1\n  B:"), std::string::npos);
+  EXPECT_NE(edited(text, Set{"A.N", "1"}).find("        six\"\n      N: 1\n  B:"),
+            std::string::npos);
   EXPECT_EQ(edited(text, Unset{"A.Folded"}).find("three"), std::string::npos);
   EXPECT_EQ(edited(text, RemoveComponent{"A"}), "components:\n  B: {model: M}\n");
   EXPECT_NE(edited("components:\n  A: {model: M}\n", Set{"A.Text", "\"a\\nb\""}).find("\"a\\nb\""),
@@ -119,7 +127,8 @@ TEST(Hostile, BracketsOverSeveralLinesWithComments) {
       properties: {N: 1}}
   C: {model: M}
 )";
-  EXPECT_NE(edited(text, AddPeer{"A", "A"}).find("C,   # second\n      A\n    ]"), std::string::npos);
+  EXPECT_NE(edited(text, AddPeer{"A", "A"}).find("C,   # second\n      A\n    ]"),
+            std::string::npos);
   EXPECT_NE(edited(text, RemovePeer{"A", "C"}).find("B  # first\n         # second\n    ]"),
             std::string::npos);
   EXPECT_NE(edited(text, RemovePeer{"A", "B"}).find("peers: [\n      C   # second"),
@@ -141,7 +150,8 @@ TEST(Hostile, CommentsAroundWhatIsRemoved) {
 }
 
 TEST(Hostile, ListsInTheColumnOfTheirKey) {
-  const std::string text = "components:\n  A: {model: M}\nconnections:\n- A.x -> A.y\n- A.p -> A.q\n";
+  const std::string text =
+      "components:\n  A: {model: M}\nconnections:\n- A.x -> A.y\n- A.p -> A.q\n";
   EXPECT_EQ(edited(text, Connect{"A.a", "A.b"}), text + "- A.a -> A.b\n");
   EXPECT_EQ(edited(text, Disconnect{"A.x", "A.y"}),
             "components:\n  A: {model: M}\nconnections:\n- A.p -> A.q\n");
@@ -185,7 +195,8 @@ TEST(Hostile, ValuesAndNamesThatAreNone) {
   EXPECT_NE(refusal(text, Set{"A.", "1"}).find("unknown component"), std::string::npos);
   EXPECT_NE(refusal(text, Set{"", "1"}).find("unknown parameter"), std::string::npos);
   EXPECT_NE(refusal(text, AddComponent{"a b", "M"}).find("not a valid name"), std::string::npos);
-  EXPECT_NE(refusal(text, AddComponent{"B: {model: X}\n  C", "M"}).find("error"), std::string::npos);
+  EXPECT_NE(refusal(text, AddComponent{"B: {model: X}\n  C", "M"}).find("error"),
+            std::string::npos);
   EXPECT_NE(refusal(text, AddComponent{"B", "M}, C: {model: X"}).find("not a valid name"),
             std::string::npos);
   EXPECT_NE(refusal(text, Rename{"A", "x y"}).find("not a valid name"), std::string::npos);

@@ -34,7 +34,8 @@ const Node* first_of_element(const Node& node) {
 
 /// An empty list that overrides another says that there is nothing.
 bool means_something_when_empty(const Node& container) {
-  const Node* override = container.parent == nullptr ? nullptr : find_value(container.parent, "override");
+  const Node* override =
+      container.parent == nullptr ? nullptr : find_value(container.parent, "override");
   if (override == nullptr || override->text != "true") return false;
   const std::string& key = first_of_element(container)->text;
   return key != "properties" && key != "bind";  // which are overridden one by one
@@ -168,13 +169,15 @@ void Layout::add_in_flow(const Node& container, const std::string& text) {
     put(line_end, line_end, margin + text + (has_comma ? "," : ""));
     return;
   }
-  put(behind, behind, (has_comma ? "" : ",") + (own_lines ? margin : " ") + text + (has_comma ? "," : ""));
+  put(behind, behind,
+      (has_comma ? "" : ",") + (own_lines ? margin : " ") + text + (has_comma ? "," : ""));
 }
 
 void Layout::add_entry(const Node& map, const std::string& key, const Value& value, int levels,
                        std::string_view after) {
   if (map.flow || map.children.empty()) {
-    return add_in_flow(map, written_in_flow(document::make_text(key)) + ": " + written_in_flow(value));
+    return add_in_flow(map,
+                       written_in_flow(document::make_text(key)) + ": " + written_in_flow(value));
   }
   const std::vector<Element> elements = elements_of(map);
   auto behind = std::find_if(elements.begin(), elements.end(),
@@ -186,8 +189,7 @@ void Layout::add_entry(const Node& map, const std::string& key, const Value& val
 
 void Layout::add_item(const Node& list, const Value& value) {
   if (list.flow || list.children.empty()) return add_in_flow(list, written_in_flow(value));
-  add_in_block(list, elements_of(list).back(),
-               rendered("-", value, file_.column(list.begin), 0));
+  add_in_block(list, elements_of(list).back(), rendered("-", value, file_.column(list.begin), 0));
 }
 
 void Layout::fill(const Node& empty, const Value& value, int levels) {

@@ -45,12 +45,9 @@ void add_parts(std::vector<Part>& parts, const std::string& kind, const Value& s
 /// The document in the order of its file: each component, connection, mode, and so on.
 std::vector<Part> parts_of(const Document& document) {
   static const std::unordered_map<std::string, std::string> kKinds = {
-      {"components", "component"},
-      {"connections", "connection"},
-      {"composed", "composite"},
-      {"parameters", "parameter"},
-      {"modes", "mode"},
-      {"libraries", "library"}};
+      {"components", "component"}, {"connections", "connection"},
+      {"composed", "composite"},   {"parameters", "parameter"},
+      {"modes", "mode"},           {"libraries", "library"}};
   std::vector<Part> parts;
   for (const Property& section : document::to_tree(document).entries) {
     const auto kind = kKinds.find(section.name);
@@ -101,7 +98,8 @@ std::vector<std::string> differences(const Document& expected, const Document& f
   if (names.empty() && common(one, in_other) != common(other, in_one)) {
     names.emplace_back("the order of components and connections");
   }
-  if (names.empty() && one.size() != other.size()) names.emplace_back("how often something is said");
+  if (names.empty() && one.size() != other.size())
+    names.emplace_back("how often something is said");
   return names;
 }
 

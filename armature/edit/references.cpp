@@ -31,16 +31,14 @@ class Finder {
     each_value(find_value(root, "composites"), [&](const std::string& name, const Node* body) {
       level(body, name);
       each_value(find_value(body, "exports"), [&](const std::string&, const Node* kind) {
-        each_value(kind, [&](const std::string&, const Node* part) {
-          add(part, Form::kMember, name);
-        });
+        each_value(kind,
+                   [&](const std::string&, const Node* part) { add(part, Form::kMember, name); });
       });
     });
     items(find_value(root, "before_stop"), Form::kMember, {});
     items(find_value(root, "operator_inputs"), Form::kMember, {});
-    each_value(find_value(root, "grants"), [&](const std::string&, const Node* granted) {
-      items(granted, Form::kMember, {});
-    });
+    each_value(find_value(root, "grants"),
+               [&](const std::string&, const Node* granted) { items(granted, Form::kMember, {}); });
     each_value(find_value(root, "modes"), [&](const std::string&, const Node* components) {
       items(components, Form::kName, {});
     });
@@ -76,9 +74,8 @@ class Finder {
   void peers(const Node* peers, const std::string& composite) {
     for (const Node* peer : items_of(peers)) {
       add(peer, Form::kName, composite);
-      each_value(peer, [&](const std::string&, const Node* named) {
-        add(named, Form::kName, composite);
-      });
+      each_value(
+          peer, [&](const std::string&, const Node* named) { add(named, Form::kName, composite); });
     }
   }
 

@@ -66,14 +66,15 @@ std::optional<Named> find_connection(const Rename& rename, const Workshop& shop)
 /// `to` as the key of an entry: with the range that it has, without the composite before a part.
 std::optional<WrittenName> new_key(const Rename& rename, const Named& named, Workshop& shop) {
   const WrittenName& old = named.names.written();
-  const std::string beside = rename.from.substr(
-      0, std::max(rename.from.size(), old.text().size()) - old.text().size());
+  const std::string beside =
+      rename.from.substr(0, std::max(rename.from.size(), old.text().size()) - old.text().size());
   const bool whole = !beside.empty() && rename.to.starts_with(beside);
   WrittenName key = WrittenName::of(whole ? rename.to.substr(beside.size()) : rename.to);
   const bool same = key.braces == WrittenName::of(rename.from).braces;
   if (!same) {
-    shop.refuse("a range keeps its numbers: '" + rename.from + "' cannot become '" + rename.to + "'",
-                "write the braces as they are");
+    shop.refuse(
+        "a range keeps its numbers: '" + rename.from + "' cannot become '" + rename.to + "'",
+        "write the braces as they are");
     return std::nullopt;
   }
   key.braces = old.braces;
@@ -109,7 +110,8 @@ NewName new_names(const Named& named, const WrittenName& key) {
   return [pairs](const std::string& name) {
     for (const auto& [old, renamed] : pairs) {
       if (name == old) return renamed;
-      if (name.starts_with(old) && name[old.size()] == '.') return renamed + name.substr(old.size());
+      if (name.starts_with(old) && name[old.size()] == '.')
+        return renamed + name.substr(old.size());
     }
     return name;
   };
@@ -146,10 +148,11 @@ void warn_of_properties(const std::vector<std::string>& names, Workshop& shop) {
     for (const auto& property : component.properties) {
       if (!mentions(property.value, names)) continue;
       if (!told.insert(document::place_text(property.where)).second) continue;
-      shop.diagnostics().warning(property.where,
-                                 "property '" + property.name + "' of '" + component.name +
-                                     "' may name it, and stays: " + document::to_text(property.value),
-                                 "change it with set, if it does");
+      shop.diagnostics().warning(
+          property.where,
+          "property '" + property.name + "' of '" + component.name +
+              "' may name it, and stays: " + document::to_text(property.value),
+          "change it with set, if it does");
     }
   }
 }

@@ -115,8 +115,8 @@ std::vector<Replacement> inverse_of(std::string_view text,
   std::size_t removed = 0;
   for (const Replacement& one : replacements) {
     const std::size_t begin = one.begin + added - removed;
-    inverse.push_back({begin, begin + one.text.size(),
-                       std::string(text.substr(one.begin, one.end - one.begin))});
+    inverse.push_back(
+        {begin, begin + one.text.size(), std::string(text.substr(one.begin, one.end - one.begin))});
     added += one.text.size();
     removed += one.end - one.begin;
   }

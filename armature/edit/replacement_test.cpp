@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/edit/replacement.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
+
+#include <gtest/gtest.h>
 
 namespace armature::edit {
 namespace {

@@ -24,7 +24,9 @@ bool is_plain_in_block(const std::string& text) {
   });
 }
 
-bool is_plain_in_flow(const std::string& text) { return written_in_flow(document::make_text(text)) == text; }
+bool is_plain_in_flow(const std::string& text) {
+  return written_in_flow(document::make_text(text)) == text;
+}
 
 std::string in_single_quotes(const std::string& text) {
   std::string quoted = "'";

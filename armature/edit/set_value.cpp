@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/edit/internal/set_value.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -8,7 +10,6 @@
 #include "armature/document/value_tree.hpp"
 #include "armature/document/yaml.hpp"
 #include "armature/edit/internal/activity_edits.hpp"
-#include "armature/edit/internal/set_value.hpp"
 #include "armature/edit/internal/targets.hpp"
 
 namespace armature::edit::internal {
@@ -210,8 +211,8 @@ Expectation expect_unset(const State& before, const Targets& targets) {
 /// An entry that would override nothing any more goes as a whole.
 const Node* what_to_remove(const Site& site) {
   const Node* properties = find_map(*site.entry, "properties");
-  const bool last = properties != nullptr && properties->children.size() == 2 &&
-                    site.node->parent == properties;
+  const bool last =
+      properties != nullptr && properties->children.size() == 2 && site.node->parent == properties;
   const bool nothing_else = site.entry->value->children.size() == 4;
   return site.entry->changes && last && nothing_else ? site.entry->key : site.node;
 }
@@ -247,8 +248,7 @@ bool has_braces(const Value& value) {
   const std::string& text = value.text;
   const bool own = text.find("${") != text.npos || document::has_range(text) ||
                    !document::number_offsets(text).empty();
-  return own ||
-         std::any_of(value.items.begin(), value.items.end(), has_braces) ||
+  return own || std::any_of(value.items.begin(), value.items.end(), has_braces) ||
          std::any_of(value.entries.begin(), value.entries.end(), [](const auto& entry) {
            return has_braces(document::make_text(entry.name)) || has_braces(entry.value);
          });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/edit/source_text.hpp"
 
-#include <yaml.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <yaml.h>
 
 namespace armature::edit {
 namespace {

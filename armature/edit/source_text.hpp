@@ -13,8 +13,8 @@
 /// Where in the bytes of a file the parts of its YAML stand.
 namespace armature::edit {
 
-/// A scalar, list, map or alias of a YAML file, from byte `begin` to `end`, with its tag and anchor.
-/// Blanks, line ends and comments behind it do not belong to it.
+/// A scalar, list, map or alias of a YAML file, from byte `begin` to `end`, with its tag and
+/// anchor. Blanks, line ends and comments behind it do not belong to it.
 struct Node {
   /// What it is.
   enum class Kind { kScalar, kList, kMap, kAlias };

@@ -22,7 +22,8 @@ std::string nodes(const std::string& text) {
 
 TEST(SourceText, KnowsTheBytesOfEachPart) {
   EXPECT_EQ(nodes("a: [1, b]  # comment\n"), "|a: [1, b]|a|[1, b]|1|b");
-  EXPECT_EQ(nodes("a:\n  b: c\n\n# comment\nd: 'e'\n"), "|a:\n  b: c\n\n# comment\nd: 'e'|a|b: c|b|c|d|'e'");
+  EXPECT_EQ(nodes("a:\n  b: c\n\n# comment\nd: 'e'\n"),
+            "|a:\n  b: c\n\n# comment\nd: 'e'|a|b: c|b|c|d|'e'");
   EXPECT_EQ(nodes("- - a\n  - b\n"), "|- - a\n  - b|- a\n  - b|a|b");
 }
 
@@ -32,7 +33,10 @@ TEST(SourceText, CountsBytesWhereLibyamlCountsCharacters) {
 
 TEST(SourceText, LeavesAByteOrderMarkOutOfPlaces) {
   base::Diagnostics diagnostics;
-  const SourceText file("a.yaml", "\xef\xbb\xbf" "a: b\nc: d\n", diagnostics);
+  const SourceText file("a.yaml",
+                        "\xef\xbb\xbf"
+                        "a: b\nc: d\n",
+                        diagnostics);
   const Node* a = find_key(file.root(), "a");
   const Node* c = find_key(file.root(), "c");
   EXPECT_EQ(bytes(file, *a), "a");

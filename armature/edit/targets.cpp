@@ -182,16 +182,15 @@ void refuse_site(const Site& site, const Targets& targets, Workshop& shop) {
   const Entry& entry = *site.entry;
   const Node& node = site.node == nullptr ? *entry.key : *site.node;
   if (!shop.require(*entry.file, node, "'" + key_of(entry) + "'")) return;
-  shop.refuse(entry.file->place_of(node),
-              "'" + key_of(entry) + "' says it for " + names_beside(entry, targets) + ", too",
-              "name '" + key_of(entry) + "', or change '" + targets.written +
-                  "' alone with --override");
+  shop.refuse(
+      entry.file->place_of(node),
+      "'" + key_of(entry) + "' says it for " + names_beside(entry, targets) + ", too",
+      "name '" + key_of(entry) + "', or change '" + targets.written + "' alone with --override");
 }
 
 const Entry* open_entry(const std::string& name, const Targets& targets, const Workshop& shop) {
   const auto& files = shop.edit().files;
-  const SourceText* wanted =
-      files.empty() ? &shop.map().main() : shop.map().file(files.front());
+  const SourceText* wanted = files.empty() ? &shop.map().main() : shop.map().file(files.front());
   const auto rank = [&](const Entry& entry) {
     return std::pair(entry.file == wanted, entry.names.size());  // one for all of a range is best
   };
@@ -217,9 +216,8 @@ const Entry* entry_for_new(const std::string& name, const Targets& targets, Work
 bool needs_override(const std::vector<Site>& sites, const std::vector<std::string>& without,
                     const Targets& targets, const Workshop& shop) {
   if (!shop.overrides()) return false;
-  const bool open = std::all_of(sites.begin(), sites.end(), [&](const Site& site) {
-    return is_open(site, targets, shop);
-  });
+  const bool open = std::all_of(sites.begin(), sites.end(),
+                                [&](const Site& site) { return is_open(site, targets, shop); });
   return !open || std::any_of(without.begin(), without.end(), [&](const std::string& name) {
     return open_entry(name, targets, shop) == nullptr;
   });

@@ -63,12 +63,12 @@ std::vector<Block> blocks_of(const FileChange& change, const Lines& before, cons
       added += replacement->text.size();
       removed += replacement->end - replacement->begin;
     }
-    const bool touched = replacement != change.replacements.end() &&
-                         replacement->begin < begin + before[i].size();
+    const bool touched =
+        replacement != change.replacements.end() && replacement->begin < begin + before[i].size();
     const auto found = std::lower_bound(begins.begin(), begins.end(), begin + added - removed);
     const auto line = static_cast<std::size_t>(found - begins.begin());
-    const bool same = found != begins.end() && *found == begin + added - removed &&
-                      after[line] == before[i];
+    const bool same =
+        found != begins.end() && *found == begin + added - removed && after[line] == before[i];
     if (!touched && same) keep(i, line);
   }
   keep(before.size(), after.size());

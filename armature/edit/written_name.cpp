@@ -48,7 +48,8 @@ std::optional<EntryNames::Meant> EntryNames::find_number(std::string_view name) 
     return std::nullopt;
   }
   const bool braced = rest.starts_with('{') || rest.starts_with("${");
-  const std::size_t size = braced ? rest.rfind('}') + 1 : std::min(rest.find_first_not_of("0123456789"), rest.size());
+  const std::size_t size =
+      braced ? rest.rfind('}') + 1 : std::min(rest.find_first_not_of("0123456789"), rest.size());
   if (size == 0 || !rest.substr(size).starts_with(written_.end)) return std::nullopt;
   const std::string_view behind = rest.substr(size + written_.end.size());
   if (!behind.empty() && behind[0] != '.') return std::nullopt;

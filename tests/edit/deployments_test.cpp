@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <set>
+
+#include <gtest/gtest.h>
 
 #include "armature/document/fields.hpp"
 #include "tests/edit/tree.hpp"
@@ -19,7 +19,8 @@ using document::Document;
 class EveryDeployment : public testing::Test {
  protected:
   using Edits = std::vector<Change>;
-  using Check = std::function<void(const Document& before, const Document& after, const Tree& tree)>;
+  using Check =
+      std::function<void(const Document& before, const Document& after, const Tree& tree)>;
 
   /// @param visit  called with the document and its places
   void each(const std::function<void(const Document&, const SourceMap&)>& visit) {
@@ -103,8 +104,7 @@ TEST_F(EveryDeployment, SetsAPropertyThatIsThere) {
       const std::string name = component->properties.front().name;
       try_edit(Set{written(entry) + "." + name, "17.5"}, [&](auto&, auto& after, const Tree&) {
         Tree untouched;
-        EXPECT_EQ(yaml(after),
-                  yaml(untouched.load(deployment(), settings(entry, name + "=17.5"))));
+        EXPECT_EQ(yaml(after), yaml(untouched.load(deployment(), settings(entry, name + "=17.5"))));
       });
     }
   });
@@ -205,8 +205,8 @@ TEST_F(EveryDeployment, RenamesAComponentAndBack) {
       try_edit(Rename{name, other}, [&](auto& before, auto& after, Tree tree) {
         EXPECT_NE(yaml(before), yaml(after));
         EXPECT_EQ(find(after, entry.names.front()), nullptr);
-        const Outcome back =
-            apply_edits(deployment(), {{Rename{other, name}, files_of(deployment())}}, tree.reader());
+        const Outcome back = apply_edits(
+            deployment(), {{Rename{other, name}, files_of(deployment())}}, tree.reader());
         ASSERT_TRUE(back.ok()) << back.diagnostics.to_text();
         Tree untouched;
         for (const FileChange& file : back.files) EXPECT_EQ(file.after, untouched.text(file.file));
@@ -274,8 +274,7 @@ TEST_F(EveryDeployment, DisconnectsOneOfARangeByAnOverride) {
       if (entry == nullptr || !entry->composite.empty() || !done.insert(entry).second) continue;
       const Disconnect disconnect{document::to_text(one.from), document::to_text(one.to)};
       Tree tree;
-      const Outcome outcome =
-          apply_edits(deployment(), {{disconnect, {}, true}}, tree.reader());
+      const Outcome outcome = apply_edits(deployment(), {{disconnect, {}, true}}, tree.reader());
       if (!outcome.ok()) continue;  // an end that a composite exports has another name
       tree.apply(outcome);
       EXPECT_EQ(tree.load(deployment()).connections.size(), document.connections.size() - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "tests/edit/tree.hpp"
 
@@ -18,7 +18,8 @@ class Chooser {
  public:
   explicit Chooser(unsigned seed) : random_(seed) {}
 
-  Edit choose(const Document& document, const SourceMap& map, const std::vector<std::string>& files) {
+  Edit choose(const Document& document, const SourceMap& map,
+              const std::vector<std::string>& files) {
     return {change(document, map), files, below(4) == 0};
   }
 

@@ -48,14 +48,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       deploy::parse_document(text, "fuzz.yaml", fuzz::options(), diagnostics);
   if (!diagnostics.ok()) return 0;
   const bool none = document.components.empty();
-  const std::string name = none ? "A" : document.components[data[0] % document.components.size()].name;
+  const std::string name =
+      none ? "A" : document.components[data[0] % document.components.size()].name;
   const bool overrides = data[0] >= 128;
-  const edit::Change changes[] = {
-      edit::Set{name + ".N", "1.5"},          edit::Set{name + ".activity", "triggered"},
-      edit::AddComponent{"New", "Model"},     edit::RemoveComponent{name},
-      edit::Rename{name, name + "New"},       edit::Connect{name + ".Out", name + ".In"},
-      edit::AddPeer{name, name},              edit::AddLibrary{"library"},
-      edit::AddParameter{"parameter", "[1]"}, edit::Unset{name + ".N"}};
+  const edit::Change changes[] = {edit::Set{name + ".N", "1.5"},
+                                  edit::Set{name + ".activity", "triggered"},
+                                  edit::AddComponent{"New", "Model"},
+                                  edit::RemoveComponent{name},
+                                  edit::Rename{name, name + "New"},
+                                  edit::Connect{name + ".Out", name + ".In"},
+                                  edit::AddPeer{name, name},
+                                  edit::AddLibrary{"library"},
+                                  edit::AddParameter{"parameter", "[1]"},
+                                  edit::Unset{name + ".N"}};
   check_edit(text, {changes[data[0] % std::size(changes)], {"part.yaml"}, overrides});
   return 0;
 }

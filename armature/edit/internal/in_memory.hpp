@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "armature/edit/edit.hpp"
 
@@ -16,7 +16,7 @@ namespace armature::edit::internal {
 using Files = std::map<std::string, std::string>;
 
 inline Outcome outcome_of(const Files& files, const std::vector<Edit>& edits,
-                     const std::string& file = "robot.yaml") {
+                          const std::string& file = "robot.yaml") {
   return apply_edits(file, edits, [&](const std::string& path) -> base::Result<std::string> {
     const auto found = files.find(path);
     if (found == files.end()) return base::Error{"file '" + path + "' does not exist"};
@@ -33,7 +33,8 @@ inline std::string edited(const Files& files, const Edit& edit,
                           const std::string& file = "robot.yaml") {
   const Outcome outcome = outcome_of(files, {edit});
   EXPECT_TRUE(outcome.ok()) << outcome.diagnostics.to_text();
-  if (outcome.files.size() != 1) return "so many files changed: " + std::to_string(outcome.files.size());
+  if (outcome.files.size() != 1)
+    return "so many files changed: " + std::to_string(outcome.files.size());
   const FileChange& change = outcome.files.front();
   EXPECT_EQ(change.file, file);
   EXPECT_EQ(replaced(change.before, change.replacements), change.after);

@@ -37,8 +37,8 @@ class Layout {
   void begin_file(const std::string& key, const document::Value& value, int levels);
 
   /// Takes out an item of a list, or the entry of a map whose key or value this is, with comments
-  /// behind it on its last line. Lists and maps that lose all they have go, too, unless they override
-  /// others.
+  /// behind it on its last line. Lists and maps that lose all they have go, too, unless they
+  /// override others.
   void remove(const Node& node);
 
   /// All of it, in the order of the text.
