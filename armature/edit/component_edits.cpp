@@ -25,6 +25,22 @@ int levels_of_neighbours(const SourceText& file) {
   return last.kind == Node::Kind::kMap && !last.flow ? 1 : 0;
 }
 
+/// Whether the component is of the model, and nothing is said of it.
+bool is_plain(const document::Component& component, const AddComponent& add) {
+  return component.model == add.model && component.properties.empty() && component.peers.empty();
+}
+
+void check_plain(const Document& document, const Entry& entry, const AddComponent& add,
+                 base::Diagnostics& diagnostics) {
+  for (const auto& component : document.components) {
+    const bool added =
+        std::find(entry.names.begin(), entry.names.end(), component.name) != entry.names.end();
+    if (!added || is_plain(component, add)) continue;
+    diagnostics.error({}, to_text(Change(add)) + " is refused: '" + component.name +
+                              "' would have more than its model");
+  }
+}
+
 /// What the document has more then: components of that entry, and nothing else.
 Expectation expect_added(const State& before, const AddComponent& add) {
   return [&before, add](const State& after, base::Diagnostics& diagnostics) {
@@ -36,9 +52,10 @@ Expectation expect_added(const State& before, const AddComponent& add) {
           return name == own || name.starts_with(own + ".");
         });
       };
+      check_plain(after.document, entry, add, diagnostics);
       const Document others = without(after.document, is_its);
       for (const std::string& other : differences(before.document, others)) {
-        diagnostics.error({}, "add " + add.name + " is refused: " + other + " would change");
+        diagnostics.error({}, to_text(Change(add)) + " is refused: " + other + " would change");
       }
       return after.document;
     }

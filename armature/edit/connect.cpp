@@ -14,6 +14,7 @@ namespace {
 using document::Connection;
 using document::Document;
 using document::make_text;
+using document::Value;
 
 /// The item that the edit has added: the last one of the list.
 const Node* added_item(const SourceMap& map, const std::string& path) {
@@ -30,8 +31,10 @@ void check_end(const document::Endpoint& end, const std::set<std::string>& known
 }
 
 /// All as before, and connections from that item, between components that there are.
-Expectation expect_connected(const State& before, const Connect& connect, const std::string& path) {
-  return [&before, connect, path](const State& after, base::Diagnostics& diagnostics) {
+Expectation expect_connected(const State& before, const Connect& connect, const Value& settings,
+                             const std::string& path) {
+  return [&before, connect, path, wanted = plain_settings(settings)](
+             const State& after, base::Diagnostics& diagnostics) {
     const std::string what = to_text(Change(connect));
     const Node* item = added_item(*after.map, path);
     const std::set<std::string> known = names_in(after.document);
@@ -40,6 +43,9 @@ Expectation expect_connected(const State& before, const Connect& connect, const 
     std::erase_if(others.connections, [&](const Connection& one) {
       const ConnectionEntry* entry = after.map->entry_of(one);
       if (item == nullptr || entry == nullptr || entry->item != item) return false;
+      if (!has_settings(one, wanted)) {
+        diagnostics.error({}, what + " is refused: it would have other settings");
+      }
       check_end(one.from, known, what, diagnostics);
       check_end(one.to, known, what, diagnostics);
       return true;
@@ -65,7 +71,7 @@ void draft(const Connect& connect, Workshop& shop) {
   if (!settings || file == nullptr) return;
   shop.add_item_to_section(*file, "connections",
                            connection_item(connect.from, connect.to, *settings));
-  shop.expect(expect_connected(shop.before(), connect, file->path()));
+  shop.expect(expect_connected(shop.before(), connect, *settings, file->path()));
 }
 
 }  // namespace armature::edit::internal

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "armature/base/near_name.hpp"
+#include "armature/document/reader.hpp"
+#include "armature/document/tree.hpp"
 #include "armature/document/value_tree.hpp"
+#include "armature/document/yaml.hpp"
 #include "armature/edit/internal/set_value.hpp"
 
 namespace armature::edit::internal {
@@ -115,6 +118,28 @@ std::optional<Value> connection_settings(const std::string& written, Workshop& s
   if (settings)
     shop.refuse("settings of a connection must be keys with values", "policy: {fifo: 8}");
   return std::nullopt;
+}
+
+std::optional<Connection> plain_settings(const Value& settings) {
+  if (has_braces(settings)) return std::nullopt;
+  base::Diagnostics ignored;  // the new text is read with the same reader
+  Value item = make_map();
+  item.entries = settings.entries;
+  item.entries.push_back({"from", make_text("A.x"), {}, {}});
+  item.entries.push_back({"to", make_text("A.y"), {}, {}});
+  const auto read = document::read_connection(item, ignored);
+  const auto* directed = read ? std::get_if<Connection>(&*read) : nullptr;
+  return directed == nullptr ? std::nullopt : std::optional(*directed);
+}
+
+bool has_settings(const Connection& connection, const std::optional<Connection>& settings) {
+  if (!settings) return true;
+  Value found = make_map();
+  Value wanted = make_map();
+  document::add_policy(connection.policy, found);
+  document::add_policy(settings->policy, wanted);
+  return document::flow_text(found) == document::flow_text(wanted) &&
+         connection.name == settings->name && connection.with.size() == settings->with.size();
 }
 
 }  // namespace armature::edit::internal

@@ -288,6 +288,30 @@ TEST(Edit, ChangesAnIncludedFileOnlyWhenItMay) {
             std::string::npos);
 }
 
+TEST(Edit, TellsWhatIsSeenWhenAValueIsTakenBack) {
+  const Files files = {
+      {"robot.yaml",
+       "include: part.yaml\ncomponents:\n  A: {override: true, properties: {N: 2}}\n"},
+      {"part.yaml", "components:\n  A: {model: M, properties: {N: 1}}\n"}};
+  const Outcome outcome = internal::outcome_of(files, {{Unset{"A.N"}}});
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.files[0].after, "include: part.yaml\n");
+  EXPECT_EQ(outcome.diagnostics.to_text(),
+            "part.yaml:2:33: note: 'A.N' is 1 now, as this place says\n");
+  EXPECT_EQ(edited(files, {Unset{"A.N"}, {"part.yaml"}}), "include: part.yaml\n");
+}
+
+TEST(Edit, OverridesPeers) {
+  const Files files = {{"robot.yaml", "include: part.yaml\n"},
+                       {"part.yaml",
+                        "components:\n  A{1..2}: {model: M, peers: [\"A{i}\", B]}\n"
+                        "  B: {model: M}\n"}};
+  EXPECT_EQ(edited(files, {AddPeer{"A1", "A2"}, {}, true}),
+            "include: part.yaml\ncomponents:\n  A1: {override: true, peers: [A1, B, A2]}\n");
+  EXPECT_EQ(edited(files, {RemovePeer{"A1", "B"}, {}, true}),
+            "include: part.yaml\ncomponents:\n  A1: {override: true, peers: [A1]}\n");
+}
+
 TEST(Edit, RefusesWhatWouldChangeMore) {
   const std::string composite =
       "composites:\n  C: {components: {a: {model: M}}}\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "armature/base/near_name.hpp"
@@ -76,26 +77,60 @@ Expectation expect_peer(const State& before, const Targets& targets, const AddPe
   };
 }
 
+using IsRemoved = std::function<bool(const document::Peer& peer)>;
+
 /// Each of the targets has the others in their order.
 Expectation expect_no_peer(const State& before, const Targets& targets,
-                           const std::vector<base::Location>& removed) {
-  return [&before, targets, removed](const State&, base::Diagnostics&) {
+                           const IsRemoved& is_removed) {
+  return [&before, targets, is_removed](const State&, base::Diagnostics&) {
     Document expected = before.document;
     for (auto& component : expected.components) {
-      if (!targets.has(component.name)) continue;
-      std::erase_if(component.peers, [&](const document::Peer& peer) {
-        return std::find(removed.begin(), removed.end(), peer.where) != removed.end();
-      });
+      if (targets.has(component.name)) std::erase_if(component.peers, is_removed);
     }
     return expected;
   };
 }
 
-void refuse_override(const Site& site, const Targets& targets, Workshop& shop) {
-  if (!shop.overrides()) return refuse_site(site, targets, shop);
-  shop.refuse(site.entry->file->place_of(*site.entry->key),
-              "peers are overridden as a whole, which is not an edit yet",
-              "change them where they are with --in " + site.entry->file->path());
+/// The peers that the only target has, as a list of its own may say it.
+std::optional<Value> peers_of(const Targets& targets, Workshop& shop) {
+  if (targets.names.size() > 1) {
+    shop.refuse("peers of several components are not overridden at once",
+                "change them where they are, with --in, or override one component after the other");
+    return std::nullopt;
+  }
+  Value list = make_list();
+  const document::Component* component = find_component_in(shop.document(), targets.names.front());
+  if (component == nullptr) return list;
+  for (const document::Peer& peer : component->peers) {
+    Value item = make_text(peer.component);
+    if (peer.name != peer.component) {
+      item = document::make_map();
+      item.entries.push_back({peer.name, make_text(peer.component), {}, {}});
+    }
+    list.items.push_back(std::move(item));
+  }
+  return list;
+}
+
+/// A list in the deployment's own file takes the place of the one that is there.
+void override_peers(const Targets& targets, const Value& peers, Workshop& shop) {
+  if (const Entry* entry = find_override(targets, shop)) {
+    shop.layout(*entry->file).add_entry(*entry->value, "peers", peers);
+  } else {
+    add_override(targets, "peers", peers, shop);
+  }
+}
+
+bool is_called(const Value& item, const std::string& peer) {
+  return item.text == peer || document::find(item.entries, peer) != nullptr;
+}
+
+void refuse_unknown_peer(const std::string& name, const std::string& peer, Workshop& shop) {
+  std::vector<std::string> known;
+  if (const auto* component = find_component_in(shop.document(), name)) {
+    for (const auto& one : component->peers) known.push_back(one.name);
+  }
+  shop.refuse("'" + name + "' has no peer '" + peer + "'", base::suggestion(peer, known));
 }
 
 /// The first file, in the order in which their words count, that names the library.
@@ -116,8 +151,15 @@ void draft(const AddPeer& add, Workshop& shop) {
   if (!targets) return;
   std::vector<std::string> fresh;
   const std::vector<Site> sites = sites_in_force(*targets, find_peers, shop, fresh);
+  shop.expect(expect_peer(shop.before(), *targets, add));
+  if (needs_override(sites, fresh, *targets, shop)) {
+    std::optional<Value> peers = peers_of(*targets, shop);
+    if (!peers) return;
+    peers->items.push_back(make_text(add.peer));
+    return override_peers(*targets, *peers, shop);
+  }
   for (const Site& site : sites) {
-    if (!is_open(site, *targets, shop)) return refuse_override(site, *targets, shop);
+    if (!is_open(site, *targets, shop)) return refuse_site(site, *targets, shop);
     add_to_list(*site.entry, *site.node, add.peer, shop);
   }
   std::vector<const Entry*> done;
@@ -129,7 +171,6 @@ void draft(const AddPeer& add, Workshop& shop) {
       done.push_back(entry);
     }
   }
-  shop.expect(expect_peer(shop.before(), *targets, add));
 }
 
 void draft(const RemovePeer& remove, Workshop& shop) {
@@ -138,22 +179,25 @@ void draft(const RemovePeer& remove, Workshop& shop) {
   std::vector<std::string> without;
   const auto find = [&](const Entry& entry) { return find_peer(entry, remove.peer); };
   const std::vector<Site> sites = sites_in_force(*targets, find, shop, without);
-  if (!without.empty()) {
-    std::vector<std::string> known;
-    for (const auto& component : shop.document().components) {
-      if (component.name != without.front()) continue;
-      for (const auto& peer : component.peers) known.push_back(peer.name);
-    }
-    return shop.refuse("'" + without.front() + "' has no peer '" + remove.peer + "'",
-                       base::suggestion(remove.peer, known));
+  if (!without.empty()) return refuse_unknown_peer(without.front(), remove.peer, shop);
+  if (needs_override(sites, {}, *targets, shop)) {
+    std::optional<Value> peers = peers_of(*targets, shop);
+    if (!peers) return;
+    std::erase_if(peers->items, [&](const Value& item) { return is_called(item, remove.peer); });
+    shop.expect(expect_no_peer(shop.before(), *targets, [name = remove.peer](const auto& peer) {
+      return peer.name == name;
+    }));
+    return override_peers(*targets, *peers, shop);
   }
   std::vector<base::Location> removed;
   for (const Site& site : sites) {
-    if (!is_open(site, *targets, shop)) return refuse_override(site, *targets, shop);
+    if (!is_open(site, *targets, shop)) return refuse_site(site, *targets, shop);
     shop.layout(*site.entry->file).remove(*site.node);
     removed.push_back(site.entry->file->place_of(*site.node));
   }
-  shop.expect(expect_no_peer(shop.before(), *targets, removed));
+  shop.expect(expect_no_peer(shop.before(), *targets, [removed](const document::Peer& peer) {
+    return std::find(removed.begin(), removed.end(), peer.where) != removed.end();
+  }));
 }
 
 void draft(const AddParameter& add, Workshop& shop) {

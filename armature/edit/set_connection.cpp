@@ -48,14 +48,19 @@ void write_settings(const ConnectionEntry& entry, const SetConnection& set, cons
 
 /// The same connections in the same order, those of the items with their new settings.
 Expectation expect_settings_of(const State& before,
-                               const std::vector<const ConnectionEntry*>& items) {
-  return [&before, items](const State& after, base::Diagnostics&) {
+                               const std::vector<const ConnectionEntry*>& items,
+                               const SetConnection& set, const Value& settings) {
+  return [&before, items, set, wanted = plain_settings(settings)](const State& after,
+                                                                  base::Diagnostics& diagnostics) {
     Document expected = before.document;
     const auto& found = after.document.connections;
     for (std::size_t i = 0; i < std::min(found.size(), expected.connections.size()); ++i) {
       Connection& one = expected.connections[i];
       const ConnectionEntry* entry = before.map->entry_of(one);
       if (std::find(items.begin(), items.end(), entry) == items.end()) continue;
+      if (!has_settings(found[i], wanted)) {
+        diagnostics.error({}, to_text(Change(set)) + " is refused: it would have other settings");
+      }
       one.policy = found[i].policy;
       one.name = found[i].name;
       one.with = found[i].with;
@@ -72,7 +77,7 @@ void draft(const SetConnection& set, Workshop& shop) {
   if (!settings) return;
   const std::vector<const ConnectionEntry*> items = find_items(wanted, shop);
   if (items.empty()) return refuse_unknown(wanted, shop);
-  shop.expect(expect_settings_of(shop.before(), items));
+  shop.expect(expect_settings_of(shop.before(), items, set, *settings));
   for (const ConnectionEntry* entry : items) {
     if (!shop.require(*entry->file, *entry->item, "the connection")) return;
     if (!is_all_wanted(wanted, *entry, shop)) {

@@ -191,7 +191,7 @@ void erase_property(Document& document, const std::string& name, const std::stri
 
 /// What the component has without the property: what another entry says, or nothing.
 Expectation expect_unset(const State& before, const Targets& targets) {
-  return [&before, targets](const State& after, base::Diagnostics&) {
+  return [&before, targets](const State& after, base::Diagnostics& diagnostics) {
     std::vector<std::string> settings;
     std::vector<std::string> gone;
     for (const std::string& name : targets.names) {
@@ -200,6 +200,8 @@ Expectation expect_unset(const State& before, const Targets& targets) {
         gone.push_back(name);
       } else {
         settings.push_back(name + "." + targets.rest + "=" + document::flow_text(*found));
+        diagnostics.note(found->where, "'" + name + "." + targets.rest + "' is " +
+                                           document::to_text(*found) + " now, as this place says");
       }
     }
     Document expected = settings.empty() ? before.document : before.with(settings);

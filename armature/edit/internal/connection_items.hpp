@@ -39,4 +39,12 @@ document::Value connection_item(const std::string& from, const std::string& to,
 /// `policy: {fifo: 8}, max_age: 30 ms` as a map; an error and nothing if it is none.
 std::optional<document::Value> connection_settings(const std::string& text, Workshop& shop);
 
+/// What a document has of an item with these settings but for its ends and `with`; nothing if
+/// braces in it stand for something.
+std::optional<document::Connection> plain_settings(const document::Value& settings);
+
+/// True if the connection has the settings; nothing is true of all.
+bool has_settings(const document::Connection& connection,
+                  const std::optional<document::Connection>& settings);
+
 }  // namespace armature::edit::internal
