@@ -24,10 +24,10 @@ Value parse_yaml_value(std::string_view text, const base::Location& where, const
 
 /// What `{i}` and `${name}` in the texts of a value are: final text, as in a document, or what a
 /// file has them for. Those of `!literal` values are text in any case.
-enum class Braces { kText, kMeant };
+enum class InBraces { kText, kMeant };
 
 /// The value as YAML on one line.
-std::string flow_text(const Value& value, Braces braces = Braces::kText);
+std::string flow_text(const Value& value, InBraces in_braces = InBraces::kText);
 
 /// A map as a YAML file.
 std::string block_text(const Value& map);

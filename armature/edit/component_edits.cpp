@@ -158,6 +158,9 @@ void remove_mentions(const Targets& targets, Workshop& shop) {
     if (mention.in_connection && shop.overrides() && !shop.may_change(*mention.file)) continue;
     if (!shop.require(*mention.file, *mention.node, "'" + mention.node->text + "'")) return;
     shop.layout(*mention.file).remove(*mention.whole);
+    if (mention.in_connection) continue;  // nobody expects these to stay
+    shop.diagnostics().note(mention.file->place_of(*mention.node),
+                            "'" + mention.node->text + "' goes with '" + targets.written + "'");
   }
 }
 

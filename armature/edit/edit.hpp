@@ -72,16 +72,19 @@ struct Bind {
   std::string target;  ///< `Peer.member`
 };
 
+/// The requirement is served by the only peer that can.
 struct Unbind {
   std::string component;
   std::string name;
 };
 
+/// A component that another one may use.
 struct AddPeer {
   std::string component;
   std::string peer;
 };
 
+/// It is a peer no longer; `peer` is its name in the file.
 struct RemovePeer {
   std::string component;
   std::string peer;
@@ -93,10 +96,12 @@ struct AddParameter {
   std::string value;  ///< YAML
 };
 
+/// A component library, by its name or file.
 struct AddLibrary {
   std::string name;
 };
 
+/// Its components stay, and are mistakes then.
 struct RemoveLibrary {
   std::string name;
 };

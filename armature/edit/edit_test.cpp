@@ -135,6 +135,15 @@ modes: {one: [A], two: [C]}
 )");
 }
 
+TEST(Edit, TellsWhatGoesWithAComponent) {
+  const Outcome outcome = internal::outcome_of(
+      "components: {A: {model: M}, B: {model: M}}\nconnections: [A.x -> B.y]\n"
+      "before_stop: [A.rest]\n",
+      {{RemoveComponent{"A"}}});
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.diagnostics.to_text(), "robot.yaml:3:15: note: 'A.rest' goes with 'A'\n");
+}
+
 TEST(Edit, RenamesAComponentInAllThatRefersToIt) {
   const std::string text = R"(components:
   A: {model: M, peers: [B, {other: B}], delays: B}

@@ -42,7 +42,7 @@ bool is_one_line(const std::string& text) {
 }  // namespace
 
 std::string written_in_flow(const Value& value) {
-  return document::flow_text(value, document::Braces::kMeant);
+  return document::flow_text(value, document::InBraces::kMeant);
 }
 
 std::string written_in_block(const Value& value) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <set>
 
@@ -69,7 +68,8 @@ class EveryDeployment : public testing::Test {
 
  private:
   void TearDown() override {
-    std::cout << made_ << " made, " << refused_ << " refused\n" << reasons();
+    RecordProperty("made", static_cast<int>(made_));
+    RecordProperty("refused", static_cast<int>(refused_));
   }
   std::string deployment_;
   std::vector<std::string> files_;
