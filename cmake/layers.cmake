@@ -22,6 +22,7 @@ set(ARMATURE_LAYERS
     "analysis: base document exec component platform"
     "inspect: base exec component types platform"
     "deploy: base document orocos analysis inspect exec component platform"
+    "edit: base deploy document"
     "report: base platform control component exec record"
     "remote: base ride document inspect exec component rt types platform"
     "lua: base inspect exec component rt types platform"
@@ -30,5 +31,5 @@ set(ARMATURE_LAYERS
     "general: base component record rt"
     "sim: base control"
     "robots: base platform rt types controllers component can control guardian sim"
-    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy report lua remote browser controllers general sim"
-    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy report lua remote browser controllers general sim")
+    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy edit report lua remote browser controllers general sim"
+    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy edit report lua remote browser controllers general sim")

@@ -40,12 +40,13 @@ using rt::LogLevel;
 /// Long enough to be "until stopped", short enough to be added to any time.
 constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
 
-/// Reads and checks deployments and descriptions of robots, and writes reports. No real-time thread
-/// ever runs any of it, and it comes back when the run has ended. The program itself stays: the C++
-/// library may use functions of `std::string` that were compiled into it.
+/// Reads, checks and edits deployments and descriptions of robots, and writes reports. No real-time
+/// thread ever runs any of it, and it comes back when the run has ended. The program itself stays:
+/// the C++ library may use functions of `std::string` that were compiled into it.
 constexpr std::string_view kNeverRealTime[] = {"libarmature_deploy.so", "libarmature_document.so",
                                                "libarmature_orocos.so", "libarmature_analysis.so",
-                                               "libarmature_report.so", "libyaml-cpp.so",
+                                               "libarmature_report.so", "libarmature_edit.so",
+                                               "libyaml-cpp.so",        "libyaml-0.so",
                                                "libpugixml.so",         "liburdfdom_model.so",
                                                "libtinyxml.so",         "libconsole_bridge.so"};
 /// Has something done in the threads of components, where there is an operator, a script or another

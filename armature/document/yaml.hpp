@@ -22,8 +22,12 @@ Value parse_yaml(std::string_view text, const std::string& file, const Limits& l
 Value parse_yaml_value(std::string_view text, const base::Location& where, const Limits& limits,
                        base::Diagnostics& diagnostics);
 
+/// What `{i}` and `${name}` in the texts of a value are: final text, as in a document, or what a
+/// file has them for. Those of `!literal` values are text in any case.
+enum class InBraces { kText, kMeant };
+
 /// The value as YAML on one line.
-std::string flow_text(const Value& value);
+std::string flow_text(const Value& value, InBraces in_braces = InBraces::kText);
 
 /// A map as a YAML file.
 std::string block_text(const Value& map);

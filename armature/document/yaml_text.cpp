@@ -59,8 +59,9 @@ bool needs_literal(std::string_view text) {
          !number_offsets(text).empty();
 }
 
-std::string scalar_text(std::string_view text) {
-  const std::string tag = needs_literal(text) ? "!literal " : "";
+std::string scalar_text(std::string_view text, InBraces in_braces = InBraces::kText) {
+  const bool as_text = in_braces == InBraces::kText && needs_literal(text);
+  const std::string tag = as_text ? "!literal " : "";
   if (is_plain(text)) return tag + std::string(text);
   std::string quoted = tag + "\"";
   for (const char c : text) quoted += escaped(c);
@@ -74,28 +75,30 @@ std::string tag_of(const Value& value) {
 }
 
 /// Appends YAML on one line; gives up once it is longer than `limit`.
-bool append_flow(const Value& value, std::size_t limit, std::string& line) {
+bool append_flow(const Value& value, std::size_t limit, std::string& line,
+                 InBraces in_braces = InBraces::kText) {
+  if (value.literal) in_braces = InBraces::kText;
   if (!value.type.empty()) line += tag_of(value) + " ";
   switch (value.kind) {
     case Value::Kind::kNone:
       line += "~";
       break;
     case Value::Kind::kText:
-      line += scalar_text(value.text);
+      line += scalar_text(value.text, in_braces);
       break;
     case Value::Kind::kList:
       line += "[";
       for (std::size_t i = 0; i < value.items.size(); ++i) {
         if (i > 0) line += ", ";
-        if (!append_flow(value.items[i], limit, line)) return false;
+        if (!append_flow(value.items[i], limit, line, in_braces)) return false;
       }
       line += "]";
       break;
     case Value::Kind::kMap:
       line += "{";
       for (std::size_t i = 0; i < value.entries.size(); ++i) {
-        line += (i > 0 ? ", " : "") + scalar_text(value.entries[i].name) + ": ";
-        if (!append_flow(value.entries[i].value, limit, line)) return false;
+        line += (i > 0 ? ", " : "") + scalar_text(value.entries[i].name, in_braces) + ": ";
+        if (!append_flow(value.entries[i].value, limit, line, in_braces)) return false;
       }
       line += "}";
       break;
@@ -151,9 +154,9 @@ void append_block(const Value& value, int indent, int levels, std::string& text)
 
 }  // namespace
 
-std::string flow_text(const Value& value) {
+std::string flow_text(const Value& value, InBraces in_braces) {
   std::string line;
-  append_flow(value, std::string::npos, line);
+  append_flow(value, std::string::npos, line, in_braces);
   return line;
 }
 

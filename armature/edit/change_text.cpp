@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/edit/edit.hpp"
+
+namespace armature::edit {
+namespace {
+
+std::string text_of(const Set& one) { return "set " + one.path; }
+std::string text_of(const Unset& one) { return "unset " + one.path; }
+std::string text_of(const AddComponent& one) { return "add " + one.name; }
+std::string text_of(const RemoveComponent& one) { return "remove " + one.name; }
+std::string text_of(const Rename& one) { return "rename " + one.from + " to " + one.to; }
+std::string text_of(const Connect& one) { return "connect " + one.from + " -> " + one.to; }
+std::string text_of(const Disconnect& one) {
+  return "disconnect " + one.from + (one.to.empty() ? "" : " -> " + one.to);
+}
+std::string text_of(const SetConnection& one) {
+  return "set connection " + one.from + " -> " + one.to;
+}
+std::string text_of(const Bind& one) { return "bind " + one.component + "." + one.name; }
+std::string text_of(const Unbind& one) { return "unbind " + one.component + "." + one.name; }
+std::string text_of(const AddPeer& one) { return "peer " + one.peer + " of " + one.component; }
+std::string text_of(const RemovePeer& one) {
+  return "remove peer " + one.peer + " of " + one.component;
+}
+std::string text_of(const AddParameter& one) { return "add parameter " + one.name; }
+std::string text_of(const AddLibrary& one) { return "add library " + one.name; }
+std::string text_of(const RemoveLibrary& one) { return "remove library " + one.name; }
+
+}  // namespace
+
+std::string to_text(const Change& change) {
+  return std::visit([](const auto& one) { return text_of(one); }, change);
+}
+
+}  // namespace armature::edit
