@@ -66,6 +66,22 @@ InterfaceNumbers::InterfaceNumbers(std::string model, const component::Interface
     add("void " + port.name() + "(" + canonical(port.type()) + ")", NumberedMember::Kind::kInput, i,
         Access::kCommand);
   }
+  refer_to_texts();
+}
+
+InterfaceNumbers::InterfaceNumbers(std::string name, const std::vector<DescribedDeclaration>& all)
+    : model_(std::move(name)) {
+  for (const DescribedDeclaration& each : all) {
+    texts_.push_back(each.canonical);
+    declarations_.push_back({{}, each.access});
+    if (!each.member) continue;
+    members_.push_back(*each.member);
+    members_.back().number = ride::number_of(each.canonical);
+  }
+  refer_to_texts();
+}
+
+void InterfaceNumbers::refer_to_texts() {
   for (std::size_t i = 0; i < texts_.size(); ++i) declarations_[i].canonical = texts_[i];
   interface_ = {model_, declarations_};
 }

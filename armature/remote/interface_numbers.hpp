@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,22 @@ struct NumberedMember {
   std::size_t index;  ///< among the operations, events, outputs or inputs of the component
 };
 
+/// A declaration of an interface that a file describes, and what it is here; nothing if it cannot
+/// be here, so that it counts in the digest only.
+struct DescribedDeclaration {
+  std::string canonical;
+  ride::Access access;
+  std::optional<NumberedMember> member;  ///< its number follows from `canonical`
+};
+
 /// The interface of a component as others see it over RIDE (docs/remote.md): the same for whoever
 /// has a component of that model, on either side.
 class InterfaceNumbers {
  public:
   /// @param model  the interface's name
   InterfaceNumbers(std::string model, const component::Interface& interface);
+  /// @param name  the interface's
+  InterfaceNumbers(std::string name, const std::vector<DescribedDeclaration>& all);
   InterfaceNumbers(const InterfaceNumbers&) = delete;
   InterfaceNumbers& operator=(const InterfaceNumbers&) = delete;
 
@@ -41,12 +52,13 @@ class InterfaceNumbers {
   const std::vector<NumberedMember>& members() const { return members_; }
   /// nullptr: nothing has that number
   const NumberedMember* find(ride::Number number) const;
-  /// The number of what is there.
+  /// The number of what is there; 0: nothing is.
   ride::Number number(NumberedMember::Kind kind, std::size_t index) const;
 
  private:
   void add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
            ride::Access access);
+  void refer_to_texts();
 
   std::string model_;
   std::vector<std::string> texts_;

@@ -41,13 +41,12 @@ CallStatus status_of(ride::Code code) {
 
 }  // namespace
 
-Placeholder::Placeholder(std::string name, std::unique_ptr<component::Component> prototype,
-                         std::string model, std::string remote_name, std::string peer_address,
+Placeholder::Placeholder(std::string name, Original original, std::string peer_address,
                          std::function<ride::Peer&()> where)
     : StandIn(std::move(name)),
-      prototype_(std::move(prototype)),
-      numbers_(std::move(model), component::interface_of(*prototype_)),
-      remote_name_(std::move(remote_name)),
+      prototype_(std::move(original.prototype)),
+      numbers_(std::move(original.numbers)),
+      remote_name_(std::move(original.name)),
       where_(std::move(where)) {
   address.assign(peer_address);
   make_twins();
@@ -57,7 +56,7 @@ Placeholder::~Placeholder() { let_go(); }
 
 void Placeholder::make_twins() {
   const component::Interface& original = component::interface_of(*prototype_);
-  for (const NumberedMember& member : numbers_.members()) {
+  for (const NumberedMember& member : numbers_->members()) {
     switch (member.kind) {
       case NumberedMember::Kind::kOutput:
         outputs_.push_back({original.outputs[member.index]->twin(*this), member.index});
@@ -88,7 +87,7 @@ component::Outcome Placeholder::on_start() {
     const std::lock_guard lock(mailbox_->mutex);
     mailbox_->owner = this;
   }
-  link_ = std::make_unique<LinkTo>(peer, remote_name_, numbers_.interface());
+  link_ = std::make_unique<LinkTo>(peer, remote_name_, numbers_->interface());
   subscribe();
   const base::Result<void> reached = peer.wait_until_connected(kStartPatience);
   mailbox_->put({.kind = Arrival::Kind::kConnection, .text = reached ? "" : reached.error()});
@@ -115,12 +114,15 @@ void Placeholder::subscribe() {
 }
 
 void Placeholder::listen(NumberedMember::Kind kind, std::size_t index, Arrival::Kind arrives_as) {
-  subscriptions_.push_back(link_->subscribe(
-      numbers_.number(kind, index), [this, kind, index, arrives_as](ride::Decoder& members) {
+  const ride::Number number = numbers_->number(kind, index);
+  if (number == 0) return;  // not every command has progress
+  subscriptions_.push_back(
+      link_->subscribe(number, [this, kind, index, arrives_as](ride::Decoder& members) {
         Arrival arrival{.kind = arrives_as, .index = index};
-        if (!take(kind, index, members, arrival)) return false;
-        mailbox_->put(std::move(arrival));
-        return true;
+        const bool fits = take(kind, index, members, arrival);
+        if (!fits && arrives_as == Arrival::Kind::kEvent) arrival.kind = Arrival::Kind::kMisfit;
+        if (fits || arrival.kind == Arrival::Kind::kMisfit) mailbox_->put(std::move(arrival));
+        return fits;
       }));
 }
 
@@ -214,6 +216,8 @@ void Placeholder::handle(Arrival& arrival) {
       event->twin->raise_from(places.data());
       return;
     }
+    case Arrival::Kind::kMisfit:
+      return handle_misfit(arrival.index);
     case Arrival::Kind::kProgress:
     case Arrival::Kind::kEnded: {
       const auto operation = std::ranges::find(operations_, arrival.index, &Operation::index);
@@ -243,6 +247,15 @@ void Placeholder::handle_sample(const Arrival& arrival) {
   count(missed);
 }
 
+/// A text that is too long, or a number that no enumerator has.
+void Placeholder::handle_misfit(std::size_t index) {
+  count(missed);
+  Event& event = *std::ranges::find(events_, index, &Event::index);
+  if (std::exchange(event.misfit, true)) return;
+  log_error("'{}' at {} raises '{}' with a value that has no place here; it is left out",
+            remote_name_, address.get(), event.twin->name());
+}
+
 void Placeholder::handle_connection(const std::string& text) {
   const bool was_connected = connected.get();
   const bool reachable = link_ != nullptr && link_->peer().connected();
@@ -254,7 +267,9 @@ void Placeholder::handle_connection(const std::string& text) {
     found.raise();
     return;
   }
-  const std::string problem = reachable ? "no component of this name has this model" : text;
+  const std::string problem = reachable ? "no component of this name has the interface '" +
+                                              std::string(numbers_->interface().name) + "'"
+                                        : text;
   log_warning("'{}' at {} cannot be used: {}", remote_name_, address.get(), problem);
   error("'" + remote_name_ + "' at " + address.get() + " cannot be used: " + problem);
   if (!was_connected) return;
@@ -274,7 +289,7 @@ void Placeholder::pass_on(component::InputPortBase& input, const void* value) {
       std::ranges::find(inputs_, &input, [](const Input& each) { return each.port.get(); })->index;
   const std::tuple members{Outgoing{&input.type(), value}};
   const bool sent =
-      link_ != nullptr && link_->send(numbers_.number(NumberedMember::Kind::kInput, index), {},
+      link_ != nullptr && link_->send(numbers_->number(NumberedMember::Kind::kInput, index), {},
                                       ride::Fields(members)) == ride::Sent::kYes;
   if (!sent) count(unsent);
 }
@@ -294,7 +309,7 @@ component::CallStatus Placeholder::call(component::OperationBase& operation,
   std::string problem;
   const ride::CallOptions options{base::from_seconds(answer_limit.get()), {}};
   const ride::Code code =
-      link_->call(numbers_.number(NumberedMember::Kind::kOperation, operation_of(operation).index),
+      link_->call(numbers_->number(NumberedMember::Kind::kOperation, operation_of(operation).index),
                   operation.name(), options, ride::Fields(members),
                   result == nullptr ? ride::Place() : ride::Place(place), problem);
   if (code != ride::Code::kNone) log_warning("{}", problem);
@@ -311,7 +326,7 @@ component::Outcome Placeholder::begin(component::CommandBase& command,
   Operation& operation = operation_of(command);
   const std::uint64_t run = ++operation.run;
   const std::tuple members{OutgoingArguments{&command.signature(), arguments}};
-  link_->ask(numbers_.number(NumberedMember::Kind::kCommand, operation.index),
+  link_->ask(numbers_->number(NumberedMember::Kind::kCommand, operation.index),
              ride::Fields(members),
              [mailbox = mailbox_, index = operation.index, run](ride::Code code,
                                                                 std::string_view text, auto) {
@@ -328,10 +343,10 @@ void Placeholder::cancel(component::CommandBase& command) {
   const rt::PermitScope permit;
   Operation& operation = operation_of(command);
   ++operation.run;
-  if (link_ == nullptr) return;
+  const ride::Number number = numbers_->number(NumberedMember::Kind::kCancel, operation.index);
+  if (link_ == nullptr || number == 0) return;
   const std::tuple<> nothing;
-  const auto sent = link_->send(numbers_.number(NumberedMember::Kind::kCancel, operation.index), {},
-                                ride::Fields(nothing));
+  const auto sent = link_->send(number, {}, ride::Fields(nothing));
   if (sent != ride::Sent::kYes) count(unsent);
 }
 

@@ -26,11 +26,19 @@ namespace armature::remote {
 /// the readers of its outputs are told that their writer is lost. It recovers by itself.
 class Placeholder final : public component::StandIn {
  public:
+  /// What it stands for.
+  struct Original {
+    /// Has the members, and never runs: of a model, with the properties that shape its ports, or
+    /// described by a file.
+    std::unique_ptr<component::Component> prototype;
+    std::unique_ptr<const InterfaceNumbers> numbers;  ///< how the members are called
+    std::string name;                                 ///< in its process
+  };
+
   /// @param name   in this application
-  /// @param prototype  a component of its model, with the properties that shape its ports
   /// @param where  makes the peer when it is needed, so that a check needs no network
-  Placeholder(std::string name, std::unique_ptr<component::Component> prototype, std::string model,
-              std::string remote_name, std::string address, std::function<ride::Peer&()> where);
+  Placeholder(std::string name, Original original, std::string address,
+              std::function<ride::Peer&()> where);
   ~Placeholder() override;
 
   component::Attribute<std::string> address{this, "PeerAddress", "", "where the component lives"};
@@ -56,7 +64,7 @@ class Placeholder final : public component::StandIn {
  private:
   /// Something that came from the other process, on its way to this component's thread.
   struct Arrival {
-    enum class Kind : std::uint8_t { kEvent, kSample, kProgress, kEnded, kConnection };
+    enum class Kind : std::uint8_t { kEvent, kSample, kProgress, kEnded, kConnection, kMisfit };
     Kind kind;
     std::size_t index = 0;
     std::vector<types::Value> values{};
@@ -95,6 +103,7 @@ class Placeholder final : public component::StandIn {
   struct Event {
     std::unique_ptr<component::EventBase> twin;
     std::size_t index;
+    bool misfit = false;  ///< one came that there was no place for
   };
   struct Operation {
     std::unique_ptr<component::OperationBase> twin;
@@ -116,11 +125,12 @@ class Placeholder final : public component::StandIn {
   void handle(Arrival& arrival);
   void handle_connection(const std::string& problem);
   void handle_sample(const Arrival& arrival);
+  void handle_misfit(std::size_t event);
   Operation& operation_of(const component::OperationBase& twin);
   void count(component::Attribute<int>& counter, std::uint64_t more = 1);
 
-  std::unique_ptr<component::Component> prototype_;
-  const InterfaceNumbers numbers_;
+  const std::unique_ptr<component::Component> prototype_;
+  const std::unique_ptr<const InterfaceNumbers> numbers_;
   const std::string remote_name_;
   std::function<ride::Peer&()> where_;
   std::vector<Output> outputs_;
