@@ -130,6 +130,31 @@ interface Vision {
   EXPECT_EQ(numbers.number(NumberedMember::Kind::kCancel, 1), 0u);
 }
 
+TEST_F(InterfaceFile, SaysHowUrgentItsMessagesAre) {
+  read(R"(
+interface Vision {
+  [priority(20)] void travel(double height);
+  [priority(255)] void cancel_travel();
+  [priority(200)] void stop();
+  [priority(7)] int where();
+  [priority(9)] void Wish(double value);
+  void start();
+};)");
+  ASSERT_NE(made, nullptr) << texts();
+  const auto& numbers = *dynamic_cast<internal::DescribedComponent&>(*made).numbers;
+  const auto level = [&](NumberedMember::Kind kind, std::size_t index) {
+    const NumberedMember* const member = numbers.member(kind, index);
+    return member == nullptr ? -1 : int{member->priority.level};
+  };
+  EXPECT_EQ(level(NumberedMember::Kind::kCommand, 0), 20);
+  EXPECT_EQ(level(NumberedMember::Kind::kCancel, 0), 20) << "never before its command";
+  EXPECT_EQ(level(NumberedMember::Kind::kCommand, 1), 200);
+  EXPECT_EQ(level(NumberedMember::Kind::kOperation, 2), 7);
+  EXPECT_EQ(level(NumberedMember::Kind::kCommand, 3), 0);
+  EXPECT_EQ(level(NumberedMember::Kind::kInput, 0), 9);
+  EXPECT_EQ(level(NumberedMember::Kind::kOutput, 0), -1);
+}
+
 TEST_F(InterfaceFile, IsTheInterfaceThatItsGeneratedServiceHas) {
   read(R"(
 struct Place { double x; };

@@ -12,6 +12,9 @@ namespace {
 
 using component::Signature;
 
+/// Commands and their ends go before samples, and in the order in which they are given.
+constexpr ride::Priority kOfCommands{255};
+
 bool can_travel(const Signature& signature) {
   if (signature.result != nullptr && !remote::can_travel(*signature.result)) return false;
   return std::ranges::all_of(signature.arguments, [](const Signature::Argument& argument) {
@@ -44,8 +47,9 @@ InterfaceNumbers::InterfaceNumbers(std::string model, const component::Interface
       add(whole, NumberedMember::Kind::kOperation, i, Access::kCommand);
       continue;
     }
-    add(whole, NumberedMember::Kind::kCommand, i, Access::kCommand);
-    add("void cancel_" + name + "()", NumberedMember::Kind::kCancel, i, Access::kCommand);
+    add(whole, NumberedMember::Kind::kCommand, i, Access::kCommand, kOfCommands);
+    add("void cancel_" + name + "()", NumberedMember::Kind::kCancel, i, Access::kCommand,
+        kOfCommands);
     add("event " + name + "_progress{double}", NumberedMember::Kind::kProgress, i, Access::kRead);
   }
   for (std::size_t i = 0; i < interface.events.size(); ++i) {
@@ -87,8 +91,8 @@ void InterfaceNumbers::refer_to_texts() {
 }
 
 void InterfaceNumbers::add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
-                           ride::Access access) {
-  members_.push_back({ride::number_of(canonical), kind, index});
+                           ride::Access access, ride::Priority priority) {
+  members_.push_back({ride::number_of(canonical), kind, index, priority});
   texts_.push_back(std::move(canonical));
   declarations_.push_back({{}, access});
 }
@@ -98,11 +102,16 @@ const NumberedMember* InterfaceNumbers::find(ride::Number number) const {
   return found == members_.end() ? nullptr : &*found;
 }
 
-ride::Number InterfaceNumbers::number(NumberedMember::Kind kind, std::size_t index) const {
+const NumberedMember* InterfaceNumbers::member(NumberedMember::Kind kind, std::size_t index) const {
   const auto found = std::ranges::find_if(members_, [&](const NumberedMember& member) {
     return member.kind == kind && member.index == index;
   });
-  return found == members_.end() ? 0 : found->number;
+  return found == members_.end() ? nullptr : &*found;
+}
+
+ride::Number InterfaceNumbers::number(NumberedMember::Kind kind, std::size_t index) const {
+  const NumberedMember* const found = member(kind, index);
+  return found == nullptr ? 0 : found->number;
 }
 
 }  // namespace armature::remote

@@ -25,7 +25,8 @@ struct NumberedMember {
   };
   ride::Number number;
   Kind kind;
-  std::size_t index;  ///< among the operations, events, outputs or inputs of the component
+  std::size_t index;          ///< among the operations, events, outputs or inputs of the component
+  ride::Priority priority{};  ///< of its messages
 };
 
 /// A declaration of an interface that a file describes, and what it is here; nothing if it cannot
@@ -52,12 +53,14 @@ class InterfaceNumbers {
   const std::vector<NumberedMember>& members() const { return members_; }
   /// nullptr: nothing has that number
   const NumberedMember* find(ride::Number number) const;
+  /// nullptr: nothing is there
+  const NumberedMember* member(NumberedMember::Kind kind, std::size_t index) const;
   /// The number of what is there; 0: nothing is.
   ride::Number number(NumberedMember::Kind kind, std::size_t index) const;
 
  private:
-  void add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
-           ride::Access access);
+  void add(std::string canonical, NumberedMember::Kind kind, std::size_t index, ride::Access access,
+           ride::Priority priority = {});
   void refer_to_texts();
 
   std::string model_;

@@ -288,9 +288,9 @@ void Placeholder::pass_on(component::InputPortBase& input, const void* value) {
   const std::size_t index =
       std::ranges::find(inputs_, &input, [](const Input& each) { return each.port.get(); })->index;
   const std::tuple members{Outgoing{&input.type(), value}};
-  const bool sent =
-      link_ != nullptr && link_->send(numbers_->number(NumberedMember::Kind::kInput, index), {},
-                                      ride::Fields(members)) == ride::Sent::kYes;
+  const NumberedMember& there = *numbers_->member(NumberedMember::Kind::kInput, index);
+  const bool sent = link_ != nullptr && link_->send(there.number, there.priority,
+                                                    ride::Fields(members)) == ride::Sent::kYes;
   if (!sent) count(unsent);
 }
 
@@ -307,10 +307,11 @@ component::CallStatus Placeholder::call(component::OperationBase& operation,
   const std::tuple members{OutgoingArguments{&signature, arguments}};
   Incoming place{signature.result, result};
   std::string problem;
-  const ride::CallOptions options{base::from_seconds(answer_limit.get()), {}};
+  const NumberedMember& there =
+      *numbers_->member(NumberedMember::Kind::kOperation, operation_of(operation).index);
+  const ride::CallOptions options{base::from_seconds(answer_limit.get()), there.priority};
   const ride::Code code =
-      link_->call(numbers_->number(NumberedMember::Kind::kOperation, operation_of(operation).index),
-                  operation.name(), options, ride::Fields(members),
+      link_->call(there.number, operation.name(), options, ride::Fields(members),
                   result == nullptr ? ride::Place() : ride::Place(place), problem);
   if (code != ride::Code::kNone) log_warning("{}", problem);
   return status_of(code);
@@ -326,8 +327,8 @@ component::Outcome Placeholder::begin(component::CommandBase& command,
   Operation& operation = operation_of(command);
   const std::uint64_t run = ++operation.run;
   const std::tuple members{OutgoingArguments{&command.signature(), arguments}};
-  link_->ask(numbers_->number(NumberedMember::Kind::kCommand, operation.index),
-             ride::Fields(members),
+  const NumberedMember& there = *numbers_->member(NumberedMember::Kind::kCommand, operation.index);
+  link_->ask(there.number, there.priority, ride::Fields(members),
              [mailbox = mailbox_, index = operation.index, run](ride::Code code,
                                                                 std::string_view text, auto) {
                Arrival arrival{.kind = Arrival::Kind::kEnded, .index = index};
@@ -343,10 +344,10 @@ void Placeholder::cancel(component::CommandBase& command) {
   const rt::PermitScope permit;
   Operation& operation = operation_of(command);
   ++operation.run;
-  const ride::Number number = numbers_->number(NumberedMember::Kind::kCancel, operation.index);
-  if (link_ == nullptr || number == 0) return;
+  const auto* const there = numbers_->member(NumberedMember::Kind::kCancel, operation.index);
+  if (link_ == nullptr || there == nullptr) return;
   const std::tuple<> nothing;
-  const auto sent = link_->send(number, {}, ride::Fields(nothing));
+  const auto sent = link_->send(there->number, there->priority, ride::Fields(nothing));
   if (sent != ride::Sent::kYes) count(unsent);
 }
 

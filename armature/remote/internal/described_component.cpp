@@ -80,12 +80,12 @@ class Describer {
   std::unique_ptr<DescribedComponent> describe() {
     // Commands first: their companions refer to them.
     for (const idl::Operation& operation : interface_.operations) {
-      if (!is_companion(operation)) add(operation);
+      if (command_of(operation) == nullptr) add(operation);
     }
     for (const idl::Operation& operation : interface_.operations) {
-      if (!is_companion(operation)) continue;
-      const auto command = place_of_command(cancelled_by(operation));
-      declare(operation, command ? member(Kind::kCancel, *command) : std::nullopt);
+      if (const idl::Operation* const command = command_of(operation)) {
+        declare_cancel(operation, *command);
+      }
     }
     for (const idl::EventName& name : interface_.events) add(*program_.find_event(name.name));
     made_->numbers = std::make_unique<InterfaceNumbers>(interface_.name, declarations_);
@@ -95,19 +95,32 @@ class Describer {
  private:
   using Member = std::optional<NumberedMember>;
 
-  static Member member(Kind kind, std::size_t index) { return NumberedMember{0, kind, index}; }
+  static Member member(Kind kind, std::size_t index) {
+    return NumberedMember{.number = 0, .kind = kind, .index = index};
+  }
 
-  void declare(const idl::Operation& operation, const Member& member) {
+  void declare(const idl::Operation& operation, Member member) {
+    if (member) member->priority = {operation.priority};
     declarations_.push_back(
         {idl::canonical(program_, operation), access_of(operation.access), member});
   }
 
-  /// What there is of that name which ends later and can be cancelled.
-  bool is_companion(const idl::Operation& operation) const {
+  /// It has the priority of its command, which it never overtakes.
+  void declare_cancel(const idl::Operation& operation, const idl::Operation& command) {
+    Member cancel;
+    if (const auto place = place_of_command(command.name)) cancel = member(Kind::kCancel, *place);
+    if (cancel) cancel->priority = {command.priority};
+    declarations_.push_back(
+        {idl::canonical(program_, operation), access_of(operation.access), cancel});
+  }
+
+  /// The command that it cancels; nullptr if it is none of its own.
+  const idl::Operation* command_of(const idl::Operation& operation) const {
     const std::string name = cancelled_by(operation);
-    return std::ranges::any_of(interface_.operations, [&](const idl::Operation& each) {
+    const auto found = std::ranges::find_if(interface_.operations, [&](const auto& each) {
       return each.name == name && each.is_command() && !is_input(each);
     });
+    return found == interface_.operations.end() ? nullptr : &*found;
   }
   std::optional<std::size_t> place_of_command(const std::string& name) const {
     const auto& operations = component::interface_of(*made_).operations;
