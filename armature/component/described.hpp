@@ -19,7 +19,7 @@
 
 namespace armature::component {
 
-/// An operation of any signature. What calls it by its C++ types and waits cannot be bound to it.
+/// An operation of any signature.
 class DescribedOperation final : public OperationBase {
  public:
   DescribedOperation(Component& owner, std::string_view name, std::string_view doc,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/remote/interface_file.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -153,6 +154,37 @@ interface Vision {
   EXPECT_EQ(level(NumberedMember::Kind::kCommand, 3), 0);
   EXPECT_EQ(level(NumberedMember::Kind::kInput, 0), 9);
   EXPECT_EQ(level(NumberedMember::Kind::kOutput, 0), -1);
+}
+
+TEST_F(InterfaceFile, KnowsTheRangesOfWhatComes) {
+  read(R"(
+struct Wheel { [range(-5, 5)] short speed; [unit("m"), range(0.5, 1e3)] Array<double, 2> size; };
+event Seen { [range(0, 255)] unsigned int red; Array<struct Wheel, 2> wheels; };
+event Speed { unsigned long sequence; long time; [range(-1, 1)] float value; };
+interface Vision { event Seen; event Speed; };
+)");
+  ASSERT_NE(made, nullptr) << texts();
+  const auto& numbers = *dynamic_cast<internal::DescribedComponent&>(*made).numbers;
+  const auto& arguments = interface_of(*made).events.front()->signature().arguments;
+  const auto& ranges = numbers.member(NumberedMember::Kind::kEvent, 0)->ranges;
+  const auto holds = [&](const std::string& red, const std::string& wheels) {
+    types::Value values[] = {types::Value(*arguments[0].type), types::Value(*arguments[1].type)};
+    EXPECT_TRUE(types::from_text(values[0].type(), red, values[0].data()));
+    EXPECT_TRUE(types::from_text(values[1].type(), wheels, values[1].data()));
+    return std::ranges::all_of(
+        ranges, [&](const auto& each) { return each.holds(values[each.argument].data()); });
+  };
+  EXPECT_TRUE(holds("255", "[{speed: 5, size: [0.5, 1000]}, {speed: -5, size: [1, 1]}]"));
+  EXPECT_FALSE(holds("256", "[{speed: 5, size: [0.5, 1000]}, {speed: -5, size: [1, 1]}]"));
+  EXPECT_FALSE(holds("0", "[{speed: 6, size: [1, 1]}, {speed: 0, size: [1, 1]}]"));
+  EXPECT_FALSE(holds("0", "[{speed: 0, size: [1, 1]}, {speed: 0, size: [1, 0.4]}]"));
+  EXPECT_FALSE(holds("0", "[{speed: 0, size: [1, 1]}, {speed: 0, size: [nan, 1]}]"));
+  const auto& speed = numbers.member(NumberedMember::Kind::kOutput, 0)->ranges;
+  ASSERT_EQ(speed.size(), 1u);
+  const float one = 1.0f;
+  const float more = 1.01f;
+  EXPECT_TRUE(speed.front().holds(&one));
+  EXPECT_FALSE(speed.front().holds(&more));
 }
 
 TEST_F(InterfaceFile, IsTheInterfaceThatItsGeneratedServiceHas) {

@@ -92,7 +92,7 @@ void InterfaceNumbers::refer_to_texts() {
 
 void InterfaceNumbers::add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
                            ride::Access access, ride::Priority priority) {
-  members_.push_back({ride::number_of(canonical), kind, index, priority});
+  members_.push_back({ride::number_of(canonical), kind, index, priority, {}});
   texts_.push_back(std::move(canonical));
   declarations_.push_back({{}, access});
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/component/interface.hpp"
+#include "armature/remote/value_range.hpp"
 #include "armature/ride/interface.hpp"
 
 namespace armature::remote {
@@ -27,6 +28,7 @@ struct NumberedMember {
   Kind kind;
   std::size_t index;          ///< among the operations, events, outputs or inputs of the component
   ride::Priority priority{};  ///< of its messages
+  std::vector<ValueRange> ranges{};  ///< of what comes from there
 };
 
 /// A declaration of an interface that a file describes, and what it is here; nothing if it cannot

@@ -119,9 +119,9 @@ void Placeholder::listen(NumberedMember::Kind kind, std::size_t index, Arrival::
   subscriptions_.push_back(
       link_->subscribe(number, [this, kind, index, arrives_as](ride::Decoder& members) {
         Arrival arrival{.kind = arrives_as, .index = index};
-        const bool fits = take(kind, index, members, arrival);
-        if (!fits && arrives_as == Arrival::Kind::kEvent) arrival.kind = Arrival::Kind::kMisfit;
-        if (fits || arrival.kind == Arrival::Kind::kMisfit) mailbox_->put(std::move(arrival));
+        arrival.misfit = !take(kind, index, members, arrival);
+        const bool fits = !arrival.misfit;
+        mailbox_->put(std::move(arrival));
         return fits;
       }));
 }
@@ -148,7 +148,10 @@ bool Placeholder::take(NumberedMember::Kind kind, std::size_t index, ride::Decod
     good = std::ranges::all_of(arguments,
                                [&](const auto& argument) { return take_value(*argument.type); });
   }
-  return good && members.ended();
+  const std::vector<ValueRange>& ranges = numbers_->member(kind, index)->ranges;
+  return good && members.ended() && std::ranges::all_of(ranges, [&](const ValueRange& range) {
+           return range.holds(arrival.values[range.argument].data());
+         });
 }
 
 void Placeholder::on_stop() { let_go(); }
@@ -211,17 +214,17 @@ void Placeholder::handle(Arrival& arrival) {
       return handle_sample(arrival);
     case Arrival::Kind::kEvent: {
       const auto event = std::ranges::find(events_, arrival.index, &Event::index);
+      if (arrival.misfit) return note_misfit(event->misfit, event->twin->name());
       std::vector<const void*> places;
       for (const types::Value& value : arrival.values) places.push_back(value.data());
       event->twin->raise_from(places.data());
       return;
     }
-    case Arrival::Kind::kMisfit:
-      return handle_misfit(arrival.index);
     case Arrival::Kind::kProgress:
     case Arrival::Kind::kEnded: {
       const auto operation = std::ranges::find(operations_, arrival.index, &Operation::index);
       auto& command = static_cast<component::CommandBase&>(*operation->twin);
+      if (arrival.misfit) return count(missed);
       if (arrival.kind == Arrival::Kind::kProgress) return command.report(arrival.progress);
       if (arrival.run != operation->run) return;  // it was cancelled here
       if (arrival.good) return command.complete();
@@ -233,6 +236,7 @@ void Placeholder::handle(Arrival& arrival) {
 /// The same sample comes again when others subscribe to the port.
 void Placeholder::handle_sample(const Arrival& arrival) {
   Output& output = *std::ranges::find(outputs_, arrival.index, &Output::index);
+  if (arrival.misfit) return note_misfit(output.misfit, output.port->name());
   if (arrival.sequence == output.sequence) return;
   const bool goes_on = output.sequence != 0 && arrival.sequence > output.sequence;
   if (goes_on) count(missed, arrival.sequence - output.sequence - 1);
@@ -247,13 +251,12 @@ void Placeholder::handle_sample(const Arrival& arrival) {
   count(missed);
 }
 
-/// A text that is too long, or a number that no enumerator has.
-void Placeholder::handle_misfit(std::size_t index) {
+/// A text that is too long, a number that no enumerator has or that is out of its range.
+void Placeholder::note_misfit(bool& told, std::string_view member) {
   count(missed);
-  Event& event = *std::ranges::find(events_, index, &Event::index);
-  if (std::exchange(event.misfit, true)) return;
-  log_error("'{}' at {} raises '{}' with a value that has no place here; it is left out",
-            remote_name_, address.get(), event.twin->name());
+  if (std::exchange(told, true)) return;
+  log_error("'{}' at {} sends '{}' with a value that has no place here; it is left out",
+            remote_name_, address.get(), member);
 }
 
 void Placeholder::handle_connection(const std::string& text) {

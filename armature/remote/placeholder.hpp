@@ -64,10 +64,11 @@ class Placeholder final : public component::StandIn {
  private:
   /// Something that came from the other process, on its way to this component's thread.
   struct Arrival {
-    enum class Kind : std::uint8_t { kEvent, kSample, kProgress, kEnded, kConnection, kMisfit };
+    enum class Kind : std::uint8_t { kEvent, kSample, kProgress, kEnded, kConnection };
     Kind kind;
     std::size_t index = 0;
     std::vector<types::Value> values{};
+    bool misfit = false;  ///< what came has no place here: there are no values
     std::uint64_t sequence = 0;
     double progress = 0.0;
     std::uint64_t run = 0;  ///< of a command: which
@@ -94,7 +95,7 @@ class Placeholder final : public component::StandIn {
     std::unique_ptr<component::OutputPortBase> port;
     std::size_t index;
     std::uint64_t sequence = 0;  ///< of the last sample
-    bool misfit = false;         ///< its samples have another size than here
+    bool misfit = false;         ///< a sample had no place here
   };
   struct Input {
     std::unique_ptr<component::InputPortBase> port;
@@ -103,7 +104,7 @@ class Placeholder final : public component::StandIn {
   struct Event {
     std::unique_ptr<component::EventBase> twin;
     std::size_t index;
-    bool misfit = false;  ///< one came that there was no place for
+    bool misfit = false;  ///< one had no place here
   };
   struct Operation {
     std::unique_ptr<component::OperationBase> twin;
@@ -125,7 +126,7 @@ class Placeholder final : public component::StandIn {
   void handle(Arrival& arrival);
   void handle_connection(const std::string& problem);
   void handle_sample(const Arrival& arrival);
-  void handle_misfit(std::size_t event);
+  void note_misfit(bool& told, std::string_view member);
   Operation& operation_of(const component::OperationBase& twin);
   void count(component::Attribute<int>& counter, std::uint64_t more = 1);
 

@@ -90,13 +90,34 @@ class Cabin final : public Component {
                                          component::args("height [m]", "quickly")};
 };
 
-/// Calls an operation and waits, by the types that C++ has.
+/// Calls an operation and waits, by the types that C++ has: from a thread of its own, or from that
+/// of the placeholder, whose event it handles.
 class Caller final : public Component {
  public:
   using Component::Component;
 
+  std::atomic<int> sum{0};
+  std::atomic<int> called{0};
+
  private:
+  void on_update() override { sum = add_(3, 4).value; }
+  void handle(double, bool) {
+    const auto answer = add_(20, 22);
+    if (answer) called = answer.value;
+  }
+
   component::OperationCaller<int(int, int)> add_{this, "add", "adds"};
+  component::EventHandler<double, bool> called_{this, "Called", serve<&Caller::handle>,
+                                                "somebody waits"};
+};
+
+/// Would add what the lift does not.
+class Other final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::OperationCaller<double(double, double)> add_{this, "add", "adds"};
 };
 
 /// The other process: a node, which listens where the one before it did.
@@ -119,6 +140,7 @@ struct ByInterfaceFile : testing::Test {
   static void add_models(component::Registry& models) {
     models.add<Cabin>("Cabin", "");
     models.add<Caller>("Caller", "");
+    models.add<Other>("Other", "");
   }
   static std::string components(const std::string& address, const std::string& interface = kFile) {
     return "components:\n  Lift: {remote: '" + address + "/Lift', interface: '" + interface +
@@ -239,10 +261,26 @@ TEST_F(ByInterfaceFile, ATextThatIsTooLongIsLeftOutAndCounted) {
     return text_of("Lift", "PeerMissed") != "0";
   }));
   EXPECT_EQ(text_of("Heard", "Given"), "0");
-  EXPECT_TRUE(until_logged("raises 'Said' with a value that has no place here"));
+  EXPECT_TRUE(until_logged("sends 'Said' with a value that has no place here"));
   EXPECT_TRUE(until([&] {
     foreign->lift.raise(lift::Said{std::string(127, 'x')});
     return text_of("Heard", "Given") != "0";
+  }));
+}
+
+/// The file says what may come; who sends may have another one, or none.
+TEST_F(ByInterfaceFile, WhatComesOutOfItsRangeIsLeftOutAndCounted) {
+  start("  - Lift.Height -> Cabin.Height\n");
+  std::uint64_t sequence = 0;
+  EXPECT_TRUE(until([&] {
+    foreign->lift.raise(lift::Height{++sequence, 0, 101.0});
+    return text_of("Lift", "PeerMissed") != "0";
+  }));
+  EXPECT_TRUE(until_logged("sends 'Height' with a value that has no place here"));
+  EXPECT_EQ(cabin->height, 0.0);
+  EXPECT_TRUE(until([&] {
+    foreign->lift.raise(lift::Height{++sequence, 0, 100.0});
+    return cabin->height == 100.0;
   }));
 }
 
@@ -319,10 +357,27 @@ TEST_F(ByInterfaceFile, ConnectionsAreChecked) {
   EXPECT_THAT(text, HasSubstr("'Cabin.Wish' is in 'm', but 'Lift.Load' expects 'kg'"));
 }
 
-TEST_F(ByInterfaceFile, CppThatWaitsForAnAnswerIsRefused) {
-  EXPECT_THAT(mistakes(components("tcp://127.0.0.1:4242") +
-                       "  Caller: {model: Caller, activity: {periodic: 5 ms}, peers: [Lift]}\n"),
-              HasSubstr("which is known by its interface file: C++ cannot wait for its answer"));
+TEST_F(ByInterfaceFile, CppCallsItByItsOwnTypes) {
+  foreign = std::make_unique<Foreign>();
+  for (const char* activity : {", activity: {periodic: 2 ms}", ""}) {
+    application = std::make_unique<Process>(
+        components(foreign->at) + "  Caller: {model: Caller, peers: [Lift]" + activity + "}\n",
+        add_models);
+    application->start();
+    auto& caller = application->find<Caller>("Caller");
+    EXPECT_TRUE(until([&] {
+      foreign->lift.raise(lift::Called{1.0, true});
+      return caller.called == 42;
+    }));
+    if (*activity != '\0') EXPECT_TRUE(until([&] { return caller.sum == 7; }));
+  }
+}
+
+TEST_F(ByInterfaceFile, CppWithOtherTypesIsRefused) {
+  EXPECT_THAT(
+      mistakes("components:\n  Lift: {remote: 'tcp://127.0.0.1:4242/Lift', interface: '" + kFile +
+               "'}\n  There: {model: Other, peers: [Lift], activity: {periodic: 5 ms}}\n"),
+      HasSubstr("'Lift.add' is int32(int32 a, int32 b)"));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
-#include "armature/component/described.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/operations/requirement.hpp"
 #include "armature/exec/internal/wiring.hpp"
@@ -98,20 +97,7 @@ class RequirementPlanner {
               operation->signature().text() + kind_text(operation->is_command()));
       return;
     }
-    if (refuses_described(entry, caller, *operation)) return;
     plan_.calls.push_back({user, peer, &caller, operation});
-  }
-
-  /// Who calls and waits does so by C++ types, which an operation without any C++ does not have.
-  bool refuses_described(const ComponentEntry& entry, const component::OperationCallerBase& caller,
-                         const component::OperationBase& operation) {
-    if (dynamic_cast<const component::DescribedOperation*>(&operation) == nullptr) return false;
-    diagnostics_.error(place(entry, caller),
-                       user_of(entry, caller) + " of " + quoted(operation.owner().name()) +
-                           ", which is known by its interface file: C++ cannot wait for its answer",
-                       "have a script or the operator call it, or generate a placeholder of the "
-                       "file with rcidl");
-    return true;
   }
 
   void plan_subscription(Index user, const ComponentEntry& entry,

@@ -175,17 +175,53 @@ class Describer {
     const idl::Field& value = event.members.back();
     const types::Type* const type = here(event.where, types_.of_fixed_size(value.type));
     if (type == nullptr) return std::nullopt;
-    return member(Kind::kOutput, made_->add_output({event.name, made_->keep(to_text(event.doc)),
-                                                    made_->keep(value.unit), *type}));
+    Member output =
+        member(Kind::kOutput, made_->add_output({event.name, made_->keep(to_text(event.doc)),
+                                                 made_->keep(value.unit), *type}));
+    add_ranges(value, *type, {0, 0}, output->ranges);
+    return output;
   }
 
   Member add_event(const idl::Structure& event) {
     auto signature = signature_of(event.members, event.where, &IdlTypes::of_fixed_size);
     if (!signature) return std::nullopt;
-    for (Signature::Argument& argument : signature->arguments) argument.by_reference = false;
-    return member(Kind::kEvent,
-                  made_->add_event(made_->keep(event.name), made_->keep(to_text(event.doc)),
-                                   std::move(*signature)));
+    std::vector<ValueRange> ranges;
+    for (std::size_t i = 0; i < event.members.size(); ++i) {
+      signature->arguments[i].by_reference = false;
+      add_ranges(event.members[i], *signature->arguments[i].type, {i, 0}, ranges);
+    }
+    Member added = member(Kind::kEvent,
+                          made_->add_event(made_->keep(event.name), made_->keep(to_text(event.doc)),
+                                           std::move(*signature)));
+    added->ranges = std::move(ranges);
+    return added;
+  }
+
+  /// Where a member of an event, or of a struct in it, is.
+  struct Place {
+    std::size_t argument;
+    std::size_t offset;
+  };
+
+  /// The ranges of a member and of the structs in it.
+  void add_ranges(const idl::Field& field, const types::Type& type, const Place& place,
+                  std::vector<ValueRange>& to) const {
+    const types::Type& one = types::is_list(type) ? *type.element : type;
+    const std::size_t count = types::is_list(type) ? type.count : 1;
+    if (field.range) {
+      ValueRange range{place.argument, place.offset, count, types::Value(one), types::Value(one)};
+      const bool read = types::from_text(one, field.range->low, range.low.data()) &&
+                        types::from_text(one, field.range->high, range.high.data());
+      if (read) to.push_back(std::move(range));  // always: the file has no mistake
+    }
+    if (one.kind != types::Kind::kStruct) return;
+    const std::vector<idl::Field>& members = program_.find_struct(one.name)->members;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t m = 0; m < members.size(); ++m) {
+        const std::size_t offset = place.offset + i * one.size + one.fields[m].offset;
+        add_ranges(members[m], *one.fields[m].type, {place.argument, offset}, to);
+      }
+    }
   }
 
   /// Nothing if one of the types cannot be here.
