@@ -70,6 +70,20 @@ void report(const idl::Loaded& loaded, const document::Component& written,
 
 }  // namespace
 
+std::vector<std::string> interfaces_of(const std::string& path, base::Diagnostics& diagnostics) {
+  const Wanted wanted = split(path);
+  if (!wanted.interface.empty()) return {path};
+  const idl::Loaded loaded = idl::load(wanted.file);
+  diagnostics.append(loaded.diagnostics);
+  if (!loaded.ok()) return {};
+  std::vector<std::string> all;
+  for (const idl::Interface& each : loaded.program.main().interfaces) {
+    all.push_back(path + "#" + each.name);
+  }
+  if (all.empty()) diagnostics.error({path, 0, 0}, base::quoted(path) + " has no interface");
+  return all;
+}
+
 std::unique_ptr<component::Component> read_interface(document::Component& written,
                                                      const std::string& path,
                                                      base::Diagnostics& diagnostics) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/component.hpp"
@@ -20,5 +21,9 @@ namespace armature::remote {
 std::unique_ptr<component::Component> read_interface(document::Component& written,
                                                      const std::string& path,
                                                      base::Diagnostics& diagnostics);
+
+/// `FILE.idl#Interface` for each interface that `path` names: all of a file, or the one behind `#`.
+/// Mistakes are told as `read_interface` does; none after an error.
+std::vector<std::string> interfaces_of(const std::string& path, base::Diagnostics& diagnostics);
 
 }  // namespace armature::remote

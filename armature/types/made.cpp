@@ -157,8 +157,10 @@ base::Result<const Type*> made_vector(const Type& element) {
       set_vector<std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>>(made);
     });
   } else {
-    return base::Error{made.name + " is a list of unknown length of " +
-                       (element.kind == Kind::kStruct ? "structs" : "lists")};
+    return base::Error{
+        made.name +
+        " has elements that are neither numbers, bools, enumerations nor texts of any "
+        "length: give it a number of elements"};
   }
   return &keep(std::move(made));
 }

@@ -100,7 +100,7 @@ TEST(MadeType, WhatGrowsOrIsTooLargeIsRefused) {
   EXPECT_THAT(made_struct("Scan", {{"a", half}, {"b", half}}).error(),
               HasSubstr("struct Scan has 1040 bytes"));
   EXPECT_THAT(made_vector(*made_wheel().value()).error(),
-              HasSubstr("a list of unknown length of structs"));
+              HasSubstr("vector<Wheel> has elements that are neither numbers, bools"));
 }
 
 }  // namespace

@@ -86,8 +86,22 @@ def check_mistakes(address):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def check_models():
+    """What a deployment has of an interface."""
+    interface = str(pathlib.Path(DEPLOYMENT).parent / "ball.idl")
+    done = subprocess.run([armature, "models", interface], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    for shown in ("Vision: interface of ", "Chassis: interface of ", "void(float left [m/s], float right [m/s])",
+                  "void(int32 x [px], int32 y [px])"):
+        assert shown in done.stdout, done.stdout
+    done = subprocess.run([armature, "models", interface + "#Vison"], capture_output=True, text=True,
+                          timeout=120)
+    assert done.returncode == 1 and "did you mean 'Vision'?" in done.stderr + done.stdout, done
+
+
 with tempfile.TemporaryDirectory() as folder:
     address = f"unix:{folder}/robot.sock"
     check_pilot(address)
     check_deployment(address)
     check_mistakes(address)
+    check_models()

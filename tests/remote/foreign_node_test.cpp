@@ -2,6 +2,8 @@
 // A deployment that uses a component of a program without Armature's runtime, by its interface
 // file alone: the program is a node with a service that rcidl made.
 #include <atomic>
+#include <cstdio>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -318,6 +320,24 @@ TEST_F(ByInterfaceFile, AComponentWithAnotherInterfaceIsNotUsed) {
   application->start();
   EXPECT_TRUE(until_logged("no component of this name has the interface 'Door'"));
   EXPECT_EQ(text_of("Lift", "PeerConnected"), "false");
+}
+
+TEST_F(ByInterfaceFile, AnotherDefinitionOfItsInterfaceIsToldAndUsedAsFarAsItIsTheSame) {
+  const std::string file = testing::TempDir() + "another_lift.idl";
+  std::ofstream(file) << "interface Lift { void stop(); void fly(); };";
+  foreign = std::make_unique<Foreign>();
+  application = std::make_unique<Process>(
+      components(foreign->at, file) +
+          "connections:\n  - {on: Cabin.Pressed, do: Lift.fly, name: Up}\n"
+          "  - Up.Failed -> Lift.stop\n",
+      add_models);
+  application->start();
+  cabin = &application->find<Cabin>("Cabin");
+  EXPECT_TRUE(until_logged("has another definition of Lift"));
+  cabin->press = 1;
+  EXPECT_TRUE(until([&] { return foreign->lift.stops_ == 1; }));
+  EXPECT_TRUE(until_logged("has no operation of this number"));
+  std::remove(file.c_str());
 }
 
 TEST_F(ByInterfaceFile, MistakesAreToldWithTheirPlaces) {
