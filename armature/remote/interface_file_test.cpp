@@ -207,7 +207,7 @@ interface Vision {
 TEST_F(InterfaceFile, WhatCannotBeHereIsLeftOutWithANote) {
   read(R"(struct Place { double x; Array<int> list; };
 event Route { Array<double> heights; };
-event Scan { Array<double, 200> ranges; };
+event Scan { Array<double, 600> ranges; };
 event PeerLost { int a; };
 interface Vision {
   int follow(Array<struct Place> route);
@@ -230,7 +230,7 @@ interface Vision {
   EXPECT_THAT(texts(), HasSubstr("operation 'place' of interface 'Vision' is left out: struct"));
   EXPECT_THAT(texts(), HasSubstr("event 'Route' of interface 'Vision' is left out: Array<double>"));
   EXPECT_THAT(texts(), HasSubstr("event 'Scan' of interface 'Vision' is left out: "
-                                 "array<double,200> has 1600 bytes, more than the 1024"));
+                                 "array<double,600> has 4800 bytes, more than the 4096"));
   EXPECT_THAT(texts(), HasSubstr("event 'PeerLost' of interface 'Vision' is left out: the "
                                  "component has another member of this name"));
 }

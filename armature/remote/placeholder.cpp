@@ -41,7 +41,7 @@ CallStatus status_of(ride::Code code) {
 
 }  // namespace
 
-Placeholder::Placeholder(std::string name, Original original, std::string peer_address,
+Placeholder::Placeholder(std::string name, Original original, const std::string& peer_address,
                          std::function<ride::Peer&()> where)
     : StandIn(std::move(name)),
       prototype_(std::move(original.prototype)),

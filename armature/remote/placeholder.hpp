@@ -37,7 +37,7 @@ class Placeholder final : public component::StandIn {
 
   /// @param name   in this application
   /// @param where  makes the peer when it is needed, so that a check needs no network
-  Placeholder(std::string name, Original original, std::string address,
+  Placeholder(std::string name, Original original, const std::string& peer_address,
               std::function<ride::Peer&()> where);
   ~Placeholder() override;
 

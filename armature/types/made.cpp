@@ -20,23 +20,33 @@ using internal::kLifetime;
 using internal::kVectorAccess;
 using internal::Lifetime;
 using internal::round_up;
-using internal::VectorAccess;
+
+/// Sizes of structs and arrays that were made. A type knows its size by its functions only, so
+/// there are functions for each size: as many as there are places.
+constexpr std::size_t kMostSizes = 128;
+std::array<std::size_t, kMostSizes> sizes{};
 
 /// Of values that are copied as bytes and whose bytes are all 0 at first.
-template <std::size_t Size>
+template <std::size_t Place>
 constexpr Lifetime kLifetimeOfBytes{
-    [](void* at) { std::memset(at, 0, Size); },
+    [](void* at) { std::memset(at, 0, sizes[Place]); },
     [](void*) {},
-    [](void* to, const void* from) { std::memmove(to, from, Size); },
+    [](void* to, const void* from) { std::memmove(to, from, sizes[Place]); },
 };
 
-/// A type knows its size only by its functions, so there are functions for each size.
-const Lifetime& lifetime_of_bytes(std::size_t size) {
+/// nullptr if there are too many sizes.
+const Lifetime* lifetime_of_bytes(std::size_t size) {
   static constexpr auto kEach = []<std::size_t... I>(std::index_sequence<I...>) {
-    return std::array{kLifetimeOfBytes<I + 1>...};
+    return std::array<Lifetime, sizeof...(I)>{kLifetimeOfBytes<I>...};
   }
-  (std::make_index_sequence<kLargestMade>{});
-  return kEach[size - 1];
+  (std::make_index_sequence<kMostSizes>{});
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const auto place =
+      std::ranges::find_if(sizes, [&](std::size_t s) { return s == size || s == 0; });
+  if (place == sizes.end()) return nullptr;
+  *place = size;
+  return &kEach[static_cast<std::size_t>(place - sizes.begin())];
 }
 
 Type blank(std::string name, Kind kind, std::size_t size, std::size_t alignment,
@@ -92,6 +102,11 @@ std::string too_large(const std::string& name, std::size_t size) {
          std::to_string(kLargestMade) + " that a struct or array known by its description may have";
 }
 
+base::Error too_many_sizes(const std::string& name) {
+  return base::Error{name + " has another size than " + std::to_string(kMostSizes) +
+                     " structs and arrays before it, and there is room for no more"};
+}
+
 std::string grows(const Type& type) {
   return type.name + " grows, and a struct or array known by its description has a fixed size";
 }
@@ -123,7 +138,9 @@ base::Result<const Type*> made_struct(const std::string& name,
   }
   const std::size_t size = round_up(type.size, type.alignment);
   if (size > kLargestMade) return base::Error{too_large("struct " + name, size)};
-  Type made = blank(name, Kind::kStruct, size, type.alignment, lifetime_of_bytes(size));
+  const Lifetime* const lifetime = lifetime_of_bytes(size);
+  if (lifetime == nullptr) return too_many_sizes("struct " + name);
+  Type made = blank(name, Kind::kStruct, size, type.alignment, *lifetime);
   made.fields = std::move(type.fields);
   return &keep(std::move(made), fields);
 }
@@ -135,8 +152,9 @@ base::Result<const Type*> made_array(const Type& element, std::size_t count) {
     return base::Error{too_large(name, count * element.size)};
   }
   const std::size_t size = count * element.size;
-  Type made =
-      blank(std::move(name), Kind::kArray, size, element.alignment, lifetime_of_bytes(size));
+  const Lifetime* const lifetime = lifetime_of_bytes(size);
+  if (lifetime == nullptr) return too_many_sizes(name);
+  Type made = blank(std::move(name), Kind::kArray, size, element.alignment, *lifetime);
   made.element = &element;
   made.count = count;
   return &keep(std::move(made));
@@ -167,8 +185,8 @@ base::Result<const Type*> made_vector(const Type& element) {
 
 const Type& made_enum(const std::string& name, const Type& underlying,
                       const std::vector<Enumerator>& enumerators) {
-  Type made = blank(name, Kind::kEnum, underlying.size, underlying.alignment,
-                    lifetime_of_bytes(underlying.size));
+  const Lifetime lifetime{underlying.construct, underlying.destroy, underlying.assign};
+  Type made = blank(name, Kind::kEnum, underlying.size, underlying.alignment, lifetime);
   made.underlying = &underlying;
   made.enumerators = enumerators;
   return keep(std::move(made));

@@ -18,7 +18,7 @@
 namespace armature::types {
 
 /// The most bytes of an array or a struct that is made while the program runs.
-inline constexpr std::size_t kLargestMade = 1024;
+inline constexpr std::size_t kLargestMade = 4096;
 
 /// A field of a struct that is made.
 struct MadeField {
@@ -28,8 +28,8 @@ struct MadeField {
   std::string doc{};
 };
 
-/// A struct of at least one field. The error: a field holds a text or list that grows, or the
-/// struct has more than kLargestMade bytes.
+/// A struct of at least one field. The error: a field holds a text or list that grows, the struct
+/// has more than kLargestMade bytes, or a size that 128 before it did not have.
 base::Result<const Type*> made_struct(const std::string& name,
                                       const std::vector<MadeField>& fields);
 

@@ -95,12 +95,26 @@ TEST(MadeType, WhatGrowsOrIsTooLargeIsRefused) {
   EXPECT_THAT(made_array(type_of<std::string>(), 2).error(), HasSubstr("text grows"));
   EXPECT_TRUE(made_array(type_of<double>(), kLargestMade / 8));
   EXPECT_THAT(made_array(type_of<double>(), kLargestMade / 8 + 1).error(),
-              HasSubstr("has 1032 bytes, more than the 1024"));
+              HasSubstr("has 4104 bytes, more than the 4096"));
   const Type* const half = made_array(type_of<double>(), kLargestMade / 16 + 1).value();
   EXPECT_THAT(made_struct("Scan", {{"a", half}, {"b", half}}).error(),
-              HasSubstr("struct Scan has 1040 bytes"));
+              HasSubstr("struct Scan has 4112 bytes"));
   EXPECT_THAT(made_vector(*made_wheel().value()).error(),
               HasSubstr("vector<Wheel> has elements that are neither numbers, bools"));
+}
+
+/// The last one: it takes all the room that there is.
+TEST(MadeTypeAtLast, OneSizeMoreThanThereIsRoomForIsRefused) {
+  std::string problem;
+  std::size_t made = 0;
+  for (std::size_t count = 1; count <= kLargestMade && problem.empty(); ++count) {
+    const auto array = made_array(type_of<std::uint8_t>(), count);
+    if (!array) problem = array.error();
+    if (array) ++made;
+  }
+  EXPECT_GT(made, 100u);
+  EXPECT_THAT(problem, HasSubstr("has another size than 128 structs and arrays before it"));
+  EXPECT_TRUE(made_array(type_of<std::int8_t>(), 1)) << "of a size that there is";
 }
 
 }  // namespace
