@@ -24,7 +24,7 @@ set(ARMATURE_LAYERS
     "deploy: base document orocos analysis inspect exec component platform"
     "edit: base deploy document"
     "report: base platform control component exec record"
-    "remote: base ride document inspect exec component rt types platform"
+    "remote: base idl ride document inspect exec component rt types platform"
     "lua: base inspect exec component rt types platform"
     "browser: base remote ride lua inspect exec component platform"
     "controllers: base component control guardian types"

@@ -4,6 +4,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/base/utf8.hpp"
 #include "idl/limits.hpp"
+#include "idl/number.hpp"
 
 namespace armature::idl::internal {
 namespace {
@@ -26,8 +27,10 @@ class AttributeParser {
   void take_one() {
     const Token& name = reader_.now();
     if (name.kind != Token::Kind::kWord) {
-      reader_.fail(name, "expected an attribute, 'unit', 'range', 'access' or 'later', found " +
-                             TokenReader::shown(name));
+      reader_.fail(name,
+                   "expected an attribute, 'unit', 'range', 'access', 'priority' or 'later', "
+                   "found " +
+                       TokenReader::shown(name));
     }
     reader_.take();
     if (name.text == "unit") {
@@ -36,11 +39,13 @@ class AttributeParser {
       take_range(name);
     } else if (name.text == "access") {
       take_access(name);
+    } else if (name.text == "priority") {
+      take_priority(name);
     } else if (name.text == "later") {
       take_later(name);
     } else {
       reader_.fail(name, "unknown attribute " + TokenReader::shown(name),
-                   base::suggestion(name.text, {"unit", "range", "access", "later"}));
+                   base::suggestion(name.text, {"unit", "range", "access", "priority", "later"}));
     }
   }
 
@@ -88,6 +93,22 @@ class AttributeParser {
       found_.access = Access::kCommand;
     }
     reader_.expect(")", "the access");
+  }
+
+  void take_priority(const Token& name) {
+    constexpr std::uint64_t kMostUrgent = 255;
+    refuse_second(name, found_.priority.has_value());
+    if (found_.of_message == nullptr) found_.of_message = &name;
+    reader_.expect("(", "'priority'");
+    const Token& token = reader_.now();
+    const std::string text = number("a priority");
+    const auto level = parse_whole(text);
+    if (!level || level->negative || level->magnitude > kMostUrgent) {
+      reader_.error(token, "expected a priority from 0 to 255, the most urgent, found " +
+                               TokenReader::shown(token));
+    }
+    found_.priority = static_cast<std::uint8_t>(level ? level->magnitude : 0);
+    reader_.expect(")", "the priority");
   }
 
   void take_later(const Token& name) {

@@ -54,7 +54,8 @@ class ClientWriter {
                        declaration(0, "class " + name, ": public armature::ride::Placeholder {") +
                        " public:\n" + constructor(interface);
     for (const Operation& operation : interface.operations) {
-      text += "\n" + text_.documentation(operation) + declared(2, head(interface, operation));
+      text += "\n" + text_.documentation(operation) +
+              declared(2, head(interface, operation, "", priority_of(operation)));
     }
     for (const EventName& event : interface.events) text += "\n" + subscription(event);
     return text + "};\n";
@@ -69,9 +70,16 @@ class ClientWriter {
                 ") {}");
   }
 
-  /// All but the default of its last parameter, which stands in the class only.
-  Function head(const Interface& interface, const Operation& operation,
-                const std::string& in_front = "", const std::string& behind = " = {}") const {
+  /// The default of the last parameter: what the definition says, where it says something.
+  static std::string priority_of(const Operation& operation) {
+    if (operation.priority == 0) return " = {}";
+    const std::string level = std::to_string(operation.priority);
+    return operation.is_command() ? " = {" + level + "}" : " = {.priority = {" + level + "}}";
+  }
+
+  /// @param behind  its last parameter, in the class only: the default
+  Function head(const Interface& interface, const Operation& operation, const std::string& in_front,
+                const std::string& behind) const {
     Function head;
     head.name = in_front + names_.operation(interface, operation.name);
     head.parameters = text_.parameters(operation);

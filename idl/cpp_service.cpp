@@ -61,10 +61,15 @@ class ServiceWriter {
     return "armature::ride::ReplyOf<" + text_.result_type(operation) + ">";
   }
 
+  static std::string priority_of(const EventName& event) {
+    return event.priority == 0 ? "" : ", {" + std::to_string(event.priority) + "}";
+  }
+
   std::string raise(const EventName& event) const {
     const std::string type = text_.event_type(event.name);
     return comment(2, {"Tells all subscribers.  @thread any"}) +
-           defined(2, {"void", "raise", {"const " + type + "& event"}}, "    publish(event);\n");
+           defined(2, {"void", "raise", {"const " + type + "& event"}},
+                   "    publish(event" + priority_of(event) + ");\n");
   }
 
   static Function execute_head(const std::string& owner, bool named) {

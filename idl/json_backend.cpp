@@ -153,7 +153,12 @@ class Writer {
     one["operations"] = Json::array();
     for (const Operation& each : interface.operations) one["operations"].push_back(operation(each));
     one["events"] = Json::array();
-    for (const EventName& event : interface.events) one["events"].push_back(event.name);
+    Json priorities;
+    for (const EventName& event : interface.events) {
+      one["events"].push_back(event.name);
+      if (event.priority != 0) priorities[event.name] = event.priority;
+    }
+    if (!priorities.empty()) one["event_priorities"] = std::move(priorities);
     one["declarations"] = declarations(program_, interface);
     return one;
   }
@@ -165,6 +170,7 @@ class Writer {
     one["number"] = number_of(canonical(program_, operation));
     one["mode"] = operation.is_command() ? "command" : "request";
     one["access"] = name_of(operation.access);
+    if (operation.priority != 0) one["priority"] = operation.priority;
     one["doc"] = doc_of(operation.doc);
     Json result;
     add_type(result, "type", operation.result);

@@ -128,7 +128,8 @@ struct Operation {
   std::string name;
   std::vector<Field> parameters;
   Access access = Access::kCommand;
-  bool later = false;  ///< its service answers when it can, not when it returns
+  std::uint8_t priority = 0;  ///< of its messages, as long as their sender says no other
+  bool later = false;         ///< its service answers when it can, not when it returns
   Doc doc;
   base::Location where;
 
@@ -138,6 +139,7 @@ struct Operation {
 
 struct EventName {
   std::string name;
+  std::uint8_t priority = 0;  ///< of its messages
   base::Location where;
 };
 

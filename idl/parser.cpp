@@ -146,10 +146,12 @@ class Parser {
     reader_.expect("{", "the name of the interface");
     result.doc = reader_.doc_between(begin, reader_.position());
     const bool closed = in_braces("interface " + in_quotes(result.name), [&] {
+      const std::size_t first = reader_.position();
+      const Attributes attributes = internal::parse_attributes(reader_);
       if (reader_.is("event")) {
-        result.events.push_back(event_name());
+        result.events.push_back(event_name(attributes));
       } else {
-        result.operations.push_back(operation());
+        result.operations.push_back(operation(first, attributes));
       }
     });
     result.complete = !lost_;
@@ -194,10 +196,10 @@ class Parser {
   /// Attributes and type of a member or parameter.
   Field field(const std::string& what) {
     Attributes attributes = internal::parse_attributes(reader_);
-    if (attributes.of_operation != nullptr) {
-      reader_.error(*attributes.of_operation, TokenReader::shown(*attributes.of_operation) +
-                                                  " belongs to an operation; " + what +
-                                                  " has only 'unit' and 'range'");
+    for (const Token* const foreign : {attributes.of_operation, attributes.of_message}) {
+      if (foreign == nullptr) continue;
+      reader_.error(*foreign, TokenReader::shown(*foreign) + " belongs to an operation; " + what +
+                                  " has only 'unit' and 'range'");
     }
     Field result;
     result.type = types_.parse(what);
@@ -207,7 +209,12 @@ class Parser {
     return result;
   }
 
-  EventName event_name() {
+  EventName event_name(const Attributes& attributes) {
+    for (const Token* const foreign : {attributes.of_operation, attributes.of_field}) {
+      if (foreign == nullptr) continue;
+      reader_.error(*foreign, TokenReader::shown(*foreign) +
+                                  " does not belong to an event; it has only 'priority'");
+    }
     reader_.take();
     const Token& name = reader_.expect_name("an event");
     if (reader_.is("{")) {
@@ -216,19 +223,19 @@ class Parser {
                        std::string(name.text) + ";'");
     }
     reader_.expect(";", "event " + in_quotes(name.text));
-    return {std::string(name.text), reader_.where(name)};
+    return {std::string(name.text), attributes.priority.value_or(0), reader_.where(name)};
   }
 
-  Operation operation() {
-    const std::size_t begin = reader_.position();
-    Attributes attributes = internal::parse_attributes(reader_);
+  /// @param begin  where its attributes do
+  Operation operation(std::size_t begin, const Attributes& attributes) {
     if (attributes.of_field != nullptr) {
       reader_.error(*attributes.of_field, TokenReader::shown(*attributes.of_field) +
                                               " belongs to a member or parameter; an operation has"
-                                              " only 'access' and 'later'");
+                                              " only 'access', 'priority' and 'later'");
     }
     Operation result;
     result.access = attributes.access.value_or(Access::kCommand);
+    result.priority = attributes.priority.value_or(0);
     result.later = attributes.later != nullptr;
     result.result = types_.parse_or_void("an operation's result");
     if (result.later && result.is_command()) {
@@ -346,7 +353,7 @@ void share_events(Module& module) {
   }
   for (Interface& interface : module.interfaces) {
     for (const Structure& structure : module.structures) {
-      if (structure.is_event) interface.events.push_back({structure.name, structure.where});
+      if (structure.is_event) interface.events.push_back({structure.name, 0, structure.where});
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "armature/cli/arguments.hpp"
 #include "armature/cli/network.hpp"
 #include "armature/deploy/deployment.hpp"
+#include "armature/remote/interface_file.hpp"
 
 namespace armature::cli {
 
@@ -18,6 +19,7 @@ inline deploy::Deployment load(const LoadArguments& arguments, NetworkOnDemand& 
   options.document.read = std::move(read);
   options.make_placeholder = network.placeholders();
   options.make_inlets = network.inlets();
+  options.read_interface = remote::read_interface;
   options.document.overrides = arguments.overrides;
   options.library_folders = arguments.library_folders;
   options.mode = arguments.mode;

@@ -8,6 +8,7 @@
 #include "armature/cli/libraries.hpp"
 #include "armature/cli/output.hpp"
 #include "armature/inspect/model_catalogue.hpp"
+#include "armature/remote/interface_file.hpp"
 
 namespace armature::cli {
 namespace {
@@ -19,7 +20,34 @@ struct ModelsArguments {
   bool json = false;
 };
 
+bool is_interface_file(const std::string& name) {
+  return name.ends_with(".idl") || name.find(".idl#") != std::string::npos;
+}
+
+/// What a deployment has of components by their interface file.
+int describe_interfaces(const ModelsArguments& arguments, const Console& console) {
+  base::Diagnostics diagnostics;
+  std::string text;
+  for (const std::string& path : remote::interfaces_of(arguments.name, diagnostics)) {
+    document::Component written;
+    written.name = path;
+    written.interface = {path, {path, 0, 0}};
+    const auto component = remote::read_interface(written, path, diagnostics);
+    if (component == nullptr) continue;
+    text += (text.empty() ? "" : "\n") + written.model + ": interface of " + path + "\n" +
+            inspect::describe_members(*component);
+  }
+  console.show(diagnostics);
+  if (!diagnostics.ok()) return kFailed;
+  return print(text, console);
+}
+
 int models(const ModelsArguments& arguments, const Console& console) {
+  if (is_interface_file(arguments.name)) {
+    if (!arguments.json) return describe_interfaces(arguments, console);
+    console.say(rt::LogLevel::kError, "an interface file is JSON by rcidl: rcidl FILE.idl --json");
+    return kWrongUse;
+  }
   const auto [registry, diagnostics] = models_of(arguments.libraries, arguments.library_folders);
   console.show(diagnostics);
   if (!diagnostics.ok()) return kFailed;
@@ -37,7 +65,8 @@ int models(const ModelsArguments& arguments, const Console& console) {
 void add_models(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("models", "lists component models, or describes one");
   const auto arguments = arguments_of(*command, to, models);
-  command->add_option("name", arguments->name, "the model to describe");
+  command->add_option("name", arguments->name,
+                      "the model to describe, or an interface file: ball.idl#Vision");
   command->add_option("-l,--library", arguments->libraries, "component library to search")
       ->allow_extra_args(false);
   add_folders(*command, arguments->library_folders);

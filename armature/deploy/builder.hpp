@@ -15,6 +15,13 @@ namespace armature::deploy {
 using MakePlaceholder = std::function<base::Result<std::unique_ptr<component::Component>>(
     const document::Component& written, std::unique_ptr<component::Component> prototype)>;
 
+/// Makes the prototype of a component that an interface file describes; nullptr after an error.
+/// Mistakes of the file are told at their places in it.
+/// @param written  its `model` becomes the interface's name
+/// @param path     of the file, perhaps with `#` and the interface's name behind it
+using ReadInterface = std::function<std::unique_ptr<component::Component>(
+    document::Component& written, const std::string& path, base::Diagnostics&)>;
+
 /// Makes the component `kNetworkName`, which writes `inputs`; each of its outputs is called
 /// `component.port`.
 using MakeInlets = std::function<base::Result<std::unique_ptr<component::Component>>(
@@ -26,6 +33,7 @@ struct BuildOptions {
   bool models_missing = false;  ///< a library could not be loaded, so unknown models may be its own
   MakePlaceholder make_placeholder{};  ///< none: components of other processes are refused
   MakeInlets make_inlets{};            ///< none: inputs for other processes are refused
+  ReadInterface read_interface{};      ///< none: components of other processes are refused
 };
 
 /// Makes the document's components from the models of `registry`, sets their properties, from

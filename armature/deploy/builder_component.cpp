@@ -111,7 +111,34 @@ void add_peers(const Component& written, exec::ComponentEntry& entry) {
 }  // namespace
 
 void ComponentBuilder::build(const Component& written, exec::Blueprint& blueprint) {
-  std::unique_ptr<component::Component> component = make(written);
+  if (written.interface.name.empty()) return add(written, make(written), blueprint);
+  Component described = written;
+  auto prototype = read_interface(described);
+  add(described, std::move(prototype), blueprint);
+}
+
+/// Several components may have one file, whose mistakes are told once.
+std::unique_ptr<component::Component> ComponentBuilder::read_interface(Component& written) {
+  if (!options_.read_interface) {
+    refuse_other_processes(written);
+    return nullptr;
+  }
+  base::Diagnostics found;
+  auto prototype =
+      options_.read_interface(written, path_from(document_, written.interface.name), found);
+  of_interfaces_.add(found);
+  return prototype;
+}
+
+void ComponentBuilder::refuse_other_processes(const Component& written) {
+  diagnostics_.error(written.remote.where,
+                     in_quotes(written.name) +
+                         " lives in another process, and this program does not connect to any");
+}
+
+void ComponentBuilder::add(const Component& written,
+                           std::unique_ptr<component::Component> component,
+                           exec::Blueprint& blueprint) {
   const bool whole = component != nullptr && set_properties(written, *component);
   if (whole) component = settle(written, std::move(component));
   if (!whole || component == nullptr) {
@@ -140,9 +167,7 @@ std::unique_ptr<component::Component> ComponentBuilder::settle(
         "leave out activity");
   }
   if (!options_.make_placeholder) {
-    diagnostics_.error(written.remote.where,
-                       in_quotes(written.name) +
-                           " lives in another process, and this program does not connect to any");
+    refuse_other_processes(written);
     return nullptr;
   }
   for (const component::PropertyBase* property : component::interface_of(*component).mandatory) {

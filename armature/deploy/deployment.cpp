@@ -123,10 +123,11 @@ void check_all(Deployment& deployment, const DeploymentOptions& options) {
       load_libraries(document.libraries, library_folders(options.library_folders, document.file),
                      deployment.models, diagnostics);
   deployment.options = application_options(document);
-  deployment.blueprint = build_blueprint(
-      document, deployment.models,
-      {options.document.read, !all_loaded, options.make_placeholder, options.make_inlets},
-      diagnostics);
+  deployment.blueprint =
+      build_blueprint(document, deployment.models,
+                      {options.document.read, !all_loaded, options.make_placeholder,
+                       options.make_inlets, options.read_interface},
+                      diagnostics);
   take_kept(document, deployment.blueprint, diagnostics);
   deployment.plan = exec::make_plan(deployment.blueprint, diagnostics);
   if (diagnostics.ok() && deployment.blueprint.components.empty()) {

@@ -25,6 +25,7 @@ struct DeploymentOptions {
   std::function<void(component::Registry&)> models;  ///< adds models of the program itself
   MakePlaceholder make_placeholder;  ///< none: components of other processes are refused
   MakeInlets make_inlets;            ///< none: inputs for other processes are refused
+  ReadInterface read_interface;      ///< none: components of other processes are refused
   std::string mode;                  ///< in which it starts, whatever the document says
   std::string times_file;            ///< measured execution times (see schedule.hpp); empty: none
   int cpus = 0;  ///< of the machine that is to run it; 0: as many as this one has

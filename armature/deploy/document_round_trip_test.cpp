@@ -43,6 +43,7 @@ components:
                  list: [[1, 2], {a: -1}], texts: [a, "b c"], kinds: [!char 1, 2, b],
                  chars: !strings [!char 1, 2], f: !orocos:KDL.Frame {x: .5}}
   R: {model: Motor, remote: tcp://robot/Motor}
+  V: {remote: tcp://robot/Vision, interface: vision.idl#Vision}
   C: {model: Card, activity: {triggered: true, scheduler: realtime, priority: 3}, autostart: false}
   left: {model: Chassis, properties: {size: 3}}
 composites:

@@ -11,6 +11,7 @@
 #include "armature/deploy/internal/test_models.hpp"
 #include "armature/document/yaml.hpp"
 #include "armature/orocos/deployer_file.hpp"
+#include "armature/types/struct.hpp"
 
 namespace armature::deploy {
 namespace {
@@ -119,6 +120,24 @@ class Winch final : public component::Component {
   component::OutputPort<double> out_{this, "Volts", "for a motor", "V"};
 };
 
+struct Push {
+  double force = 0.0;
+};
+ARMATURE_STRUCT(Push, (force, "N"));
+
+/// Drives what has no port: its commands take an effort.
+class Motor final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  Outcome turn(double) { return component::accepted(); }
+  Outcome push(Push) { return component::accepted(); }
+  component::Command<double> turn_{this, "turn", component::serve<&Motor::turn>, "turns",
+                                   component::args("torque [N m]")};
+  component::Command<Push> push_{this, "push", component::serve<&Motor::push>, "pushes"};
+};
+
 constexpr const char* kParts = R"(
 components:
   Button: {model: Button, activity: {periodic: 10 ms}}
@@ -134,6 +153,7 @@ Deployment deployment(const std::string& connections, const std::string& parts =
     models.add<Lift>("Lift", "travels", {});
     models.add<Bell>("Bell", "is rung", {});
     models.add<Winch>("Winch", "pulls", {});
+    models.add<Motor>("Motor", "turns", {});
   };
   return parse_deployment(parts + "connections:\n" + connections, "robot.yaml", options);
 }
@@ -396,6 +416,16 @@ TEST(EventCommand, IsNoWayFromTheOperatorToAnEffort) {
   EXPECT_THAT(deployment("  - Bell.Rung -> Winch.pull\n", parts).diagnostics.to_text(),
               HasSubstr("error: 'Bell.In' leads to 'Winch.Volts' by 'Bell', "
                         "'Bell_Rung_Winch_pull'"));
+}
+
+TEST(EventCommand, WithAnEffortAsItsParameterIsNoWayFromTheOperator) {
+  const std::string parts =
+      "operator_inputs: [Bell.In]\ncomponents: {Bell: {model: Bell}, "
+      "Motor: {model: Motor, activity: {periodic: 10 ms}}}\n";
+  const std::string turns = "  - {on: Bell.Rung, do: Motor.turn, with: {torque: 1 N m}}\n";
+  EXPECT_THAT(deployment(turns, parts).diagnostics.to_text(),
+              HasSubstr("error: 'Bell.In' leads to 'Motor.turn' by 'Bell', "
+                        "'Bell_Rung_Motor_turn'"));
 }
 
 struct Mistake {

@@ -27,6 +27,27 @@ bool is_effort(std::string_view text) {
   });
 }
 
+/// A field of it, at any depth, is an effort.
+bool has_effort(const types::Type& type) {
+  if (type.element != nullptr) return has_effort(*type.element);
+  return std::ranges::any_of(type.fields, [](const types::Field& field) {
+    return is_effort(field.unit) || has_effort(*field.type);
+  });
+}
+
+/// `N m` of `torque [N m]`; empty if it has no unit.
+std::string_view unit_of(std::string_view argument) {
+  const std::size_t open = argument.find(" [");
+  if (open == std::string_view::npos || !argument.ends_with(']')) return {};
+  return argument.substr(open + 2, argument.size() - open - 3);
+}
+
+bool takes_effort(const component::OperationBase& operation) {
+  return std::ranges::any_of(operation.signature().arguments, [](const auto& each) {
+    return each.type->sealed || is_effort(unit_of(each.name)) || has_effort(*each.type);
+  });
+}
+
 class OperatorInputCheck {
  public:
   OperatorInputCheck(const exec::Blueprint& blueprint, const exec::Plan& plan)
@@ -77,7 +98,8 @@ class OperatorInputCheck {
       return "'" + component(i).name() + "." + std::string(member) + "'";
     };
     const auto of_port = [&](const component::PortBase& port) {
-      return port.type().sealed || is_effort(port.unit()) ? named(port.name()) : std::string();
+      const bool moves = port.type().sealed || is_effort(port.unit()) || has_effort(port.type());
+      return moves ? named(port.name()) : std::string();
     };
     for (const component::InputPortBase* port : interface.inputs) {
       if (const std::string what = of_port(*port); !what.empty()) return what;
@@ -86,10 +108,7 @@ class OperatorInputCheck {
       if (const std::string what = of_port(*port); !what.empty()) return what;
     }
     for (const component::OperationBase* operation : interface.operations) {
-      const auto& arguments = operation->signature().arguments;
-      const bool sealed =
-          std::ranges::any_of(arguments, [](const auto& each) { return each.type->sealed; });
-      if (sealed) return named(operation->name());
+      if (takes_effort(*operation)) return named(operation->name());
     }
     if (!interface.holdings.empty()) {
       return "'" + component(i).name() + "', which holds something";

@@ -83,7 +83,8 @@ struct PropertyFile {
 struct Component {
   std::string name;  ///< parts of composites: `instance.part`
   std::string model;
-  Reference remote;  ///< `tcp://host:port/Name`: the component lives in another process
+  Reference remote;     ///< `tcp://host:port/Name`: the component lives in another process
+  Reference interface;  ///< `FILE.idl` or `FILE.idl#Name`: what it has there, in place of a model
   Activity activity;
   std::vector<Property> properties;
   std::vector<Peer> peers;

@@ -275,6 +275,10 @@ void rebase_paths(Document& document) {
     if (!file->name.empty()) file->name = rebased(file->name, file->where.file, document.file);
   }
   for (Component& component : document.components) {
+    Reference& interface = component.interface;
+    if (!interface.name.empty()) {
+      interface.name = rebased(interface.name, interface.where.file, document.file);
+    }
     for (PropertyFile& file : component.property_files) {
       file.path = rebased(file.path, file.where.file, document.file);
     }

@@ -232,12 +232,27 @@ void read_flags(Fields& fields, const ValueReader& reader, Component& component)
   }
 }
 
+/// What a file describes lives in another process: nothing here can run it.
+void check_interface(const Value& body, const ValueReader& reader, const Component& component) {
+  const base::Location& where = component.interface.where;
+  if (!component.model.empty()) {
+    reader.error(where, "it has a model and an interface, which both say what it has",
+                 "leave out one of them");
+  }
+  if (find(body.entries, "remote") == nullptr) {
+    reader.error(where, "it has an interface, which describes a component of another process",
+                 "say where it is: remote: tcp://host:port/Name");
+  }
+}
+
 void check_component(const Value& body, const ValueReader& reader, const Component& component) {
   const Property* model = find(body.entries, "model");
   const bool reported = model != nullptr && model->value.kind == Value::Kind::kNone;
-  if (component.model.empty() && !reported) {
+  const bool described = find(body.entries, "interface") != nullptr;
+  if (component.model.empty() && !reported && !described) {
     reader.error(component.where, "it has no model", "write model: and a component model's name");
   }
+  if (described) check_interface(body, reader, component);
   if (component.autostart && !component.autoconf) {
     reader.error(component.where, "autostart needs autoconf",
                  "set autoconf: true, or autostart: false");
@@ -312,6 +327,10 @@ Component read_component(const std::string& name, const base::Location& where, c
   if (const Value* remote = fields.take("remote")) {
     assign(reader.text(*remote, "remote"), component.remote.name);
     component.remote.where = remote->where;
+  }
+  if (const Value* interface = fields.take("interface")) {
+    assign(reader.text(*interface, "interface"), component.interface.name);
+    component.interface.where = interface->where;
   }
   if (const Value* activity = fields.take("activity")) {
     read_activity(*activity, reader, priorities, component.activity);

@@ -91,8 +91,9 @@ Value reference_tree(const Reference& reference) { return make_text(reference.na
 
 Value component_tree(const Component& component) {
   Value map = make_map();
-  add(map, "model", component.model);
+  if (!component.model.empty()) add(map, "model", component.model);
   if (!component.remote.name.empty()) add(map, "remote", component.remote.name);
+  if (!component.interface.name.empty()) add(map, "interface", component.interface.name);
   add(map, "activity", activity_tree(component.activity));
   add_items(map, "peers", converted(component.peers, peer_tree));
   if (!component.bindings.empty()) {

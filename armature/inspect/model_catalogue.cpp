@@ -171,6 +171,10 @@ std::string list_models(const Registry& registry) {
   return base::table_text(rows);
 }
 
+std::string describe_members(const component::Component& component) {
+  return text_of(describe(component, {}));
+}
+
 base::Result<std::string> describe_model(const Registry& registry, std::string_view name) {
   const auto model = internal::find_model(registry, name);
   if (!model) return base::Error{model.error()};

@@ -18,6 +18,9 @@ std::string list_models(const component::Registry& registry);
 base::Result<std::string> describe_model(const component::Registry& registry,
                                          std::string_view name);
 
+/// The same of a component that no model has, as its members are now.
+std::string describe_members(const component::Component& component);
+
 /// The same for machines: a JSON array with an object for each of `names`, all models if empty.
 /// @param indent  -1: all on one line
 base::Result<std::string> models_as_json(const component::Registry& registry,

@@ -26,7 +26,7 @@ class ComponentReader {
   }
 
   Value read() {
-    add_entry(body_, "model", element_.type, element_.where);
+    if (!element_.type.empty()) add_entry(body_, "model", element_.type, element_.where);
     refuse_twins();
     for (const XmlElement& child : element_.children) read_child(child);
     add_flags();

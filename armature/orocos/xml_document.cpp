@@ -91,7 +91,9 @@ class DocumentReader {
 
   void read_component(XmlElement& child) {
     const auto same = indices_.find(child.name);
-    const bool change = child.type == "PropertyBag" || child.type.empty();
+    const bool has_interface = std::ranges::any_of(
+        child.extras, [](const auto& extra) { return extra.first == "interface"; });
+    const bool change = child.type == "PropertyBag" || (child.type.empty() && !has_interface);
     if (change && same != indices_.end()) return merge(components_[same->second], child);
     if (change) {
       diagnostics_.error(child.where,

@@ -12,6 +12,9 @@ namespace {
 
 using component::Signature;
 
+/// Commands and their ends go before samples, and in the order in which they are given.
+constexpr ride::Priority kOfCommands{255};
+
 bool can_travel(const Signature& signature) {
   if (signature.result != nullptr && !remote::can_travel(*signature.result)) return false;
   return std::ranges::all_of(signature.arguments, [](const Signature::Argument& argument) {
@@ -44,8 +47,9 @@ InterfaceNumbers::InterfaceNumbers(std::string model, const component::Interface
       add(whole, NumberedMember::Kind::kOperation, i, Access::kCommand);
       continue;
     }
-    add(whole, NumberedMember::Kind::kCommand, i, Access::kCommand);
-    add("void cancel_" + name + "()", NumberedMember::Kind::kCancel, i, Access::kCommand);
+    add(whole, NumberedMember::Kind::kCommand, i, Access::kCommand, kOfCommands);
+    add("void cancel_" + name + "()", NumberedMember::Kind::kCancel, i, Access::kCommand,
+        kOfCommands);
     add("event " + name + "_progress{double}", NumberedMember::Kind::kProgress, i, Access::kRead);
   }
   for (std::size_t i = 0; i < interface.events.size(); ++i) {
@@ -66,13 +70,29 @@ InterfaceNumbers::InterfaceNumbers(std::string model, const component::Interface
     add("void " + port.name() + "(" + canonical(port.type()) + ")", NumberedMember::Kind::kInput, i,
         Access::kCommand);
   }
+  refer_to_texts();
+}
+
+InterfaceNumbers::InterfaceNumbers(std::string name, const std::vector<DescribedDeclaration>& all)
+    : model_(std::move(name)) {
+  for (const DescribedDeclaration& each : all) {
+    texts_.push_back(each.canonical);
+    declarations_.push_back({{}, each.access});
+    if (!each.member) continue;
+    members_.push_back(*each.member);
+    members_.back().number = ride::number_of(each.canonical);
+  }
+  refer_to_texts();
+}
+
+void InterfaceNumbers::refer_to_texts() {
   for (std::size_t i = 0; i < texts_.size(); ++i) declarations_[i].canonical = texts_[i];
   interface_ = {model_, declarations_};
 }
 
 void InterfaceNumbers::add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
-                           ride::Access access) {
-  members_.push_back({ride::number_of(canonical), kind, index});
+                           ride::Access access, ride::Priority priority) {
+  members_.push_back({ride::number_of(canonical), kind, index, priority, {}});
   texts_.push_back(std::move(canonical));
   declarations_.push_back({{}, access});
 }
@@ -82,11 +102,16 @@ const NumberedMember* InterfaceNumbers::find(ride::Number number) const {
   return found == members_.end() ? nullptr : &*found;
 }
 
-ride::Number InterfaceNumbers::number(NumberedMember::Kind kind, std::size_t index) const {
+const NumberedMember* InterfaceNumbers::member(NumberedMember::Kind kind, std::size_t index) const {
   const auto found = std::ranges::find_if(members_, [&](const NumberedMember& member) {
     return member.kind == kind && member.index == index;
   });
-  return found == members_.end() ? 0 : found->number;
+  return found == members_.end() ? nullptr : &*found;
+}
+
+ride::Number InterfaceNumbers::number(NumberedMember::Kind kind, std::size_t index) const {
+  const NumberedMember* const found = member(kind, index);
+  return found == nullptr ? 0 : found->number;
 }
 
 }  // namespace armature::remote

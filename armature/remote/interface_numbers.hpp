@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "armature/component/interface.hpp"
+#include "armature/remote/value_range.hpp"
 #include "armature/ride/interface.hpp"
 
 namespace armature::remote {
@@ -24,7 +26,17 @@ struct NumberedMember {
   };
   ride::Number number;
   Kind kind;
-  std::size_t index;  ///< among the operations, events, outputs or inputs of the component
+  std::size_t index;          ///< among the operations, events, outputs or inputs of the component
+  ride::Priority priority{};  ///< of its messages
+  std::vector<ValueRange> ranges{};  ///< of what comes from there
+};
+
+/// A declaration of an interface that a file describes, and what it is here; nothing if it cannot
+/// be here, so that it counts in the digest only.
+struct DescribedDeclaration {
+  std::string canonical;
+  ride::Access access;
+  std::optional<NumberedMember> member;  ///< its number follows from `canonical`
 };
 
 /// The interface of a component as others see it over RIDE (docs/remote.md): the same for whoever
@@ -33,6 +45,8 @@ class InterfaceNumbers {
  public:
   /// @param model  the interface's name
   InterfaceNumbers(std::string model, const component::Interface& interface);
+  /// @param name  the interface's
+  InterfaceNumbers(std::string name, const std::vector<DescribedDeclaration>& all);
   InterfaceNumbers(const InterfaceNumbers&) = delete;
   InterfaceNumbers& operator=(const InterfaceNumbers&) = delete;
 
@@ -41,12 +55,15 @@ class InterfaceNumbers {
   const std::vector<NumberedMember>& members() const { return members_; }
   /// nullptr: nothing has that number
   const NumberedMember* find(ride::Number number) const;
-  /// The number of what is there.
+  /// nullptr: nothing is there
+  const NumberedMember* member(NumberedMember::Kind kind, std::size_t index) const;
+  /// The number of what is there; 0: nothing is.
   ride::Number number(NumberedMember::Kind kind, std::size_t index) const;
 
  private:
-  void add(std::string canonical, NumberedMember::Kind kind, std::size_t index,
-           ride::Access access);
+  void add(std::string canonical, NumberedMember::Kind kind, std::size_t index, ride::Access access,
+           ride::Priority priority = {});
+  void refer_to_texts();
 
   std::string model_;
   std::vector<std::string> texts_;

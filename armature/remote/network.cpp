@@ -11,6 +11,7 @@
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
 #include "armature/remote/inspector.hpp"
+#include "armature/remote/internal/described_component.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/policy.hpp"
@@ -49,6 +50,14 @@ base::Result<RemoteAddress> parse_remote(const std::string& text) {
   return remote;
 }
 
+/// How the members of a prototype are called: as its file says, or as all of its model are.
+std::unique_ptr<const InterfaceNumbers> numbers_of(const document::Component& written,
+                                                   component::Component& prototype) {
+  auto* const described = dynamic_cast<internal::DescribedComponent*>(&prototype);
+  if (described != nullptr) return std::move(described->numbers);
+  return std::make_unique<InterfaceNumbers>(written.model, component::interface_of(prototype));
+}
+
 /// More lines than that between two looks at them are left out.
 constexpr std::size_t kMostLogLines = 256;
 
@@ -63,8 +72,10 @@ class RideNetwork final : public Network {
     auto remote = parse_remote(written.remote.name);
     if (!remote) return base::Error{remote.error()};
     const RemoteAddress& there = remote.value();
+    auto numbers = numbers_of(written, *prototype);
+    Placeholder::Original original{std::move(prototype), std::move(numbers), there.component};
     return std::unique_ptr<component::Component>(std::make_unique<Placeholder>(
-        written.name, std::move(prototype), written.model, there.component, there.peer,
+        written.name, std::move(original), there.peer,
         [this, address = there.peer]() -> ride::Peer& { return node().connect(address); }));
   }
 

@@ -41,13 +41,12 @@ CallStatus status_of(ride::Code code) {
 
 }  // namespace
 
-Placeholder::Placeholder(std::string name, std::unique_ptr<component::Component> prototype,
-                         std::string model, std::string remote_name, std::string peer_address,
+Placeholder::Placeholder(std::string name, Original original, const std::string& peer_address,
                          std::function<ride::Peer&()> where)
     : StandIn(std::move(name)),
-      prototype_(std::move(prototype)),
-      numbers_(std::move(model), component::interface_of(*prototype_)),
-      remote_name_(std::move(remote_name)),
+      prototype_(std::move(original.prototype)),
+      numbers_(std::move(original.numbers)),
+      remote_name_(std::move(original.name)),
       where_(std::move(where)) {
   address.assign(peer_address);
   make_twins();
@@ -57,7 +56,7 @@ Placeholder::~Placeholder() { let_go(); }
 
 void Placeholder::make_twins() {
   const component::Interface& original = component::interface_of(*prototype_);
-  for (const NumberedMember& member : numbers_.members()) {
+  for (const NumberedMember& member : numbers_->members()) {
     switch (member.kind) {
       case NumberedMember::Kind::kOutput:
         outputs_.push_back({original.outputs[member.index]->twin(*this), member.index});
@@ -88,7 +87,7 @@ component::Outcome Placeholder::on_start() {
     const std::lock_guard lock(mailbox_->mutex);
     mailbox_->owner = this;
   }
-  link_ = std::make_unique<LinkTo>(peer, remote_name_, numbers_.interface());
+  link_ = std::make_unique<LinkTo>(peer, remote_name_, numbers_->interface());
   subscribe();
   const base::Result<void> reached = peer.wait_until_connected(kStartPatience);
   mailbox_->put({.kind = Arrival::Kind::kConnection, .text = reached ? "" : reached.error()});
@@ -115,12 +114,15 @@ void Placeholder::subscribe() {
 }
 
 void Placeholder::listen(NumberedMember::Kind kind, std::size_t index, Arrival::Kind arrives_as) {
-  subscriptions_.push_back(link_->subscribe(
-      numbers_.number(kind, index), [this, kind, index, arrives_as](ride::Decoder& members) {
+  const ride::Number number = numbers_->number(kind, index);
+  if (number == 0) return;  // not every command has progress
+  subscriptions_.push_back(
+      link_->subscribe(number, [this, kind, index, arrives_as](ride::Decoder& members) {
         Arrival arrival{.kind = arrives_as, .index = index};
-        if (!take(kind, index, members, arrival)) return false;
+        arrival.misfit = !take(kind, index, members, arrival);
+        const bool fits = !arrival.misfit;
         mailbox_->put(std::move(arrival));
-        return true;
+        return fits;
       }));
 }
 
@@ -146,7 +148,10 @@ bool Placeholder::take(NumberedMember::Kind kind, std::size_t index, ride::Decod
     good = std::ranges::all_of(arguments,
                                [&](const auto& argument) { return take_value(*argument.type); });
   }
-  return good && members.ended();
+  const std::vector<ValueRange>& ranges = numbers_->member(kind, index)->ranges;
+  return good && members.ended() && std::ranges::all_of(ranges, [&](const ValueRange& range) {
+           return range.holds(arrival.values[range.argument].data());
+         });
 }
 
 void Placeholder::on_stop() { let_go(); }
@@ -209,6 +214,7 @@ void Placeholder::handle(Arrival& arrival) {
       return handle_sample(arrival);
     case Arrival::Kind::kEvent: {
       const auto event = std::ranges::find(events_, arrival.index, &Event::index);
+      if (arrival.misfit) return note_misfit(event->misfit, event->twin->name());
       std::vector<const void*> places;
       for (const types::Value& value : arrival.values) places.push_back(value.data());
       event->twin->raise_from(places.data());
@@ -218,6 +224,7 @@ void Placeholder::handle(Arrival& arrival) {
     case Arrival::Kind::kEnded: {
       const auto operation = std::ranges::find(operations_, arrival.index, &Operation::index);
       auto& command = static_cast<component::CommandBase&>(*operation->twin);
+      if (arrival.misfit) return count(missed);
       if (arrival.kind == Arrival::Kind::kProgress) return command.report(arrival.progress);
       if (arrival.run != operation->run) return;  // it was cancelled here
       if (arrival.good) return command.complete();
@@ -229,6 +236,7 @@ void Placeholder::handle(Arrival& arrival) {
 /// The same sample comes again when others subscribe to the port.
 void Placeholder::handle_sample(const Arrival& arrival) {
   Output& output = *std::ranges::find(outputs_, arrival.index, &Output::index);
+  if (arrival.misfit) return note_misfit(output.misfit, output.port->name());
   if (arrival.sequence == output.sequence) return;
   const bool goes_on = output.sequence != 0 && arrival.sequence > output.sequence;
   if (goes_on) count(missed, arrival.sequence - output.sequence - 1);
@@ -243,6 +251,14 @@ void Placeholder::handle_sample(const Arrival& arrival) {
   count(missed);
 }
 
+/// A text that is too long, a number that no enumerator has or that is out of its range.
+void Placeholder::note_misfit(bool& told, std::string_view member) {
+  count(missed);
+  if (std::exchange(told, true)) return;
+  log_error("'{}' at {} sends '{}' with a value that has no place here; it is left out",
+            remote_name_, address.get(), member);
+}
+
 void Placeholder::handle_connection(const std::string& text) {
   const bool was_connected = connected.get();
   const bool reachable = link_ != nullptr && link_->peer().connected();
@@ -254,7 +270,9 @@ void Placeholder::handle_connection(const std::string& text) {
     found.raise();
     return;
   }
-  const std::string problem = reachable ? "no component of this name has this model" : text;
+  const std::string problem = reachable ? "no component of this name has the interface '" +
+                                              std::string(numbers_->interface().name) + "'"
+                                        : text;
   log_warning("'{}' at {} cannot be used: {}", remote_name_, address.get(), problem);
   error("'" + remote_name_ + "' at " + address.get() + " cannot be used: " + problem);
   if (!was_connected) return;
@@ -273,9 +291,9 @@ void Placeholder::pass_on(component::InputPortBase& input, const void* value) {
   const std::size_t index =
       std::ranges::find(inputs_, &input, [](const Input& each) { return each.port.get(); })->index;
   const std::tuple members{Outgoing{&input.type(), value}};
-  const bool sent =
-      link_ != nullptr && link_->send(numbers_.number(NumberedMember::Kind::kInput, index), {},
-                                      ride::Fields(members)) == ride::Sent::kYes;
+  const NumberedMember& there = *numbers_->member(NumberedMember::Kind::kInput, index);
+  const bool sent = link_ != nullptr && link_->send(there.number, there.priority,
+                                                    ride::Fields(members)) == ride::Sent::kYes;
   if (!sent) count(unsent);
 }
 
@@ -292,10 +310,11 @@ component::CallStatus Placeholder::call(component::OperationBase& operation,
   const std::tuple members{OutgoingArguments{&signature, arguments}};
   Incoming place{signature.result, result};
   std::string problem;
-  const ride::CallOptions options{base::from_seconds(answer_limit.get()), {}};
+  const NumberedMember& there =
+      *numbers_->member(NumberedMember::Kind::kOperation, operation_of(operation).index);
+  const ride::CallOptions options{base::from_seconds(answer_limit.get()), there.priority};
   const ride::Code code =
-      link_->call(numbers_.number(NumberedMember::Kind::kOperation, operation_of(operation).index),
-                  operation.name(), options, ride::Fields(members),
+      link_->call(there.number, operation.name(), options, ride::Fields(members),
                   result == nullptr ? ride::Place() : ride::Place(place), problem);
   if (code != ride::Code::kNone) log_warning("{}", problem);
   return status_of(code);
@@ -311,8 +330,8 @@ component::Outcome Placeholder::begin(component::CommandBase& command,
   Operation& operation = operation_of(command);
   const std::uint64_t run = ++operation.run;
   const std::tuple members{OutgoingArguments{&command.signature(), arguments}};
-  link_->ask(numbers_.number(NumberedMember::Kind::kCommand, operation.index),
-             ride::Fields(members),
+  const NumberedMember& there = *numbers_->member(NumberedMember::Kind::kCommand, operation.index);
+  link_->ask(there.number, there.priority, ride::Fields(members),
              [mailbox = mailbox_, index = operation.index, run](ride::Code code,
                                                                 std::string_view text, auto) {
                Arrival arrival{.kind = Arrival::Kind::kEnded, .index = index};
@@ -328,10 +347,10 @@ void Placeholder::cancel(component::CommandBase& command) {
   const rt::PermitScope permit;
   Operation& operation = operation_of(command);
   ++operation.run;
-  if (link_ == nullptr) return;
+  const auto* const there = numbers_->member(NumberedMember::Kind::kCancel, operation.index);
+  if (link_ == nullptr || there == nullptr) return;
   const std::tuple<> nothing;
-  const auto sent = link_->send(numbers_.number(NumberedMember::Kind::kCancel, operation.index), {},
-                                ride::Fields(nothing));
+  const auto sent = link_->send(there->number, there->priority, ride::Fields(nothing));
   if (sent != ride::Sent::kYes) count(unsent);
 }
 

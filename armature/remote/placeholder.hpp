@@ -26,11 +26,19 @@ namespace armature::remote {
 /// the readers of its outputs are told that their writer is lost. It recovers by itself.
 class Placeholder final : public component::StandIn {
  public:
+  /// What it stands for.
+  struct Original {
+    /// Has the members, and never runs: of a model, with the properties that shape its ports, or
+    /// described by a file.
+    std::unique_ptr<component::Component> prototype;
+    std::unique_ptr<const InterfaceNumbers> numbers;  ///< how the members are called
+    std::string name;                                 ///< in its process
+  };
+
   /// @param name   in this application
-  /// @param prototype  a component of its model, with the properties that shape its ports
   /// @param where  makes the peer when it is needed, so that a check needs no network
-  Placeholder(std::string name, std::unique_ptr<component::Component> prototype, std::string model,
-              std::string remote_name, std::string address, std::function<ride::Peer&()> where);
+  Placeholder(std::string name, Original original, const std::string& peer_address,
+              std::function<ride::Peer&()> where);
   ~Placeholder() override;
 
   component::Attribute<std::string> address{this, "PeerAddress", "", "where the component lives"};
@@ -60,6 +68,7 @@ class Placeholder final : public component::StandIn {
     Kind kind;
     std::size_t index = 0;
     std::vector<types::Value> values{};
+    bool misfit = false;  ///< what came has no place here: there are no values
     std::uint64_t sequence = 0;
     double progress = 0.0;
     std::uint64_t run = 0;  ///< of a command: which
@@ -86,7 +95,7 @@ class Placeholder final : public component::StandIn {
     std::unique_ptr<component::OutputPortBase> port;
     std::size_t index;
     std::uint64_t sequence = 0;  ///< of the last sample
-    bool misfit = false;         ///< its samples have another size than here
+    bool misfit = false;         ///< a sample had no place here
   };
   struct Input {
     std::unique_ptr<component::InputPortBase> port;
@@ -95,6 +104,7 @@ class Placeholder final : public component::StandIn {
   struct Event {
     std::unique_ptr<component::EventBase> twin;
     std::size_t index;
+    bool misfit = false;  ///< one had no place here
   };
   struct Operation {
     std::unique_ptr<component::OperationBase> twin;
@@ -116,11 +126,12 @@ class Placeholder final : public component::StandIn {
   void handle(Arrival& arrival);
   void handle_connection(const std::string& problem);
   void handle_sample(const Arrival& arrival);
+  void note_misfit(bool& told, std::string_view member);
   Operation& operation_of(const component::OperationBase& twin);
   void count(component::Attribute<int>& counter, std::uint64_t more = 1);
 
-  std::unique_ptr<component::Component> prototype_;
-  const InterfaceNumbers numbers_;
+  const std::unique_ptr<component::Component> prototype_;
+  const std::unique_ptr<const InterfaceNumbers> numbers_;
   const std::string remote_name_;
   std::function<ride::Peer&()> where_;
   std::vector<Output> outputs_;

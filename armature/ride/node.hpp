@@ -56,6 +56,19 @@ struct Reconnection {
   base::Duration silence = std::chrono::seconds(1);
 };
 
+/// Real-time priorities (SCHED_FIFO, 1 to 99) of a node's thread, by the priority of the message
+/// that it serves; none by default.
+struct ServingPriorities {
+  int most = 0;   ///< while it waits, and for a message of priority 255; 0: not in real time
+  int least = 0;  ///< for a message of priority 0, at least 1
+
+  /// Those between have their share.
+  constexpr int of(Priority message) const {
+    if (most == 0) return 0;
+    return least + (most - least) * message.level / 255;
+  }
+};
+
 /// Who wants to use what, for NodeOptions::allows.
 struct AccessQuestion {
   std::string_view transport;  ///< the scheme of its address
@@ -80,6 +93,8 @@ struct NodeOptions {
   /// Who may do what; without, everyone may do everything. Called by the I/O thread and those that
   /// wait for an answer, one at a time for each connection.
   std::function<bool(const AccessQuestion&)> allows;
+  /// Of its thread. What the system refuses is logged, and the node works without.
+  ServingPriorities serving;
   /// Permissions of the socket files that it listens at: who may write may connect.
   unsigned socket_mode = 0600;
   /// Beside TCP and Unix-domain sockets.

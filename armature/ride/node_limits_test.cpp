@@ -124,6 +124,39 @@ TEST_F(NodeTest, ASlowSubscriberLosesItsOldestEventsAndHoldsUpNobody) {
   EXPECT_EQ(gaps, 1) << "what was lost is the oldest of the queue";
 }
 
+/// What the connection could not take yet goes by urgency, and each event in its own order.
+TEST_F(NodeTest, ASlowSubscriberGetsTheMostUrgentEventsFirst) {
+  options_.limits.unsent_bytes = 4096;
+  auto slow = client();
+  ASSERT_EQ(slow.subscribe(1, event_number(static_cast<const ObjectPosition*>(nullptr)), 1), 0);
+  ASSERT_EQ(slow.subscribe(1, event_number(static_cast<const Failed*>(nullptr)), 2), 0);
+  std::int32_t raised = 0;
+  while (node_->statistics().events_dropped == 0) camera_.raise({raised++, 0});
+  camera_.alarm({"stop", "it is stuck"}, {255});
+  camera_.alarm({"stop", "it is lost"}, {255});
+  std::uint32_t positions_behind = 0;
+  std::vector<std::string> alarms;
+  for (std::int32_t last = -1; last != raised - 1 || alarms.size() < 2;) {
+    const auto received = slow.receive();
+    ASSERT_TRUE(received.has_value()) << "after " << last << " of " << raised;
+    Decoder from(received->body);
+    Number number = 0;
+    ASSERT_TRUE(from.take(number));
+    if (received->header.identifier == 2) {
+      Failed failed;
+      ASSERT_TRUE(from.take(failed));
+      alarms.push_back(failed.text);
+      continue;
+    }
+    ObjectPosition position;
+    ASSERT_TRUE(from.take(position));
+    last = position.x;
+    if (alarms.size() == 2) ++positions_behind;
+  }
+  EXPECT_THAT(alarms, ElementsAre("it is stuck", "it is lost"));
+  EXPECT_EQ(positions_behind, options_.limits.events_per_subscription);
+}
+
 TEST_F(NodeTest, AConnectionBeyondTheLimitIsSentAway) {
   options_.limits.connections = 1;
   auto first = client();

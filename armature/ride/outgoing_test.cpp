@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,7 @@ class Narrow final : public Connection {
   Progress wait_and_receive(std::span<std::byte>, std::size_t&, base::Duration) override {
     return Progress::kWantRead;
   }
+  void set_level(int level) override { levels.push_back(level); }
   void shut_down() override {}
   std::string other_end() const override { return "test"; }
   std::string problem() const override { return ""; }
@@ -41,12 +43,14 @@ class Narrow final : public Connection {
   std::size_t takes = 0;
   bool gone = false;
   std::string taken;
+  std::vector<int> levels;  ///< that it was told, in their order
 };
 
 class OutgoingTest : public testing::Test {
  protected:
-  void append(std::string_view text) {
-    ASSERT_TRUE(out_.append([&](Body& out) { out.append(std::as_bytes(std::span(text))); }));
+  void append(std::string_view text, std::uint8_t priority = 0) {
+    ASSERT_TRUE(
+        out_.append({priority}, [&](Body& out) { out.append(std::as_bytes(std::span(text))); }));
   }
 
   Outgoing out_{nullptr};
@@ -77,6 +81,38 @@ TEST_F(OutgoingTest, IsStuckOnceNothingWasTakenForSoLong) {
   EXPECT_TRUE(out_.is_stuck(platform::monotonic_now() + 1s, 1s));
 }
 
+TEST_F(OutgoingTest, TheConnectionHasTheLevelOfTheMostUrgentThatItIsToSend) {
+  other_.takes = 100;
+  append("positions");
+  static_cast<void>(out_.transmit(other_));
+  EXPECT_EQ(other_.levels, std::vector<int>{}) << "it begins with the least";
+  append("position", 20);
+  append("stop", 255);
+  append("position", 20);
+  static_cast<void>(out_.transmit(other_));
+  EXPECT_EQ(other_.levels, std::vector<int>{6});
+  append("stop", 254);
+  static_cast<void>(out_.transmit(other_));
+  EXPECT_EQ(other_.levels, std::vector<int>{6}) << "it is told what changes";
+  append("slower", 128);
+  static_cast<void>(out_.transmit(other_));
+  append("position", 36);
+  static_cast<void>(out_.transmit(other_));
+  EXPECT_EQ(other_.levels, (std::vector{6, 3, 0}));
+}
+
+TEST_F(OutgoingTest, WhatIsLeftKeepsTheLevelUntilItIsSent) {
+  append("stop", 255);
+  static_cast<void>(out_.transmit(other_));
+  append("position");
+  other_.takes = 100;
+  static_cast<void>(out_.transmit(other_));
+  EXPECT_EQ(other_.levels, std::vector<int>{6});
+  append("position");
+  static_cast<void>(out_.transmit(other_));
+  EXPECT_EQ(other_.levels, (std::vector{6, 0}));
+}
+
 TEST_F(OutgoingTest, SaysThatTheConnectionHasEnded) {
   append("something");
   other_.gone = true;
@@ -85,7 +121,7 @@ TEST_F(OutgoingTest, SaysThatTheConnectionHasEnded) {
 
 TEST_F(OutgoingTest, WhatFindsNoMemoryIsNotThereInPart) {
   append("before");
-  EXPECT_FALSE(out_.append([](Body& out) {
+  EXPECT_FALSE(out_.append({}, [](Body& out) {
     out.append(std::as_bytes(std::span("half", 4)));
     throw std::bad_alloc();
   }));

@@ -54,9 +54,9 @@ Sent Placeholder::send(Number number, Priority priority, const Fields& parameter
                                     parameters, internal::Link::Flush::kGather);
 }
 
-void Placeholder::ask(Number number, const Fields& parameters, Then then) {
-  peer_.state()->link().call(number, internal::Recipient(component_->identifier), parameters,
-                             std::make_unique<internal::CallbackCall>(std::move(then)));
+void Placeholder::ask(Number number, Priority priority, const Fields& parameters, Then then) {
+  peer_.state()->link().call(number, priority, internal::Recipient(component_->identifier),
+                             parameters, std::make_unique<internal::CallbackCall>(std::move(then)));
 }
 
 Subscription Placeholder::subscribe(Number event, std::function<bool(Decoder&)> handler) {

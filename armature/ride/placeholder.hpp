@@ -102,7 +102,7 @@ class Placeholder {
   /// told when the connection is lost.
   /// @param then  called once, by the node's I/O thread or this one; it must not wait
   /// @thread any
-  void ask(Number number, const Fields& parameters, Then then);
+  void ask(Number number, Priority priority, const Fields& parameters, Then then);
 
   /// An answer for a parameter that is out of its range, which is never sent.
   template <typename Result>

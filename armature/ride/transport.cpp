@@ -37,6 +37,7 @@ class SocketConnection final : public Connection {
                             base::Duration limit) override {
     return progress_of(socket_->wait_and_receive(room, size, limit), Progress::kWantRead);
   }
+  void set_level(int level) override { static_cast<void>(socket_->set_priority(level)); }
   void shut_down() override { socket_->shut_down(); }
   std::string other_end() const override { return socket_->other_end(); }
   std::string identity() const override { return identity_; }

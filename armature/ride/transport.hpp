@@ -47,6 +47,11 @@ class Connection {
   /// Like `receive`, but waits for it: kWantRead if nothing came within `limit` (> 0).
   virtual Progress wait_and_receive(std::span<std::byte> room, std::size_t& size,
                                     base::Duration limit) = 0;
+  /// How urgent what is sent from now on is, for the system's queues: where there is something to
+  /// set. Called when it is another level than before; 0 at first.
+  /// @param level  0 to kMostUrgentLevel
+  virtual void set_level(int /*level*/) {}
+  static constexpr int kMostUrgentLevel = 6;
   /// Ends the connection both ways, and whoever waits for it. The handle stays valid.
   virtual void shut_down() = 0;
   /// Who the other end is, for the log.

@@ -20,6 +20,7 @@ class Wheels final : public ball::ChassisService {
     left_ = left;
     right_ = right;
   }
+  void stop() override { setVelocity(0.0f, 0.0f); }
   float left() const { return left_; }
   float right() const { return right_; }
 

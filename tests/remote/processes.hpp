@@ -19,6 +19,7 @@
 #include "armature/component/author.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/platform/clock.hpp"
+#include "armature/remote/interface_file.hpp"
 #include "armature/remote/network.hpp"
 
 namespace armature::remote::test {
@@ -128,14 +129,17 @@ class User final : public Component {
 /// A process: its network and its application.
 class Process {
  public:
-  explicit Process(const std::string& yaml) {
+  /// @param more  models that the test has beside those here
+  explicit Process(const std::string& yaml,
+                   const std::function<void(component::Registry&)>& more = {}) {
     NetworkOptions options;
     options.log = [this](const rt::LogRecord& record) { log += record.message() + "\n"; };
     network_ = make_network(options);
     deploy::DeploymentOptions how;
-    how.models = [](component::Registry& models) {
+    how.models = [&more](component::Registry& models) {
       models.add<Axis>("Axis", "");
       models.add<User>("User", "");
+      if (more) more(models);
     };
     how.make_placeholder = [this](const document::Component& written,
                                   std::unique_ptr<Component> prototype) {
@@ -144,6 +148,7 @@ class Process {
     how.make_inlets = [this](const std::vector<component::InputPortBase*>& inputs) {
       return base::Result(network_->make_inlets(inputs));
     };
+    how.read_interface = read_interface;
     deployment = deploy::parse_deployment(yaml, "test.yaml", how);
   }
   ~Process() {

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "armature/component/described.hpp"
 #include "armature/component/host.hpp"
 #include "armature/component/internal/pending_call.hpp"
 #include "armature/component/stand_in.hpp"
@@ -77,6 +78,11 @@ CallStatus OperationBase::execute_by_message(const void* const* arguments, void*
     status = about_->execute_from(*this, Host::context(owner_), arguments, result);
   });
   return status;
+}
+
+CallStatus OperationBase::execute_here(ExecutionContext& where, const void* const* arguments,
+                                       void* result) noexcept {
+  return about_->execute_from(*this, where, arguments, result);
 }
 
 base::Result<std::optional<types::Value>> OperationBase::invoke(
@@ -181,10 +187,24 @@ bool OperationCallerBase::would_wait() const {
   return Host::context(owner()).real_time && operation_->is_elsewhere();
 }
 
+bool OperationCallerBase::calls_described() const {
+  return described_ &&
+         Host::context(operation_->owner()).shares_thread_with(Host::context(owner()));
+}
+
+CallStatus OperationCallerBase::call_described(const void* const* arguments, void* result) {
+  CallStatus status = CallStatus::kFailed;
+  Host::call_out(owner(), operation_->owner(), [&] {
+    status = operation_->execute_here(Host::context(owner()), arguments, result);
+  });
+  return status;
+}
+
 void OperationCallerBase::connect(OperationBase& operation) {
   operation_ = &operation;
-  direct_ = !operation.runs_in_own_thread() ||
-            &Host::context(operation.owner()) == &Host::context(owner());
+  described_ = dynamic_cast<DescribedOperation*>(&operation) != nullptr;
+  direct_ = !described_ && (!operation.runs_in_own_thread() ||
+                            &Host::context(operation.owner()) == &Host::context(owner()));
   About& mine = about();
   mine.calls.clear();
   mine.next = 0;

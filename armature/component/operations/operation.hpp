@@ -77,6 +77,10 @@ class OperationBase {
   /// @param arguments  where they are, as the signature has them
   /// @param result     where it goes; nullptr if there is none
   CallStatus execute_by_message(const void* const* arguments, void* result) noexcept;
+  /// The same here, for a component that calls out (see internal::Inside::call_out).
+  /// @param where  the context of the calling thread
+  CallStatus execute_here(ExecutionContext& where, const void* const* arguments,
+                          void* result) noexcept;
 
   /// An operation of the same name and signature that `owner` passes on; it keeps the names of this
   /// one, which outlives it.
@@ -268,9 +272,13 @@ class OperationCallerBase : public Requirement {
   void prepare_from(const void* const* arguments);
   /// The operation lives elsewhere, and this thread waits for nobody.
   bool would_wait() const;
+  /// This thread may run the operation, which has no C++ types.
+  bool calls_described() const;
+  CallStatus call_described(const void* const* arguments, void* result);
 
   OperationBase* operation_ = nullptr;
-  bool direct_ = false;  ///< a call runs here
+  bool direct_ = false;     ///< a call runs here, by its C++ types
+  bool described_ = false;  ///< the operation is a DescribedOperation
 
  private:
   struct About;
@@ -296,8 +304,8 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   CallResult<R> operator()(Args... arguments) {
     if (operation_ == nullptr) [[unlikely]]
       return {CallStatus::kNotConnected};
-    if (direct_ || internal::Inside::context(operation_->owner())
-                       .shares_thread_with(internal::Inside::context(owner()))) {
+    if (direct_ || (!described_ && internal::Inside::context(operation_->owner())
+                                       .shares_thread_with(internal::Inside::context(owner())))) {
       auto& operation = static_cast<Operation<R(Args...)>&>(*operation_);
       CallResult<R> result{};
       internal::Inside::call_out(owner(), operation.owner(), [&] {
@@ -331,6 +339,14 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
 
   [[gnu::noinline]] CallResult<R> send_and_wait(Args... arguments) {
     if (would_wait()) return {CallStatus::kWouldWait};
+    if (calls_described()) {
+      const std::array<const void*, sizeof...(Args)> places{&arguments...};
+      CallResult<R> result{};
+      void* place = nullptr;
+      if constexpr (!std::is_void_v<R>) place = &result.value;
+      result.status = call_described(places.data(), place);
+      return result;
+    }
     return send(static_cast<Args>(arguments)...).wait(kCallLimit);
   }
 };

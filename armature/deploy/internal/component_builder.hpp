@@ -10,6 +10,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/registry.hpp"
 #include "armature/deploy/builder.hpp"
+#include "armature/deploy/internal/once_per_place.hpp"
 #include "armature/deploy/internal/rtai_priorities.hpp"
 #include "armature/document/document.hpp"
 #include "armature/exec/blueprint.hpp"
@@ -27,13 +28,18 @@ class ComponentBuilder {
         registry_(registry),
         options_(options),
         diagnostics_(diagnostics),
+        of_interfaces_(diagnostics),
         priorities_(document, diagnostics) {}
 
   /// Adds the component to the blueprint, or its name to those that are absent.
   void build(const Component& written, exec::Blueprint& blueprint);
 
  private:
+  void add(const Component& written, std::unique_ptr<component::Component> component,
+           exec::Blueprint& blueprint);
   std::unique_ptr<component::Component> make(const Component& written);
+  std::unique_ptr<component::Component> read_interface(Component& written);
+  void refuse_other_processes(const Component& written);
   /// What stands for it here if it lives in another process, else the component itself; nullptr
   /// after an error.
   std::unique_ptr<component::Component> settle(const Component& written,
@@ -59,6 +65,7 @@ class ComponentBuilder {
   const component::Registry& registry_;
   const BuildOptions& options_;
   base::Diagnostics& diagnostics_;
+  OncePerPlace of_interfaces_;
   RtaiPriorities priorities_;
   std::vector<std::string> model_names_;
   std::unordered_set<const component::Registry::Model*> known_models_;  ///< looked at already

@@ -213,6 +213,10 @@ StreamStatus StreamSocket::wait_and_receive(std::span<std::byte> room, std::size
   return after_receiving(internal::direct_recv(socket_, room.data(), room.size(), 0), size);
 }
 
+bool StreamSocket::set_priority(int level) {
+  return ::setsockopt(socket_, SOL_SOCKET, SO_PRIORITY, &level, sizeof level) == 0;
+}
+
 StreamStatus StreamSocket::wait_until_readable(base::Duration limit) const {
   return wait_until(POLLIN, limit);
 }

@@ -45,6 +45,10 @@ class StreamSocket {
   StreamStatus wait_until_readable(base::Duration limit) const;
   /// kLater if nothing can be sent before `limit` (> 0) has passed.
   StreamStatus wait_until_writable(base::Duration limit) const;
+  /// What is sent from now on goes before that of less urgent sockets of this machine.
+  /// @param level  0 to 6, 6 most urgent, as the system lets every process have
+  /// @return false if the system refuses
+  bool set_priority(int level);
   /// Ends the connection both ways and whoever waits for it; the handle stays valid.
   void shut_down();
 

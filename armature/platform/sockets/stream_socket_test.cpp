@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 namespace armature::platform {
@@ -38,6 +39,20 @@ TEST_F(Streams, SayWhyTheyAreGone) {
   EXPECT_EQ(near_->problem(), "the other side has ended it");
   EXPECT_EQ(near_->send(room, size), StreamStatus::kGone);
   EXPECT_EQ(near_->problem(), "Broken pipe");
+}
+
+TEST_F(Streams, HaveThePriorityThatTheyAreGiven) {
+  const auto level = [&] {
+    int found = -1;
+    socklen_t size = sizeof found;
+    ::getsockopt(near_->handle(), SOL_SOCKET, SO_PRIORITY, &found, &size);
+    return found;
+  };
+  EXPECT_EQ(level(), 0);
+  EXPECT_TRUE(near_->set_priority(6));
+  EXPECT_EQ(level(), 6);
+  EXPECT_TRUE(near_->set_priority(0));
+  EXPECT_EQ(level(), 0);
 }
 
 // A race if the two shared anything else than the socket: the thread sanitizer sees it.

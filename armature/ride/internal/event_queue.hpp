@@ -50,6 +50,10 @@ class EventQueue {
     return !full;
   }
   std::span<const std::byte> front() const { return events_[first_].bytes(); }
+  /// Priority of the oldest; -1 if there is none.
+  int urgency() const {
+    return empty() ? -1 : static_cast<int>(load<std::uint32_t>(front().data() + 4));
+  }
   void pop() {
     events_[first_].clear();
     events_[first_].shrink(kMostKept);

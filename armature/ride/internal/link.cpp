@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/ride/internal/link.hpp"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -254,7 +255,7 @@ Sent Link::send_locked(Priority priority, Type type, std::uint32_t recipient,
                        std::initializer_list<std::uint32_t> head, const Fields& fields,
                        Flush flush) {
   if (too_much_for(type)) return open() ? Sent::kQueueFull : Sent::kNotConnected;
-  const bool appended = out_.append([&](Body& out) {
+  const bool appended = out_.append(priority, [&](Body& out) {
     const std::size_t start = out.size();
     out.extend(Header::kSize);
     Encoder body(out);
@@ -331,13 +332,21 @@ void Link::send_event(EventQueue& queue, std::span<const std::byte> message, bas
   if (!queue.push(message)) host_.event_dropped(queue);
 }
 
+/// What waits of the most urgent event goes first, all of it.
 void Link::drain_event_queues() {
-  for (const auto& queue : event_queues) {
-    while (open() && !out_.blocked() && !queue->empty()) {
-      if (!out_.append_event(queue->subscription, queue->front())) host_.event_dropped(*queue);
-      queue->pop();
-      transmit();
-    }
+  while (open() && !out_.blocked()) {
+    const auto next = std::ranges::max_element(event_queues, {},
+                                               [](const auto& queue) { return queue->urgency(); });
+    if (next == event_queues.end() || (*next)->empty()) return;
+    drain(**next);
+  }
+}
+
+void Link::drain(EventQueue& queue) {
+  while (open() && !out_.blocked() && !queue.empty()) {
+    if (!out_.append_event(queue.subscription, queue.front())) host_.event_dropped(queue);
+    queue.pop();
+    transmit();
   }
 }
 

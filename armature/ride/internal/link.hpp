@@ -152,8 +152,8 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
   void call(Number operation, const Recipient& recipient, const CallOptions& options,
             const Fields& parameters, WaitingCall& call);
   /// Sends a request; `call` is told of the answer.
-  void call(Number operation, const Recipient& recipient, const Fields& parameters,
-            std::unique_ptr<CallbackCall> call);
+  void call(Number operation, Priority priority, const Recipient& recipient,
+            const Fields& parameters, std::unique_ptr<CallbackCall> call);
   /// Ends the connection; calls that are open fail.
   void break_off(const std::string& why);
 
@@ -210,6 +210,7 @@ class Link : public std::enable_shared_from_this<Link>, private BodyGate {
   void gather(base::Time now);
   void transmit();
   void drain_event_queues();
+  void drain(EventQueue& queue);
   void arrived(std::size_t size);
   void look_again_locked();
   void take_messages();

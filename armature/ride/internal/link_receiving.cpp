@@ -210,9 +210,8 @@ void Link::call(Number operation, const Recipient& recipient, const CallOptions&
   if (reads || call.promoted) leave_reading();
 }
 
-void Link::call(Number operation, const Recipient& recipient, const Fields& parameters,
-                std::unique_ptr<CallbackCall> call) {
-  constexpr Priority kMostUrgent{255};
+void Link::call(Number operation, Priority priority, const Recipient& recipient,
+                const Fields& parameters, std::unique_ptr<CallbackCall> call) {
   const std::lock_guard lock(mutex_);
   OpenCall* const open_call = call.release();
   const auto identifier = recipient.identifier();
@@ -220,8 +219,8 @@ void Link::call(Number operation, const Recipient& recipient, const Fields& para
     return open_call->refused(Code::kNotConnected, "it is not connected");
   }
   calls_.add(*open_call);
-  const Sent sent = send_locked(kMostUrgent, Type::kRequest, *identifier,
-                                {operation, open_call->id}, parameters, Flush::kNow);
+  const Sent sent = send_locked(priority, Type::kRequest, *identifier, {operation, open_call->id},
+                                parameters, Flush::kNow);
   if (sent != Sent::kQueueFull) return;
   calls_.remove(open_call->id);
   open_call->refused(Code::kBusy, "the other side has not yet taken earlier messages");

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "armature/platform/clock.hpp"
-#include "armature/ride/wire.hpp"
 
 namespace armature::ride::internal {
 namespace {
@@ -19,7 +18,8 @@ constexpr std::size_t kMostGathered = 8 * 1024;
 
 bool Outgoing::append_event(std::uint32_t subscription, std::span<const std::byte> message) {
   const std::size_t start = bytes_.size();
-  if (!append([&](Body& bytes) { bytes.append(message); })) return false;
+  const Priority priority{static_cast<std::uint8_t>(load<std::uint32_t>(message.data() + 4))};
+  if (!append(priority, [&](Body& bytes) { bytes.append(message); })) return false;
   for (std::size_t at = start; at < bytes_.size();) {
     std::byte* const header = bytes_.data() + at;
     store(header + 12, subscription);
@@ -41,7 +41,15 @@ Outgoing::Gather Outgoing::gather(base::Time now) {
   return Gather::kWaitAnew;
 }
 
+/// What is urgent takes along what goes before it on the same connection.
+void Outgoing::tell_level(Connection& connection) {
+  constexpr int kLevels = Connection::kMostUrgentLevel + 1;
+  const int level = most_urgent_.level * kLevels / 256;
+  if (level != std::exchange(level_, level)) connection.set_level(level);
+}
+
 Progress Outgoing::transmit(Connection& connection) {
+  tell_level(connection);
   const std::size_t before = sent_;
   Progress progress = Progress::kDone;
   while (sent_ < bytes_.size()) {
@@ -55,7 +63,10 @@ Progress Outgoing::transmit(Connection& connection) {
     }
     sent_ += sent;
   }
-  if (sent_ == bytes_.size()) stuck_since_ = {};
+  if (sent_ == bytes_.size()) {
+    stuck_since_ = {};
+    most_urgent_ = {};
+  }
   forget_sent();
   return progress;
 }
@@ -77,6 +88,8 @@ void Outgoing::clear() {
   bytes_.clear();
   bytes_.shrink(0);
   sent_ = 0;
+  most_urgent_ = {};
+  level_ = 0;
   blocked_ = false;
   gathers_ = false;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -10,6 +11,7 @@
 #include "armature/ride/body.hpp"
 #include "armature/ride/memory_share.hpp"
 #include "armature/ride/transport.hpp"
+#include "armature/ride/wire.hpp"
 
 namespace armature::ride::internal {
 
@@ -25,10 +27,11 @@ class Outgoing {
   /// Has `append(Body&)` put a message at the end: all of it or nothing.
   /// @return false if there is no memory for it
   template <typename Append>
-  bool append(const Append& append) {
+  bool append(Priority priority, const Append& append) {
     const std::size_t start = bytes_.size();
     try {
       append(bytes_);
+      most_urgent_ = std::max(most_urgent_, priority);
       return true;
     } catch (const std::bad_alloc&) {
       bytes_.truncate(start);
@@ -70,9 +73,12 @@ class Outgoing {
   static constexpr std::size_t kMostKept = 256 * 1024;
 
   void forget_sent();
+  void tell_level(Connection& connection);
 
   Body bytes_;
-  std::size_t sent_ = 0;  ///< of `bytes_`
+  Priority most_urgent_{};  ///< of what is to be sent
+  int level_ = 0;           ///< that the connection was told
+  std::size_t sent_ = 0;    ///< of `bytes_`
   bool blocked_ = false;
   base::Time stuck_since_{};  ///< if it is blocked: when it has taken something
   bool gathers_ = false;      ///< the I/O thread looks after what was gathered

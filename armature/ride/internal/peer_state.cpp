@@ -192,7 +192,8 @@ void PeerState::ask_the_directory(Number operation, const Fields& parameters,
       peer->answered();
     });
   };
-  link_->call(operation, Recipient(kDirectory), parameters,
+  constexpr Priority kMostUrgent{255};
+  link_->call(operation, kMostUrgent, Recipient(kDirectory), parameters,
               std::make_unique<CallbackCall>(std::move(hand_over)));
 }
 

@@ -97,6 +97,7 @@ class VisionService : public Service {
   virtual void later(PendingReply reply) { reply.put(std::int32_t{0}); }
 
   void raise(const ObjectPosition& event) { publish(event); }
+  void alarm(const Failed& event, Priority priority) { publish(event, priority); }
 
  private:
   Executed execute(Number operation, Decoder& parameters, Reply& reply) override {

@@ -35,6 +35,7 @@ class TlsConnection final : public ride::Connection {
   ride::Progress receive(std::span<std::byte> room, std::size_t& size) override;
   ride::Progress wait_and_receive(std::span<std::byte> room, std::size_t& size,
                                   base::Duration limit) override;
+  void set_level(int level) override { static_cast<void>(wire_.socket->set_priority(level)); }
   void shut_down() override;
   std::string other_end() const override;
   std::string identity() const override;

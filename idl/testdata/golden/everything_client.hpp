@@ -39,7 +39,7 @@ class EchoPlaceholder : public armature::ride::Placeholder {
 
   armature::ride::Answer<std::int32_t> echo_int(
       std::int32_t value,
-      armature::ride::CallOptions options = {});
+      armature::ride::CallOptions options = {.priority = {9}});
 
   armature::ride::Answer<std::uint32_t> echo_unsigned_int(
       std::uint32_t value,
@@ -136,7 +136,7 @@ class EchoPlaceholder : public armature::ride::Placeholder {
       float part,
       armature::ride::Priority priority = {});
 
-  armature::ride::Sent nothing(armature::ride::Priority priority = {});
+  armature::ride::Sent nothing(armature::ride::Priority priority = {255});
 
   /// Calls `handler` for each Everything until the Subscription is destroyed.
   armature::ride::Subscription on_Everything(std::function<void(const Everything&)> handler) {

@@ -91,7 +91,7 @@ class EchoService : public armature::ride::Service {
 
   /// Tells all subscribers.  @thread any
   void raise(const ModeChanged& event) {
-    publish(event);
+    publish(event, {7});
   }
 
  private:

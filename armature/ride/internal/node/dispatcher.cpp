@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/ride/internal/node/serving.hpp"
 #include "armature/ride/internal/peer_state.hpp"
 #include "armature/ride/internal/publisher.hpp"
 
@@ -166,6 +167,7 @@ void Dispatcher::run_service(Link& link, const Hosted& hosted, const Call& call,
                              Decoder& parameters, Holding& holding) {
   const Message& message = call.message;
   const Priority priority{static_cast<std::uint8_t>(message.header.priority)};
+  const Serving serving(core_.options.serving, priority);
   const SenderAt sender(access_, link);
   Reply reply(call.is_request ? &link : nullptr, call.call, priority, call.operation,
               hosted.identifier, &sender, &holding, &parameters);

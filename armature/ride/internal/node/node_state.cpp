@@ -46,7 +46,12 @@ void NodeState::start() {
   request.name = options().name;
   request.stack_bytes = 256 * 1024;
   request.prefault = false;  // A small server is to stay small.
+  request.priority = options().serving.of({255});
+  if (request.priority != 0) request.scheduler = platform::Scheduler::kFifo;
   thread_ = std::make_unique<platform::Thread>(request, [this] { run_loop(); });
+  for (const std::string& refusal : thread_->grant().refusals) {
+    core_.journal.tell(rt::LogLevel::kWarning, "the node's thread: {}", refusal);
+  }
 }
 
 void NodeState::stop() {
