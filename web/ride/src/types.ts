@@ -165,6 +165,18 @@ export const bytes: Type<Uint8Array> = {
   take: (from) => from.bytes(from.count()),
 };
 
+/** The same; refuses to send a byte outside of `low` to `high`. */
+export function bytesWithin(low: number, high: number): Type<Uint8Array> {
+  return {
+    put(to, value) {
+      bytes.put(to, value);
+      const outside = value.find((each) => each < low || each > high);
+      if (outside !== undefined) throw unfit(outside, `${low} to ${high}`);
+    },
+    take: (from) => bytes.take(from),
+  };
+}
+
 /** An `enum`: its values are the names of its enumerators. */
 export function enumeration<Name extends string, N extends number | bigint>(
   name: string,
