@@ -34,7 +34,7 @@ class TypescriptTypes {
                        (wide ? "bigint" : "number") + ">(" + literal(enumeration.name) + ", " +
                        text_.underlying(enumeration) + ", {\n";
     for (const Enumerator& each : enumeration.enumerators) {
-      text += TypescriptText::documentation(2, each.doc) + "  " + key(each.name) + ": " +
+      text += TypescriptText::documentation(2, each.doc) + "  " + each.name + ": " +
               TypescriptText::number(each.value, enumeration.underlying) + ",\n";
     }
     return text + "});\n";

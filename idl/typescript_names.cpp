@@ -20,9 +20,9 @@ constexpr std::string_view kWords[] = {
     "typeof",    "undefined",  "var",     "void",    "while",      "with",      "yield"};
 
 /// What cannot be the name of a type, or what generated code means by it.
-constexpr std::string_view kTypes[] = {"Promise", "Uint8Array", "any",    "bigint",
-                                       "boolean", "never",      "number", "object",
-                                       "ride",    "string",     "symbol", "unknown"};
+constexpr std::string_view kTypes[] = {
+    "Promise", "Uint8Array", "any",      "as",   "bigint", "boolean", "infer",  "keyof",  "never",
+    "number",  "object",     "readonly", "ride", "string", "symbol",  "unique", "unknown"};
 
 /// Members of the class from which placeholders are derived, and what every object has: a class
 /// with a function `then` would be waited for.

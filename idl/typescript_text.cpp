@@ -137,6 +137,4 @@ std::string TypescriptText::documentation(std::size_t indent,
   return text + blanks + " */\n";
 }
 
-std::string key(const std::string& name) { return name == "__proto__" ? "[\"__proto__\"]" : name; }
-
 }  // namespace armature::idl::internal

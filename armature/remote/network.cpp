@@ -19,7 +19,7 @@ namespace armature::remote {
 namespace {
 
 base::Result<void> check_transport(const ride::Address& address) {
-  const std::vector<std::string> known{"tcp", "unix", "tls"};
+  const std::vector<std::string> known{"tcp", "unix", "tls", "ws"};
   if (std::ranges::find(known, address.scheme) != known.end()) return {};
   return base::Error{"'" + address.text() + "' has the unknown transport '" + address.scheme +
                      "' (" + base::suggestion(address.scheme, known) + ")"};
@@ -85,9 +85,8 @@ class RideNetwork final : public Network {
         diagnostics.error(each.where, address.error());
       } else if (const auto known = check_transport(address.value()); !known) {
         diagnostics.error(each.where, known.error());
-      } else if (address.value().scheme == "tls" && document.network.certificate.name.empty()) {
-        diagnostics.error(each.where, "'" + each.name + "' needs certificates",
-                          "add tls: {certificate: ..., key: ..., authority: ...} to network");
+      } else {
+        check_means(address.value(), each, document.network, options, diagnostics);
       }
     }
   }
@@ -145,6 +144,27 @@ class RideNetwork final : public Network {
   }
 
  private:
+  /// What a transport needs beside its address.
+  static void check_means(const ride::Address& address, const document::Reference& written,
+                          const document::Network& network, const ride::NodeOptions& options,
+                          base::Diagnostics& diagnostics) {
+    if (address.scheme == "tls" && network.certificate.name.empty()) {
+      diagnostics.error(written.where, "'" + written.name + "' needs certificates",
+                        "add tls: {certificate: ..., key: ..., authority: ...} to network");
+    }
+    if (address.scheme != "ws") return;
+    if (network.pages.name.empty()) {
+      diagnostics.error(written.where, "'" + written.name + "' has no pages to serve",
+                        "add pages: FOLDER to network");
+    }
+    for (const auto& transport : options.transports) {
+      if (transport->scheme() != "ws" || transport->safe(address)) continue;
+      diagnostics.error(written.where,
+                        "'" + written.name + "': pages are served to this machine only",
+                        "listen at ws://127.0.0.1:8080 or ws://[::1]:8080");
+    }
+  }
+
   struct Hosted {
     std::unique_ptr<InterfaceNumbers> numbers;
     std::unique_ptr<ExportedComponent> service;
@@ -181,12 +201,25 @@ class RideNetwork final : public Network {
   void set_transports(const document::Document& document, ride::NodeOptions& options,
                       base::Diagnostics& diagnostics) {
     document::Network network = document.network;
+    if (!network.pages.name.empty()) set_pages(document, options, diagnostics);
     if (network.certificate.name.empty()) return;
     for (document::Reference* file : {&network.certificate, &network.key, &network.authority}) {
       file->name = document::path_from(document, file->name);
     }
     if (auto transport = options_.tls(network, diagnostics)) {
       options.transports.push_back(std::move(transport));
+    }
+  }
+
+  void set_pages(const document::Document& document, ride::NodeOptions& options,
+                 base::Diagnostics& diagnostics) {
+    const document::Reference& pages = document.network.pages;
+    base::Diagnostics found;
+    if (auto transport = options_.web(document::path_from(document, pages.name), found)) {
+      options.transports.push_back(std::move(transport));
+    }
+    for (const base::Diagnostic& each : found.all()) {
+      diagnostics.error(pages.where, each.message, each.hint);
     }
   }
 

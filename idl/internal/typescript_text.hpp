@@ -44,9 +44,6 @@ class TypescriptText {
   const TypescriptNames names_;
 };
 
-/// A key of an object; `__proto__` in brackets, since it would be the object's prototype.
-std::string key(const std::string& name);
-
 /// The interfaces' classes.
 std::string write_typescript_placeholders(const TypescriptText& text);
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // For Node.js: connections over TCP and socket files, beside all that pages have.
 import * as net from "node:net";
-import { Peer, type PeerOptions } from "./peer.ts";
-import type { Dial } from "./transport.ts";
+import { type Dial, Peer, type PeerOptions } from "@armature/ride";
 
-export * from "./ride.ts";
+export * from "@armature/ride";
 
 function target(address: string): net.NetConnectOpts {
   if (address.startsWith("unix:")) return { path: address.slice("unix:".length) };
