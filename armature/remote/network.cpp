@@ -18,8 +18,12 @@
 namespace armature::remote {
 namespace {
 
-base::Result<void> check_transport(const ride::Address& address) {
-  const std::vector<std::string> known{"tcp", "unix", "tls", "ws"};
+/// Pages come over ws, and nobody is reached by it.
+const std::vector<std::string> kTransports{"tcp", "unix", "tls", "ws"};
+const std::vector<std::string> kTransportsToOthers{"tcp", "unix", "tls"};
+
+base::Result<void> check_transport(const ride::Address& address,
+                                   const std::vector<std::string>& known) {
   if (std::ranges::find(known, address.scheme) != known.end()) return {};
   return base::Error{"'" + address.text() + "' has the unknown transport '" + address.scheme +
                      "' (" + base::suggestion(address.scheme, known) + ")"};
@@ -43,7 +47,7 @@ base::Result<RemoteAddress> parse_remote(const std::string& text) {
   RemoteAddress remote{text.substr(0, slash), text.substr(slash + 1)};
   const auto address = ride::Address::parse(remote.peer);
   if (!address) return base::Error{address.error()};
-  if (const auto known = check_transport(address.value()); !known) {
+  if (const auto known = check_transport(address.value(), kTransportsToOthers); !known) {
     return base::Error{known.error()};
   }
   return remote;
@@ -80,14 +84,7 @@ class RideNetwork final : public Network {
     set_transports(document, options, diagnostics);
     set_policy(document, options, diagnostics);
     for (const document::Reference& each : document.network.listen) {
-      const auto address = ride::Address::parse(each.name);
-      if (!address) {
-        diagnostics.error(each.where, address.error());
-      } else if (const auto known = check_transport(address.value()); !known) {
-        diagnostics.error(each.where, known.error());
-      } else {
-        check_means(address.value(), each, document.network, options, diagnostics);
-      }
+      check_means(each, document.network, options, diagnostics);
     }
   }
 
@@ -104,6 +101,12 @@ class RideNetwork final : public Network {
     base::Diagnostics found;
     set_transports(document, options, found);
     set_policy(document, options, found);
+    for (const document::Reference& each : document.network.listen) {
+      check_means(each, document.network, options, found);
+    }
+    for (const std::string& each : listen) {
+      check_means({each, {}}, document.network, options, found);
+    }
     if (found.ok()) {
       node_ = std::make_unique<ride::Node>(std::move(options));
       if (!listen.empty() || !document.network.listen.empty()) host(application, found);
@@ -144,10 +147,15 @@ class RideNetwork final : public Network {
   }
 
  private:
-  /// What a transport needs beside its address.
-  static void check_means(const ride::Address& address, const document::Reference& written,
-                          const document::Network& network, const ride::NodeOptions& options,
-                          base::Diagnostics& diagnostics) {
+  /// An address to listen at, and what its transport needs beside it.
+  static void check_means(const document::Reference& written, const document::Network& network,
+                          const ride::NodeOptions& options, base::Diagnostics& diagnostics) {
+    const auto parsed = ride::Address::parse(written.name);
+    if (!parsed) return diagnostics.error(written.where, parsed.error());
+    const ride::Address& address = parsed.value();
+    if (const auto known = check_transport(address, kTransports); !known) {
+      return diagnostics.error(written.where, known.error());
+    }
     if (address.scheme == "tls" && network.certificate.name.empty()) {
       diagnostics.error(written.where, "'" + written.name + "' needs certificates",
                         "add tls: {certificate: ..., key: ..., authority: ...} to network");

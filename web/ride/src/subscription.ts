@@ -6,7 +6,8 @@ export interface SubscribeOptions {
   keep?: number;
 }
 
-export type Handler<T> = (event: T) => void | Promise<void>;
+/** If it returns a promise, the next event comes when that is done; any other result is ignored. */
+export type Handler<T> = (event: T) => unknown;
 
 const kKeep = 64;
 
@@ -63,10 +64,11 @@ export class Subscription<T = unknown> {
     }
   }
 
-  private called(event: T): Promise<void> | undefined {
+  private called(event: T): Promise<unknown> | undefined {
     this.busy = true; // an event that comes within the handler waits for its end
     try {
-      return this.handler(event) ?? undefined;
+      const result = this.handler(event);
+      return result instanceof Promise ? result : undefined;
     } catch (error) {
       console.error("a handler of events failed:", error);
       return undefined;

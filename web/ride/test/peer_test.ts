@@ -123,7 +123,7 @@ test("After a loss it comes back, looks up and subscribes anew, and tells", asyn
   const told: ride.PeerChange[] = [];
   peer.on_change((change) => told.push(change));
   const counts: number[] = [];
-  new Lamp(peer).on_Blink(({ count }) => void counts.push(count));
+  new Lamp(peer).on_Blink(({ count }) => counts.push(count)); // a result that is no promise
   await settle();
   node.last.event(node.last.subscriptions()[0]!, blink(1));
   node.last.end("killed");
