@@ -64,6 +64,19 @@ TEST(Policy, LocalIsWhoProvesNothingOnThisMachine) {
   EXPECT_FALSE(policy.allows(by_tls("local", Access::kRead, "Vision")));
 }
 
+TEST(Policy, APageIsNoneOfTheOthersOfThisMachine) {
+  const AccessQuestion page{"ws", "page", "Vision", Access::kRead};
+  EXPECT_EQ(who(page), "page@web");
+  EXPECT_TRUE(policy_of("allow page@web read Vision").allows(page));
+  EXPECT_TRUE(policy_of("allow *@web read *").allows(page));
+  for (const char* text : {"allow local read *", "allow local:* read *", "allow local:page read *",
+                           "allow *@tls read *", "allow page@tls read *"}) {
+    EXPECT_FALSE(policy_of(text).allows(page)) << text;
+  }
+  EXPECT_FALSE(policy_of("allow page@web read *").allows({"tcp", "", "Vision", Access::kRead}));
+  EXPECT_THAT(mistakes_of("allow anna@web read *"), HasSubstr("page@web"));
+}
+
 TEST(Policy, AnAccountIsWhoTheKernelVouchesFor) {
   const auto from = [](std::string_view transport, std::string_view identity) {
     return AccessQuestion{transport, identity, "Vision", Access::kCommand};
