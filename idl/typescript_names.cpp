@@ -19,10 +19,11 @@ constexpr std::string_view kWords[] = {
     "static",    "super",      "switch",  "this",    "throw",      "true",      "try",
     "typeof",    "undefined",  "var",     "void",    "while",      "with",      "yield"};
 
-/// What cannot be the name of a type, or what generated code means by it.
-constexpr std::string_view kTypes[] = {
-    "Promise", "Uint8Array", "any",      "as",   "bigint", "boolean", "infer",  "keyof",  "never",
-    "number",  "object",     "readonly", "ride", "string", "symbol",  "unique", "unknown"};
+/// What cannot be the name of a type, or what generated code means by it, as its own parameters.
+constexpr std::string_view kTypes[] = {"Promise", "Uint8Array", "any",     "as",       "bigint",
+                                       "boolean", "handler",    "infer",   "keyof",    "never",
+                                       "number",  "object",     "options", "readonly", "ride",
+                                       "string",  "symbol",     "unique",  "unknown"};
 
 /// Members of the class from which placeholders are derived, and what every object has: a class
 /// with a function `then` would be waited for.

@@ -191,7 +191,7 @@ test("Of events for a handler that takes its time the latest stay, and the other
   const lamp = new Lamp(peer);
   await settle();
   const counts: number[] = [];
-  let goOn = () => {};
+  let goOn: (value: unknown) => void = () => {};
   const slow = lamp.on_Blink(({ count }) => {
     counts.push(count);
     return new Promise((resolve) => (goOn = resolve));
@@ -199,7 +199,7 @@ test("Of events for a handler that takes its time the latest stay, and the other
   await settle();
   for (let i = 1; i <= 1000; ++i) node.last.event(1, blink(i));
   for (let i = 0; i < 5; ++i) {
-    goOn();
+    goOn(undefined);
     await settle();
   }
   assert.deepEqual(counts, [1, 999, 1000]);
