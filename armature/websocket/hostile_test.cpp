@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever comes to the open port of a node that serves pages.
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -191,6 +192,24 @@ TEST_F(HostileVisitor, WhoSendsMoreThanTheNodeTakesHasToWait) {
     ASSERT_LT(sent, 64u << 20);
   }
   EXPECT_GT(sent, piece.size());
+}
+
+TEST_F(HostileVisitor, WhatTheNodeSentBeforeItLeftArrivesAndThenTheEnd) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{10}, std::size_t{100'000}}) {
+    auto [visitor, connection] = page();
+    const std::vector<std::byte> bytes(size, std::byte{'y'});
+    std::span<const std::byte> left = bytes;
+    while (!left.empty()) {
+      std::size_t sent = 0;
+      ASSERT_EQ(connection->send(left, sent), ride::Progress::kDone);
+      left = left.subspan(sent);
+    }
+    connection.reset();
+    const std::string all = visitor->read_to_end();
+    EXPECT_TRUE(visitor->ended());
+    EXPECT_THAT(all, HasSubstr("the application has left"));
+    EXPECT_GE(std::ranges::count(all, 'y'), static_cast<std::ptrdiff_t>(size));
+  }
 }
 
 class FewPlaces : public HostileVisitor {

@@ -67,7 +67,7 @@ void Bridge::node_takes() {
   }
   if (!to_node_.empty()) {
     lws_rx_flow_control(page_, 0);
-    lws_callback_on_writable(watched_);
+    if (watched_ != nullptr) lws_callback_on_writable(watched_);
   } else if (held_up) {
     lws_rx_flow_control(page_, 1);
   }
@@ -82,8 +82,14 @@ void Bridge::node_sent() {
   to_page_.resize(status == StreamStatus::kDone ? LWS_PRE + size : 0);
   if (status == StreamStatus::kLater) return;
   node_gone_ = status == StreamStatus::kGone;
-  lws_rx_flow_control(watched_, 0);
+  if (watched_ != nullptr) lws_rx_flow_control(watched_, 0);
   expect_page_to_take();
+}
+
+/// Of a node that has left, which may have sent something before.
+void Bridge::no_longer_watched() {
+  watched_ = nullptr;
+  node_sent();
 }
 
 /// The library tells when the page has taken all that was written before.
@@ -105,7 +111,11 @@ bool Bridge::page_takes() {
     return true;
   }
   if (node_gone_) return refuse(LWS_CLOSE_STATUS_GOINGAWAY, "the application has left");
-  if (watched_ != nullptr) lws_rx_flow_control(watched_, 1);
+  if (watched_ == nullptr) {
+    node_sent();
+  } else {
+    lws_rx_flow_control(watched_, 1);
+  }
   return true;
 }
 

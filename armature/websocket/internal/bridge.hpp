@@ -34,7 +34,7 @@ class Bridge {
   void node_sent();
   void node_takes();
   /// The library has closed its descriptor of this side's end.
-  void no_longer_watched() { watched_ = nullptr; }
+  void no_longer_watched();
 
  private:
   bool refuse(lws_close_status why, const char* text);
