@@ -101,12 +101,15 @@ export class Peer {
     return this.ask(Directory.identifier, Directory.list, [], array(ComponentEntry), kPlain);
   }
 
-  /** Ends the connection, and does not come back. */
+  /** Ends the connection, and does not come back. Who waits for it is told. */
   close(): void {
+    if (this.closed) return;
+    const waitedFor = !this.ready;
     this.closed = true;
     clearTimeout(this.timer);
     this.link.close();
-    this.forget("was closed");
+    this.forget("it was closed here");
+    if (waitedFor) this.tell({ connected: false, text: "it was closed here" });
   }
 
   // --- for placeholders --------------------------------------------------------------------------

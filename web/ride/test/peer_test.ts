@@ -354,6 +354,13 @@ test("A node that shuts down is told, and no more than 1024 calls are open", asy
   peer.close();
 });
 
+test("Who waits for a connection that is closed here is told", async () => {
+  const peer = new ride.Peer("test", new NodeDouble().dial);
+  const connected = peer.connected();
+  peer.close();
+  await fails(connected, ride.Code.notConnected, /test: it was closed here/);
+});
+
 test("A closed peer sends nothing and does not come back", async () => {
   const node = new NodeDouble();
   const peer = await node.peer();
