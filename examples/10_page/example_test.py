@@ -218,6 +218,20 @@ class PageInChromiumTest(unittest.TestCase):
                 self.assertRegex(self.browser.run(page, until("told.textContent !== ''")),
                                  "page@web may not command 'Elevator'")
 
+    def test_a_page_that_is_closed_moves_nothing_any_more(self):
+        with Elevator() as elevator:
+            page = self.browser.open(elevator.url)
+            self.browser.run(page, until("document.getElementById('height')?.value === '0.00'"))
+            self.browser.run(page, "target.value = 3; go.click()")
+            self.browser.run(page, until("height.value > 0.1"))
+            target = self.browser.ask("Target.getTargetInfo", page)["targetInfo"]["targetId"]
+            self.browser.ask("Target.closeTarget", targetId=target)
+            line = ""
+            while "Elevator.travel" not in line:
+                line = elevator.process.stdout.readline()
+                self.assertTrue(line, "the application ended")
+            self.assertIn("is cancelled: the connection to page@web", line)
+
     def test_the_page_says_when_the_application_has_gone(self):
         with Elevator() as elevator:
             page = self.browser.open(elevator.url)
