@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 # Part of the installed package: the same function inside this tree and after find_package(armature).
 
-# armature_idl(NAME chassis IDL chassis.idl [NAMESPACE robot] [JSON] [LINK geometry])
+# armature_idl(NAME chassis IDL chassis.idl [NAMESPACE robot] [JSON] [TYPESCRIPT] [LINK geometry])
 #
 # A static library of what rcidl generates from interface definitions: for each X.idl the headers
 # X_types.hpp, X_client.hpp and X_service.hpp, found by whoever links the library.
 #   NAMESPACE  of all of them; otherwise each file's name
 #   JSON       writes X.json, too, beside the headers
+#   TYPESCRIPT writes X.ts, too: placeholders for pages and Node.js
 #   LINK       libraries of this function whose files are imported
 # Generated anew when a file or one that it imports has changed. The target's property IDL_FOLDER
 # says where.
 function(armature_idl)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "JSON" "NAME;NAMESPACE" "IDL;LINK")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "JSON;TYPESCRIPT" "NAME;NAMESPACE" "IDL;LINK")
   if(NOT arg_NAME OR NOT arg_IDL OR arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "armature_idl(NAME <name> IDL <files> [NAMESPACE <namespace>] [JSON] "
-                        "[LINK <targets>]) was called with: ${ARGV}")
+                        "[TYPESCRIPT] [LINK <targets>]) was called with: ${ARGV}")
   endif()
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME}_idl)
   set(options)
@@ -23,6 +24,9 @@ function(armature_idl)
   endif()
   if(arg_JSON)
     list(APPEND options --json)
+  endif()
+  if(arg_TYPESCRIPT)
+    list(APPEND options --typescript)
   endif()
 
   set(sources)
@@ -33,6 +37,9 @@ function(armature_idl)
                   ${stem}_service.cpp)
     if(arg_JSON)
       list(APPEND generated ${stem}.json)
+    endif()
+    if(arg_TYPESCRIPT)
+      list(APPEND generated ${stem}.ts)
     endif()
     list(TRANSFORM generated PREPEND ${folder}/)
     add_custom_command(

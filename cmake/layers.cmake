@@ -15,6 +15,7 @@ set(ARMATURE_LAYERS
     "guardian: base platform can"
     "ride: base platform rt types"
     "tls: base platform ride"
+    "websocket: base platform ride"
     "exec: base component rt types platform"
     "record: base exec types platform"
     "document: base exec component types"
@@ -31,5 +32,5 @@ set(ARMATURE_LAYERS
     "general: base component record rt"
     "sim: base control"
     "robots: base platform rt types controllers component can control guardian sim"
-    "cli: base platform types rt control component can ride tls exec record document orocos analysis inspect deploy edit report lua remote browser controllers general sim"
-    "testing: base platform types rt guard control component can guardian ride tls exec record document orocos analysis inspect deploy edit report lua remote browser controllers general sim")
+    "cli: base platform types rt control component can ride tls websocket exec record document orocos analysis inspect deploy edit report lua remote browser controllers general sim"
+    "testing: base platform types rt guard control component can guardian ride tls websocket exec record document orocos analysis inspect deploy edit report lua remote browser controllers general sim")

@@ -11,6 +11,7 @@
 #include "idl/cpp_names.hpp"
 #include "idl/json_backend.hpp"
 #include "idl/output.hpp"
+#include "idl/typescript_backend.hpp"
 
 namespace armature::idl {
 namespace {
@@ -59,6 +60,7 @@ std::string compile(const CompileOptions& options, const ReadFile& read) {
   if (!loaded.ok()) return loaded.findings();
   std::vector<OutputFile> outputs = write_cpp(loaded.program, names);
   if (options.json) outputs.push_back(write_json(loaded.program, names));
+  if (options.typescript) outputs.push_back(write_typescript(loaded.program));
   const base::Result<void> written = write(options, std::move(outputs), loaded);
   return written ? "" : "rcidl: error: " + base::visible_text(written.error()) + "\n";
 }

@@ -14,7 +14,8 @@ struct CompileOptions {
   std::string output_folder;
   std::optional<std::string> name_space;  ///< none: each file's name is its namespace
   bool json = false;
-  std::string depends;  ///< a file that make and ninja read; empty: none
+  bool typescript = false;  ///< beside the C++
+  std::string depends;      ///< a file that make and ninja read; empty: none
 };
 
 /// Reads a definition and writes what is generated from it.

@@ -4,6 +4,7 @@
 
 #include "idl/canonical.hpp"
 #include "idl/internal/cpp_text.hpp"
+#include "idl/internal/structure_order.hpp"
 
 namespace armature::idl::internal {
 namespace {
@@ -15,29 +16,15 @@ class TypesWriter {
   std::string run() {
     std::string body;
     for (const Enumeration& each : text_.main().enumerations) body += "\n" + written(each);
-    for (const Structure* structure : in_order()) body += "\n" + written(*structure);
+    for (const Structure* structure : in_order_of_use(text_.program())) {
+      body += "\n" + written(*structure);
+    }
     for (const Interface& interface : text_.main().interfaces) body += "\n" + written(interface);
     return text_.head(true) + includes() + "\n" + text_.begin_name_space() + body +
            text_.end_name_space();
   }
 
  private:
-  /// What a struct contains stands before it; otherwise as in the file.
-  std::vector<const Structure*> in_order() const {
-    std::vector<const Structure*> ordered;
-    const std::function<void(const Structure&)> add = [&](const Structure& structure) {
-      const bool done = std::find(ordered.begin(), ordered.end(), &structure) != ordered.end();
-      if (done || structure.module != text_.main().name) return;
-      for (const Field& member : structure.members) {
-        if (member.type.basic != Basic::kStruct) continue;
-        add(*text_.program().find_struct(member.type.name));
-      }
-      ordered.push_back(&structure);
-    };
-    for (const Structure& structure : text_.main().structures) add(structure);
-    return ordered;
-  }
-
   std::string includes() const {
     const auto uses = [&](const std::function<bool(const Type&)>& condition) {
       return any_type(condition);

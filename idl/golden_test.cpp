@@ -33,9 +33,10 @@ TEST_P(Golden, IsWhatIsGenerated) {
   options.file = TESTDATA "/" + GetParam() + ".idl";
   options.output_folder = output.string();
   options.json = true;
+  options.typescript = true;
   ASSERT_EQ(compile(options), "");
-  for (const std::string end :
-       {"_types.hpp", "_client.hpp", "_client.cpp", "_service.hpp", "_service.cpp", ".json"}) {
+  for (const std::string end : {"_types.hpp", "_client.hpp", "_client.cpp", "_service.hpp",
+                                "_service.cpp", ".json", ".ts"}) {
     EXPECT_EQ(content_of(output / (GetParam() + end)), content_of(golden / (GetParam() + end)));
   }
   if (!update) fs::remove_all(output);

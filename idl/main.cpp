@@ -29,6 +29,8 @@ int main(int argc, char** argv) {
                      "each file")
           ->type_name("NAME");
   app.add_flag("--json", options.json, "also writes the interface as NAME.json");
+  app.add_flag("--typescript", options.typescript,
+               "also writes NAME.ts, placeholders for pages and Node.js");
   app.add_option("--depends", options.depends,
                  "writes a list of the files that were read, for ninja and make")
       ->type_name("FILE");

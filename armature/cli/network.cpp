@@ -38,6 +38,9 @@ bool NetworkOnDemand::open(const document::Document& document, const RunArgument
   for (const std::string& address : network().addresses()) {
     console_.say(rt::LogLevel::kInfo, "listens at " + address);
   }
+  for (const std::string& page : web_ == nullptr ? std::vector<std::string>{} : web_->pages()) {
+    console_.say(rt::LogLevel::kInfo, "open " + page + " in a browser of this machine");
+  }
   console_.show(diagnostics);
   return diagnostics.ok();
 }
@@ -56,6 +59,9 @@ remote::Network& NetworkOnDemand::network() {
   options.tls = [](const document::Network& files, base::Diagnostics& problems) {
     return tls::make_transport({files.certificate.name, files.key.name, files.authority.name},
                                problems);
+  };
+  options.web = [this](const std::string& folder, base::Diagnostics& problems) {
+    return web_ = websocket::make_transport({.pages = folder}, problems);
   };
   options.log = [this](const rt::LogRecord& record) { console_.log(record); };
   network_ = remote::make_network(options);

@@ -7,6 +7,7 @@
 #include "armature/cli/console.hpp"
 #include "armature/deploy/builder.hpp"
 #include "armature/remote/network.hpp"
+#include "armature/websocket/transport.hpp"
 
 namespace armature::cli {
 
@@ -38,6 +39,7 @@ class NetworkOnDemand {
   remote::Network& network();
 
   const Console& console_;
+  std::shared_ptr<websocket::Transport> web_;
   std::unique_ptr<remote::Network> network_;
 };
 

@@ -56,8 +56,9 @@ constexpr std::string_view kOfTools[] = {"libarmature_inspect.so", "libarmature_
 constexpr std::string_view kOfTheTerminal[] = {"libarmature_browser.so", "libedit.so",
                                                "libtinfo.so", "libbsd.so", "libmd.so"};
 /// Components that stand for others, or write for them, run in real-time threads.
-constexpr std::string_view kOfTheNetwork[] = {"libarmature_remote.so", "libarmature_ride.so",
-                                              "libarmature_tls.so", "libssl.so", "libcrypto.so"};
+constexpr std::string_view kOfTheNetwork[] = {
+    "libarmature_remote.so", "libarmature_ride.so",      "libarmature_tls.so", "libssl.so",
+    "libcrypto.so",          "libarmature_websocket.so", "libwebsockets.so",   "libcap.so"};
 
 void release_what_is_not_needed(bool networked, bool browsed, bool scripted) {
   platform::release_code(kNeverRealTime);

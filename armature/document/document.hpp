@@ -169,6 +169,7 @@ struct OperationOf {
 struct Network {
   std::vector<Reference> listen;  ///< addresses, such as `tcp://127.0.0.1:4242`
   Reference policy;               ///< file that says who may do what; empty: this machine may read
+  Reference pages;                ///< folder that `ws://` addresses serve
   Reference certificate;          ///< files of TLS: all of them, or none
   Reference key;
   Reference authority;

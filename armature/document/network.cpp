@@ -68,6 +68,7 @@ Network read_network(const Value& value, const ValueReader& reader) {
     }
   }
   read_path(fields.take("policy"), "policy", reader, network.policy);
+  read_path(fields.take("pages"), "pages", reader, network.pages);
   if (const Value* tls = fields.take("tls")) read_tls(*tls, reader, network);
   if (const Value* memory = fields.take("memory_kB")) {
     constexpr int kLeast = 1000;

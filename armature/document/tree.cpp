@@ -228,6 +228,7 @@ static Value network_tree(const Network& network) {
     if (!path.name.empty()) add(to, key, path.name);
   };
   add_path(map, "policy", network.policy);
+  add_path(map, "pages", network.pages);
   add_items(map, "inputs", converted(network.inputs, [](const Connection& input) {
               Value policy = make_map();
               add_policy(input.policy, policy);

@@ -19,8 +19,12 @@
 namespace armature::remote {
 namespace {
 
-base::Result<void> check_transport(const ride::Address& address) {
-  const std::vector<std::string> known{"tcp", "unix", "tls"};
+/// Pages come over ws, and nobody is reached by it.
+const std::vector<std::string> kTransports{"tcp", "unix", "tls", "ws"};
+const std::vector<std::string> kTransportsToOthers{"tcp", "unix", "tls"};
+
+base::Result<void> check_transport(const ride::Address& address,
+                                   const std::vector<std::string>& known) {
   if (std::ranges::find(known, address.scheme) != known.end()) return {};
   return base::Error{"'" + address.text() + "' has the unknown transport '" + address.scheme +
                      "' (" + base::suggestion(address.scheme, known).text + ")"};
@@ -44,7 +48,7 @@ base::Result<RemoteAddress> parse_remote(const std::string& text) {
   RemoteAddress remote{text.substr(0, slash), text.substr(slash + 1)};
   const auto address = ride::Address::parse(remote.peer);
   if (!address) return base::Error{address.error()};
-  if (const auto known = check_transport(address.value()); !known) {
+  if (const auto known = check_transport(address.value(), kTransportsToOthers); !known) {
     return base::Error{known.error()};
   }
   return remote;
@@ -91,15 +95,7 @@ class RideNetwork final : public Network {
     set_transports(document, options, diagnostics);
     set_policy(document, options, diagnostics);
     for (const document::Reference& each : document.network.listen) {
-      const auto address = ride::Address::parse(each.name);
-      if (!address) {
-        diagnostics.error(each.where, address.error());
-      } else if (const auto known = check_transport(address.value()); !known) {
-        diagnostics.error(each.where, known.error());
-      } else if (address.value().scheme == "tls" && document.network.certificate.name.empty()) {
-        diagnostics.error(each.where, "'" + each.name + "' needs certificates",
-                          "add tls: {certificate: ..., key: ..., authority: ...} to network");
-      }
+      check_means(each, document.network, options, diagnostics);
     }
   }
 
@@ -116,6 +112,12 @@ class RideNetwork final : public Network {
     base::Diagnostics found;
     set_transports(document, options, found);
     set_policy(document, options, found);
+    for (const document::Reference& each : document.network.listen) {
+      check_means(each, document.network, options, found);
+    }
+    for (const std::string& each : listen) {
+      check_means({each, {}}, document.network, options, found);
+    }
     if (found.ok()) {
       node_ = std::make_unique<ride::Node>(std::move(options));
       if (!listen.empty() || !document.network.listen.empty()) host(application, found);
@@ -156,6 +158,32 @@ class RideNetwork final : public Network {
   }
 
  private:
+  /// An address to listen at, and what its transport needs beside it.
+  static void check_means(const document::Reference& written, const document::Network& network,
+                          const ride::NodeOptions& options, base::Diagnostics& diagnostics) {
+    const auto parsed = ride::Address::parse(written.name);
+    if (!parsed) return diagnostics.error(written.where, parsed.error());
+    const ride::Address& address = parsed.value();
+    if (const auto known = check_transport(address, kTransports); !known) {
+      return diagnostics.error(written.where, known.error());
+    }
+    if (address.scheme == "tls" && network.certificate.name.empty()) {
+      diagnostics.error(written.where, "'" + written.name + "' needs certificates",
+                        "add tls: {certificate: ..., key: ..., authority: ...} to network");
+    }
+    if (address.scheme != "ws") return;
+    if (network.pages.name.empty()) {
+      diagnostics.error(written.where, "'" + written.name + "' has no pages to serve",
+                        "add pages: FOLDER to network");
+    }
+    for (const auto& transport : options.transports) {
+      if (transport->scheme() != "ws" || transport->safe(address)) continue;
+      diagnostics.error(written.where,
+                        "'" + written.name + "': pages are served to this machine only",
+                        "listen at ws://127.0.0.1:8080 or ws://[::1]:8080");
+    }
+  }
+
   struct Hosted {
     std::unique_ptr<InterfaceNumbers> numbers;
     std::unique_ptr<ExportedComponent> service;
@@ -192,12 +220,25 @@ class RideNetwork final : public Network {
   void set_transports(const document::Document& document, ride::NodeOptions& options,
                       base::Diagnostics& diagnostics) {
     document::Network network = document.network;
+    if (!network.pages.name.empty()) set_pages(document, options, diagnostics);
     if (network.certificate.name.empty()) return;
     for (document::Reference* file : {&network.certificate, &network.key, &network.authority}) {
       file->name = document::path_from(document, file->name);
     }
     if (auto transport = options_.tls(network, diagnostics)) {
       options.transports.push_back(std::move(transport));
+    }
+  }
+
+  void set_pages(const document::Document& document, ride::NodeOptions& options,
+                 base::Diagnostics& diagnostics) {
+    const document::Reference& pages = document.network.pages;
+    base::Diagnostics found;
+    if (auto transport = options_.web(document::path_from(document, pages.name), found)) {
+      options.transports.push_back(std::move(transport));
+    }
+    for (const base::Diagnostic& each : found.all()) {
+      diagnostics.error(pages.where, each.message, each.hint);
     }
   }
 

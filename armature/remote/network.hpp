@@ -19,6 +19,8 @@ namespace armature::remote {
 struct NetworkOptions {
   /// Makes the transport for `tls://`; what is wrong is added to the diagnostics.
   std::function<std::shared_ptr<ride::Transport>(const document::Network&, base::Diagnostics&)> tls;
+  /// Makes the transport for `ws://`, which serves this folder.
+  std::function<std::shared_ptr<ride::Transport>(const std::string&, base::Diagnostics&)> web;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
 };
 

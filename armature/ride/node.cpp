@@ -13,7 +13,8 @@ std::string who(const AccessQuestion& question) {
     return here ? "local" : "nobody@" + std::string(question.transport);
   }
   if (question.transport == "unix") return "local:" + std::string(question.identity);
-  return std::string(question.identity) + "@" + std::string(question.transport);
+  const std::string_view where = question.transport == "ws" ? "web" : question.transport;
+  return std::string(question.identity) + "@" + std::string(where);
 }
 
 Node::Node(NodeOptions options)

@@ -78,8 +78,8 @@ struct AccessQuestion {
 };
 
 /// Who asks, as policies and logs say it: `operator@tls` for an identity and the transport that has
-/// proven it, `local:pilot` for a process of this machine whose account the kernel vouches for,
-/// `local` for one that proves nothing.
+/// proven it, `page@web` for a page over `ws`, `local:pilot` for a process of this machine whose
+/// account the kernel vouches for, `local` for one that proves nothing.
 std::string who(const AccessQuestion& question);
 
 /// How a node works, what it allows and where it reports to.

@@ -64,6 +64,19 @@ TEST(Policy, LocalIsWhoProvesNothingOnThisMachine) {
   EXPECT_FALSE(policy.allows(by_tls("local", Access::kRead, "Vision")));
 }
 
+TEST(Policy, APageIsNoneOfTheOthersOfThisMachine) {
+  const AccessQuestion page{"ws", "page", "Vision", Access::kRead};
+  EXPECT_EQ(who(page), "page@web");
+  EXPECT_TRUE(policy_of("allow page@web read Vision").allows(page));
+  EXPECT_TRUE(policy_of("allow *@web read *").allows(page));
+  for (const char* text : {"allow local read *", "allow local:* read *", "allow local:page read *",
+                           "allow *@tls read *", "allow page@tls read *"}) {
+    EXPECT_FALSE(policy_of(text).allows(page)) << text;
+  }
+  EXPECT_FALSE(policy_of("allow page@web read *").allows({"tcp", "", "Vision", Access::kRead}));
+  EXPECT_THAT(mistakes_of("allow anna@web read *"), HasSubstr("page@web"));
+}
+
 TEST(Policy, AnAccountIsWhoTheKernelVouchesFor) {
   const auto from = [](std::string_view transport, std::string_view identity) {
     return AccessQuestion{transport, identity, "Vision", Access::kCommand};
@@ -102,44 +115,46 @@ TEST(Policy, AnyRuleThatAllowsItIsEnoughInWhateverOrder) {
 }
 
 TEST(Policy, TellsAllMistakesInOneRunWithTheirPlaces) {
-  EXPECT_EQ(
-      mistakes_of("alow local read *\n"
-                  "deny local read *\n"
-                  "allow opertor read *\n"
-                  "allow anna@tsl read *\n"
-                  "allow loca read *\n"
-                  "  allow local red,comand Vision\n"
-                  "allow local read Vision, Arm\n"
-                  "allow local read\n"
-                  "allow\n"
-                  "allow local read,read Vision,*\n"),
-      "policy.txt:1:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'alow' "
-      "(did you mean 'allow'?)\n"
-      "policy.txt:2:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'deny' "
-      "(leave it out: only what a rule allows is allowed)\n"
-      "policy.txt:3:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'opertor' "
-      "(did you mean 'opertor@tls'?)\n"
-      "policy.txt:4:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'anna@tsl' "
-      "(did you mean 'anna@tls'?)\n"
-      "policy.txt:5:7: error: expected NAME@tls, *@tls, local:USER, local or *, found 'loca' "
-      "(did you mean 'local'?)\n"
-      "policy.txt:6:15: error: expected read, command or configure, found 'red' "
-      "(did you mean 'read'?)\n"
-      "policy.txt:6:19: error: expected read, command or configure, found 'comand' "
-      "(did you mean 'command'?)\n"
-      "policy.txt:7:25: error: expected a component's name at the comma "
-      "(write Vision,Arm or *)\n"
-      "policy.txt:7:26: error: expected the end of the rule, found 'Arm' "
-      "(write a list with commas and no space: Vision,Arm)\n"
-      "policy.txt:8:17: error: the rule lacks its COMPONENTS "
-      "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
-      "Vision)\n"
-      "policy.txt:9:6: error: the rule lacks its WHO "
-      "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
-      "Vision)\n"
-      "policy.txt:10:18: error: 'read' is given twice (leave one out)\n"
-      "policy.txt:10:23: error: expected names or *, found both in 'Vision,*' "
-      "(write * alone for all components)\n");
+  EXPECT_EQ(mistakes_of("alow local read *\n"
+                        "deny local read *\n"
+                        "allow opertor read *\n"
+                        "allow anna@tsl read *\n"
+                        "allow loca read *\n"
+                        "  allow local red,comand Vision\n"
+                        "allow local read Vision, Arm\n"
+                        "allow local read\n"
+                        "allow\n"
+                        "allow local read,read Vision,*\n"),
+            "policy.txt:1:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'alow' "
+            "(did you mean 'allow'?)\n"
+            "policy.txt:2:1: error: expected a rule, allow WHO ACCESS COMPONENTS, found 'deny' "
+            "(leave it out: only what a rule allows is allowed)\n"
+            "policy.txt:3:7: error: expected NAME@tls, *@tls, page@web, local:USER, local or *, "
+            "found 'opertor' "
+            "(did you mean 'opertor@tls'?)\n"
+            "policy.txt:4:7: error: expected NAME@tls, *@tls, page@web, local:USER, local or *, "
+            "found 'anna@tsl' "
+            "(did you mean 'anna@tls'?)\n"
+            "policy.txt:5:7: error: expected NAME@tls, *@tls, page@web, local:USER, local or *, "
+            "found 'loca' "
+            "(did you mean 'local'?)\n"
+            "policy.txt:6:15: error: expected read, command or configure, found 'red' "
+            "(did you mean 'read'?)\n"
+            "policy.txt:6:19: error: expected read, command or configure, found 'comand' "
+            "(did you mean 'command'?)\n"
+            "policy.txt:7:25: error: expected a component's name at the comma "
+            "(write Vision,Arm or *)\n"
+            "policy.txt:7:26: error: expected the end of the rule, found 'Arm' "
+            "(write a list with commas and no space: Vision,Arm)\n"
+            "policy.txt:8:17: error: the rule lacks its COMPONENTS "
+            "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
+            "Vision)\n"
+            "policy.txt:9:6: error: the rule lacks its WHO "
+            "(a rule is allow WHO ACCESS COMPONENTS, as in: allow operator@tls read,command "
+            "Vision)\n"
+            "policy.txt:10:18: error: 'read' is given twice (leave one out)\n"
+            "policy.txt:10:23: error: expected names or *, found both in 'Vision,*' "
+            "(write * alone for all components)\n");
 }
 
 TEST(Policy, WithOneMistakeNothingIsAllowed) {

@@ -46,18 +46,22 @@ components: {Axis: {model: Axis, activity: {periodic: 2 ms}}}
 }
 
 TEST(RemoteDeployment, UnknownTransportsAreToldWithTheKnownOnes) {
-  const Process wrong(R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243"]}
+  const Process wrong(
+      R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243", "ws://127.0.0.1:8080"]}
 components:
   Axis: {model: Axis, activity: {periodic: 2 ms}}
   A: {model: Axis, remote: "https://127.0.0.1:443/Axis"}
+  B: {model: Axis, remote: "ws://127.0.0.1:8080/Axis"}
 )");
   base::Diagnostics diagnostics = wrong.deployment.diagnostics;
   wrong.network_->check(wrong.deployment.document, diagnostics);
   const std::string text = diagnostics.to_text();
   EXPECT_THAT(text, HasSubstr("'http://127.0.0.1:80' has the unknown transport 'http' (known: "));
-  EXPECT_THAT(text, HasSubstr("tcp, unix, tls"));
+  EXPECT_THAT(text, HasSubstr("tcp, unix, tls, ws"));
   EXPECT_THAT(text, HasSubstr("unknown transport 'https'"));
+  EXPECT_THAT(text, HasSubstr("unknown transport 'ws'"));  // nobody is reached by it
   EXPECT_THAT(text, HasSubstr("'tls://127.0.0.1:4243' needs certificates"));
+  EXPECT_THAT(text, HasSubstr("'ws://127.0.0.1:8080' has no pages to serve"));
 }
 
 }  // namespace

@@ -150,6 +150,16 @@ base::Result<std::unique_ptr<StreamSocket>> StreamSocket::connect_file(const std
   return std::unique_ptr<StreamSocket>(new StreamSocket(socket.release(), path, false));
 }
 
+base::Result<std::pair<std::unique_ptr<StreamSocket>, std::unique_ptr<StreamSocket>>>
+StreamSocket::make_pair(const std::string& other_end) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    return unable(other_end, "no socket", errno);
+  }
+  return std::pair(std::unique_ptr<StreamSocket>(new StreamSocket(ends[0], other_end, true)),
+                   std::unique_ptr<StreamSocket>(new StreamSocket(ends[1], other_end, true)));
+}
+
 StreamSocket::~StreamSocket() { ::close(socket_); }
 
 StreamStatus StreamSocket::finish_connect() {
@@ -310,6 +320,8 @@ std::unique_ptr<StreamSocket> StreamListener::accept() {
   const std::string text = path_.empty() ? text_of(address) : path_;
   return std::unique_ptr<StreamSocket>(new StreamSocket(socket, text, true));
 }
+
+int another_handle(int handle) { return ::fcntl(handle, F_DUPFD_CLOEXEC, 0); }
 
 base::Result<std::string> look_up(const std::string& host) {
   if (numeric_address(host, 0)) return host;

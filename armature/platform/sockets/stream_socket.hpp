@@ -26,6 +26,10 @@ class StreamSocket {
   static base::Result<std::unique_ptr<StreamSocket>> connect_tcp(const std::string& host,
                                                                  std::uint16_t port);
   static base::Result<std::unique_ptr<StreamSocket>> connect_file(const std::string& path);
+  /// Two connected ends within this process.
+  /// @param other_end  who is behind the second one, for whoever has the first
+  static base::Result<std::pair<std::unique_ptr<StreamSocket>, std::unique_ptr<StreamSocket>>>
+  make_pair(const std::string& other_end);
   StreamSocket(const StreamSocket&) = delete;
   StreamSocket& operator=(const StreamSocket&) = delete;
   ~StreamSocket();
@@ -106,6 +110,10 @@ class StreamListener {
   const std::string path_;  ///< of a socket file, else empty
   const std::uint16_t port_;
 };
+
+/// Another descriptor of the same socket, for a library that closes what it is given; -1: there is
+/// none left.
+int another_handle(int handle);
 
 /// The numeric address of a host; waits for the name service if it is not numeric.
 base::Result<std::string> look_up(const std::string& host);

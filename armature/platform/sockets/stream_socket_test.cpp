@@ -13,6 +13,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "armature/platform/internal/descriptor.hpp"
+
 namespace armature::platform {
 namespace {
 
@@ -89,6 +91,26 @@ TEST(StreamSocketOfTcp, IsNeverConnectedToItself) {
     if (status == StreamStatus::kDone) ++connected;
   }
   EXPECT_EQ(connected, 0);
+}
+
+TEST(StreamSocketPair, IsConnectedAndEndsOnceAllItsHandlesAreClosed) {
+  auto [near, far] = std::move(StreamSocket::make_pair("a page")).value();
+  EXPECT_EQ(near->other_end(), "a page");
+  EXPECT_EQ(near->finish_connect(), StreamStatus::kDone);
+  const std::byte byte{7};
+  std::size_t size = 0;
+  ASSERT_EQ(near->send(std::span(&byte, 1), size), StreamStatus::kDone);
+  std::byte got{};
+  ASSERT_EQ(far->wait_and_receive(std::span(&got, 1), size, std::chrono::hours(1)),
+            StreamStatus::kDone);
+  EXPECT_EQ(got, byte);
+
+  const int other = another_handle(near->handle());
+  ASSERT_GE(other, 0);
+  near.reset();
+  EXPECT_EQ(far->receive(std::span(&got, 1), size), StreamStatus::kLater);
+  { const internal::Descriptor closes(other); }
+  EXPECT_EQ(far->receive(std::span(&got, 1), size), StreamStatus::kGone);
 }
 
 }  // namespace

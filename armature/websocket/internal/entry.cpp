@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/websocket/internal/entry.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace armature::websocket::internal {
+namespace {
+
+constexpr std::string_view kHosts[] = {"127.0.0.1", "localhost", "[::1]"};
+
+/// The cookie's name has the port, since browsers give all ports of a host the same cookies.
+std::string cookie_name(const std::string& port) { return "armature-" + port; }
+
+}  // namespace
+
+bool is_same_secret(std::string_view given, std::string_view secret) {
+  if (given.size() != secret.size()) return false;
+  unsigned char difference = 0;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    difference = static_cast<unsigned char>(difference | (given[i] ^ secret[i]));
+  }
+  return difference == 0;
+}
+
+Entry::Entry(std::uint16_t port, std::string token, std::string pass)
+    : port_(std::to_string(port)), token_(std::move(token)), pass_(std::move(pass)) {}
+
+bool Entry::knows_host(const Visitor& visitor) const {
+  return std::ranges::any_of(kHosts, [&](std::string_view host) {
+    return visitor.host == std::string(host) + ":" + port_;
+  });
+}
+
+bool Entry::is_own_page(const Visitor& visitor) const {
+  return knows_host(visitor) && visitor.origin == "http://" + visitor.host;
+}
+
+bool Entry::has_token(const Visitor& visitor) const {
+  constexpr std::string_view kScheme = "Bearer ";
+  const std::string_view given = visitor.authorization;
+  return given.starts_with(kScheme) && is_same_secret(given.substr(kScheme.size()), token_);
+}
+
+bool Entry::has_pass(const Visitor& visitor) const {
+  const std::string begin = cookie_name(port_) + "=";
+  std::string_view left = visitor.cookie;
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(';'), left.size());
+    std::string_view one = left.substr(0, end);
+    one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
+    if (one.starts_with(begin) && is_same_secret(one.substr(begin.size()), pass_)) return true;
+    left.remove_prefix(std::min(end + 1, left.size()));
+  }
+  return false;
+}
+
+std::string Entry::cookie() const {
+  return cookie_name(port_) + "=" + pass_ + "; HttpOnly; SameSite=Strict; Path=/";
+}
+
+std::string Entry::content_policy() const {
+  return "default-src 'self'; connect-src 'self' ws://127.0.0.1:" + port_ +
+         " ws://localhost:" + port_ +
+         "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+}  // namespace armature::websocket::internal

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace armature::websocket::internal {
+
+/// What a browser says of a request, in its headers.
+struct Visitor {
+  std::string host = {};
+  std::string origin = {};
+  std::string authorization = {};
+  std::string cookie = {};
+};
+
+/// Who may come in at one address: whoever reached it by its own name, from a page of its own, with
+/// its token or the cookie that was given for it.
+/// @thread any
+class Entry {
+ public:
+  /// @param token, pass  secrets of as many bits as a key has, different ones
+  Entry(std::uint16_t port, std::string token, std::string pass);
+
+  /// The name by which the address was reached is one of this machine: no page elsewhere has had a
+  /// name server point its own name here.
+  bool knows_host(const Visitor& visitor) const;
+  /// The page that asks came from here. Programs that send no Origin are not let in either.
+  bool is_own_page(const Visitor& visitor) const;
+  bool has_token(const Visitor& visitor) const;  ///< `Authorization: Bearer TOKEN`
+  bool has_pass(const Visitor& visitor) const;   ///< the cookie
+
+  const std::string& token() const { return token_; }
+  /// What the token is exchanged for: no script can read it, no other site sends it.
+  std::string cookie() const;
+  /// The sources that pages of this address may use.
+  std::string content_policy() const;
+
+ private:
+  const std::string port_;
+  const std::string token_;
+  const std::string pass_;
+};
+
+/// Takes as long wherever the texts differ.
+bool is_same_secret(std::string_view given, std::string_view secret);
+
+}  // namespace armature::websocket::internal

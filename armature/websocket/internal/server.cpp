@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/websocket/internal/server.hpp"
+
+#include <array>
+#include <utility>
+
+#include "armature/ride/socket_connection.hpp"
+#include "armature/websocket/internal/request.hpp"
+
+namespace armature::websocket::internal {
+namespace {
+
+using platform::StreamListener;
+using platform::StreamSocket;
+
+/// A request that is not complete then, and a connection without any, ends.
+constexpr unsigned kMostSeconds = 5;
+constexpr std::size_t kSecretBytes = 16;
+/// Of the library: each visitor, its bridge, and what it has itself.
+constexpr unsigned kHandlesBeside = 16;
+
+const lws_protocol_vhost_options* headers(const std::string& content_policy,
+                                          std::array<lws_protocol_vhost_options, 4>& room) {
+  room = {{{&room[1], nullptr, "content-security-policy:", content_policy.c_str()},
+           {&room[2], nullptr, "x-content-type-options:", "nosniff"},
+           {&room[3], nullptr, "referrer-policy:", "no-referrer"},
+           {nullptr, nullptr, "cross-origin-resource-policy:", "same-origin"}}};
+  return room.data();
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Server>> Server::listen(const ride::Address& address,
+                                                     const Options& options, const Pages& pages) {
+  auto listener = StreamListener::listen_tcp(address.host, address.port);
+  if (!listener) return base::Error{listener.error()};
+  ride::Address got = address;
+  got.port = listener.value()->port();
+  auto server = std::unique_ptr<Server>(
+      new Server(std::move(listener).value(), std::move(got), options, pages));
+  if (const auto begun = server->begin(); !begun) {
+    return base::Error{"'" + address.text() + "': " + begun.error()};
+  }
+  return server;
+}
+
+Server::Server(std::unique_ptr<StreamListener> listener, ride::Address address,
+               const Options& options, const Pages& pages)
+    : listener_(std::move(listener)),
+      address_(std::move(address)),
+      options_(options),
+      pages_(pages) {}
+
+Server::~Server() {
+  ends_ = true;
+  if (context_ != nullptr) lws_cancel_service(context_);
+  thread_.reset();
+  if (context_ != nullptr) lws_context_destroy(context_);
+}
+
+base::Result<void> Server::begin() {
+  auto bell = StreamSocket::make_pair("a page");
+  if (!bell) return base::Error{bell.error()};
+  std::tie(bell_, ringer_) = std::move(bell).value();
+  if (const auto made = make_context(); !made) return made;
+  lws_sock_file_fd_type descriptor{};
+  descriptor.filefd = platform::another_handle(listener_->handle());
+  listening_ =
+      lws_adopt_descriptor_vhost(vhost_, LWS_ADOPT_RAW_FILE_DESC, descriptor, "ride", nullptr);
+  if (listening_ == nullptr) return base::Error{"the server of pages has no handle left"};
+  platform::ThreadRequest request;
+  request.name = "pages";
+  thread_ = std::make_unique<platform::Thread>(request, [this] { run(); });
+  return {};
+}
+
+base::Result<void> Server::make_context() {
+  lws_set_log_level(0, nullptr);
+  static const lws_protocols kProtocols[] = {{"ride", &Server::told, 0, 16 * 1024, 0, nullptr, 0},
+                                             {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
+  lws_context_creation_info info{};
+  info.port = CONTEXT_PORT_NO_LISTEN_SERVER;
+  info.protocols = kProtocols;
+  info.user = this;
+  info.gid = info.uid = static_cast<decltype(info.uid)>(-1);
+  info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS;
+  info.fd_limit_per_thread = static_cast<unsigned>(2 * options_.connections) + kHandlesBeside;
+  info.timeout_secs = info.keepalive_timeout = kMostSeconds;
+  context_ = lws_create_context(&info);
+  if (context_ == nullptr) return base::Error{"the server of pages cannot be made"};
+  auto token = secret();
+  auto pass = secret();
+  if (!token || !pass) return base::Error{token ? pass.error() : token.error()};
+  entry_.emplace(address_.port, std::move(token).value(), std::move(pass).value());
+  content_policy_ = entry_->content_policy();
+  info.headers = headers(content_policy_, header_room_);
+  vhost_ = lws_create_vhost(context_, &info);
+  if (vhost_ == nullptr) return base::Error{"the server of pages cannot be made"};
+  return {};
+}
+
+base::Result<std::string> Server::secret() const {
+  std::array<unsigned char, kSecretBytes> bytes{};
+  if (lws_get_random(context_, bytes.data(), bytes.size()) != bytes.size()) {
+    return base::Error{"the system gives no random numbers for a token"};
+  }
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char each : bytes) {
+    text += kDigits[each >> 4];
+    text += kDigits[each & 15];
+  }
+  return text;
+}
+
+std::string Server::url() const {
+  const bool version_6 = address_.host.find(':') != std::string::npos;
+  return "http://" + (version_6 ? "[" + address_.host + "]" : address_.host) + ":" +
+         std::to_string(address_.port) + "/#" + entry_->token();
+}
+
+void Server::run() {
+  while (!ends_ && lws_service(context_, 0) >= 0) {
+  }
+}
+
+std::unique_ptr<ride::Connection> Server::accept() {
+  const std::lock_guard lock(mutex_);
+  std::byte rung{};
+  std::size_t size = 0;
+  static_cast<void>(bell_->receive(std::span(&rung, 1), size));
+  if (accepted_.empty()) return nullptr;
+  auto connection = std::move(accepted_.front());
+  accepted_.pop_front();
+  return connection;
+}
+
+// --- by the library's thread ---------------------------------------------------------------------
+
+int Server::told(lws* connection, lws_callback_reasons reason, void* /*user*/, void* in,
+                 std::size_t size) {
+  if (connection == nullptr || lws_get_context(connection) == nullptr) return 0;
+  auto* const server = static_cast<Server*>(lws_context_user(lws_get_context(connection)));
+  return server->told(connection, reason, in, size);
+}
+
+int Server::told(lws* connection, lws_callback_reasons reason, void* in, std::size_t size) {
+  switch (reason) {
+    case LWS_CALLBACK_RAW_RX_FILE:
+    case LWS_CALLBACK_RAW_WRITEABLE_FILE:
+    case LWS_CALLBACK_RAW_CLOSE_FILE:
+      return told_of_socket(connection, reason);
+    case LWS_CALLBACK_ESTABLISHED:
+    case LWS_CALLBACK_RECEIVE:
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+    case LWS_CALLBACK_CLOSED:
+      return told_of_page(connection, reason, in, size);
+    case LWS_CALLBACK_HTTP:
+      return answer_request(connection, static_cast<const char*>(in), *entry_, pages_);
+    case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
+      return may_open(connection) ? 0 : answer(connection, HTTP_STATUS_FORBIDDEN);
+    case LWS_CALLBACK_WSI_DESTROY:
+      visitors_.erase(connection);
+      return 0;
+    default:
+      return lws_callback_http_dummy(connection, reason, nullptr, in, size);
+  }
+}
+
+bool Server::may_open(lws* page) const {
+  const Visitor visitor = visitor_of(page);
+  return entry_->is_own_page(visitor) && entry_->has_pass(visitor);
+}
+
+int Server::told_of_page(lws* page, lws_callback_reasons reason, void* in, std::size_t size) {
+  if (reason == LWS_CALLBACK_ESTABLISHED) return open(page) ? 0 : -1;
+  const auto found = bridges_.find(page);
+  if (found == bridges_.end()) return -1;
+  if (reason == LWS_CALLBACK_CLOSED) {
+    bridges_.erase(found);
+    return 0;
+  }
+  Bridge& bridge = *found->second;
+  const bool goes_on = reason == LWS_CALLBACK_RECEIVE
+                           ? bridge.page_sent({static_cast<const std::byte*>(in), size})
+                           : bridge.page_takes();
+  return goes_on ? 0 : -1;
+}
+
+int Server::told_of_socket(lws* socket, lws_callback_reasons reason) {
+  if (socket == listening_) {
+    if (reason == LWS_CALLBACK_RAW_RX_FILE) take_visitors();
+    return 0;
+  }
+  auto* const bridge = static_cast<Bridge*>(lws_get_opaque_user_data(socket));
+  if (bridge == nullptr) return 0;
+  if (reason == LWS_CALLBACK_RAW_RX_FILE) bridge->node_sent();
+  if (reason == LWS_CALLBACK_RAW_WRITEABLE_FILE) bridge->node_takes();
+  if (reason == LWS_CALLBACK_RAW_CLOSE_FILE) bridge->no_longer_watched();
+  return 0;
+}
+
+/// Who comes when all places are taken is sent away.
+void Server::take_visitors() {
+  while (const auto visitor = listener_->accept()) {
+    if (visitors_.size() >= options_.connections) continue;
+    const int handle = platform::another_handle(visitor->handle());
+    if (handle < 0) continue;
+    lws* const taken = lws_adopt_socket_vhost(vhost_, handle);
+    if (taken != nullptr) visitors_.insert(taken);
+  }
+}
+
+bool Server::open(lws* page) {
+  std::array<char, 64> address{};
+  lws_get_peer_simple(page, address.data(), address.size());
+  auto pair = StreamSocket::make_pair(std::string("a page at ") + address.data());
+  if (!pair) return false;
+  auto& [inner, outer] = pair.value();
+  auto bridge = std::make_unique<Bridge>(page, std::move(inner), options_);
+  if (!bridge->watch(vhost_)) return false;
+  bridges_[page] = std::move(bridge);
+  const std::lock_guard lock(mutex_);
+  accepted_.push_back(ride::make_connection(std::move(outer), "page"));
+  const std::byte ring{};
+  std::size_t sent = 0;
+  static_cast<void>(ringer_->send(std::span(&ring, 1), sent));
+  return true;
+}
+
+}  // namespace armature::websocket::internal

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// RIDE over WebSockets, for pages that the same address serves; docs/web.md says how to use it.
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/base/time.hpp"
+#include "armature/ride/transport.hpp"
+
+namespace armature::websocket {
+
+/// What is served, and what one page, and all together, may take.
+struct Options {
+  std::string pages = {};        ///< the folder whose files are served; nothing outside of it is
+  std::size_t connections = 32;  ///< at an address, those that only fetch files, too
+  std::size_t frame_bytes =
+      64 * 1024;  ///< of a frame from a page; a larger one ends the connection
+  /// Who takes nothing of what waits for it so long is disconnected.
+  base::Duration time_to_take = std::chrono::seconds(30);
+};
+
+/// The transport `ws://127.0.0.1:8080`, for ride::NodeOptions::transports. It listens for pages and
+/// does not connect. Only loopback addresses are safe, since nothing on the way is encrypted.
+/// Identity of the other side: `page`, for whoever had the address that `pages` tells.
+class Transport : public ride::Transport {
+ public:
+  /// Addresses to open in a browser of this machine, one for each that is listened at. What is
+  /// behind the `#` is a secret: it lets in.
+  /// @thread any
+  virtual std::vector<std::string> pages() const = 0;
+};
+
+/// @param diagnostics  why the folder cannot be served
+/// @return none after an error
+std::shared_ptr<Transport> make_transport(const Options& options, base::Diagnostics& diagnostics);
+
+}  // namespace armature::websocket
