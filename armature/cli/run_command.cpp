@@ -54,7 +54,7 @@ void add_run(const CommandLine& to) {
       ->add_option("--pace", run.rate,
                    "simulated seconds in a second: 1 is real time, 0.1 a tenth of it")
       ->type_name("RATE")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
       ->needs(simulated);
   command
       ->add_option_function<std::string>(
