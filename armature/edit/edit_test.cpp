@@ -255,10 +255,10 @@ TEST(Edit, BindsWhatAComponentRequires) {
 }
 
 TEST(Edit, RefusesConnectionsOfWhatIsNotThere) {
-  EXPECT_EQ(
-      refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
-      "error: connect Filtr.Out -> Source.In is refused: unknown component 'Filtr' (did you mean "
-      "'Filter'?)\n");
+  EXPECT_EQ(refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
+            "robot.yaml: error: connect Filtr.Out -> Source.In is refused: unknown component "
+            "'Filtr' (did you mean "
+            "'Filter'?)\n");
   EXPECT_NE(refusal(kWave, Connect{"Source.Position", "Filter.Raw"}).find("is given twice"),
             std::string::npos);
   EXPECT_NE(refusal(kWave, Disconnect{"Source.Position", "Filter.Row"}).find("did you mean"),
