@@ -52,6 +52,13 @@ TEST(Edit, SetsAPropertyInsideAnother) {
             "components:\n  A: {model: M, properties: {G: {Ki: 2}}}\n");
 }
 
+TEST(Edit, RefusesAPropertyInsideOneThatIsNoMap) {
+  EXPECT_EQ(
+      refusal(kWave, Set{"Filter.Weight.x", "1"}),
+      "robot.yaml:10:15: error: set Filter.Weight.x is refused: the value here is no map to add "
+      "'Weight.x' to\n");
+}
+
 TEST(Edit, KeepsTheKindOfQuotes) {
   EXPECT_EQ(edited("components:\n  A: {model: M, properties: {N: 'a b'}}\n", Set{"A.N", "c"}),
             "components:\n  A: {model: M, properties: {N: 'c'}}\n");
