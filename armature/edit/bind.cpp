@@ -42,7 +42,8 @@ Expectation expect_bound(const State& before, const Targets& targets, const Bind
       if (!targets.has(component.name) || found == nullptr) continue;
       if (!known.contains(found->component)) {
         diagnostics.error(
-            {}, to_text(Change(bind)) + " is refused: unknown component '" + found->component + "'",
+            {before.file, 0, 0},
+            to_text(Change(bind)) + " is refused: unknown component '" + found->component + "'",
             base::suggestion(found->component, {known.begin(), known.end()}));
       }
       Binding* own = find_binding(component, bind.name);

@@ -30,14 +30,14 @@ bool is_plain(const document::Component& component, const AddComponent& add) {
   return component.model == add.model && component.properties.empty() && component.peers.empty();
 }
 
-void check_plain(const Document& document, const Entry& entry, const AddComponent& add,
-                 base::Diagnostics& diagnostics) {
+void check_plain(const State& before, const Document& document, const Entry& entry,
+                 const AddComponent& add, base::Diagnostics& diagnostics) {
   for (const auto& component : document.components) {
     const bool added =
         std::find(entry.names.begin(), entry.names.end(), component.name) != entry.names.end();
     if (!added || is_plain(component, add)) continue;
-    diagnostics.error({}, to_text(Change(add)) + " is refused: '" + component.name +
-                              "' would have more than its model");
+    diagnostics.error({before.file, 0, 0}, to_text(Change(add)) + " is refused: '" +
+                                               component.name + "' would have more than its model");
   }
 }
 
@@ -52,10 +52,11 @@ Expectation expect_added(const State& before, const AddComponent& add) {
           return name == own || name.starts_with(own + ".");
         });
       };
-      check_plain(after.document, entry, add, diagnostics);
+      check_plain(before, after.document, entry, add, diagnostics);
       const Document others = without(after.document, is_its);
       for (const std::string& other : differences(before.document, others)) {
-        diagnostics.error({}, to_text(Change(add)) + " is refused: " + other + " would change");
+        diagnostics.error({before.file, 0, 0},
+                          to_text(Change(add)) + " is refused: " + other + " would change");
       }
       return after.document;
     }
@@ -168,11 +169,10 @@ void remove_mentions(const Targets& targets, Workshop& shop) {
 
 void draft(const AddComponent& add, Workshop& shop) {
   if (!is_free(add, shop)) return;
-  const SourceText* file = shop.file_for_new();
-  if (file == nullptr) return;
+  const SourceText& file = shop.file_for_new();
   Value body = make_map();
   body.entries.push_back({"model", make_text(add.model), {}, {}});
-  shop.add_to_section(*file, "components", add.name, body, levels_of_neighbours(*file));
+  shop.add_to_section(file, "components", add.name, body, levels_of_neighbours(file));
   shop.expect(expect_added(shop.before(), add));
 }
 

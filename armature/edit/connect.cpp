@@ -23,10 +23,12 @@ const Node* added_item(const SourceMap& map, const std::string& path) {
   return items.empty() ? nullptr : items.back();
 }
 
-void check_end(const document::Endpoint& end, const std::set<std::string>& known,
-               const std::string& what, base::Diagnostics& diagnostics) {
+void check_end(const State& before, const document::Endpoint& end,
+               const std::set<std::string>& known, const std::string& what,
+               base::Diagnostics& diagnostics) {
   if (known.contains(end.component)) return;
-  diagnostics.error({}, what + " is refused: unknown component '" + end.component + "'",
+  diagnostics.error({before.file, 0, 0},
+                    what + " is refused: unknown component '" + end.component + "'",
                     base::suggestion(end.component, {known.begin(), known.end()}));
 }
 
@@ -44,20 +46,21 @@ Expectation expect_connected(const State& before, const Connect& connect, const 
       const ConnectionEntry* entry = after.map->entry_of(one);
       if (item == nullptr || entry == nullptr || entry->item != item) return false;
       if (!has_settings(one, wanted)) {
-        diagnostics.error({}, what + " is refused: it would have other settings");
+        diagnostics.error({before.file, 0, 0}, what + " is refused: it would have other settings");
       }
-      check_end(one.from, known, what, diagnostics);
-      check_end(one.to, known, what, diagnostics);
+      check_end(before, one.from, known, what, diagnostics);
+      check_end(before, one.to, known, what, diagnostics);
       return true;
     });
     const bool several = has_braces(make_text(connect.from + connect.to));
     const std::size_t added = count - others.connections.size();
     if (added == 0 || (added > 1 && !several)) {
-      diagnostics.error(
-          {}, what + " is refused: " + std::to_string(added) + " connections would come of it");
+      diagnostics.error({before.file, 0, 0},
+                        what + (added == 0 ? " is refused: no connection would come of it"
+                                           : " is refused: several connections would come of it"));
     }
     for (const std::string& other : differences(before.document, others)) {
-      diagnostics.error({}, what + " is refused: " + other + " would change");
+      diagnostics.error({before.file, 0, 0}, what + " is refused: " + other + " would change");
     }
     return after.document;
   };
@@ -67,11 +70,11 @@ Expectation expect_connected(const State& before, const Connect& connect, const 
 
 void draft(const Connect& connect, Workshop& shop) {
   const std::optional<Value> settings = connection_settings(connect.settings, shop);
-  const SourceText* file = shop.file_for_new();
-  if (!settings || file == nullptr) return;
-  shop.add_item_to_section(*file, "connections",
+  const SourceText& file = shop.file_for_new();
+  if (!settings) return;
+  shop.add_item_to_section(file, "connections",
                            connection_item(connect.from, connect.to, *settings));
-  shop.expect(expect_connected(shop.before(), connect, *settings, file->path()));
+  shop.expect(expect_connected(shop.before(), connect, *settings, file.path()));
 }
 
 }  // namespace armature::edit::internal

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "armature/base/near_name.hpp"
 #include "armature/edit/internal/workshop.hpp"
 
 namespace armature::edit {
@@ -89,11 +90,25 @@ State prove(Workshop& shop, Texts& texts) {
   return after;
 }
 
+/// Whether the files that the edit may change are those of the deployment.
+bool are_known(const Edit& edit, Workshop& shop) {
+  std::vector<std::string> known;
+  for (const auto& one : shop.map().files()) known.push_back(one->path());
+  for (const std::string& file : edit.files) {
+    if (shop.map().file(file) != nullptr) continue;
+    shop.refuse("'" + file + "' is no YAML file that the deployment includes",
+                base::suggestion(file, known));
+  }
+  return shop.ok();
+}
+
 /// Drafts a change, makes it in `texts`, and proves it. With errors the texts are of no use.
 State make(const Edit& edit, const State& before, Texts& texts, base::Diagnostics& diagnostics) {
   base::Diagnostics found;
   Workshop shop(before, edit, found);
-  std::visit([&](const auto& change) { internal::draft(change, shop); }, edit.change);
+  if (are_known(edit, shop)) {
+    std::visit([&](const auto& change) { internal::draft(change, shop); }, edit.change);
+  }
   State after;
   if (found.ok()) {
     const auto replacements = shop.take();
@@ -120,6 +135,10 @@ Outcome apply_edits(const std::string& file, const std::vector<Edit>& edits,
     return outcome;
   }
   Texts texts(read);
+  if (const auto text = texts.read(normal_path(file)); !text) {
+    outcome.diagnostics.error({}, text.error());
+    return outcome;
+  }
   State state = internal::read_state(
       file, [&texts](const std::string& path) { return texts.read(path); }, limits,
       outcome.diagnostics);

@@ -52,6 +52,13 @@ TEST(Edit, SetsAPropertyInsideAnother) {
             "components:\n  A: {model: M, properties: {G: {Ki: 2}}}\n");
 }
 
+TEST(Edit, RefusesAPropertyInsideOneThatIsNoMap) {
+  EXPECT_EQ(
+      refusal(kWave, Set{"Filter.Weight.x", "1"}),
+      "robot.yaml:10:15: error: set Filter.Weight.x is refused: the value here is no map to add "
+      "'Weight.x' to\n");
+}
+
 TEST(Edit, KeepsTheKindOfQuotes) {
   EXPECT_EQ(edited("components:\n  A: {model: M, properties: {N: 'a b'}}\n", Set{"A.N", "c"}),
             "components:\n  A: {model: M, properties: {N: 'c'}}\n");
@@ -255,10 +262,10 @@ TEST(Edit, BindsWhatAComponentRequires) {
 }
 
 TEST(Edit, RefusesConnectionsOfWhatIsNotThere) {
-  EXPECT_EQ(
-      refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
-      "error: connect Filtr.Out -> Source.In is refused: unknown component 'Filtr' (did you mean "
-      "'Filter'?)\n");
+  EXPECT_EQ(refusal(kWave, Connect{"Filtr.Out", "Source.In"}),
+            "robot.yaml: error: connect Filtr.Out -> Source.In is refused: unknown component "
+            "'Filtr' (did you mean "
+            "'Filter'?)\n");
   EXPECT_NE(refusal(kWave, Connect{"Source.Position", "Filter.Raw"}).find("is given twice"),
             std::string::npos);
   EXPECT_NE(refusal(kWave, Disconnect{"Source.Position", "Filter.Row"}).find("did you mean"),

@@ -69,7 +69,8 @@ Expectation expect_peer(const State& before, const Targets& targets, const AddPe
         component.peers.push_back(peer);
         if (known.contains(peer.component)) continue;
         diagnostics.error(
-            {}, to_text(Change(add)) + " is refused: unknown component '" + peer.component + "'",
+            {before.file, 0, 0},
+            to_text(Change(add)) + " is refused: unknown component '" + peer.component + "'",
             base::suggestion(peer.component, {known.begin(), known.end()}));
       }
     }
@@ -202,12 +203,12 @@ void draft(const RemovePeer& remove, Workshop& shop) {
 
 void draft(const AddParameter& add, Workshop& shop) {
   const std::optional<Value> value = value_of(add.value, "parameter '" + add.name + "'", shop);
-  const SourceText* file = shop.file_for_new();
-  if (!value || file == nullptr) return;
+  const SourceText& file = shop.file_for_new();
+  if (!value) return;
   if (document::find(shop.document().parameters, add.name) != nullptr) {
     return shop.refuse("parameter '" + add.name + "' is there already", "set changes it");
   }
-  shop.add_to_section(*file, "parameters", add.name, *value, 0);
+  shop.add_to_section(file, "parameters", add.name, *value, 0);
   shop.expect([&before = shop.before(), add](const State& after, base::Diagnostics&) {
     Document expected = before.document;
     const auto* found = document::find(after.document.parameters, add.name);
@@ -217,12 +218,11 @@ void draft(const AddParameter& add, Workshop& shop) {
 }
 
 void draft(const AddLibrary& add, Workshop& shop) {
-  const SourceText* file = shop.file_for_new();
-  if (file == nullptr) return;
+  const SourceText& file = shop.file_for_new();
   if (const auto [there, item] = find_library(add.name, shop.map()); there != nullptr) {
     return shop.refuse(there->place_of(*item), "library '" + add.name + "' is there already");
   }
-  shop.add_item_to_section(*file, "libraries", make_text(add.name));
+  shop.add_item_to_section(file, "libraries", make_text(add.name));
   shop.expect([&before = shop.before(), add](const State&, base::Diagnostics&) {
     Document expected = before.document;
     expected.libraries.push_back({add.name, {}});

@@ -53,6 +53,11 @@ void add_property(const Entry& entry, const std::string& path, const Value& valu
     map = inner;
     rest = rest.substr(dot + 1);
   }
+  const Node* there = find_value(map, rest.substr(0, rest.find('.')));
+  if (there != nullptr) {
+    shop.refuse(entry.file->place_of(*there), "the value here is no map to add '" + rest + "' to");
+    return;
+  }
   const document::Property property = nested(rest, value);
   if (map != nullptr && rest != path) {
     shop.layout(*entry.file).add_entry(*map, property.name, property.value);
@@ -121,9 +126,10 @@ std::pair<const SourceText*, const Node*> find_parameter(const std::string& name
 void refuse_unknown_parameter(const std::string& name, Workshop& shop) {
   std::vector<std::string> known;
   for (const auto& parameter : shop.document().parameters) known.push_back(parameter.name);
+  const std::string near = base::suggestion(name, known);
   shop.refuse("unknown parameter '" + name + "'",
-              base::suggestion(name, known) +
-                  "; a new one is an edit of its own, and properties are Component.Property");
+              (near.empty() ? "" : near + "; ") +
+                  "a new one is an edit of its own, and properties are Component.Property");
 }
 
 Expectation expect_parameter(const State& before, const std::string& name) {

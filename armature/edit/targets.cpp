@@ -189,8 +189,7 @@ void refuse_site(const Site& site, const Targets& targets, Workshop& shop) {
 }
 
 const Entry* open_entry(const std::string& name, const Targets& targets, const Workshop& shop) {
-  const auto& files = shop.edit().files;
-  const SourceText* wanted = files.empty() ? &shop.map().main() : shop.map().file(files.front());
+  const SourceText* wanted = &shop.file_for_new();
   const auto rank = [&](const Entry& entry) {
     return std::pair(entry.file == wanted, entry.names.size());  // one for all of a range is best
   };

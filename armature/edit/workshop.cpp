@@ -79,13 +79,8 @@ bool Workshop::require(const SourceText& file, const Node& node, const std::stri
   return false;
 }
 
-const SourceText* Workshop::file_for_new() {
-  if (edit_.files.empty()) return &map().main();
-  const SourceText* file = map().file(edit_.files.front());
-  if (file == nullptr) {
-    refuse("'" + edit_.files.front() + "' is no YAML file that " + before_.file + " includes");
-  }
-  return file;
+const SourceText& Workshop::file_for_new() const {
+  return edit_.files.empty() ? map().main() : *map().file(edit_.files.front());
 }
 
 Layout& Workshop::layout(const SourceText& file) {

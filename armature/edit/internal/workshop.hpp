@@ -53,7 +53,7 @@ class Workshop {
   bool require(const SourceText& file, const Node& node, const std::string& what);
 
   /// The file for what is new: the first of those given, or the deployment's own.
-  const SourceText* file_for_new();
+  const SourceText& file_for_new() const;
 
   Layout& layout(const SourceText& file);
 
