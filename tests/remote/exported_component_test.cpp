@@ -36,7 +36,7 @@ struct Peer {
       std::string text;
     };
     const auto answer = std::make_shared<Answer>();
-    link.ask(number, fields, [answer](ride::Code code, std::string_view why, auto) {
+    link.ask(number, {}, fields, [answer](ride::Code code, std::string_view why, auto) {
       answer->code = code;
       answer->text = why;
       answer->came = true;
@@ -124,7 +124,7 @@ TEST_F(RemotePeer, ACommandIsCancelledWithTheConnectionThatBeganItAndWithNoOther
   for (const bool with_answer : {true, false}) {
     const ride::Number travel = ride::number_of("void travel(double)");
     if (with_answer) {
-      peer->link.ask(travel, ride::Fields(endless), [](auto, auto, auto) {});
+      peer->link.ask(travel, {}, ride::Fields(endless), [](auto, auto, auto) {});
     } else {
       EXPECT_TRUE(serve_until({robot.get()}, [&] {  // the component is looked up first
         return peer->link.send(travel, {}, ride::Fields(endless)) == ride::Sent::kYes;
