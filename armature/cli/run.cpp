@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -26,7 +25,6 @@
 #include "armature/platform/clock.hpp"
 #include "armature/platform/death_watch.hpp"
 #include "armature/platform/file.hpp"
-#include "armature/platform/memory.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/process.hpp"
 #include "armature/platform/stop_priority.hpp"
