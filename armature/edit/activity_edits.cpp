@@ -56,7 +56,7 @@ Expectation expect_activity(const State& before, const Targets& targets, const V
     if (has_braces(value)) return with_activities_of(after.document, before.document, targets);
     std::vector<std::string> settings;
     for (const std::string& name : targets.names) {
-      settings.push_back(name + "." + targets.rest + "=" + text);
+      settings.push_back(setting(name, targets.rest, text));
     }
     if (!key_in(targets).empty()) return before.with(settings);
     Document expected = before.document;

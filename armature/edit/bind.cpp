@@ -41,10 +41,9 @@ Expectation expect_bound(const State& before, const Targets& targets, const Bind
       const Binding* found = binding_of(after.document, component.name, bind.name);
       if (!targets.has(component.name) || found == nullptr) continue;
       if (!known.contains(found->component)) {
-        diagnostics.error(
-            {before.file, 0, 0},
-            to_text(Change(bind)) + " is refused: unknown component '" + found->component + "'",
-            base::suggestion(found->component, {known.begin(), known.end()}));
+        diagnostics.error({before.file, 0, 0},
+                          refusal_of(bind, "unknown component '" + found->component + "'"),
+                          base::suggestion(found->component, {known.begin(), known.end()}));
       }
       Binding* own = find_binding(component, bind.name);
       if (own != nullptr) *own = *found;

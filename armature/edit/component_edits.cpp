@@ -36,8 +36,8 @@ void check_plain(const State& before, const Document& document, const Entry& ent
     const bool added =
         std::find(entry.names.begin(), entry.names.end(), component.name) != entry.names.end();
     if (!added || is_plain(component, add)) continue;
-    diagnostics.error({before.file, 0, 0}, to_text(Change(add)) + " is refused: '" +
-                                               component.name + "' would have more than its model");
+    diagnostics.error({before.file, 0, 0},
+                      refusal_of(add, "'" + component.name + "' would have more than its model"));
   }
 }
 
@@ -55,8 +55,7 @@ Expectation expect_added(const State& before, const AddComponent& add) {
       check_plain(before, after.document, entry, add, diagnostics);
       const Document others = without(after.document, is_its);
       for (const std::string& other : differences(before.document, others)) {
-        diagnostics.error({before.file, 0, 0},
-                          to_text(Change(add)) + " is refused: " + other + " would change");
+        diagnostics.error({before.file, 0, 0}, refusal_of(add, other + " would change"));
       }
       return after.document;
     }

@@ -24,11 +24,11 @@ const Node* added_item(const SourceMap& map, const std::string& path) {
 }
 
 void check_end(const State& before, const document::Endpoint& end,
-               const std::set<std::string>& known, const std::string& what,
+               const std::set<std::string>& known, const Connect& connect,
                base::Diagnostics& diagnostics) {
   if (known.contains(end.component)) return;
   diagnostics.error({before.file, 0, 0},
-                    what + " is refused: unknown component '" + end.component + "'",
+                    refusal_of(connect, "unknown component '" + end.component + "'"),
                     base::suggestion(end.component, {known.begin(), known.end()}));
 }
 
@@ -37,7 +37,6 @@ Expectation expect_connected(const State& before, const Connect& connect, const 
                              const std::string& path) {
   return [&before, connect, path, wanted = plain_settings(settings)](
              const State& after, base::Diagnostics& diagnostics) {
-    const std::string what = to_text(Change(connect));
     const Node* item = added_item(*after.map, path);
     const std::set<std::string> known = names_in(after.document);
     Document others = after.document;
@@ -46,21 +45,21 @@ Expectation expect_connected(const State& before, const Connect& connect, const 
       const ConnectionEntry* entry = after.map->entry_of(one);
       if (item == nullptr || entry == nullptr || entry->item != item) return false;
       if (!has_settings(one, wanted)) {
-        diagnostics.error({before.file, 0, 0}, what + " is refused: it would have other settings");
+        diagnostics.error({before.file, 0, 0}, refusal_of(connect, "it would have other settings"));
       }
-      check_end(before, one.from, known, what, diagnostics);
-      check_end(before, one.to, known, what, diagnostics);
+      check_end(before, one.from, known, connect, diagnostics);
+      check_end(before, one.to, known, connect, diagnostics);
       return true;
     });
     const bool several = has_braces(make_text(connect.from + connect.to));
     const std::size_t added = count - others.connections.size();
     if (added == 0 || (added > 1 && !several)) {
       diagnostics.error({before.file, 0, 0},
-                        what + (added == 0 ? " is refused: no connection would come of it"
-                                           : " is refused: several connections would come of it"));
+                        refusal_of(connect, added == 0 ? "no connection would come of it"
+                                                       : "several connections would come of it"));
     }
     for (const std::string& other : differences(before.document, others)) {
-      diagnostics.error({before.file, 0, 0}, what + " is refused: " + other + " would change");
+      diagnostics.error({before.file, 0, 0}, refusal_of(connect, other + " would change"));
     }
     return after.document;
   };

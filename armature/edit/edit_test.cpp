@@ -312,8 +312,7 @@ TEST(Edit, TellsWhatIsSeenWhenAValueIsTakenBack) {
   const Outcome outcome = internal::outcome_of(files, {{Unset{"A.N"}}});
   ASSERT_TRUE(outcome.ok());
   EXPECT_EQ(outcome.files[0].after, "include: part.yaml\n");
-  EXPECT_EQ(outcome.diagnostics.to_text(),
-            "part.yaml:2:33: note: 'A.N' is 1 now, as this place says\n");
+  EXPECT_EQ(outcome.diagnostics.to_text(), "part.yaml:2:33: note: A.N=1 is seen now\n");
   EXPECT_EQ(edited(files, {Unset{"A.N"}, {"part.yaml"}}), "include: part.yaml\n");
 }
 

@@ -68,10 +68,9 @@ Expectation expect_peer(const State& before, const Targets& targets, const AddPe
         const document::Peer& peer = found->peers[i];
         component.peers.push_back(peer);
         if (known.contains(peer.component)) continue;
-        diagnostics.error(
-            {before.file, 0, 0},
-            to_text(Change(add)) + " is refused: unknown component '" + peer.component + "'",
-            base::suggestion(peer.component, {known.begin(), known.end()}));
+        diagnostics.error({before.file, 0, 0},
+                          refusal_of(add, "unknown component '" + peer.component + "'"),
+                          base::suggestion(peer.component, {known.begin(), known.end()}));
       }
     }
     return expected;

@@ -31,14 +31,18 @@ Value with_sorted_properties(Value body) {
   return body;
 }
 
+std::string called(const std::string& kind, const std::string& name) {
+  return kind + " '" + name + "'";
+}
+
 void add_parts(std::vector<Part>& parts, const std::string& kind, const Value& section) {
   for (const Property& entry : section.entries) {
     const std::string text = document::flow_text(with_sorted_properties(entry.value));
-    parts.push_back({kind + " '" + entry.name + "'", text});
+    parts.push_back({called(kind, entry.name), text});
   }
   for (const Value& item : section.items) {
     const std::string text = document::flow_text(item);
-    parts.push_back({kind + " '" + text + "'", text});
+    parts.push_back({called(kind, text), text});
   }
 }
 

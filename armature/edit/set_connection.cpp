@@ -59,8 +59,7 @@ Expectation expect_settings_of(const State& before,
       const ConnectionEntry* entry = before.map->entry_of(one);
       if (std::find(items.begin(), items.end(), entry) == items.end()) continue;
       if (!has_settings(found[i], wanted)) {
-        diagnostics.error({before.file, 0, 0},
-                          to_text(Change(set)) + " is refused: it would have other settings");
+        diagnostics.error({before.file, 0, 0}, refusal_of(set, "it would have other settings"));
       }
       one.policy = found[i].policy;
       one.name = found[i].name;

@@ -74,8 +74,8 @@ Expectation expect_settings(const State& before, const Targets& targets, const V
     for (const std::string& name : targets.names) {
       const Value* found = find_property(after.document, name, targets.rest);
       const bool computed = has_braces(value) && found != nullptr;
-      settings.push_back(name + "." + targets.rest + "=" +
-                         (computed ? document::flow_text(*found) : text));
+      settings.push_back(
+          setting(name, targets.rest, computed ? document::flow_text(*found) : text));
     }
     return before.with(settings);
   };
@@ -205,9 +205,9 @@ Expectation expect_unset(const State& before, const Targets& targets) {
       if (found == nullptr) {
         gone.push_back(name);
       } else {
-        settings.push_back(name + "." + targets.rest + "=" + document::flow_text(*found));
-        diagnostics.note(found->where, "'" + name + "." + targets.rest + "' is " +
-                                           document::to_text(*found) + " now, as this place says");
+        settings.push_back(setting(name, targets.rest, document::flow_text(*found)));
+        diagnostics.note(found->where,
+                         setting(name, targets.rest, document::to_text(*found)) + " is seen now");
       }
     }
     Document expected = settings.empty() ? before.document : before.with(settings);

@@ -155,6 +155,10 @@ const Value* find_property(const Document& document, const std::string& name,
   return nullptr;
 }
 
+std::string setting(const std::string& name, const std::string& path, const std::string& value) {
+  return name + "." + path + "=" + value;
+}
+
 std::vector<Site> sites_in_force(const Targets& targets, const FindNode& find, const Workshop& shop,
                                  std::vector<std::string>& without) {
   std::vector<Site> sites;

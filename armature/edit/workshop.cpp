@@ -64,6 +64,10 @@ document::Document State::with(const std::vector<std::string>& settings) const {
   return found.ok() ? std::move(result) : document::Document{};
 }
 
+std::string refusal_of(const Change& change, const std::string& reason) {
+  return to_text(change) + " is refused: " + reason;
+}
+
 bool Workshop::may_change(const SourceText& file) const {
   if (&file == &map().main()) return true;
   return std::any_of(edit_.files.begin(), edit_.files.end(), [&](const std::string& allowed) {
@@ -133,7 +137,7 @@ void Workshop::add_item_to_section(const SourceText& file, const std::string& se
 
 void Workshop::refuse(const base::Location& where, const std::string& reason,
                       const std::string& hint) {
-  diagnostics_.error(where, to_text(edit_.change) + " is refused: " + reason, hint);
+  diagnostics_.error(where, refusal_of(edit_.change, reason), hint);
 }
 
 void Workshop::refuse(const std::string& reason, const std::string& hint) {

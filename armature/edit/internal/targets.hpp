@@ -40,6 +40,9 @@ std::set<std::string> names_in(const document::Document& document);
 const document::Value* find_property(const document::Document& document, const std::string& name,
                                      const std::string& path);
 
+/// As the command line would set it: `Joint1.Gain=2`.
+std::string setting(const std::string& name, const std::string& path, const std::string& value);
+
 /// Where a value stands in an entry, nullptr if it does not.
 using FindNode = std::function<const Node*(const Entry& entry)>;
 

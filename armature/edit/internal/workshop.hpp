@@ -31,6 +31,9 @@ struct State {
 State read_state(const std::string& file, const deploy::FileReader& read,
                  const document::Limits& limits, base::Diagnostics& diagnostics);
 
+/// `set A.N is refused: REASON`.
+std::string refusal_of(const Change& change, const std::string& reason);
+
 /// Given the document after an edit, the one that it should be: from the one before by what is
 /// meant. Where the edit is not what was meant it adds errors.
 using Expectation =
