@@ -126,7 +126,7 @@ std::pair<const SourceText*, const Node*> find_parameter(const std::string& name
 void refuse_unknown_parameter(const std::string& name, Workshop& shop) {
   std::vector<std::string> known;
   for (const auto& parameter : shop.document().parameters) known.push_back(parameter.name);
-  const std::string near = base::suggestion(name, known);
+  const std::string near = base::suggestion(name, known).text;
   shop.refuse("unknown parameter '" + name + "'",
               (near.empty() ? "" : near + "; ") +
                   "a new one is an edit of its own, and properties are Component.Property");

@@ -136,11 +136,11 @@ void Workshop::add_item_to_section(const SourceText& file, const std::string& se
 }
 
 void Workshop::refuse(const base::Location& where, const std::string& reason,
-                      const std::string& hint) {
+                      const base::Hint& hint) {
   diagnostics_.error(where, refusal_of(edit_.change, reason), hint);
 }
 
-void Workshop::refuse(const std::string& reason, const std::string& hint) {
+void Workshop::refuse(const std::string& reason, const base::Hint& hint) {
   refuse({before_.file, 0, 0}, reason, hint);
 }
 

@@ -67,8 +67,8 @@ class Workshop {
   void add_item_to_section(const SourceText& file, const std::string& section,
                            const document::Value& item);
 
-  void refuse(const base::Location& where, const std::string& reason, const std::string& hint = {});
-  void refuse(const std::string& reason, const std::string& hint = {});
+  void refuse(const base::Location& where, const std::string& reason, const base::Hint& hint = {});
+  void refuse(const std::string& reason, const base::Hint& hint = {});
   bool ok() const { return diagnostics_.ok(); }
   base::Diagnostics& diagnostics() { return diagnostics_; }
   const Edit& edit() const { return edit_; }
