@@ -5,7 +5,7 @@
   released_test.py SOURCE_DIR BUILD_DIR
 
 The loader takes functions of the standard library from the first library that has them, so those
-whose code is given back (armature/cli/run.cpp) must not offer any.
+whose code is given back (armature/cli/release_code.cpp) must not offer any.
 """
 import re
 import subprocess
@@ -18,7 +18,7 @@ OF_THE_STANDARD_LIBRARY = re.compile(r"(_ZNSt|_ZNKSt|_ZSt|_ZN9__gnu_cxx)")
 
 
 def released():
-    text = (SOURCE / "armature/cli/run.cpp").read_text(encoding="utf-8")
+    text = (SOURCE / "armature/cli/release_code.cpp").read_text(encoding="utf-8")
     lists = re.findall(r"string_view k(?:NeverRealTime|OfTools|OfTheTerminal|OfTheNetwork)\[\] = \{(.*?)\};", text, re.S)
     return [name for each in lists for name in re.findall(r'"(libarmature_\w+\.so)"', each)]
 
