@@ -22,7 +22,7 @@ function(armature_compact target)
 endfunction()
 
 # Most runs do not need this library: while an application runs, its code may not be in memory
-# (cli/run.cpp). So what it instantiated of the standard library is not for others.
+# (cli/release_code.cpp). So what it instantiated of the standard library is not for others.
 function(armature_not_in_every_run target)
   set(exports ${PROJECT_SOURCE_DIR}/cmake/exports.map)
   target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
