@@ -11,6 +11,10 @@ ThreadWatch::Picture empty_picture(std::size_t numbers) {
           std::vector<base::Time>(numbers, base::Time::min()), 0};
 }
 
+bool are_of_one(const WatchedNumber& a, const WatchedNumber& b) {
+  return a.port == b.port && a.property == b.property;
+}
+
 }  // namespace
 
 ThreadWatch::ThreadWatch(std::vector<WatchedNumber> numbers, base::Duration interval)
@@ -18,22 +22,32 @@ ThreadWatch::ThreadWatch(std::vector<WatchedNumber> numbers, base::Duration inte
       interval_(interval),
       early_(interval / 4),
       picture_(empty_picture(numbers_.size())),
-      latest_(picture_) {}
+      latest_(picture_) {
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (i == 0 || !are_of_one(numbers_[i - 1], numbers_[i])) runs_.push_back({i, i});
+    runs_.back().end = i + 1;
+  }
+}
 
 void ThreadWatch::copy(base::Time now) noexcept {
   due_ = now + interval_ - early_;
   ++picture_.number;
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    const WatchedNumber& one = numbers_[i];
-    if (one.port == nullptr) {
-      picture_.values[i] = one.place.read(one.property->data());
-      picture_.times[i] = now;
-    } else if (one.port->current_sequence() > 0) {
-      picture_.values[i] = one.place.read(one.port->current());
-      picture_.times[i] = one.port->current_time();
+  for (const Run& run : runs_) {
+    const WatchedNumber& first = numbers_[run.begin];
+    if (first.port == nullptr) {
+      copy_values(run, first.property->data(), now);
+    } else if (first.port->current_sequence() > 0) {
+      copy_values(run, first.port->current(), first.port->current_time());
     }
   }
   latest_.write(picture_);
+}
+
+void ThreadWatch::copy_values(const Run& run, const void* value, base::Time time) noexcept {
+  for (std::size_t i = run.begin; i < run.end; ++i) {
+    picture_.values[i] = numbers_[i].place.read(value);
+    picture_.times[i] = time;
+  }
 }
 
 }  // namespace armature::exec

@@ -45,7 +45,16 @@ class ThreadWatch {
  private:
   friend class Engine;
 
+  /// Numbers of one port or property, which follow each other: what they have in common is asked
+  /// for once.
+  struct Run {
+    std::size_t begin;
+    std::size_t end;
+  };
+  void copy_values(const Run& run, const void* value, base::Time time) noexcept;
+
   std::vector<WatchedNumber> numbers_;
+  std::vector<Run> runs_;
   base::Duration interval_;
   base::Duration early_;  ///< so much earlier than due is in time
   base::Time due_ = base::Time::min();
