@@ -79,7 +79,7 @@ std::string key_of(const Type& type, const std::vector<MadeField>& fields) {
 }
 
 /// The type of this description: the one that was made before, or from now on this one.
-const Type& keep(Type type, std::vector<MadeField> fields = {}) {
+const Type& keep_made(Type type, std::vector<MadeField> fields = {}) {
   static std::mutex mutex;
   static auto& all = *new std::map<std::string, std::unique_ptr<Made>>;
   type.hash = base::fnv1a(layout_text(type));
@@ -142,7 +142,7 @@ base::Result<const Type*> made_struct(const std::string& name,
   if (lifetime == nullptr) return too_many_sizes("struct " + name);
   Type made = blank(name, Kind::kStruct, size, type.alignment, *lifetime);
   made.fields = std::move(type.fields);
-  return &keep(std::move(made), fields);
+  return &keep_made(std::move(made), fields);
 }
 
 base::Result<const Type*> made_array(const Type& element, std::size_t count) {
@@ -157,7 +157,7 @@ base::Result<const Type*> made_array(const Type& element, std::size_t count) {
   Type made = blank(std::move(name), Kind::kArray, size, element.alignment, *lifetime);
   made.element = &element;
   made.count = count;
-  return &keep(std::move(made));
+  return &keep_made(std::move(made));
 }
 
 base::Result<const Type*> made_vector(const Type& element) {
@@ -180,7 +180,7 @@ base::Result<const Type*> made_vector(const Type& element) {
         " has elements that are neither numbers, bools, enumerations nor texts of any "
         "length: give it a number of elements"};
   }
-  return &keep(std::move(made));
+  return &keep_made(std::move(made));
 }
 
 const Type& made_enum(const std::string& name, const Type& underlying,
@@ -189,7 +189,7 @@ const Type& made_enum(const std::string& name, const Type& underlying,
   Type made = blank(name, Kind::kEnum, underlying.size, underlying.alignment, lifetime);
   made.underlying = &underlying;
   made.enumerators = enumerators;
-  return keep(std::move(made));
+  return keep_made(std::move(made));
 }
 
 }  // namespace armature::types
