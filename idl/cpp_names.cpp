@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "idl/cpp_words.hpp"
+#include "idl/internal/words.hpp"
 
 namespace armature::idl {
 namespace {
@@ -46,11 +47,6 @@ constexpr std::string_view kBesideTypes[] = {"event", "from", "handler", "to", "
 constexpr std::string_view kTypes[] = {"armature",     "armature_describe", "decode", "encode",
                                        "event_number", "in_range",          "std"};
 
-template <std::size_t N>
-bool is_one_of(const std::string_view (&words)[N], std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
-
 bool is_taken_for_types(std::string_view name) {
   return is_cpp_word(name) || is_one_of(kTypes, name) || is_one_of(kMembers, name) ||
          is_one_of(kHiding, name) || is_one_of(kVariables, name) || is_one_of(kBesideTypes, name);
@@ -72,9 +68,6 @@ std::string allowed(const std::string& name) {
 std::string joined(const std::string& front, const std::string& back) {
   return allowed(front + back);
 }
-
-/// Another name, which C++ does not keep for itself either.
-std::string changed(const std::string& name) { return name + (name.ends_with('_') ? "2" : "_"); }
 
 }  // namespace
 

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <string_view>
+
+#include "idl/internal/words.hpp"
 
 namespace armature::idl {
 namespace {
 
 /// What cannot be the name of a variable or class in a module.
-constexpr std::string_view kWords[] = {
+constexpr std::string_view kLanguageWords[] = {
     "arguments", "await",      "break",   "case",    "catch",      "class",     "const",
     "continue",  "debugger",   "default", "delete",  "do",         "else",      "enum",
     "eval",      "export",     "extends", "false",   "finally",    "for",       "function",
@@ -20,25 +21,18 @@ constexpr std::string_view kWords[] = {
     "typeof",    "undefined",  "var",     "void",    "while",      "with",      "yield"};
 
 /// What cannot be the name of a type, or what generated code means by it, as its own parameters.
-constexpr std::string_view kTypes[] = {"Promise", "Uint8Array", "any",     "as",       "bigint",
-                                       "boolean", "handler",    "infer",   "keyof",    "never",
-                                       "number",  "object",     "options", "readonly", "ride",
-                                       "string",  "symbol",     "unique",  "unknown"};
+constexpr std::string_view kTypeWords[] = {"Promise", "Uint8Array", "any",     "as",       "bigint",
+                                           "boolean", "handler",    "infer",   "keyof",    "never",
+                                           "number",  "object",     "options", "readonly", "ride",
+                                           "string",  "symbol",     "unique",  "unknown"};
 
 /// Members of the class from which placeholders are derived, and what every object has: a class
 /// with a function `then` would be waited for.
-constexpr std::string_view kMembers[] = {
+constexpr std::string_view kMemberWords[] = {
     "command", "component", "constructor", "hasOwnProperty", "name", "named",    "on_failed",
     "peer",    "prototype", "request",     "subscribe",      "then", "toString", "valueOf"};
 
-template <std::size_t N>
-bool is_one_of(const std::string_view (&words)[N], std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
-
 using Taken = std::function<bool(const std::string&)>;
-
-std::string changed(const std::string& name) { return name + (name.ends_with('_') ? "2" : "_"); }
 
 std::string free_name(std::string name, const Taken& is_taken) {
   while (is_taken(name)) name = changed(name);
@@ -71,7 +65,8 @@ TypescriptNames::TypescriptNames(const Program& program) {
         name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; }, '_');
     if (std::isdigit(static_cast<unsigned char>(name.front())) != 0) name = "_" + name;
     modules_[module.name] = free_name(name, [&](const std::string& other) {
-      return is_one_of(kWords, other) || is_one_of(kTypes, other) || declared_.contains(other) ||
+      return is_one_of(kLanguageWords, other) || is_one_of(kTypeWords, other) ||
+             declared_.contains(other) ||
              std::ranges::any_of(modules_, [&](const auto& one) { return one.second == other; });
     });
   }
@@ -81,7 +76,7 @@ std::string TypescriptNames::module(const std::string& name) const { return modu
 
 std::string TypescriptNames::type(const std::string& name) const {
   return among(name, declared_, [](const std::string& other) {
-    return is_one_of(kWords, other) || is_one_of(kTypes, other);
+    return is_one_of(kLanguageWords, other) || is_one_of(kTypeWords, other);
   });
 }
 
@@ -101,13 +96,13 @@ std::string TypescriptNames::operation(const Interface& interface, const std::st
   std::set<std::string> handlers;
   for (const EventName& each : interface.events) handlers.insert(handler(each.name));
   return among(name, siblings, [&](const std::string& other) {
-    return is_one_of(kMembers, other) || is_no_member(other) || handlers.contains(other);
+    return is_one_of(kMemberWords, other) || is_no_member(other) || handlers.contains(other);
   });
 }
 
 std::string TypescriptNames::handler(const std::string& event) const {
   return among("on_" + event, {},
-               [](const std::string& other) { return is_one_of(kMembers, other); });
+               [](const std::string& other) { return is_one_of(kMemberWords, other); });
 }
 
 std::vector<std::string> TypescriptNames::parameters(const std::vector<Field>& parameters) const {
@@ -116,9 +111,10 @@ std::vector<std::string> TypescriptNames::parameters(const std::vector<Field>& p
   const Taken hides = [&](const std::string& other) {
     const bool module =
         std::ranges::any_of(modules_, [&](const auto& one) { return one.second == other; });
-    return other == "options" || is_one_of(kWords, other) || is_one_of(kTypes, other) || module ||
-           std::ranges::any_of(declared_,
-                               [&](const std::string& one) { return type(one) == other; });
+    return other == "options" || is_one_of(kLanguageWords, other) || is_one_of(kTypeWords, other) ||
+           module || std::ranges::any_of(declared_, [&](const std::string& one) {
+             return type(one) == other;
+           });
   };
   std::vector<std::string> names;
   for (std::size_t i = 0; i < parameters.size(); ++i) {

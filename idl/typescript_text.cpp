@@ -14,7 +14,7 @@ struct Scalar {
   std::string_view description;
 };
 
-Scalar scalar(Basic basic) {
+Scalar typescript_scalar(Basic basic) {
   switch (basic) {
     case Basic::kBool:
       return {"boolean", "ride.bool"};
@@ -79,7 +79,8 @@ std::string TypescriptText::module_of(const Type& type) const {
 
 std::string TypescriptText::single(const Type& type) const {
   const bool named = type.basic == Basic::kStruct || type.basic == Basic::kEnum;
-  return named ? qualified(type.name, module_of(type)) : std::string(scalar(type.basic).type);
+  return named ? qualified(type.name, module_of(type))
+               : std::string(typescript_scalar(type.basic).type);
 }
 
 std::string TypescriptText::type(const Type& type) const {
@@ -96,7 +97,7 @@ std::string TypescriptText::description(const Type& type, const Range* range) co
     return range == nullptr ? "ride.bytes" : "ride.bytesWithin(" + bounds(*range, type.basic) + ")";
   }
   const bool named = type.basic == Basic::kStruct || type.basic == Basic::kEnum;
-  std::string text = named ? single(type) : std::string(scalar(type.basic).description);
+  std::string text = named ? single(type) : std::string(typescript_scalar(type.basic).description);
   if (range != nullptr) text = "ride.within(" + text + ", " + bounds(*range, type.basic) + ")";
   if (type.form == Type::Form::kCounted) return "ride.array(" + text + ")";
   if (type.form == Type::Form::kSingle) return text;
@@ -111,7 +112,7 @@ std::string TypescriptText::bounds(const Range& range, Basic type) const {
 }
 
 std::string TypescriptText::underlying(const Enumeration& enumeration) const {
-  return std::string(scalar(enumeration.underlying).description);
+  return std::string(typescript_scalar(enumeration.underlying).description);
 }
 
 std::string TypescriptText::number(const Whole& value, Basic type) {
