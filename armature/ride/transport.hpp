@@ -50,7 +50,7 @@ class Connection {
   /// How urgent what is sent from now on is, for the system's queues: where there is something to
   /// set. Called when it is another level than before; 0 at first.
   /// @param level  0 to kMostUrgentLevel
-  virtual void set_level(int /*level*/) {}
+  virtual void set_level([[maybe_unused]] int level) {}
   static constexpr int kMostUrgentLevel = 6;
   /// Ends the connection both ways, and whoever waits for it. The handle stays valid.
   virtual void shut_down() = 0;
