@@ -3,15 +3,13 @@
 
 #include <utility>
 
+#include "armature/component/internal/small_type.hpp"
+
 namespace armature::component {
 namespace {
 
 PortDeclaration declaration_of(const DescribedPort& port) {
-  constexpr std::size_t kLargestSmall = 256;  // internal::is_small
-  const types::Type& type = port.type;
-  const bool is_small =
-      type.fixed_size() && type.size <= kLargestSmall && type.alignment <= sizeof(void*);
-  return {port.name, port.doc, port.unit, type, is_small};
+  return {port.name, port.doc, port.unit, port.type, internal::is_small_type(port.type)};
 }
 
 }  // namespace

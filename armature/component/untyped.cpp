@@ -3,17 +3,9 @@
 
 #include "armature/component/host.hpp"
 #include "armature/component/internal/sent_command.hpp"
+#include "armature/component/internal/small_type.hpp"
 
 namespace armature::component {
-namespace {
-
-constexpr std::size_t kLargestSmall = 256;  // internal::is_small
-
-bool is_small(const types::Type& type) {
-  return type.fixed_size() && type.size <= kLargestSmall && type.alignment <= sizeof(void*);
-}
-
-}  // namespace
 
 UntypedEventHandler::UntypedEventHandler(Component& owner, std::string_view name,
                                          std::string_view doc, const EventBase& like,
@@ -129,7 +121,7 @@ void UntypedCommandCaller::tell(CommandStage stage, std::string_view reason) {
 
 UntypedInputPort::UntypedInputPort(Component& owner, std::string_view name, std::string_view doc,
                                    const OutputPortBase& like) noexcept
-    : InputPortBase(owner, {name, doc, {}, like.type(), is_small(like.type())}) {
+    : InputPortBase(owner, {name, doc, {}, like.type(), internal::is_small_type(like.type())}) {
   follow_unit_of(like);
 }
 
