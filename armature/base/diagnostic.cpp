@@ -5,10 +5,10 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/base/severity_name.hpp"
 #include "armature/base/visible_text.hpp"
 
 namespace armature::base {
-namespace {
 
 std::string_view name_of(Severity severity) {
   switch (severity) {
@@ -21,6 +21,8 @@ std::string_view name_of(Severity severity) {
   }
   return "error";
 }
+
+namespace {
 
 std::string place(const Location& where) {
   if (where.file.empty()) return {};

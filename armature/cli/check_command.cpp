@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,10 +37,7 @@ deploy::Deployment load_for_check(const LoadArguments& arguments, const Console&
 int print_json(const deploy::Deployment& deployment, const std::string& file,
                const Console& console) {
   inspect::CheckedForm form;
-  form.text_of = [](const std::string& path) -> std::optional<std::string> {
-    auto text = platform::read_file(path);
-    return text ? std::optional(std::move(text.value())) : std::nullopt;
-  };
+  form.read = [](const std::string& path) { return platform::read_file(path); };
   console.print(inspect::checked_as_json(
       {file, deployment.diagnostics, deployment.blueprint, deployment.plan}, form));
   return deployment.ok() ? kDone : kFailed;

@@ -2,7 +2,6 @@
 #include "armature/cli/check_service.hpp"
 
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -130,10 +129,7 @@ std::string CheckService::check(const Request& request) {
   inspect::CheckedForm form;
   form.members = request.members;
   form.indent = -1;
-  form.text_of = [&read](const std::string& file) -> std::optional<std::string> {
-    auto text = read(file);
-    return text ? std::optional(std::move(text.value())) : std::nullopt;
-  };
+  form.read = read;
   return inspect::checked_as_json(
       {request.load.file, last_->diagnostics, last_->blueprint, last_->plan}, form);
 }
@@ -157,8 +153,7 @@ base::Result<std::string> CheckService::fitting(const Request& request) {
 base::Result<std::string> CheckService::models(const Request& request) const {
   const auto registry = models_of(request.libraries, library_folders_);
   if (!registry.diagnostics.ok()) return base::Error{registry.diagnostics.to_text()};
-  auto text = inspect::models_as_json(registry.models, {}, -1);
-  return text;
+  return inspect::models_as_json(registry.models, {}, -1);
 }
 
 }  // namespace armature::cli

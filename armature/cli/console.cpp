@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/base/seconds.hpp"
+#include "armature/base/severity_name.hpp"
 #include "armature/cli/arguments.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/printer.hpp"
@@ -16,18 +17,6 @@
 
 namespace armature::cli {
 namespace {
-
-std::string_view name_of(base::Severity severity) {
-  switch (severity) {
-    case base::Severity::kNote:
-      return "note";
-    case base::Severity::kWarning:
-      return "warning";
-    case base::Severity::kError:
-      return "error";
-  }
-  return "error";
-}
 
 void print_error_line(std::string_view text) {
   platform::print(platform::kStandardError, std::string(text) + '\n');
@@ -59,7 +48,7 @@ void Console::show(const base::Diagnostics& diagnostics) const {
     return platform::print(platform::kStandardError, diagnostics.to_text());
   }
   for (const base::Diagnostic& one : diagnostics.all()) {
-    print_json({{"level", name_of(one.severity)},
+    print_json({{"level", base::name_of(one.severity)},
                 {"file", one.where.file},
                 {"line", one.where.line},
                 {"column", one.where.column},

@@ -2,11 +2,13 @@
 #include "armature/inspect/checked_json.hpp"
 
 #include <cctype>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "armature/base/utf8.hpp"
+#include "armature/base/severity_name.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/inspect/describe.hpp"
 #include "armature/inspect/internal/description_json.hpp"
@@ -25,18 +27,6 @@ void add_place(const Location& where, Json& to) {
   to["file"] = where.file;
   if (where.line > 0) to["line"] = where.line;
   if (where.line > 0 && where.column > 0) to["column"] = where.column;
-}
-
-const char* name_of(base::Severity severity) {
-  switch (severity) {
-    case base::Severity::kNote:
-      return "note";
-    case base::Severity::kWarning:
-      return "warning";
-    case base::Severity::kError:
-      return "error";
-  }
-  return "error";
 }
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -68,7 +58,7 @@ class Findings {
   explicit Findings(const CheckedForm& form) : form_(form) {}
 
   Json json_of(const Diagnostic& found) {
-    Json json = {{"severity", name_of(found.severity)}, {"message", found.message}};
+    Json json = {{"severity", base::name_of(found.severity)}, {"message", found.message}};
     if (!found.hint.empty()) json["hint"] = found.hint;
     if (!found.name.empty()) json["name"] = found.name;
     add_place(found.where, json);
@@ -99,7 +89,9 @@ class Findings {
 
   const std::string* text_of(const std::string& file) {
     const auto [place, fresh] = texts_.try_emplace(file);
-    if (fresh && form_.text_of) place->second = form_.text_of(file);
+    if (fresh) {
+      if (auto text = form_.read(file)) place->second = std::move(text).value();
+    }
     return place->second ? &*place->second : nullptr;
   }
 

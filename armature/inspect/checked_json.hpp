@@ -2,10 +2,10 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "armature/base/diagnostic.hpp"
+#include "armature/base/result.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/plan.hpp"
 
@@ -21,8 +21,8 @@ struct Checked {
 
 /// How `checked_as_json` writes.
 struct CheckedForm {
-  /// The text of a file in which something was found; nothing: it cannot be read.
-  std::function<std::optional<std::string>(const std::string& file)> text_of;
+  /// Reads a file in which something was found.
+  std::function<base::Result<std::string>(const std::string& file)> read;
   bool members = true;  ///< of each component its ports, properties, ... with their values
   int indent = 2;       ///< -1: all on one line
 };

@@ -45,8 +45,8 @@ class CheckedJson : public testing::Test {
     if (diagnostics_.ok()) plan_ = exec::make_plan(blueprint_, diagnostics_);
     CheckedForm form;
     form.members = members;
-    form.text_of = [this](const std::string& file) -> std::optional<std::string> {
-      if (file != "wave.yaml") return std::nullopt;
+    form.read = [this](const std::string& file) -> base::Result<std::string> {
+      if (file != "wave.yaml") return base::Error{"no such file"};
       return text_;
     };
     return json::parse(checked_as_json({"wave.yaml", diagnostics_, blueprint_, plan_}, form));
