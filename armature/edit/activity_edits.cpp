@@ -149,12 +149,7 @@ void set_activity(const Targets& targets, const Value& value, const std::string&
       write_setting(site, key, value, shop);
     }
   }
-  std::vector<const Entry*> done;
-  for (const std::string& name : fresh) {
-    const Entry* entry = entry_for_new(name, targets, shop);
-    if (entry == nullptr) return;
-    if (std::find(done.begin(), done.end(), entry) != done.end()) continue;
-    done.push_back(entry);
+  for (const Entry* entry : entries_for_new(fresh, targets, shop)) {
     add_activity(*entry, whole, shop);
   }
 }

@@ -103,12 +103,7 @@ void draft(const Bind& bind, Workshop& shop) {
     if (!is_open(site, *targets, shop)) return refuse_site(site, *targets, shop);
     shop.layout(*site.entry->file).replace(*site.node, value);
   }
-  std::vector<const Entry*> done;
-  for (const std::string& name : fresh) {
-    const Entry* entry = entry_for_new(name, *targets, shop);
-    if (entry == nullptr) return;
-    if (std::find(done.begin(), done.end(), entry) != done.end()) continue;
-    done.push_back(entry);
+  for (const Entry* entry : entries_for_new(fresh, *targets, shop)) {
     add_to_entry(*entry, "bind", bind.name, value, shop);
   }
 }

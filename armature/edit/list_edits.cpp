@@ -162,14 +162,8 @@ void draft(const AddPeer& add, Workshop& shop) {
     if (!is_open(site, *targets, shop)) return refuse_site(site, *targets, shop);
     add_to_list(*site.entry, *site.node, add.peer, shop);
   }
-  std::vector<const Entry*> done;
-  for (const std::string& name : fresh) {
-    const Entry* entry = entry_for_new(name, *targets, shop);
-    if (entry == nullptr) return;
-    if (std::find(done.begin(), done.end(), entry) == done.end()) {
-      begin_list(*entry, add.peer, shop);
-      done.push_back(entry);
-    }
+  for (const Entry* entry : entries_for_new(fresh, *targets, shop)) {
+    begin_list(*entry, add.peer, shop);
   }
 }
 

@@ -192,6 +192,20 @@ void refuse_site(const Site& site, const Targets& targets, Workshop& shop) {
       "name '" + key_of(entry) + "', or change '" + targets.written + "' alone with --override");
 }
 
+namespace {
+
+/// Says why nothing new of that component may be written.
+void refuse_new(const std::string& name, const Targets& targets, Workshop& shop) {
+  const std::vector<const Entry*> entries = shop.map().entries_of(name);
+  if (entries.empty()) {
+    shop.refuse("'" + name + "' is in an OROCOS file, which is not edited");
+  } else {
+    refuse_site({entries.back(), nullptr}, targets, shop);
+  }
+}
+
+}  // namespace
+
 const Entry* open_entry(const std::string& name, const Targets& targets, const Workshop& shop) {
   const SourceText* wanted = &shop.file_for_new();
   const auto rank = [&](const Entry& entry) {
@@ -205,15 +219,18 @@ const Entry* open_entry(const std::string& name, const Targets& targets, const W
   return best;
 }
 
-const Entry* entry_for_new(const std::string& name, const Targets& targets, Workshop& shop) {
-  if (const Entry* open = open_entry(name, targets, shop)) return open;
-  const std::vector<const Entry*> entries = shop.map().entries_of(name);
-  if (entries.empty()) {
-    shop.refuse("'" + name + "' is in an OROCOS file, which is not edited");
-  } else {
-    refuse_site({entries.back(), nullptr}, targets, shop);
+std::vector<const Entry*> entries_for_new(const std::vector<std::string>& without,
+                                          const Targets& targets, Workshop& shop) {
+  std::vector<const Entry*> found;
+  for (const std::string& name : without) {
+    const Entry* const open = open_entry(name, targets, shop);
+    if (open == nullptr) {
+      refuse_new(name, targets, shop);
+      return {};
+    }
+    if (std::find(found.begin(), found.end(), open) == found.end()) found.push_back(open);
   }
-  return nullptr;
+  return found;
 }
 
 bool needs_override(const std::vector<Site>& sites, const std::vector<std::string>& without,

@@ -71,9 +71,10 @@ const Entry* open_entry(const std::string& name, const Targets& targets, const W
 bool needs_override(const std::vector<Site>& sites, const std::vector<std::string>& without,
                     const Targets& targets, const Workshop& shop);
 
-/// Likewise; an error and nullptr if the edit allows
-/// none.
-const Entry* entry_for_new(const std::string& name, const Targets& targets, Workshop& shop);
+/// The entries where the edit may write something new of the targets `without` it, each once; an
+/// error and none if it may not for one of them.
+std::vector<const Entry*> entries_for_new(const std::vector<std::string>& without,
+                                          const Targets& targets, Workshop& shop);
 
 /// The entry of the deployment's own file that overrides the targets and nothing else, nullptr if
 /// it has none.
