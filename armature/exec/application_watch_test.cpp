@@ -26,10 +26,13 @@ class Watching : public ::testing::TestWithParam<bool> {
     gain_ = &blueprint.add<Gain>("Gain", Activity::triggered());
     idle_ = &blueprint.add<Probe>("Idle", Activity::periodic(1ms));
     blueprint.connect("Counter.Count", "Gain.In");
+    all_ = {of(*gain_, gain_->out), of(*counter_, counter_->count), of(*gain_, gain_->factor),
+            of(*idle_, idle_->out), of(*gain_, gain_->in)};
     application_.emplace(std::move(blueprint), patient(GetParam()));
     EXPECT_EQ(application_->start().to_text(), "");
   }
 
+  /// @thread the component's, once it runs
   static WatchedNumber of(component::Component& component, const component::PortBase& port) {
     return {&component, &port, nullptr,
             types::NumberPlace::all_in(port.type(), port.current()).front()};
@@ -39,12 +42,8 @@ class Watching : public ::testing::TestWithParam<bool> {
     return {&component, nullptr, &property,
             types::NumberPlace::all_in(property.type(), property.data()).front()};
   }
-  std::vector<WatchedNumber> all() {
-    return {of(*gain_, gain_->out), of(*counter_, counter_->count), of(*gain_, gain_->factor),
-            of(*idle_, idle_->out), of(*gain_, gain_->in)};
-  }
   std::int32_t watch(base::Duration interval = {}) {
-    const auto handle = application_->watch(all(), interval);
+    const auto handle = application_->watch(all_, interval);
     EXPECT_TRUE(handle);
     return handle.value();
   }
@@ -52,6 +51,7 @@ class Watching : public ::testing::TestWithParam<bool> {
   Counter* counter_ = nullptr;
   Gain* gain_ = nullptr;
   Probe* idle_ = nullptr;
+  std::vector<WatchedNumber> all_;
   std::optional<Application> application_;
 };
 INSTANTIATE_TEST_SUITE_P(InBothKindsOfTime, Watching, ::testing::Bool(),
@@ -81,7 +81,7 @@ TEST_P(Watching, EndsWithTheRun) {
   EXPECT_NE(application_->watched(handle), nullptr);
   EXPECT_TRUE(application_->stop().ok());
   EXPECT_EQ(application_->watched(handle), nullptr);
-  EXPECT_THAT(application_->watch(all(), 0ms).error(), HasSubstr("does not run"));
+  EXPECT_THAT(application_->watch(all_, 0ms).error(), HasSubstr("does not run"));
   EXPECT_TRUE(application_->start().ok());
   EXPECT_NE(watch(), handle) << "an old handle would be taken for the new one's";
 }

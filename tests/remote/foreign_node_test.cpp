@@ -239,7 +239,7 @@ TEST_F(ByInterfaceFile, WhatIsWrittenToItsInputGoesThere) {
 TEST_F(ByInterfaceFile, ToolsCallIt) {
   start("  []\n");
   using types::Value;
-  ASSERT_TRUE(until([&] { return application->find<Placeholder>("Lift").connected.get(); }));
+  ASSERT_TRUE(until([&] { return text_of("Lift", "PeerConnected") == "true"; }));
   const auto sum = call("add", {Value::of(std::int32_t{3}), Value::of(std::int32_t{4})});
   ASSERT_TRUE(sum) << sum.error();
   EXPECT_EQ(sum.value()->text(), "7");
