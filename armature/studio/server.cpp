@@ -14,8 +14,8 @@
 #include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/policy.hpp"
-#include "armature/studio/relay.hpp"
-#include "armature/studio/workbench.hpp"
+#include "armature/studio/internal/relay.hpp"
+#include "armature/studio/internal/workbench.hpp"
 #include "armature/websocket/transport.hpp"
 
 namespace armature::studio {
@@ -23,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using namespace internal;
 
 constexpr const char* kWorkbenchName = "workbench";
 constexpr const char* kRunName = "run";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/relay.hpp"
+#include "armature/studio/internal/relay.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -11,7 +11,7 @@
 #include "armature/remote/inspector.hpp"
 #include "inspection_types.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// A body as it is.
 struct Encoded {
@@ -92,4 +92,4 @@ ride::Executed Relay::execute(ride::Number operation, ride::Decoder& parameters,
   return ride::Executed::kDone;
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

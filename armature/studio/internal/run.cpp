@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/run.hpp"
+#include "armature/studio/internal/run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 std::string number_text(double value) { return nlohmann::json(value).dump(); }
@@ -156,4 +156,4 @@ std::vector<std::string> Run::log(std::int32_t from, std::size_t count) const {
           lines_.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/checker.hpp"
+#include "armature/studio/internal/checker.hpp"
 
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 constexpr std::string_view kResult = R"({"id":0,"result":)";
@@ -84,4 +84,4 @@ void Checker::fail(const std::string& why) {
 
 void Checker::renew() { renew_ = true; }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

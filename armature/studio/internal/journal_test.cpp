@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/journal.hpp"
+#include "armature/studio/internal/journal.hpp"
 
 #include <filesystem>
 
@@ -7,7 +7,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 struct Kept : ::testing::Test {
@@ -43,4 +43,4 @@ TEST_F(Kept, WhatIsNoJournalLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -7,7 +7,7 @@
 
 #include "armature/edit/replacement.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 using Replacements = std::vector<edit::Replacement>;
 
@@ -19,4 +19,4 @@ Replacements difference(std::string_view before, std::string_view after);
 /// nothing where both changed the same place.
 std::optional<Replacements> rebased(const Replacements& mine, const Replacements& theirs);
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

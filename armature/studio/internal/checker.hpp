@@ -10,7 +10,7 @@
 #include "armature/base/result.hpp"
 #include "armature/platform/child_process.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// `armature check --serve` as a process of its own, which loads component libraries: one that
 /// crashes takes nobody else with it, and another process answers the next request.
@@ -53,4 +53,4 @@ class Checker {
   std::string came_;
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -9,7 +9,7 @@
 #include "armature/ride/placeholder.hpp"
 #include "armature/ride/service.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// The inspector of a run, for pages: what they ask of it is handed on unseen, and its answers back.
 /// The run takes the studio for its user, so what a page may do is looked at here.
@@ -49,4 +49,4 @@ class Relay final : public ride::Service {
   std::shared_ptr<Connection> connection_;
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/run.hpp"
+#include "armature/studio/internal/run.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -13,7 +13,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 using namespace std::chrono_literals;
@@ -29,19 +29,19 @@ struct Started : ::testing::Test {
   ~Started() override { std::filesystem::remove_all(folder); }
 
   /// What its command says is: `echo` writes its own arguments.
-  studio::Run run_of(const std::string& script) {
+  internal::Run run_of(const std::string& script) {
     const std::string program = folder + "/program";
     EXPECT_TRUE(platform::write_file(program, "#!/bin/sh\n" + script + "\n"));
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    return studio::Run({program, "--library-path", "libraries"}, "arm.yaml", folder);
+    return internal::Run({program, "--library-path", "libraries"}, "arm.yaml", folder);
   }
-  static void until(studio::Run& run, const std::function<bool()>& condition) {
+  static void until(internal::Run& run, const std::function<bool()>& condition) {
     while (!condition()) {
       run.look();
       std::this_thread::sleep_for(1ms);
     }
   }
-  static void until_over(studio::Run& run) {
+  static void until_over(internal::Run& run) {
     until(run, [&] { return run.is_over(); });
   }
 
@@ -49,7 +49,7 @@ struct Started : ::testing::Test {
 };
 
 TEST_F(Started, SaysWhatWasAskedForAndHowItEnded) {
-  studio::Run run = run_of("echo \"$@\"; exit 3");
+  internal::Run run = run_of("echo \"$@\"; exit 3");
   EXPECT_EQ(run.stage(), RunStage::kNone);
   ASSERT_TRUE(run.start({true, 0.1, "hold", {"joints=2"}, 5}));
   EXPECT_EQ(run.stage(), RunStage::kStarting);
@@ -64,7 +64,7 @@ TEST_F(Started, SaysWhatWasAskedForAndHowItEnded) {
 }
 
 TEST_F(Started, AsFastAsPossibleIsNoPaceAndRealTimeNoSimulation) {
-  studio::Run run = run_of("echo \"$@\"");
+  internal::Run run = run_of("echo \"$@\"");
   ASSERT_TRUE(run.start({.simulated = true, .pace = std::numeric_limits<double>::infinity()}));
   until_over(run);
   EXPECT_TRUE(run.log(0, 1).at(0).ends_with("--sim"));
@@ -75,7 +75,7 @@ TEST_F(Started, AsFastAsPossibleIsNoPaceAndRealTimeNoSimulation) {
 }
 
 TEST_F(Started, OneRunsAtATimeAndStopsInOrder) {
-  studio::Run run = run_of("trap 'echo stopping; exit 0' TERM; echo ready; while :; do sleep 0.01; done");
+  internal::Run run = run_of("trap 'echo stopping; exit 0' TERM; echo ready; while :; do sleep 0.01; done");
   ASSERT_TRUE(run.start({}));
   EXPECT_FALSE(run.start({}));
   until(run, [&] { return run.log_end() == 1; });
@@ -93,12 +93,12 @@ TEST_F(Started, AnotherStudioFindsItAgain) {
   int id = 0;
   {
     // The shell keeps the arguments in its command line.
-    studio::Run run = run_of("echo $$; while :; do sleep 0.01; done");
+    internal::Run run = run_of("echo $$; while :; do sleep 0.01; done");
     ASSERT_TRUE(run.start({.simulated = true, .pace = 1.0}));
     until(run, [&] { return run.log_end() == 1; });
     id = std::stoi(run.log(0, 1).at(0));
   }
-  studio::Run later({folder + "/program"}, "arm.yaml", folder);
+  internal::Run later({folder + "/program"}, "arm.yaml", folder);
   EXPECT_EQ(later.stage(), RunStage::kStarting);
   EXPECT_TRUE(later.is_simulated());
   EXPECT_TRUE(later.look());
@@ -106,12 +106,12 @@ TEST_F(Started, AnotherStudioFindsItAgain) {
   EXPECT_TRUE(later.stop());
   until_over(later);
   EXPECT_EQ(later.exit_code(), -1);
-  studio::Run last({folder + "/program"}, "arm.yaml", folder);
+  internal::Run last({folder + "/program"}, "arm.yaml", folder);
   EXPECT_EQ(last.stage(), RunStage::kNone);
 }
 
 TEST_F(Started, OfTheLogTheLastLinesAreKept) {
-  studio::Run run = run_of("seq 1 10100");
+  internal::Run run = run_of("seq 1 10100");
   ASSERT_TRUE(run.start({}));
   until_over(run);
   EXPECT_EQ(run.log_begin(), 100);
@@ -124,10 +124,10 @@ TEST_F(Started, OfTheLogTheLastLinesAreKept) {
 TEST_F(Started, ANoteThatLiesFindsNothing) {
   for (const char* note : {"", "[]", "{}", R"({"process": "1"})", R"({"process": 1})"}) {
     ASSERT_TRUE(platform::write_file(folder + "/run.json", note));
-    const studio::Run run({"program"}, "arm.yaml", folder);
+    const internal::Run run({"program"}, "arm.yaml", folder);
     EXPECT_EQ(run.stage(), RunStage::kNone) << note;
   }
 }
 
 }  // namespace
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

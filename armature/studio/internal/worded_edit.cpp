@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/worded_edit.hpp"
+#include "armature/studio/internal/worded_edit.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include "armature/base/near_name.hpp"
 #include "armature/base/quoted.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -74,4 +74,4 @@ base::Result<edit::Change> change_of(std::string_view name, const Words& words) 
   return form->make(words);
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

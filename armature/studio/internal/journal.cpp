@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/journal.hpp"
+#include "armature/studio/internal/journal.hpp"
 
 #include <filesystem>
 #include <system_error>
@@ -8,7 +8,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 using Json = nlohmann::json;
 
@@ -71,4 +71,4 @@ base::Result<void> Journal::keep(const Unsaved& unsaved) const {
   return platform::write_file(path_, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/checker.hpp"
+#include "armature/studio/internal/checker.hpp"
 
 #include <chrono>
 #include <thread>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 using namespace std::chrono_literals;
@@ -77,4 +77,4 @@ TEST(CheckerWithoutProgram, TellsWhy) {
 }
 
 }  // namespace
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

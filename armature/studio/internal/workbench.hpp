@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "armature/remote/control_queue.hpp"
-#include "armature/studio/desk.hpp"
+#include "armature/studio/internal/desk.hpp"
 #include "workbench_service.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// The desk for pages: requests wait in a queue for the thread that works at the desk.
 class Workbench final : public WorkbenchService {
@@ -59,4 +59,4 @@ class Workbench final : public WorkbenchService {
   const std::function<void()> wake_;
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/project.hpp"
+#include "armature/studio/internal/project.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "armature/base/quoted.hpp"
-#include "armature/studio/places.hpp"
-#include "armature/studio/worded_edit.hpp"
+#include "armature/studio/internal/places.hpp"
+#include "armature/studio/internal/worded_edit.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 edit::FileChange inverse(const edit::FileChange& change) {
@@ -296,4 +296,4 @@ std::string Project::restore(const Unsaved& unsaved) {
                 take_from_disk(), "; ");
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

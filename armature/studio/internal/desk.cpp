@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/desk.hpp"
+#include "armature/studio/internal/desk.hpp"
 
 #include <filesystem>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "armature/document/limits.hpp"
 #include "armature/edit/save_files.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/platform/sockets/stream_socket.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 using Json = nlohmann::json;
 
@@ -182,4 +183,4 @@ void Desk::look_at_disk() {
   }
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -11,7 +11,7 @@
 #include "armature/base/result.hpp"
 #include "armature/platform/child_process.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// What a run is asked for.
 struct RunOrder {
@@ -95,4 +95,4 @@ class Run {
 /// `starting`, `running`, ...
 std::string_view name_of(RunStage stage);
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "armature/studio/project.hpp"
+#include "armature/studio/internal/project.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// What is not saved yet, in a file that a studio which was killed leaves to the next one.
 class Journal {
@@ -21,4 +21,4 @@ class Journal {
   const std::string path_;
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

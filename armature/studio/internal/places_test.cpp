@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/places.hpp"
+#include "armature/studio/internal/places.hpp"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 TEST(Places, AreSortedOnTheGridALineForEachBox) {
@@ -40,4 +40,4 @@ TEST(Places, WhatIsBeyondAnyCanvasIsAtItsOrigin) {
 }
 
 }  // namespace
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/places.hpp"
+#include "armature/studio/internal/places.hpp"
 
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 using Json = nlohmann::json;
 
@@ -60,4 +60,4 @@ std::string Places::to_text() const {
   return text + "\n}}\n";
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/rebase.hpp"
+#include "armature/studio/internal/rebase.hpp"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 /// What two make of a text that did not know of each other; `?` where they changed the same.
@@ -46,4 +46,4 @@ TEST(Rebased, OnWhatNobodyElseChangedItStays) {
 }
 
 }  // namespace
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/rebase.hpp"
+#include "armature/studio/internal/rebase.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
@@ -59,4 +59,4 @@ std::optional<Replacements> rebased(const Replacements& mine, const Replacements
   return moved;
 }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

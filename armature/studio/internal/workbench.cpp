@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/workbench.hpp"
+#include "armature/studio/internal/workbench.hpp"
 
 #include <utility>
 
 #include "armature/inspect/checked_json.hpp"
 #include "armature/platform/file.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 constexpr std::size_t kLogLinesAtOnce = 500;
@@ -183,4 +183,4 @@ void Workbench::tell_project() {
 
 void Workbench::tell_run() { publish(RunChanged{desk_.run().number(), desk_.run().log_end()}); }
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

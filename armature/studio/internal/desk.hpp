@@ -8,12 +8,12 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/result.hpp"
-#include "armature/studio/checker.hpp"
-#include "armature/studio/journal.hpp"
-#include "armature/studio/project.hpp"
-#include "armature/studio/run.hpp"
+#include "armature/studio/internal/checker.hpp"
+#include "armature/studio/internal/journal.hpp"
+#include "armature/studio/internal/project.hpp"
+#include "armature/studio/internal/run.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// What everybody who has the studio open works on: the texts of a deployment, what the check finds
 /// in them, and its run.
@@ -85,4 +85,4 @@ class Desk {
   bool checking_ = false;
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

@@ -13,9 +13,9 @@
 #include "armature/base/result.hpp"
 #include "armature/deploy/load.hpp"
 #include "armature/edit/edit.hpp"
-#include "armature/studio/rebase.hpp"
+#include "armature/studio/internal/rebase.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// A text of a deployment.
 struct ProjectFile {
@@ -121,4 +121,4 @@ class Project {
   std::map<std::string, std::string> told_conflicts_;  ///< texts of the disk, by path
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

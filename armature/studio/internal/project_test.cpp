@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/studio/project.hpp"
+#include "armature/studio/internal/project.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace armature::studio {
+namespace armature::studio::internal {
 namespace {
 
 using ::testing::HasSubstr;
@@ -213,4 +213,4 @@ TEST(NewProject, BeginsWithNothingAndIsSaved) {
 }
 
 }  // namespace
-}  // namespace armature::studio
+}  // namespace armature::studio::internal

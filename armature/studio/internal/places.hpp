@@ -7,7 +7,7 @@
 
 #include "armature/base/result.hpp"
 
-namespace armature::studio {
+namespace armature::studio::internal {
 
 /// Where a box is on the canvas, in steps of the grid's 8 pixels.
 struct BoxPlace {
@@ -36,4 +36,4 @@ class Places {
   std::map<std::string, BoxPlace> boxes_;
 };
 
-}  // namespace armature::studio
+}  // namespace armature::studio::internal
