@@ -74,13 +74,26 @@ studio::MakeServer* make_server(base::Diagnostics& diagnostics) {
 
 /// A desktop opens the page; on a machine without one the address is there to be copied.
 void open_in_browser(const std::string& page) {
-  const bool desktop = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  const bool desktop =
+      std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
   if (!desktop || !std::filesystem::exists("/usr/bin/xdg-open")) return;
-  [[maybe_unused]] const auto opened =
-      platform::ChildProcess::start({"/usr/bin/xdg-open", page}, {.log = "/dev/null", .lasting = true});
+  [[maybe_unused]] const auto opened = platform::ChildProcess::start(
+      {"/usr/bin/xdg-open", page}, {.log = "/dev/null", .lasting = true});
+}
+
+/// Who listens for others than pages and this account would let them run what they like.
+bool is_for_pages(const std::string& address) {
+  return address.starts_with("ws://") || address.starts_with("unix:");
 }
 
 int run_studio(const StudioArguments& arguments, const Console& console) {
+  if (!is_for_pages(arguments.listen)) {
+    console.say(rt::LogLevel::kError,
+                "'" + arguments.listen +
+                    "' is no address for a studio: expected ws://127.0.0.1:8080 "
+                    "or, for programs of this account, unix:/run/studio.sock");
+    return kWrongUse;
+  }
   const platform::StopSignal stop;
   base::Diagnostics diagnostics;
   studio::MakeServer* const make = make_server(diagnostics);

@@ -63,8 +63,7 @@ class Arrangement {
     sigemptyset(&none);
     ::posix_spawnattr_setsigmask(&attributes_, &none);
     const int session = lasting ? POSIX_SPAWN_SETSID : 0;
-    ::posix_spawnattr_setflags(&attributes_,
-                               static_cast<short>(POSIX_SPAWN_SETSIGMASK | session));
+    ::posix_spawnattr_setflags(&attributes_, static_cast<short>(POSIX_SPAWN_SETSIGMASK | session));
   }
   int start(int& id, const std::vector<std::string>& arguments) const {
     std::vector<char*> words;

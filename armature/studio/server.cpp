@@ -165,7 +165,8 @@ std::unique_ptr<Server> Server::make(const ServerOptions& options, base::Diagnos
   const std::string folder = folder_of(options, diagnostics);
   if (folder.empty()) return nullptr;
   auto lock = platform::FolderLock::take(folder);
-  if (!lock) diagnostics.error({}, "another studio has '" + options.file + "' open: " + lock.error());
+  if (!lock)
+    diagnostics.error({}, "another studio has '" + options.file + "' open: " + lock.error());
   auto poller = platform::Poller::make();
   if (!poller) diagnostics.error({}, poller.error());
   auto transport = websocket::make_transport({.pages = options.pages}, diagnostics);

@@ -20,7 +20,7 @@ struct ServerOptions {
   std::string policy;   ///< of who may do what; empty: whoever opens the page may do all
   std::string folder;   ///< for what a studio leaves, of all deployments
   std::string program;  ///< `armature`, for checks and runs
-  std::vector<std::string> arguments;  ///< of both, behind the file's name
+  std::vector<std::string> arguments;             ///< of both, behind the file's name
   std::function<void(const rt::LogRecord&)> log;  ///< called by any thread
 };
 
@@ -29,8 +29,7 @@ struct ServerOptions {
 class Server {
  public:
   /// Listens; nothing after an error.
-  static std::unique_ptr<Server> make(const ServerOptions& options,
-                                      base::Diagnostics& diagnostics);
+  static std::unique_ptr<Server> make(const ServerOptions& options, base::Diagnostics& diagnostics);
   Server() = default;
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

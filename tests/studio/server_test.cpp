@@ -172,8 +172,12 @@ TEST_F(Opened, AnApplicationIsAssembledCheckedSavedAndRun) {
 }
 
 TEST_F(Opened, MistakesAreToldWithWhatMendsThem) {
-  const Outcome outcome = workbench_->write(1, file(), "application: bar\nlibraries: [wave]\n"
-                                            "components:\n  Source: {model: Sourc}\n", kPatient).value();
+  const Outcome outcome = workbench_
+                              ->write(1, file(),
+                                      "application: bar\nlibraries: [wave]\n"
+                                      "components:\n  Source: {model: Sourc}\n",
+                                      kPatient)
+                              .value();
   EXPECT_TRUE(outcome.done);
   const std::string found = findings();
   EXPECT_THAT(found, HasSubstr(R"("found":"Sourc","by":"Source")"));

@@ -51,8 +51,9 @@ void Checker::take() {
   }
   process_.reset();
   if (asked_) {
-    fail("the check ended before it answered: a component library has crashed. Its last words are "
-         "at the terminal of the studio; build it anew, then Reload");
+    fail(
+        "the check ended before it answered: a component library has crashed. Its last words are "
+        "at the terminal of the studio; build it anew, then Reload");
   }
 }
 

@@ -55,8 +55,8 @@ TEST_F(Asked, WhatLibrariesPrintIsNoAnswer) {
 }
 
 TEST_F(Asked, ACrashIsToldAndAnotherProcessAnswersTheNext) {
-  Checker checker = Asked::checker(
-      R"(case $line in *bad*) kill -9 $$;; esac; echo '{"id":0,"result":'$n'}')");
+  Checker checker =
+      Asked::checker(R"(case $line in *bad*) kill -9 $$;; esac; echo '{"id":0,"result":'$n'}')");
   EXPECT_EQ(result(checker), "1");
   EXPECT_THAT(result(checker, R"({"do":"bad"})"), HasSubstr("a component library has crashed"));
   EXPECT_EQ(result(checker), "1");

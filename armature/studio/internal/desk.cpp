@@ -27,7 +27,8 @@ base::Result<std::string> read_from_disk(const std::string& path) {
   return platform::read_file(path, document::Limits{}.file_bytes);
 }
 
-std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+std::vector<std::string> with(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -136,19 +137,17 @@ void Desk::check() {
 void Desk::take_findings(std::int32_t version, base::Result<std::string> result) {
   checking_ = false;
   checked_ = version;
-  findings_ = result ? std::move(result.value())
-                     : findings_of_failure(project_.file(), result.error());
+  findings_ =
+      result ? std::move(result.value()) : findings_of_failure(project_.file(), result.error());
   if (project_.version() != version) check();
   listeners_.project();
 }
 
 void Desk::ask_fitting(const std::string& component, const std::string& member,
                        Checker::Then then) {
-  checker_.ask(as_text({{"do", "fitting"},
-                        {"component", component},
-                        {"member", member},
-                        {"models", true}}),
-               std::move(then));
+  checker_.ask(
+      as_text({{"do", "fitting"}, {"component", component}, {"member", member}, {"models", true}}),
+      std::move(then));
 }
 
 void Desk::ask_models(Checker::Then then) {
@@ -157,7 +156,8 @@ void Desk::ask_models(Checker::Then then) {
 
 base::Result<void> Desk::start(RunOrder order) {
   if (!project_.is_saved()) {
-    return base::Error{"what runs is what the disk has, and some of it is not saved: save it first"};
+    return base::Error{
+        "what runs is what the disk has, and some of it is not saved: save it first"};
   }
   order.version = project_.version();
   auto started = run_.start(order);

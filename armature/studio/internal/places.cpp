@@ -32,7 +32,8 @@ base::Result<Places> Places::parse(const std::string& text) {
     return base::Error{R"(expected {"boxes": {"NAME": [x, y], ...}})"};
   }
   for (const auto& [box, place] : boxes->items()) {
-    if (!is_pair_of_numbers(place)) return base::Error{"the place of '" + box + "' must be [x, y], in pixels"};
+    if (!is_pair_of_numbers(place))
+      return base::Error{"the place of '" + box + "' must be [x, y], in pixels"};
     places.set(box, place[0].get<double>(), place[1].get<double>());
   }
   return places;

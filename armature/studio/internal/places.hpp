@@ -15,8 +15,8 @@ struct BoxPlace {
   std::int32_t y = 0;
 };
 
-/// Where boxes are: the file `FILE.studio.json` beside a deployment, sorted, a line for each box, so
-/// that what two people moved merges.
+/// Where boxes are: the file `FILE.studio.json` beside a deployment, sorted, a line for each box,
+/// so that what two people moved merges.
 class Places {
  public:
   static constexpr std::int32_t kGrid = 8;

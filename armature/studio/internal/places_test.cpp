@@ -12,7 +12,8 @@ TEST(Places, AreSortedOnTheGridALineForEachBox) {
   Places places;
   places.set("Joint{1..7}", 101, 51);
   places.set("Arm", -3, 4000);
-  const std::string text = "{\"boxes\": {\n  \"Arm\": [0, 4000],\n  \"Joint{1..7}\": [104, 48]\n}}\n";
+  const std::string text =
+      "{\"boxes\": {\n  \"Arm\": [0, 4000],\n  \"Joint{1..7}\": [104, 48]\n}}\n";
   EXPECT_EQ(places.to_text(), text);
   EXPECT_EQ(Places::parse(text).value().to_text(), text);
 }

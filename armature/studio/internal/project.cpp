@@ -232,8 +232,8 @@ base::Result<void> Project::save() {
   std::vector<edit::FileChange> changes;
   for (const auto& [path, file] : unsaved()) {
     const auto replacements = difference(file.disk, file.text);
-    changes.push_back({path, file.disk, file.text, replacements,
-                       edit::inverse_of(file.disk, replacements)});
+    changes.push_back(
+        {path, file.disk, file.text, replacements, edit::inverse_of(file.disk, replacements)});
   }
   if (auto saved = disk_.save(changes); !saved) return saved;
   for (const edit::FileChange& change : changes) files_[change.file].disk = change.after;
@@ -273,11 +273,12 @@ std::string Project::take_from_disk() {
     if (merge(path, now.value())) {
       notice = joined(std::move(notice), "others changed " + path + ": it is taken over", "; ");
     } else if (std::exchange(told_conflicts_[path], now.value()) != now.value()) {
-      notice = joined(std::move(notice),
-                      "others changed " + path +
-                          " where you did, too: it cannot be saved. Reload takes theirs; Undo after "
-                          "that is yours again, to be saved",
-                      "; ");
+      notice =
+          joined(std::move(notice),
+                 "others changed " + path +
+                     " where you did, too: it cannot be saved. Reload takes theirs; Undo after "
+                     "that is yours again, to be saved",
+                 "; ");
     }
   }
   return notice;

@@ -44,8 +44,8 @@ struct Edited : ::testing::Test {
 };
 
 TEST_F(Edited, HasTheFilesOfTheDeployment) {
-  EXPECT_THAT(project.files(),
-              UnorderedElementsAre(Key("arm.yaml"), Key("parts.yaml"), Key("arm.yaml.studio.json")));
+  EXPECT_THAT(project.files(), UnorderedElementsAre(Key("arm.yaml"), Key("parts.yaml"),
+                                                    Key("arm.yaml.studio.json")));
   EXPECT_TRUE(project.is_saved());
 }
 
@@ -200,13 +200,12 @@ TEST_F(Edited, WhatOthersChangedMeanwhileIsInWhatIsRestored) {
 
 TEST(NewProject, BeginsWithNothingAndIsSaved) {
   std::map<std::string, std::string> disk;
-  Project project("new.yaml", {[&](const std::string& path) -> base::Result<std::string> {
-                                 return disk[path];
-                               },
-                               [&](const std::vector<edit::FileChange>& files) -> base::Result<void> {
-                                 for (const auto& file : files) disk[file.file] = file.after;
-                                 return {};
-                               }});
+  Project project("new.yaml",
+                  {[&](const std::string& path) -> base::Result<std::string> { return disk[path]; },
+                   [&](const std::vector<edit::FileChange>& files) -> base::Result<void> {
+                     for (const auto& file : files) disk[file.file] = file.after;
+                     return {};
+                   }});
   EXPECT_EQ(project.edit({{"add", {"A", "Gain"}}}, {}, false).to_text(), "");
   EXPECT_TRUE(project.save());
   EXPECT_THAT(disk["new.yaml"], HasSubstr("A: {model: Gain}"));

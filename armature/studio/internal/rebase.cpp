@@ -41,8 +41,8 @@ Replacements difference(std::string_view before, std::string_view after) {
   if (before == after) return {};
   const std::size_t begin = common_begin(before, after);
   const std::size_t end = common_end(before.substr(begin), after.substr(begin));
-  return {{begin, before.size() - end,
-           std::string(after.substr(begin, after.size() - end - begin))}};
+  return {
+      {begin, before.size() - end, std::string(after.substr(begin, after.size() - end - begin))}};
 }
 
 std::optional<Replacements> rebased(const Replacements& mine, const Replacements& theirs) {

@@ -11,8 +11,8 @@
 
 namespace armature::studio::internal {
 
-/// The inspector of a run, for pages: what they ask of it is handed on unseen, and its answers back.
-/// The run takes the studio for its user, so what a page may do is looked at here.
+/// The inspector of a run, for pages: what they ask of it is handed on unseen, and its answers
+/// back. The run takes the studio for its user, so what a page may do is looked at here.
 class Relay final : public ride::Service {
  public:
   /// @param name  as which pages know it, also in policies
@@ -30,8 +30,8 @@ class Relay final : public ride::Service {
   /// Asks with bodies that somebody else has encoded.
   class Inspector final : public ride::Placeholder {
    public:
-    using Placeholder::Placeholder;
     using Placeholder::ask;
+    using Placeholder::Placeholder;
   };
   /// A run, as long as it can be asked.
   struct Connection {

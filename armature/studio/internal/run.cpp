@@ -32,11 +32,16 @@ std::string part_of(const std::string& path, std::size_t begin) {
 
 std::string_view name_of(RunStage stage) {
   switch (stage) {
-    case RunStage::kNone: return "none";
-    case RunStage::kStarting: return "starting";
-    case RunStage::kRunning: return "running";
-    case RunStage::kStopping: return "stopping";
-    case RunStage::kEnded: return "ended";
+    case RunStage::kNone:
+      return "none";
+    case RunStage::kStarting:
+      return "starting";
+    case RunStage::kRunning:
+      return "running";
+    case RunStage::kStopping:
+      return "stopping";
+    case RunStage::kEnded:
+      return "ended";
   }
   return "?";
 }
@@ -68,8 +73,8 @@ base::Result<void> Run::start(const RunOrder& order) {
   }
   std::error_code ignored;
   std::filesystem::remove(socket(), ignored);
-  auto started = platform::ChildProcess::start(command_of(order),
-                                               {.log = log_file(), .lasting = true});
+  auto started =
+      platform::ChildProcess::start(command_of(order), {.log = log_file(), .lasting = true});
   if (!started) return base::Error{started.error()};
   process_ = std::move(started.value());
   id_ = process_->id();

@@ -58,9 +58,10 @@ TEST_F(Started, SaysWhatWasAskedForAndHowItEnded) {
   until_over(run);
   EXPECT_EQ(run.stage(), RunStage::kEnded);
   EXPECT_EQ(run.exit_code(), 3);
-  EXPECT_THAT(run.log(0, 10), ElementsAre("run arm.yaml --library-path libraries --listen unix:" +
-                                          folder + "/run.sock --sim --pace 0.1 --mode hold --set "
-                                          "joints=2"));
+  EXPECT_THAT(run.log(0, 10),
+              ElementsAre("run arm.yaml --library-path libraries --listen unix:" + folder +
+                          "/run.sock --sim --pace 0.1 --mode hold --set "
+                          "joints=2"));
 }
 
 TEST_F(Started, AsFastAsPossibleIsNoPaceAndRealTimeNoSimulation) {
@@ -75,7 +76,8 @@ TEST_F(Started, AsFastAsPossibleIsNoPaceAndRealTimeNoSimulation) {
 }
 
 TEST_F(Started, OneRunsAtATimeAndStopsInOrder) {
-  internal::Run run = run_of("trap 'echo stopping; exit 0' TERM; echo ready; while :; do sleep 0.01; done");
+  internal::Run run =
+      run_of("trap 'echo stopping; exit 0' TERM; echo ready; while :; do sleep 0.01; done");
   ASSERT_TRUE(run.start({}));
   EXPECT_FALSE(run.start({}));
   until(run, [&] { return run.log_end() == 1; });

@@ -68,8 +68,10 @@ ProjectState Workbench::project_state() const {
 
 RunState Workbench::run_state() const {
   const Run& run = desk_.run();
-  return {run.number(),  std::string(name_of(run.stage())), run.is_simulated(), run.version(),
-          run.exit_code(), run.log_begin(), run.log_end()};
+  return {run.number(),       std::string(name_of(run.stage())),
+          run.is_simulated(), run.version(),
+          run.exit_code(),    run.log_begin(),
+          run.log_end()};
 }
 
 void Workbench::project(ride::ReplyOf<ProjectState> reply) {
@@ -132,10 +134,9 @@ Checker::Then Workbench::forward(ride::ReplyOf<std::string>& reply) {
 void Workbench::fitting(const std::string& component, const std::string& member,
                         ride::ReplyOf<std::string> reply) {
   // Let go of, a reply that is owed tells so.
-  [[maybe_unused]] const bool taken =
-      queue_.post([this, component, member, then = forward(reply)] {
-        desk_.ask_fitting(component, member, then);
-      });
+  [[maybe_unused]] const bool taken = queue_.post([this, component, member, then = forward(reply)] {
+    desk_.ask_fitting(component, member, then);
+  });
   wake_();
 }
 
@@ -154,8 +155,8 @@ void Workbench::places(ride::ReplyOf<std::string> reply) {
 
 void Workbench::start(const RunSettings& settings, ride::ReplyOf<RunState> reply) {
   later(reply, [this, settings](auto& owed) {
-    const auto started = desk_.start(
-        {settings.simulated, settings.pace, settings.mode, settings.overrides, 0});
+    const auto started =
+        desk_.start({settings.simulated, settings.pace, settings.mode, settings.overrides, 0});
     if (!started) throw ride::Failure(started.error());
     owed.put(run_state());
   });
