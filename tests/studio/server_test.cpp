@@ -240,6 +240,21 @@ TEST_F(Opened, ARunThatDiesIsToldAndTheStudioGoesOn) {
   EXPECT_TRUE(edit("add", {"Filter", "LowPass"}).done);
 }
 
+TEST_F(Opened, StopWaitsForNothingThatTheStudioIsAbout) {
+  start();
+  const int process = server_->running();
+  open_ = false;  // the desk is busy for ever
+  thread_.join();
+  EXPECT_FALSE(workbench_->stop({100ms, {}})) << "nobody answers";
+  until([&] { return !platform::process_has_argument(process, "run"); });
+  open_ = true;
+  thread_ = std::thread([this] {
+    while (open_) server_->serve(10ms);
+  });
+  until_over();
+  EXPECT_EQ(workbench_->run(kPatient).value().exit_code, 0) << log();
+}
+
 TEST_F(Opened, WhoMayOnlyLookChangesAndCommandsNothing) {
   start();
   EXPECT_TRUE(workbench_->stop(kPatient));

@@ -165,12 +165,6 @@ base::Result<void> Desk::start(RunOrder order) {
   return started;
 }
 
-base::Result<void> Desk::stop() {
-  auto stopped = run_.stop();
-  listeners_.run();
-  return stopped;
-}
-
 void Desk::look_at_run() {
   if (run_.look()) listeners_.run();
 }

@@ -57,7 +57,8 @@ class Desk {
 
   /// @param order  its version is set
   base::Result<void> start(RunOrder order);
-  base::Result<void> stop();
+  /// It was asked to stop.
+  void tell_of_run() { listeners_.run(); }
 
   /// Whose descriptor is to be waited for, and whose answers are to be taken.
   Checker& checker() { return checker_; }

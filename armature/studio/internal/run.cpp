@@ -79,6 +79,7 @@ base::Result<void> Run::start(const RunOrder& order) {
   process_ = std::move(started.value());
   id_ = process_->id();
   stage_ = RunStage::kStarting;
+  stopping_ = false;
   ++number_;
   simulated_ = order.simulated;
   version_ = order.version;
@@ -92,7 +93,7 @@ base::Result<void> Run::start(const RunOrder& order) {
 }
 
 void Run::write_note() const {
-  const nlohmann::json note = {{"process", id_}, {"simulated", simulated_}};
+  const nlohmann::json note = {{"process", id_.load()}, {"simulated", simulated_}};
   // Without it a later studio does not find the run: no reason not to run.
   [[maybe_unused]] const auto written = platform::write_file(note_file(), note.dump());
 }
@@ -112,9 +113,10 @@ void Run::find_again() {
 }
 
 base::Result<void> Run::stop() {
-  if (is_over()) return base::Error{"nothing runs"};
+  // The number of a process that has ended may be another one's by now.
+  if (!platform::process_has_argument(id_, address())) return base::Error{"nothing runs"};
   platform::send_signal(id_, SIGTERM);
-  stage_ = RunStage::kStopping;
+  stopping_ = true;
   return {};
 }
 

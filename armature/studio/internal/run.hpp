@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -39,7 +40,9 @@ class Run {
 
   /// The error: one runs, or the program cannot be started.
   base::Result<void> start(const RunOrder& order);
-  /// Asks it to stop in order; the second time it ends at once. The error: none runs.
+  /// Asks it to stop in order, at once, whatever this thread is about; the second time it ends
+  /// without order. The error: none runs.
+  /// @thread any
   base::Result<void> stop();
   /// Looks what has become of it, and what it has logged.
   /// @return true if something is other than before
@@ -49,7 +52,7 @@ class Run {
     if (stage_ == RunStage::kStarting) stage_ = RunStage::kRunning;
   }
 
-  RunStage stage() const { return stage_; }
+  RunStage stage() const { return !is_over() && stopping_ ? RunStage::kStopping : stage_; }
   bool is_over() const { return stage_ == RunStage::kNone || stage_ == RunStage::kEnded; }
   std::int32_t number() const { return number_; }
   bool is_simulated() const { return simulated_; }
@@ -80,7 +83,9 @@ class Run {
   const std::string file_;
   const std::string folder_;
   std::optional<platform::ChildProcess> process_;
-  int id_ = 0;  ///< of the process, also of one that an earlier studio has started
+  /// Of the process, also of one that an earlier studio has started.
+  std::atomic<int> id_{0};
+  std::atomic<bool> stopping_{false};
   RunStage stage_ = RunStage::kNone;
   std::int32_t number_ = 0;
   bool simulated_ = false;

@@ -162,10 +162,12 @@ void Workbench::start(const RunSettings& settings, ride::ReplyOf<RunState> reply
   });
 }
 
+/// Here and now: what waits at the desk is not waited for.
 void Workbench::stop(ride::ReplyOf<RunState> reply) {
+  const auto stopped = desk_.run().stop();
+  if (!stopped) throw ride::Failure(stopped.error());
   later(reply, [this](auto& owed) {
-    const auto stopped = desk_.stop();
-    if (!stopped) throw ride::Failure(stopped.error());
+    desk_.tell_of_run();
     owed.put(run_state());
   });
 }
