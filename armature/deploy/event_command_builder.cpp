@@ -12,6 +12,7 @@
 #include "armature/document/fields.hpp"
 #include "armature/document/property_value.hpp"
 #include "armature/document/value_tree.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::deploy::internal {
 namespace {
@@ -292,20 +293,28 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
   if (!fits(wire, index, offer)) return std::nullopt;
   Parameter made;
   made.member = member;
+  made.converted_from = converted_from(wire, index, offer.type);
   return made;
 }
 
-/// Its type and unit are those of the parameter.
+/// Its type and unit are those of the parameter, or it is a number that becomes one of them.
 bool EventCommandBuilder::fits(const Wire& wire, std::size_t index, const Offer& offer) {
   const NameAndUnit wants = argument(wire.command.signature(), index);
   const types::Type& wanted = *wire.command.signature().arguments[index].type;
-  if (types::same_type(offer.type, wanted) && same_unit(offer.unit, wants.unit)) return true;
+  const bool same = types::same_type(offer.type, wanted) || types::becomes(offer.type, wanted);
+  if (same && same_unit(offer.unit, wants.unit)) return true;
   diagnostics_.error(offer.where,
                      offer.what + " is " + in_unit(offer.type, offer.unit) + ", but " +
                          in_quotes(wants.name) + " of " + path(wire.connection.to) + " is " +
                          in_unit(wanted, wants.unit),
                      offer.hint);
   return false;
+}
+
+const types::Type* EventCommandBuilder::converted_from(const Wire& wire, std::size_t index,
+                                                       const types::Type& type) {
+  const types::Type& wanted = *wire.command.signature().arguments[index].type;
+  return types::same_type(type, wanted) ? nullptr : &type;
 }
 
 std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire& wire,
@@ -327,6 +336,7 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire&
   made.from = From::kPort;
   made.input = argument(wire.command.signature(), index).name;
   made.port = port;
+  made.converted_from = converted_from(wire, index, offer.type);
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "armature/component/host.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::exec {
 
@@ -30,6 +31,9 @@ EventCommand::EventCommand(std::string name, const component::EventBase& event,
       parameters_(std::move(parameters)),
       max_age_(max_age),
       places_(parameters_.size()) {
+  for (const auto& argument : command.signature().arguments) {
+    converted_.emplace_back(*argument.type);
+  }
   for (const CommandParameter& parameter : parameters_) {
     auto& input = inputs_.emplace_back();
     if (parameter.from != CommandParameter::From::kPort) continue;
@@ -44,6 +48,14 @@ Outcome EventCommand::on_start() {
   return component::accepted();
 }
 
+const void* EventCommand::as_taken(std::size_t index, const void* from) {
+  const types::Type* const type = parameters_[index].converted_from;
+  if (type == nullptr) return from;
+  types::Value& converted = converted_[index];
+  types::convert_number(*type, from, converted.type(), converted.data());
+  return converted.data();
+}
+
 /// Vectors have their sizes by now.
 Outcome EventCommand::on_activate() {
   std::vector<types::Value> members;
@@ -52,10 +64,10 @@ Outcome EventCommand::on_activate() {
     const CommandParameter& parameter = parameters_[i];
     switch (parameter.from) {
       case CommandParameter::From::kMember:
-        places_[i] = members[parameter.member].data();
+        places_[i] = as_taken(i, members[parameter.member].data());
         break;
       case CommandParameter::From::kPort:
-        places_[i] = inputs_[i]->current();
+        places_[i] = as_taken(i, inputs_[i]->current());
         break;
       case CommandParameter::From::kConstant:
         places_[i] = parameter.constant->data();
@@ -104,7 +116,9 @@ void EventCommand::Refusal::deliver(rt::Message& message) {
 Reason EventCommand::collect(const void* const* members) {
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const CommandParameter& parameter = parameters_[i];
-    if (parameter.from == CommandParameter::From::kMember) places_[i] = members[parameter.member];
+    if (parameter.from == CommandParameter::From::kMember) {
+      places_[i] = as_taken(i, members[parameter.member]);
+    }
     if (parameter.from != CommandParameter::From::kPort) continue;
     const auto read = inputs_[i]->read();
     Reason why(parameter.input);
@@ -112,7 +126,7 @@ Reason EventCommand::collect(const void* const* members) {
     if (max_age_ > base::Duration::zero() && time() - read.time > max_age_) {
       return why.append(" is too old");
     }
-    places_[i] = read.value;
+    places_[i] = as_taken(i, read.value);
   }
   return {};
 }

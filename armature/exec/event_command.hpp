@@ -26,6 +26,8 @@ struct CommandParameter {
   std::string input;                                ///< its name, for a port
   const component::OutputPortBase* port = nullptr;  ///< whose latest value it is
   std::shared_ptr<const types::Value> constant;     ///< of the parameter's type
+  /// The type of a number that becomes one of the parameter's; nullptr: they are the same.
+  const types::Type* converted_from = nullptr;
 };
 
 /// An event that commands: each time that `On` is raised, `Do` is given, with parameters from the
@@ -66,6 +68,8 @@ class EventCommand final : public component::Component {
   void on_cleanup() override { do_.forget(); }
   bool runs_in_circles();
   void give(const void* const* members);
+  /// The value at `from` as the parameter takes it.
+  const void* as_taken(std::size_t index, const void* from);
   /// Empty if all parameters are there.
   component::Reason collect(const void* const* members);
   void refuse(std::string_view reason);
@@ -99,6 +103,7 @@ class EventCommand final : public component::Component {
   std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
   base::Duration max_age_;
   std::vector<const void*> places_;
+  std::vector<types::Value> converted_;  ///< numbers that become those of a parameter, by index
   base::Time given_at_{};
   std::size_t given_then_ = 0;  ///< so many at that time
   Refusal refusal_{*this};

@@ -85,4 +85,23 @@ auto with_scalar(Kind kind, Code&& code) {
   }
 }
 
+/// True if every number of type `from` is one of `to`, rounded at most.
+inline bool becomes(const Type& from, const Type& to) {
+  return is_number(from) && (to.kind == Kind::kFloat || to.kind == Kind::kDouble);
+}
+
+/// The number at `value` as one of type `to`, which it `becomes`, at `result`.
+/// @rt nonblocking, no allocation
+inline void convert_number(const Type& from, const void* value, const Type& to,
+                           void* result) noexcept {
+  const double number = with_scalar(from.kind, [value](auto type) {
+    return static_cast<double>(*static_cast<const typename decltype(type)::type*>(value));
+  });
+  if (to.kind == Kind::kFloat) {
+    *static_cast<float*>(result) = static_cast<float>(number);
+  } else {
+    *static_cast<double*>(result) = number;
+  }
+}
+
 }  // namespace armature::types

@@ -7,21 +7,12 @@
 #include <utility>
 
 #include "armature/base/quoted.hpp"
+#include "armature/document/limits.hpp"
 #include "armature/studio/internal/places.hpp"
 #include "armature/studio/internal/worded_edit.hpp"
 
 namespace armature::studio::internal {
 namespace {
-
-edit::FileChange inverse(const edit::FileChange& change) {
-  return {change.file, change.after, change.before, change.inverse, change.replacements};
-}
-
-std::vector<edit::FileChange> inverse(const std::vector<edit::FileChange>& files) {
-  std::vector<edit::FileChange> all;
-  for (const edit::FileChange& file : files) all.push_back(inverse(file));
-  return all;
-}
 
 std::string joined(std::string list, const std::string& item, const char* separator) {
   return list.empty() ? item : std::move(list) + separator + item;
@@ -100,21 +91,31 @@ void Project::find_files() {
   });
 }
 
-edit::FileChange Project::change_to(const std::string& path, const std::string& text) const {
+Project::Delta Project::change_to(const std::string& path, const std::string& text) const {
   const std::string& before = *this->text(path);
-  const Replacements replacements = difference(before, text);
-  return {path, before, text, replacements, edit::inverse_of(before, replacements)};
+  Replacements forward = difference(before, text);
+  Replacements back = edit::inverse_of(before, forward);
+  return {path, std::move(forward), std::move(back)};
 }
 
-void Project::apply(const std::vector<edit::FileChange>& files) {
-  for (const edit::FileChange& file : files) files_[file.file].text = file.after;
+std::vector<Project::Delta> Project::backwards(const std::vector<Delta>& files) {
+  std::vector<Delta> all;
+  for (const Delta& file : files) all.push_back({file.file, file.back, file.forward});
+  return all;
+}
+
+void Project::apply(const std::vector<Delta>& files) {
+  for (const Delta& file : files) {
+    std::string& text = files_[file.file].text;
+    text = edit::replaced(text, file.forward);
+  }
   made_.push_back({++version_, files});
   if (made_.size() > kMostSteps) made_.pop_front();
   find_files();
 }
 
-void Project::add_step(std::string text, std::vector<edit::FileChange> files) {
-  std::erase_if(files, [](const edit::FileChange& file) { return file.before == file.after; });
+void Project::add_step(std::string text, std::vector<Delta> files) {
+  std::erase_if(files, [](const Delta& file) { return file.forward.empty(); });
   if (files.empty()) return;
   apply(files);
   undone_.clear();
@@ -143,20 +144,22 @@ base::Diagnostics Project::edit(const std::vector<WordedChange>& changes,
   }
   const auto places = placed(changes, diagnostics);
   if (!places) return diagnostics;
-  std::vector<edit::FileChange> made{places.value()};
+  std::vector<Delta> made{places.value()};
   if (!edits.empty()) {
     edit::Outcome outcome = edit::apply_edits(file_, edits, reader());
     diagnostics = std::move(outcome.diagnostics);
     if (!diagnostics.ok()) return diagnostics;
-    made.insert(made.end(), outcome.files.begin(), outcome.files.end());
+    for (const edit::FileChange& file : outcome.files) {
+      made.push_back({file.file, file.replacements, file.inverse});
+    }
   }
   for (const WordedChange& change : changes) text = joined(std::move(text), text_of(change), ", ");
   add_step(std::move(text), std::move(made));
   return diagnostics;
 }
 
-base::Result<edit::FileChange> Project::placed(const std::vector<WordedChange>& changes,
-                                               base::Diagnostics& diagnostics) const {
+base::Result<Project::Delta> Project::placed(const std::vector<WordedChange>& changes,
+                                             base::Diagnostics& diagnostics) const {
   const std::string& before = *text(places_file());
   auto places = Places::parse(before);
   // A file that is no places' stays as it is until a box is moved.
@@ -174,12 +177,13 @@ base::Result<edit::FileChange> Project::placed(const std::vector<WordedChange>& 
   return change_to(places_file(), none ? before : places.value().to_text());
 }
 
-std::vector<Replacements> Project::made_since(std::int32_t version, const std::string& path) const {
-  std::vector<Replacements> all;
+std::vector<const Project::Delta*> Project::made_since(std::int32_t version,
+                                                       const std::string& path) const {
+  std::vector<const Delta*> all;
   for (const Made& made : made_) {
     if (made.version <= version) continue;
-    for (const edit::FileChange& file : made.files) {
-      if (file.file == path) all.push_back(file.replacements);
+    for (const Delta& file : made.files) {
+      if (file.file == path) all.push_back(&file);
     }
   }
   return all;
@@ -189,18 +193,21 @@ base::Result<void> Project::write(std::int32_t version, const std::string& path,
                                   const std::string& text) {
   const std::string* const now = this->text(path);
   if (now == nullptr) return base::Error{base::quoted(path) + " is no file of this deployment"};
+  const std::size_t most = document::Limits{}.file_bytes;
+  if (text.size() > most) {
+    return base::Error{base::quoted(path) + " would be larger than " + std::to_string(most) +
+                       " bytes"};
+  }
   const bool known = version <= version_ && (made_.empty() || version >= made_.front().version - 1);
   if (!known) return base::Error{"the text is too old: take the new one, and change that"};
-  const std::vector<Replacements> since = made_since(version, path);
+  const std::vector<const Delta*> since = made_since(version, path);
   std::string base = *now;
-  for (auto later = made_.rbegin(); later != made_.rend() && later->version > version; ++later) {
-    for (const edit::FileChange& file : later->files) {
-      if (file.file == path) base = file.before;
-    }
+  for (auto later = since.rbegin(); later != since.rend(); ++later) {
+    base = edit::replaced(base, (*later)->back);
   }
   std::optional<Replacements> mine = difference(base, text);
-  for (const Replacements& theirs : since) {
-    if (mine) mine = rebased(*mine, theirs);
+  for (const Delta* theirs : since) {
+    if (mine) mine = rebased(*mine, theirs->forward);
   }
   if (!mine) {
     return base::Error{"others changed the same place of " + base::quoted(path) +
@@ -214,7 +221,7 @@ base::Result<void> Project::undo() {
   if (done_.empty()) return base::Error{"there is nothing to take back"};
   Step step = std::move(done_.back());
   done_.pop_back();
-  apply(inverse(step.files));
+  apply(backwards(step.files));
   undone_.push_back(std::move(step));
   return {};
 }
@@ -241,7 +248,7 @@ base::Result<void> Project::save() {
 }
 
 void Project::reload() {
-  std::vector<edit::FileChange> changes;
+  std::vector<Delta> changes;
   for (auto& [path, file] : files_) {
     const auto now = disk_.read(path);
     if (!now) continue;
@@ -285,7 +292,7 @@ std::string Project::take_from_disk() {
 }
 
 std::string Project::restore(const Unsaved& unsaved) {
-  std::vector<edit::FileChange> changes;
+  std::vector<Delta> changes;
   for (const auto& [path, kept] : unsaved) {
     if (!files_.contains(path)) load(path);
     files_[path].disk = kept.disk;

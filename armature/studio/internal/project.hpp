@@ -89,26 +89,33 @@ class Project {
   deploy::FileReader reader();
 
  private:
+  /// A change of a file, without its texts: a thousand of them are kept.
+  struct Delta {
+    std::string file;
+    Replacements forward;
+    Replacements back;
+  };
   struct Step {
     std::string text;
-    std::vector<edit::FileChange> files;
+    std::vector<Delta> files;
   };
   /// What a version changed, by which texts of earlier ones are found again.
   struct Made {
     std::int32_t version;
-    std::vector<edit::FileChange> files;
+    std::vector<Delta> files;
   };
 
   void find_files();
   void load(const std::string& path);
-  void apply(const std::vector<edit::FileChange>& files);
-  void add_step(std::string text, std::vector<edit::FileChange> files);
+  void apply(const std::vector<Delta>& files);
+  void add_step(std::string text, std::vector<Delta> files);
   void replace_text(std::string step, const std::string& path, const std::string& text);
-  edit::FileChange change_to(const std::string& path, const std::string& text) const;
+  static std::vector<Delta> backwards(const std::vector<Delta>& files);
+  Delta change_to(const std::string& path, const std::string& text) const;
   /// What others made of a file since `version`, one after the other.
-  std::vector<Replacements> made_since(std::int32_t version, const std::string& path) const;
-  base::Result<edit::FileChange> placed(const std::vector<WordedChange>& changes,
-                                        base::Diagnostics& diagnostics) const;
+  std::vector<const Delta*> made_since(std::int32_t version, const std::string& path) const;
+  base::Result<Delta> placed(const std::vector<WordedChange>& changes,
+                             base::Diagnostics& diagnostics) const;
   bool merge(const std::string& path, const std::string& now);
 
   const std::string file_;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/studio/internal/project.hpp"
 
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "armature/document/limits.hpp"
 
 namespace armature::studio::internal {
 namespace {
@@ -127,6 +131,23 @@ TEST_F(Edited, TwoWhoTypeAtTheSamePlaceAreToldApart) {
   EXPECT_EQ(text(), theirs);
   EXPECT_FALSE(project.write(1, "elsewhere.yaml", mine));
   EXPECT_FALSE(project.write(99, "arm.yaml", mine));
+}
+
+TEST_F(Edited, ATextOfLongAgoIsMergedAsLongAsItsVersionIsKnown) {
+  for (int i = 0; i < 1200; ++i) EXPECT_EQ(make("place", {"Left", std::to_string(8 * i), "0"}), "");
+  std::string typed = kMain;
+  typed.replace(typed.find(" arm\n"), 5, " robot\n");
+  EXPECT_FALSE(project.write(1, "arm.yaml", typed)) << "a thousand versions are known";
+  EXPECT_TRUE(project.write(project.version() - 1000, "arm.yaml", typed));
+  EXPECT_EQ(text(), typed);
+  int steps = 0;
+  while (project.undo()) ++steps;
+  EXPECT_EQ(steps, 1000);
+}
+
+TEST_F(Edited, ATextThatNoFileMayHoldIsRefused) {
+  EXPECT_FALSE(project.write(1, "arm.yaml", std::string(document::Limits{}.file_bytes + 1, ' ')));
+  EXPECT_EQ(text(), kMain);
 }
 
 TEST_F(Edited, AFileWithMistakesIsMendedAsText) {
