@@ -12,7 +12,6 @@
 #include "armature/document/fields.hpp"
 #include "armature/document/property_value.hpp"
 #include "armature/document/value_tree.hpp"
-#include "armature/types/elements.hpp"
 
 namespace armature::deploy::internal {
 namespace {
@@ -293,7 +292,6 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
   if (!fits(wire, index, offer)) return std::nullopt;
   Parameter made;
   made.member = member;
-  made.converted_from = converted_from(wire, index, offer.type);
   return made;
 }
 
@@ -301,20 +299,13 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
 bool EventCommandBuilder::fits(const Wire& wire, std::size_t index, const Offer& offer) {
   const NameAndUnit wants = argument(wire.command.signature(), index);
   const types::Type& wanted = *wire.command.signature().arguments[index].type;
-  const bool same = types::same_type(offer.type, wanted) || types::becomes(offer.type, wanted);
-  if (same && same_unit(offer.unit, wants.unit)) return true;
+  if (exec::EventCommand::takes(wanted, offer.type) && same_unit(offer.unit, wants.unit)) return true;
   diagnostics_.error(offer.where,
                      offer.what + " is " + in_unit(offer.type, offer.unit) + ", but " +
                          in_quotes(wants.name) + " of " + path(wire.connection.to) + " is " +
                          in_unit(wanted, wants.unit),
                      offer.hint);
   return false;
-}
-
-const types::Type* EventCommandBuilder::converted_from(const Wire& wire, std::size_t index,
-                                                       const types::Type& type) {
-  const types::Type& wanted = *wire.command.signature().arguments[index].type;
-  return types::same_type(type, wanted) ? nullptr : &type;
 }
 
 std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire& wire,
@@ -336,7 +327,6 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_port(const Wire&
   made.from = From::kPort;
   made.input = argument(wire.command.signature(), index).name;
   made.port = port;
-  made.converted_from = converted_from(wire, index, offer.type);
   return made;
 }
 

@@ -12,6 +12,18 @@ using component::CommandStage;
 using component::Outcome;
 using component::Reason;
 
+namespace {
+
+/// nullptr: a constant, which was made as the parameter takes it.
+const types::Type* offered_type(const CommandParameter& parameter,
+                                const component::EventBase& event) {
+  if (parameter.from == CommandParameter::From::kPort) return &parameter.port->type();
+  if (parameter.from == CommandParameter::From::kConstant) return nullptr;
+  return event.signature().arguments[parameter.member].type;
+}
+
+}  // namespace
+
 EventCommand::EventCommand(std::string name, const component::EventBase& event,
                            const component::CommandBase& command,
                            std::vector<CommandParameter> parameters, base::Duration max_age)
@@ -31,8 +43,11 @@ EventCommand::EventCommand(std::string name, const component::EventBase& event,
       parameters_(std::move(parameters)),
       max_age_(max_age),
       places_(parameters_.size()) {
-  for (const auto& argument : command.signature().arguments) {
-    converted_.emplace_back(*argument.type);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const types::Type& wanted = *command.signature().arguments[i].type;
+    const types::Type* const offered = offered_type(parameters_[i], event);
+    const bool same = offered == nullptr || types::same_type(*offered, wanted);
+    conversions_.push_back({same ? nullptr : offered, types::Value(wanted)});
   }
   for (const CommandParameter& parameter : parameters_) {
     auto& input = inputs_.emplace_back();
@@ -48,12 +63,17 @@ Outcome EventCommand::on_start() {
   return component::accepted();
 }
 
+bool EventCommand::takes(const types::Type& parameter, const types::Type& offered) {
+  const bool floating =
+      parameter.kind == types::Kind::kFloat || parameter.kind == types::Kind::kDouble;
+  return types::same_type(parameter, offered) || (floating && types::is_number(offered));
+}
+
 const void* EventCommand::as_taken(std::size_t index, const void* from) {
-  const types::Type* const type = parameters_[index].converted_from;
+  auto& [type, value] = conversions_[index];
   if (type == nullptr) return from;
-  types::Value& converted = converted_[index];
-  types::convert_number(*type, from, converted.type(), converted.data());
-  return converted.data();
+  types::convert_number(*type, from, value.type(), value.data());
+  return value.data();
 }
 
 /// Vectors have their sizes by now.

@@ -26,8 +26,6 @@ struct CommandParameter {
   std::string input;                                ///< its name, for a port
   const component::OutputPortBase* port = nullptr;  ///< whose latest value it is
   std::shared_ptr<const types::Value> constant;     ///< of the parameter's type
-  /// The type of a number that becomes one of the parameter's; nullptr: they are the same.
-  const types::Type* converted_from = nullptr;
 };
 
 /// An event that commands: each time that `On` is raised, `Do` is given, with parameters from the
@@ -56,6 +54,10 @@ class EventCommand final : public component::Component {
   EventCommand(std::string name, const component::EventBase& event,
                const component::CommandBase& command, std::vector<CommandParameter> parameters,
                base::Duration max_age);
+
+  /// True if a value of type `offered` can be a parameter: of the same type, or a number for a
+  /// floating one.
+  static bool takes(const types::Type& parameter, const types::Type& offered);
 
   /// What it gave is cancelled, and it gives nothing until it is started again.
   /// @thread any
@@ -103,7 +105,12 @@ class EventCommand final : public component::Component {
   std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
   base::Duration max_age_;
   std::vector<const void*> places_;
-  std::vector<types::Value> converted_;  ///< numbers that become those of a parameter, by index
+  /// A number of another type than the parameter's, which it becomes.
+  struct Conversion {
+    const types::Type* from = nullptr;  ///< nullptr: they are the same
+    types::Value value;
+  };
+  std::vector<Conversion> conversions_;  ///< of each
   base::Time given_at_{};
   std::size_t given_then_ = 0;  ///< so many at that time
   Refusal refusal_{*this};

@@ -85,12 +85,7 @@ auto with_scalar(Kind kind, Code&& code) {
   }
 }
 
-/// True if every number of type `from` is one of `to`, rounded at most.
-inline bool becomes(const Type& from, const Type& to) {
-  return is_number(from) && (to.kind == Kind::kFloat || to.kind == Kind::kDouble);
-}
-
-/// The number at `value` as one of type `to`, which it `becomes`, at `result`.
+/// The number at `value` as a floating one of type `to`, at `result`.
 /// @rt nonblocking, no allocation
 inline void convert_number(const Type& from, const void* value, const Type& to,
                            void* result) noexcept {

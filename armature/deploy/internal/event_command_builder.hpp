@@ -74,9 +74,6 @@ class EventCommandBuilder {
                                        const base::Location& where);
   std::optional<Parameter> from_port(const Wire& wire, std::size_t index, const Value& written);
   bool fits(const Wire& wire, std::size_t index, const Offer& offer);
-  /// `type`, if the parameter has another one that it becomes; nullptr: it is the same.
-  static const types::Type* converted_from(const Wire& wire, std::size_t index,
-                                           const types::Type& type);
   bool make(Wire&& wire);
 
   exec::Blueprint& blueprint_;
