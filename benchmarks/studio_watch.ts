@@ -13,8 +13,8 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { connect, type Peer } from "@armature/ride/tcp";
-import { InspectorPlaceholder } from "./generated/inspection.ts";
-import { type RunState, WorkbenchPlaceholder } from "./generated/workbench.ts";
+import { InspectorPlaceholder } from "@armature/placeholders/inspection.ts";
+import { type RunState, WorkbenchPlaceholder } from "@armature/placeholders/workbench.ts";
 
 const [program, robots] = process.argv.slice(2);
 const option = (name: string, otherwise: number) => {
