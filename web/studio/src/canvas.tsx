@@ -4,6 +4,7 @@ import {
   type OnConnectEnd, type OnConnectStart, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
 } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useState } from "react";
+import { WireEdge } from "./wire_edge.tsx";
 import { BoxNode, type BoxData, type BoxNodeType } from "./box_node.tsx";
 import { Breadcrumb } from "./breadcrumb.tsx";
 import { port_place, size_of } from "./geometry.ts";
@@ -14,11 +15,14 @@ import { add_model, box_called, connect, is_source, look_for_ends, port_of, remo
 import { open_composite, selection, tell } from "./selection.ts";
 
 const kMostWithPorts = 300;
-const kFar = 0.35;          ///< zoomed out further, boxes have no ports
+const kFar = 0.3;           ///< zoomed out further, boxes have no ports
 const kManyBoxes = 100;     ///< from here on only what is in sight is drawn
 const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
+const kFitMany = { padding: 0.06, maxZoom: 1 };
+const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.5 };
 const node_types = { box: BoxNode };
+const edge_types = { wire: WireEdge };
 
 export const drag_model = (event: React.DragEvent, model: string): void => event.dataTransfer.setData(kDragged, model);
 
@@ -44,13 +48,13 @@ function Flow() {
   return (
     <div className={`canvas${stale ? " stale" : ""}${reaching ? " reaching" : ""}`}>
       <ReactFlow<BoxNodeType>
-        nodes={nodes.all} edges={edges} nodeTypes={node_types} onNodesChange={nodes.changed} onEdgesChange={wires_changed}
+        nodes={nodes.all} edges={edges} nodeTypes={node_types} edgeTypes={edge_types} onNodesChange={nodes.changed} onEdgesChange={wires_changed}
         onConnect={wire_made} onConnectStart={wire_begun} onConnectEnd={wire_end} isValidConnection={may_connect}
         connectionMode={ConnectionMode.Loose} connectionRadius={16} onNodeDoubleClick={(_, node) => open_box(node.data.box)}
         onPaneClick={() => selection.set({ boxes: [], wires: [], port: undefined, menu: undefined })}
         onBeforeDelete={async () => (void remove_selected(), false)} deleteKeyCode={["Delete", "Backspace"]}
         onKeyDown={open_with_key} onDrop={drop} onDragOver={(event) => event.preventDefault()} snapToGrid snapGrid={kSnap} minZoom={0.05} maxZoom={2}
-        fitView fitViewOptions={{ padding: 0.08, maxZoom: 1 }} onlyRenderVisibleElements={many} zoomOnDoubleClick={false}
+        fitView fitViewOptions={graph.boxes.length > kManyBoxes ? kFitMany : kFit} onlyRenderVisibleElements={many} zoomOnDoubleClick={false}
         ariaLabelConfig={{ "node.a11yDescription.default": "Arrows move the box, Enter opens a composite, Delete removes it" }}
         proOptions={{ hideAttribution: false }} colorMode="system">
         <Background variant={BackgroundVariant.Dots} gap={24} size={1} />
@@ -157,7 +161,7 @@ function edge_of(wire: Wire, selected: boolean, boxes: string[]): Edge {
   const near = boxes.includes(wire.from.box) || boxes.includes(wire.to.box);
   const classes = [wire.kind, wire.triggers && "triggers", wire.delayed && "delayed", near && "near"];
   return {
-    id: wire.id, source: wire.from.box, sourceHandle: wire.from.port, target: wire.to.box, targetHandle: wire.to.port, selected,
+    id: wire.id, type: "wire", source: wire.from.box, sourceHandle: wire.from.port, target: wire.to.box, targetHandle: wire.to.port, selected,
     className: classes.filter(Boolean).join(" "), ariaLabel: `${wire.written[0]} to ${wire.written[1]}`, interactionWidth: 14,
   };
 }
@@ -243,5 +247,5 @@ function useReveal(): void {
   useEffect(() => {
     if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration: 200, padding: 0.4 });
   }, [flow, reveal]);
-  useEffect(() => void setTimeout(() => void flow.fitView({ padding: 0.08, maxZoom: 1 }), 30), [flow, path]);
+  useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path]);
 }

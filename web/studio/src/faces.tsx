@@ -81,7 +81,7 @@ function useHold(component: string, holds: boolean) {
 
 const LightFace: Face = ({ component }) => {
   const on = useNumber(`${component.name}.On`) > 0;
-  return <span className={`light ${on ? "on" : ""}`} role="img" aria-label={`${component.name} is ${on ? "on" : "off"}`} />;
+  return <span className={`lamp ${on ? "on" : ""}`} role="img" aria-label={`${component.name} is ${on ? "on" : "off"}`} />;
 };
 
 const NumberFace: Face = ({ component }) => {

@@ -6,9 +6,9 @@ import { is_source } from "./scene.ts";
 export const kHeader = 44;
 export const kRow = 22;
 const kFoot = 8;
-const kLeast = 184;
+const kLeast = 152;
 const kMost = 360;
-const kCharacter = 6.6;
+const kCharacter = 6.4;
 
 export function size_of(box: Box, ports: boolean): { width: number; height: number } {
   if (!ports) return { width: kLeast, height: kHeader };
@@ -18,8 +18,8 @@ export function size_of(box: Box, ports: boolean): { width: number; height: numb
 
 function width_of(box: Box): number {
   const longest = (ports: BoxPort[]) => Math.max(0, ...ports.map((port) => port.name.length));
-  const inner = (longest(box.inputs) + longest(box.outputs)) * kCharacter + 56;
-  const title = (box.title.length + (box.names.length > 1 ? 6 : 0)) * 8 + 40;
+  const inner = (longest(box.inputs) + longest(box.outputs)) * kCharacter + 44;
+  const title = (box.title.length + (box.names.length > 1 ? 6 : 0)) * 7.4 + 28;
   return Math.min(kMost, Math.max(kLeast, Math.ceil(Math.max(inner, title) / 8) * 8));
 }
 

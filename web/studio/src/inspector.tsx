@@ -36,12 +36,14 @@ function Application() {
   return (
     <>
       <h2>{shown.application || "Application"}</h2>
-      <p>{`${shown.components.length} components, ${shown.connections.filter((one) => one.kind === "data").length} connections`}</p>
+      <p>{`${counted(shown.components.length, "component")}, ${counted(shown.connections.filter((one) => one.kind === "data").length, "connection")}`}</p>
       {shown.threads.length > 0 && <h3>Threads</h3>}
       <ul className="lanes">
-        {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{thread.order.length} components</small></li>)}
+        {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
       </ul>
       <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>
     </>
   );
 }
+
+const counted = (count: number, noun: string): string => `${count} ${noun}${count === 1 ? "" : "s"}`;

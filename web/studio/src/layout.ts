@@ -12,7 +12,7 @@ export type Point = [number, number];
 type Edge = readonly [string, string];
 
 const kGrid = 8;
-const kGapX = 112;
+const kGapX = 72;
 const kGapY = 32;
 const kSweeps = 8;
 

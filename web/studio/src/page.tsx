@@ -38,7 +38,7 @@ function Page() {
         <Outline />
       </nav>
       <main aria-label="Canvas"><Guard><Canvas /></Guard></main>
-      {text && <section className="text" aria-label="Text"><Guard><Suspense fallback={<p className="hint">Opening the text …</p>}><TextView /></Suspense></Guard></section>}
+      {text && <section className="beside" aria-label="Text"><Guard><Suspense fallback={<p className="hint">Opening the text …</p>}><TextView /></Suspense></Guard></section>}
       <Guard><Inspector /></Guard>
       <Panel />
       <FitMenu />

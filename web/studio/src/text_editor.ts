@@ -2,7 +2,7 @@
 import { defaultKeymap, indentWithTab } from "@codemirror/commands";
 import { yaml } from "@codemirror/lang-yaml";
 import { HighlightStyle, indentOnInput, syntaxHighlighting } from "@codemirror/language";
-import { type Diagnostic as Mark, lintGutter, setDiagnostics } from "@codemirror/lint";
+import { type Diagnostic as Mark, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Annotation, ChangeSet, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
@@ -32,6 +32,8 @@ const look = EditorView.theme({
   ".cm-content": { caretColor: "var(--ink)" },
   ".cm-cursor": { borderLeftColor: "var(--ink)" },
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--select-strong) !important" },
+  ".cm-lintRange": { backgroundImage: "none !important", paddingBottom: "0", textDecoration: "underline wavy var(--bad)" },
+  ".cm-lintRange-warning, .cm-lintRange-info": { textDecorationColor: "var(--warn)" },
   ".cm-tooltip, .cm-panels": { backgroundColor: "var(--card)", color: "var(--ink)", border: "1px solid var(--line)" },
 });
 
@@ -56,7 +58,7 @@ export class TextEditor {
     return EditorState.create({
       doc,
       extensions: [
-        lineNumbers(), lintGutter(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), indentOnInput(), yaml(),
+        lineNumbers(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), indentOnInput(), yaml(),
         syntaxHighlighting(colours), look, EditorState.tabSize.of(2), EditorView.contentAttributes.of({ "aria-label": `Text of ${this.path}` }),
         keymap.of([...defaultKeymap, ...searchKeymap, indentWithTab]),
         EditorView.updateListener.of((update) => {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // node shots.mjs FOLDER OUTPUT [NAME]: pictures of each view of the page in FOLDER (bundled with
-// the mock), light and dark, 1280 and 800 wide, to be looked at.
+// the mock), light and dark, 1280 and 800 wide, to be looked at. CAPTURED=pid,wam shows pid.json and
+// wam.json in FOLDER, too.
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
 import { launch, open, serve } from "./browser.mjs";
@@ -60,7 +61,7 @@ const kViews = {
     await page.waitForTimeout(300);
   }],
   question: ["arm", async (page) => {
-    await page.locator(".react-flow__node", { hasText: "Sensor" }).locator("header").click();
+    await page.locator(".react-flow__node", { hasText: "Sensor · " }).locator("header").click();
     await page.getByLabel("joints", { exact: true }).fill("6");
     await page.keyboard.press("Enter");
     await page.waitForTimeout(300);
@@ -73,6 +74,7 @@ const kViews = {
   }],
   lost: ["wave", async (page) => page.evaluate(() => window.mock.connection(false, "the studio was closed"))],
   many: ["many=1000"],
+  ...Object.fromEntries((process.env.CAPTURED ?? "").split(",").filter(Boolean).map((name) => [name, [`captured=${name}`]])),
 };
 
 const { address, close } = await serve(folder);

@@ -2,7 +2,7 @@
 // Stands for `armature studio` in tests: texts in memory, edits by the package yaml.
 import { Document, parseDocument } from "yaml";
 import type { Change, Outcome, ProjectState, RunSettings, RunState, Workbench } from "../../src/backend.ts";
-import { type Checked, type End, split_member } from "../../src/checked.ts";
+import { type Checked, type End, type Model, split_member } from "../../src/checked.ts";
 import { check } from "./checker.ts";
 import { kModels } from "./models.ts";
 
@@ -26,7 +26,8 @@ export class MockWorkbench implements Workbench {
   started = 0;
   on_state: (state: string, simulated: boolean) => void = () => undefined;
 
-  constructor(private readonly file: string, texts: Record<string, string>) {
+  /** @param captured  what the real check said of these texts, in place of the mock's */
+  constructor(private readonly file: string, texts: Record<string, string>, private readonly captured?: { check: Checked; models: Model[] }) {
     this.texts = new Map(Object.entries(texts));
     this.saved = copy(this.texts);
   }
@@ -48,11 +49,11 @@ export class MockWorkbench implements Workbench {
 
   text = async (path: string): Promise<string> => this.texts.get(path) ?? "";
   places = async (): Promise<string> => JSON.stringify({ boxes: this.boxes });
-  models = async (): Promise<string> => JSON.stringify(kModels);
+  models = async (): Promise<string> => JSON.stringify(this.captured?.models ?? kModels);
   check = async (): Promise<string> => JSON.stringify(this.checked());
 
   checked(): Checked {
-    return check(this.file, this.texts, kModels);
+    return this.captured?.check ?? check(this.file, this.texts, kModels);
   }
 
   async edit({ changes, files, overrides }: { changes: Change[]; files: string[]; overrides: boolean }): Promise<Outcome> {
@@ -182,7 +183,7 @@ export class MockWorkbench implements Workbench {
     };
     const kind: End["kind"] = output ? "input" : "output";
     const ends = components.flatMap((one) => one[side].map((other): End => ({ component: one.name, member: other.name, kind, why_not: why_not(one.name, other) })));
-    const models = kModels.flatMap((one) => one[side].filter((other) => why_not("", other) === "").map((other): End => ({ component: one.name, member: other.name, kind })));
+    const models = (this.captured?.models ?? kModels).flatMap((one) => one[side].filter((other) => why_not("", other) === "").map((other): End => ({ component: one.name, member: other.name, kind })));
     return JSON.stringify({ ends, models });
   }
 
