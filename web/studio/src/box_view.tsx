@@ -67,7 +67,7 @@ function activity_yaml(activity: Activity): string {
 function ActivityField({ box }: { box: Box }) {
   const { activity, thread } = box.components[0]!;
   return (
-    <Field label="Activity" about={`${box.id} activity`} value={activity_yaml(activity)}
+    <Field wide label="Activity" about={`${box.id} activity`} value={activity_yaml(activity)}
       hint={`${activity_text(activity)}${thread ? `, in the thread ${thread}` : ""}`}
       list={["sequential", "triggered", "{periodic: 10 ms}", "{periodic: 10 ms, priority: 70}"]}
       take={(text) => edit([change("set", `${box.edited}.activity`, text)], { field: `${box.id} activity`, file: box.file })} />

@@ -20,7 +20,7 @@ const kManyBoxes = 100;     ///< from here on only what is in sight is drawn
 const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
-const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.5 };
+const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.45 };
 const node_types = { box: BoxNode };
 const edge_types = { wire: WireEdge };
 
@@ -244,8 +244,9 @@ function useReveal(): void {
   const flow = useReactFlow();
   const reveal = selection.use((state) => state.reveal);
   const path = selection.use((state) => state.path);
+  const text = selection.use((state) => state.text);
   useEffect(() => {
     if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration: 200, padding: 0.4 });
   }, [flow, reveal]);
-  useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path]);
+  useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path, text]);
 }

@@ -10,12 +10,13 @@ interface FieldProps {
   hint?: string;
   title?: string;
   list?: string[];
+  wide?: boolean;     ///< the text has a line of its own
   /** @return whether it was taken */
   take(text: string): Promise<boolean>;
 }
 
 /** A text that is taken with Enter or on leaving; Escape takes it back. A refusal stands below it. */
-export function Field({ label, about, value, unit, hint, title, list, take }: FieldProps) {
+export function Field({ label, about, value, unit, hint, title, list, wide, take }: FieldProps) {
   const id = useId();
   const [text, set_text] = useState(value);
   const [tried, set_tried] = useState<string>();
@@ -30,14 +31,17 @@ export function Field({ label, about, value, unit, hint, title, list, take }: Fi
     await take(text);
   };
   const on_key = (event: React.KeyboardEvent) => {
-    if (event.key === "Enter") void commit();
+    if (event.key === "Enter") {
+      event.preventDefault();  // or it presses what is asked next
+      void commit();
+    }
     if (event.key === "Escape" && !event.shiftKey) {
       set_text(value);
       if (refusal) clear_refusal();
     }
   };
   return (
-    <div className={`field${refusal ? " refused" : ""}`}>
+    <div className={`field${refusal ? " refused" : ""}${wide ? " wide" : ""}`}>
       <label htmlFor={id} title={title}>{label}</label>
       <span className="entry">
         <input id={id} value={text} spellCheck={false} autoComplete="off" aria-invalid={refusal ? true : undefined} list={list ? `${id}-list` : undefined}

@@ -18,8 +18,8 @@ export function size_of(box: Box, ports: boolean): { width: number; height: numb
 
 function width_of(box: Box): number {
   const longest = (ports: BoxPort[]) => Math.max(0, ...ports.map((port) => port.name.length));
-  const inner = (longest(box.inputs) + longest(box.outputs)) * kCharacter + 44;
-  const title = (box.title.length + (box.names.length > 1 ? 6 : 0)) * 7.4 + 28;
+  const inner = (longest(box.inputs) + longest(box.outputs)) * kCharacter + 52;
+  const title = (box.title.length + (box.names.length > 1 ? 4 : 0)) * 7.4 + 84;
   return Math.min(kMost, Math.max(kLeast, Math.ceil(Math.max(inner, title) / 8) * 8));
 }
 

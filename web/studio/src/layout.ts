@@ -12,8 +12,11 @@ export type Point = [number, number];
 type Edge = readonly [string, string];
 
 const kGrid = 8;
-const kGapX = 72;
+const kGapX = 88;
 const kGapY = 32;
+const kGapBand = 72;
+const kShape = 1.6;       ///< width by height that is wanted
+const kLeastBands = 2.6;  ///< one long row is easier to read than two
 const kSweeps = 8;
 
 export const on_grid = (value: number): number => Math.round(value / kGrid) * kGrid;
@@ -24,7 +27,7 @@ export function layout(nodes: LayoutNode[], edges: Edge[], fixed: ReadonlyMap<st
   const flowing = nodes.filter((node) => connected.has(node.id));
   const alone = nodes.filter((node) => !connected.has(node.id));
   const places = new Map<string, Point>();
-  const bottom = place_layers(ordered(layers_of(flowing, edges), edges), edges, places);
+  const bottom = place_bands(ordered(layers_of(flowing, edges), edges), edges, places);
   place_rows(alone, flowing.length > 0 ? bottom + 2 * kGapY : 0, places);
   return keep_fixed(nodes, places, fixed);
 }
@@ -118,26 +121,40 @@ function ordered(layers: LayoutNode[][], edges: Edge[]): LayoutNode[][] {
   return layers;
 }
 
-/** Places the layers beside each other, each centred; returns where the lowest box ends. */
-function place_layers(layers: LayoutNode[][], edges: Edge[], places: Map<string, Point>): number {
+const height_of = (layer: LayoutNode[]): number => layer.reduce((sum, node) => sum + node.height + kGapY, -kGapY);
+const width_of = (layer: LayoutNode[]): number => Math.max(0, ...layer.map((node) => node.width)) + kGapX;
+
+/** A series of layers that is far wider than high is continued below; returns where the lowest ends. */
+function place_bands(layers: LayoutNode[][], edges: Edge[], places: Map<string, Point>): number {
   const near = neighbours(edges);
-  const height = (layer: LayoutNode[]) => layer.reduce((sum, node) => sum + node.height + kGapY, -kGapY);
-  const tallest = Math.max(0, ...layers.map(height));
+  const width = layers.reduce((sum, layer) => sum + width_of(layer), 0);
+  const height = Math.max(1, ...layers.map(height_of));
+  const bands = Math.sqrt(width / (kShape * (height + kGapBand)));
+  const length = Math.ceil(layers.length / (bands < kLeastBands ? 1 : Math.round(bands)));
+  let top = 0;
+  for (let begin = 0; begin < layers.length; begin += length) {
+    top = place_layers(layers.slice(begin, begin + length), near, top, places) + kGapBand;
+  }
+  return Math.max(0, top - kGapBand);
+}
+
+/** Places the layers beside each other, each centred; returns where the lowest box ends. */
+function place_layers(layers: LayoutNode[][], near: Map<string, string[]>, top: number, places: Map<string, Point>): number {
+  const tallest = Math.max(0, ...layers.map(height_of));
   let x = 0;
-  let bottom = 0;
   for (const layer of layers) {
-    let y = (tallest - height(layer)) / 2;
+    let y = top + (tallest - height_of(layer)) / 2;
+    let left = height_of(layer);
     for (const node of layer) {
-      const wanted = wanted_y(node, near, places);
-      const room = tallest - (layer.slice(layer.indexOf(node)).reduce((sum, one) => sum + one.height + kGapY, -kGapY));
-      y = Math.max(y, Math.min(wanted, Math.max(y, room)));
+      const lowest = top + tallest - left;
+      y = Math.max(y, Math.min(wanted_y(node, near, places), lowest));
       places.set(node.id, [on_grid(x), on_grid(y)]);
       y += node.height + kGapY;
-      bottom = Math.max(bottom, y);
+      left -= node.height + kGapY;
     }
-    x += Math.max(0, ...layer.map((node) => node.width)) + kGapX;
+    x += width_of(layer);
   }
-  return bottom;
+  return top + tallest;
 }
 
 /** The mean height of those neighbours that have a place already. */

@@ -51,7 +51,7 @@ function common_lines(a: string[], b: string[]): Uint32Array {
 export function replacements(old: string, now: string): Replacement[] {
   const rough = narrowed(old, now, 0)[0];
   if (!rough) return [];
-  const begin = old.lastIndexOf("\n", rough.from - 1) + 1;
+  const begin = rough.from === 0 ? 0 : old.lastIndexOf("\n", rough.from - 1) + 1;
   const behind = old.indexOf("\n", rough.to);
   const end = behind < 0 ? old.length : behind + 1;
   const a = lines_of(old.slice(begin, end));

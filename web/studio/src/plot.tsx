@@ -54,7 +54,7 @@ export default function Plot() {
         ? <p className="hint">Choose what is drawn: Plot in the inspector of a port, or the key P on a port in the outline.</p>
         : <Diagram items={plotted} />}
       <ul className="chips">
-        {plotted.map((item) => <li key={item}>{item}<button type="button" aria-label={`Plot ${item} no more`} onClick={() => toggle_plotted(item)}>×</button></li>)}
+        {plotted.map((item, i) => <li key={item} data-lane={i % kMostCurves}>{item}<button type="button" aria-label={`Plot ${item} no more`} onClick={() => toggle_plotted(item)}>×</button></li>)}
       </ul>
     </div>
   );
@@ -77,7 +77,7 @@ function draw(items: string[], place: HTMLElement): () => void {
     const now = time_now();
     if (now === undefined) return;
     curves.sample(now);
-    chart = shown(curves, chart, place);
+    chart = shown(curves, chart, items, place);
   };
   const timer = setInterval(redraw, kRedraw);
   const sized = new ResizeObserver(() => chart?.setSize(size_of(place)));
@@ -102,10 +102,11 @@ function time_now(): number | undefined {
   return seen.time + (here - seen.at) * rate;
 }
 
-const size_of = (place: HTMLElement) => ({ width: place.clientWidth, height: Math.max(80, place.clientHeight - 28) });
+const size_of = (place: HTMLElement) => ({ width: place.clientWidth, height: Math.max(80, place.clientHeight - (place.querySelector(".u-legend")?.clientHeight ?? 0)) });
 
-function shown(curves: Curves, chart: uPlot | undefined, place: HTMLElement): uPlot | undefined {
-  const names = [...curves.values.keys()];
+function shown(curves: Curves, chart: uPlot | undefined, items: string[], place: HTMLElement): uPlot | undefined {
+  const known = [...curves.values.keys()];
+  const names = items.flatMap((item) => known.filter((name) => name.replace(/\[\d+\]$/, "") === item));
   if (names.length === 0) return chart;
   const data: uPlot.AlignedData = [curves.times, ...names.map((name) => curves.values.get(name)!)];
   if (chart && chart.series.length === names.length + 1) {
@@ -113,15 +114,16 @@ function shown(curves: Curves, chart: uPlot | undefined, place: HTMLElement): uP
     return chart;
   }
   chart?.destroy();
-  return new uPlot(options_of(names, place), data, place);
+  return new uPlot(options_of(names, names.length > items.length, place), data, place);
 }
 
-function options_of(names: string[], place: HTMLElement): uPlot.Options {
+/** @param legend  of vectors, whose elements are told by it */
+function options_of(names: string[], legend: boolean, place: HTMLElement): uPlot.Options {
   const style = getComputedStyle(place);
   const axis: uPlot.Axis = { stroke: style.getPropertyValue("--soft"), grid: { stroke: style.getPropertyValue("--grid"), width: 1 }, ticks: { show: false } };
   return {
     ...size_of(place), scales: { x: { time: false } }, axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
-    legend: { live: false }, cursor: { points: { show: false } },
+    legend: { show: legend, live: false }, cursor: { points: { show: false } },
     series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kMostCurves}`), width: 1.5 }))],
   };
 }

@@ -55,7 +55,7 @@ function Binding({ box, requirement }: { box: Box; requirement: Requirement }) {
   const bind = (text: string) =>
     edit([text ? change("bind", box.edited, requirement.name, text) : change("unbind", box.edited, requirement.name)], { field: about, file: box.file });
   return (
-    <Field label={requirement.name} about={about} value={target} take={bind} title={requirement.signature}
+    <Field wide label={requirement.name} about={about} value={target} take={bind} title={requirement.signature}
       list={offers(requirement)} hint={[requirement.doc, requirement.optional ? "may stay open" : ""].filter(Boolean).join(" · ")} />
   );
 }

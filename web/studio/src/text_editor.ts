@@ -58,7 +58,7 @@ export class TextEditor {
     return EditorState.create({
       doc,
       extensions: [
-        lineNumbers(), drawSelection(), highlightActiveLine(), highlightSelectionMatches(), indentOnInput(), yaml(),
+        lineNumbers(), drawSelection(), highlightActiveLine(), EditorView.lineWrapping, highlightSelectionMatches(), indentOnInput(), yaml(),
         syntaxHighlighting(colours), look, EditorState.tabSize.of(2), EditorView.contentAttributes.of({ "aria-label": `Text of ${this.path}` }),
         keymap.of([...defaultKeymap, ...searchKeymap, indentWithTab]),
         EditorView.updateListener.of((update) => {

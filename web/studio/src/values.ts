@@ -119,14 +119,18 @@ export function number_text(value: number): string {
   const size = Math.abs(value);
   if (value === 0) return "0";
   if (size >= 1e6 || size < 1e-4) return value.toExponential(1);
-  return Number.isInteger(value) ? String(value) : value.toFixed(size >= 100 ? 1 : 3);
+  return Number.isInteger(value) ? String(value) : String(Number(value.toFixed(size >= 100 ? 1 : 3)));
 }
+
+/** `true` while it is one, or all, of several. */
+export const truth_text = (numbers: number[]): string => (numbers.every((one) => one > 0) ? "true" : numbers.some((one) => one > 0) ? "some" : "false");
 
 /** One number, or the least and the greatest of several. */
 export function numbers_text(numbers: number[]): string {
   if (numbers.length === 0) return "";
   if (numbers.length <= 2) return numbers.map(number_text).join(", ");
-  return `${number_text(Math.min(...numbers))} … ${number_text(Math.max(...numbers))}`;
+  const short = (value: number) => number_text(Number(value.toPrecision(2)));
+  return `${short(Math.min(...numbers))} … ${short(Math.max(...numbers))}`;
 }
 
 export function age_text(seconds: number): string {

@@ -17,7 +17,7 @@ export function WireView({ wire }: { wire: Wire }) {
       <p className="lead">{wire.kind === "data" ? "Connection" : "An event that commands"}</p>
       <h2 className="ends"><span>{from}</span> <span aria-label="to">→</span> <span>{to}</span></h2>
       <ul className="list">{facts(wire).map((fact) => <li key={fact}>{fact}</li>)}</ul>
-      <Field label="Settings" about={about} value={settings} take={take}
+      <Field wide label="Settings" about={about} value={settings} take={take}
         hint={wire.kind === "data" ? "such as policy: {fifo: 8}, max_age: 30 ms" : "such as name: Go, with: {height: 2 m}"} />
       <p className="actions">
         {wire.file && <button type="button" onClick={() => show_text(wire.file!, wire.line, wire.column)}>Show in the text</button>}

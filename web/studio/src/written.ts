@@ -35,7 +35,7 @@ export function ends_at(texts: Texts, file: string, line: number, column: number
   const text = texts.get(file);
   if (text === undefined) return undefined;
   const rest = text.slice(offset_of(text, line, column)).replace(/^-\s*/, "");
-  const arrow = /^["']?([^\s"']+)\s*->\s*([^\s"',}]+)/.exec(rest);
+  const arrow = /^["']?([^\s"']+)\s*->\s*([\w.{}+-]+)/.exec(rest);
   if (arrow) return [arrow[1]!, arrow[2]!];
   const entry = rest.slice(0, entry_length(rest));
   const from = /\b(?:from|on):\s*["']?([\w.]+(?:\{[^}]*\}\w*)*(?:\.[\w{}+-]+)?)/.exec(entry);

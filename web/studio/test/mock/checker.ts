@@ -59,7 +59,7 @@ class Check {
       if (file === this.file) this.application = String(map.get("application") ?? "");
       this.read_composites(file, map.get("composites"));
     }
-    for (const { file, map } of documents) if (isMap(map)) this.read_components(file, map.get("components") as YAMLMap | null);
+    for (const { file, map } of [...documents].reverse()) if (isMap(map)) this.read_components(file, map.get("components") as YAMLMap | null);
     for (const { file, map } of documents) if (isMap(map)) this.read_connections(file, map.get("connections"));
   }
 
@@ -106,6 +106,7 @@ class Check {
 
   private add(name: string, entry: YAMLMap | null, place: Place, file: string): void {
     const plain = (isMap(entry) ? entry.toJSON() : { model: isScalar(entry as unknown) ? String(entry) : "" }) as Record<string, unknown>;
+    if (plain["override"]) return this.override(name, (plain["properties"] ?? {}) as Record<string, unknown>);
     const model_name = String(plain["model"] ?? "");
     const composite = this.composites.get(model_name);
     if (composite) {
@@ -130,6 +131,11 @@ class Check {
     const ports = { inputs: model.inputs, outputs: model.outputs.map((one) => (unit && one.unit === "" && one.type === "double" ? { ...one, unit } : one)) };
     void file;
     this.components.push({ ...model, ...ports, name, model: model_name, ...place, activity, thread, properties });
+  }
+
+  private override(name: string, values: Record<string, unknown>): void {
+    const component = this.components.find((one) => one.name === name);
+    for (const property of component?.properties ?? []) property.value = text_of(values[property.name]) ?? property.value;
   }
 
   private read_connections(file: string, all: unknown): void {

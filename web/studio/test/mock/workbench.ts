@@ -94,6 +94,7 @@ export class MockWorkbench implements Workbench {
     }
     const path = overrides ? this.file : files[0] ?? this.file_of(a, texts);
     const document = parseDocument(texts.get(path) ?? "");
+    if (overrides) document.setIn(["components", a.split(".")[0], "override"], true);
     const refused = this.change_document(document, edit, a, b, c);
     if (!refused) texts.set(path, document.toString({ lineWidth: 0, flowCollectionPadding: false }));
     return refused;
