@@ -61,18 +61,20 @@ export function open_project(from: Backend): void {
 }
 
 let again = false;
-let busy = false;
+let reading: Promise<void> | undefined;
 
-/** Reads what has changed; those that ask meanwhile are served by one more round. */
-export async function refresh(): Promise<void> {
+/** Reads what has changed. Those that ask meanwhile are served by one more round. */
+export function refresh(): Promise<void> {
   again = true;
-  if (busy) return;
-  busy = true;
+  reading ??= read_until_done().finally(() => (reading = undefined));
+  return reading;
+}
+
+async function read_until_done(): Promise<void> {
   while (again) {
     again = false;
     await read_all().catch((error: unknown) => project.set({ trouble: message_of(error) }));
   }
-  busy = false;
 }
 
 async function read_all(): Promise<void> {

@@ -75,7 +75,7 @@ export class TextEditor {
 
   /** What the server has now; what is typed here and not there yet stays. */
   take(version: number, text: string): void {
-    if (this.writing) return;
+    if (this.writing || version < this.version) return;
     if (this.version === 0) {
       this.view.setState(this.fresh_state(text));
     } else {

@@ -212,9 +212,11 @@ page_test("a run shows values and states, and Shift+Esc stops it", "arm", async 
 page_test("controls are operated; what holds is moved again while it is held", "arm", async (page) => {
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await page.getByRole("tab", { name: "Operate" }).click();
-  await page.getByRole("button", { name: "Press" }).click();
+  await page.getByRole("button", { name: "Press", exact: true }).click();
   await page.getByRole("switch", { name: "Power" }).click();
-  const { x, y } = await middle(page.getByRole("slider", { name: "Jog" }));
+  const slider = page.getByRole("slider", { name: "Jog" });
+  await slider.hover();
+  const { x, y } = await middle(slider);
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.waitForTimeout(400);

@@ -115,10 +115,10 @@ export class MockWorkbench implements Workbench {
     else if (edit === "rename") return this.rename(document, a, b);
     else if (edit === "set") return set(document, owner, member, b);
     else if (edit === "unset") document.deleteIn(["components", owner, "properties", member]);
-    else if (edit === "connect") document.addIn(["connections"], c ? document.createNode({ from: a, to: b }) : `${a} -> ${b}`);
+    else if (edit === "connect") add_to(document, ["connections"], c ? document.createNode({ from: a, to: b }) : `${a} -> ${b}`);
     else if (edit === "disconnect") remove_connection(document, `${a} -> ${b}`);
-    else if (edit === "library") document.addIn(["libraries"], a);
-    else if (edit === "peer") document.addIn(["components", a, "peers"], b);
+    else if (edit === "library") add_to(document, ["libraries"], a);
+    else if (edit === "peer") add_to(document, ["components", a, "peers"], b);
     return "";
   }
 
@@ -234,6 +234,11 @@ function set(document: Document, owner: string, member: string, value: string): 
     document.setIn(["components", owner, "properties", member], /deg$/.test(value) ? (number * Math.PI) / 180 : parsed);
   }
   return "";
+}
+
+function add_to(document: Document, path: string[], item: unknown): void {
+  if (document.hasIn(path)) document.addIn(path, item);
+  else document.setIn(path, document.createNode([item]));
 }
 
 function remove_connection(document: Document, written: string): void {
