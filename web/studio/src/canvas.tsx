@@ -17,10 +17,11 @@ import { open_composite, selection, tell } from "./selection.ts";
 const kMostWithPorts = 300;
 const kFar = 0.3;           ///< zoomed out further, boxes have no ports
 const kManyBoxes = 100;     ///< from here on only what is in sight is drawn
+const kMostWithoutMap = 10;
 const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
-const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.45 };
+const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.4 };
 const node_types = { box: BoxNode };
 const edge_types = { wire: WireEdge };
 
@@ -59,7 +60,7 @@ function Flow() {
         proOptions={{ hideAttribution: false }} colorMode="system">
         <Background variant={BackgroundVariant.Dots} gap={24} size={1} />
         <Controls showInteractive={false} />
-        {graph.boxes.length > 12 && <MiniMap pannable zoomable ariaLabel="Overview" />}
+        {graph.boxes.length > kMostWithoutMap && <MiniMap pannable zoomable ariaLabel="Overview" />}
       </ReactFlow>
       {graph.boxes.length === 0 && <Empty />}
       {stale && <p className="stale-note" role="status">The text has a mistake that hides its components. The canvas shows them as they were; mend the text, or take it back with Undo.</p>}

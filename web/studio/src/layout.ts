@@ -16,7 +16,7 @@ const kGapX = 88;
 const kGapY = 32;
 const kGapBand = 72;
 const kShape = 1.6;       ///< width by height that is wanted
-const kLeastBands = 2.6;  ///< one long row is easier to read than two
+const kMostWidth = 1400;  ///< of a row; it is easier to read than several
 const kSweeps = 8;
 
 export const on_grid = (value: number): number => Math.round(value / kGrid) * kGrid;
@@ -130,7 +130,7 @@ function place_bands(layers: LayoutNode[][], edges: Edge[], places: Map<string, 
   const width = layers.reduce((sum, layer) => sum + width_of(layer), 0);
   const height = Math.max(1, ...layers.map(height_of));
   const bands = Math.sqrt(width / (kShape * (height + kGapBand)));
-  const length = Math.ceil(layers.length / (bands < kLeastBands ? 1 : Math.round(bands)));
+  const length = Math.ceil(layers.length / (width < kMostWidth ? 1 : Math.max(1, Math.round(bands))));
   let top = 0;
   for (let begin = 0; begin < layers.length; begin += length) {
     top = place_layers(layers.slice(begin, begin + length), near, top, places) + kGapBand;

@@ -35,7 +35,7 @@ function Call({ component, operation }: { component: string; operation: Operatio
     <form className="call" onSubmit={(event) => (event.preventDefault(), void call())} title={`${operation.signature}\n${operation.doc}`}>
       <button type="submit">{operation.name}</button>
       {operation.arguments.map((one, i) => (
-        <input key={i} aria-label={`${operation.name}: ${label(one)}`} placeholder={label(one)} value={words[i]}
+        <input key={i} aria-label={`${operation.name}: ${label(one)}`} placeholder={label(one)} title={one.type} size={Math.max(10, label(one).length)} value={words[i]}
           onChange={(event) => set_words(words.with(i, event.target.value))} />
       ))}
       {handle >= 0 && <button type="button" className="small" onClick={() => void inspector().cancel(handle)}>Cancel</button>}

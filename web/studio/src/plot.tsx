@@ -117,13 +117,20 @@ function shown(curves: Curves, chart: uPlot | undefined, items: string[], place:
   return new uPlot(options_of(names, names.length > items.length, place), data, place);
 }
 
+/** Constant values stand in the middle. */
+function with_room(_: uPlot, low: number | null, high: number | null): [number, number] {
+  const [least, most] = [low ?? 0, high ?? 0];
+  const room = most > least ? (most - least) * 0.08 : Math.abs(most) * 0.1 || 1;
+  return [least - room, most + room];
+}
+
 /** @param legend  of vectors, whose elements are told by it */
 function options_of(names: string[], legend: boolean, place: HTMLElement): uPlot.Options {
   const style = getComputedStyle(place);
   const axis: uPlot.Axis = { stroke: style.getPropertyValue("--soft"), grid: { stroke: style.getPropertyValue("--grid"), width: 1 }, ticks: { show: false } };
   return {
-    ...size_of(place), scales: { x: { time: false } }, axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
+    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
     legend: { show: legend, live: false }, cursor: { points: { show: false } },
-    series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kMostCurves}`), width: 1.5 }))],
+    series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kMostCurves}`), width: 1.5, points: { show: false } }))],
   };
 }

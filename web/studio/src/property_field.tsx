@@ -27,8 +27,15 @@ export function PropertyField({ box, property, fallback }: { box: Box; property:
 
 const is_bound = (bound: number | null | undefined): bound is number => typeof bound === "number" && Math.abs(bound) < 1e6;
 
-const slides = ({ range }: Property, value: string): boolean =>
-  range !== undefined && is_bound(range[0]) && is_bound(range[1]) && value !== "" && Number.isFinite(Number(value));
+const kMostWhole = 200;  ///< from here on a slider does not meet each whole number
+
+const is_whole = ({ type }: Property): boolean => /int|long|short/.test(type);
+
+function slides(property: Property, value: string): boolean {
+  const [low, high] = property.range ?? [];
+  if (!is_bound(low) || !is_bound(high) || value === "" || !Number.isFinite(Number(value))) return false;
+  return !is_whole(property) || high - low <= kMostWhole;
+}
 
 function range_text({ range }: Property): string {
   if (!range) return "";
@@ -41,13 +48,12 @@ function range_text({ range }: Property): string {
 function Slide({ property, value, take }: { property: Property; value: number; take(text: string): Promise<boolean> }) {
   const [moved, set_moved] = useState<number>();
   const [low, high] = property.range as [number, number];
-  const whole = /int|long|short/.test(property.type);
   const let_go = () => {
     if (moved !== undefined && moved !== value) void take(String(Number(moved.toPrecision(6))));
     set_moved(undefined);
   };
   return (
-    <input type="range" aria-label={`${property.name}, slider`} min={low} max={high} step={whole ? 1 : (high - low) / 200} value={moved ?? value}
+    <input type="range" aria-label={`${property.name}, slider`} min={low} max={high} step={is_whole(property) ? 1 : (high - low) / 200} value={moved ?? value}
       aria-valuetext={`${number_text(moved ?? value)} ${property.unit}`} onChange={(event) => set_moved(Number(event.target.value))}
       onPointerUp={let_go} onKeyUp={let_go} onBlur={let_go} />
   );
