@@ -158,10 +158,23 @@ const failed = (message: string): Outcome => ({
   done: false, version: 0, diagnostics: JSON.stringify([{ severity: "error", message }]),
 });
 
-export const undo = (): Promise<boolean> => settle(backend.workbench.undo(kPatient), "");
-export const redo = (): Promise<boolean> => settle(backend.workbench.redo(kPatient), "");
-export const save = (): Promise<boolean> => settle(backend.workbench.save(kPatient), "");
-export const reload = (): Promise<boolean> => settle(backend.workbench.reload(kPatient), "");
+/** Of the editors, for what was typed and is not written yet. */
+export const unwritten = new Set<() => Promise<void>>();
+
+export async function write_typed(): Promise<void> {
+  for (const write_now of unwritten) await write_now();
+}
+
+/** Does something about the texts once all that was typed is in them. */
+async function with_all_typed(what: () => Promise<Outcome>): Promise<boolean> {
+  await write_typed();
+  return settle(what(), "");
+}
+
+export const undo = (): Promise<boolean> => with_all_typed(() => backend.workbench.undo(kPatient));
+export const redo = (): Promise<boolean> => with_all_typed(() => backend.workbench.redo(kPatient));
+export const save = (): Promise<boolean> => with_all_typed(() => backend.workbench.save(kPatient));
+export const reload = (): Promise<boolean> => with_all_typed(() => backend.workbench.reload(kPatient));
 
 /** Writes a text that was made from the one of `version`. */
 export async function write(version: number, path: string, text: string): Promise<boolean> {

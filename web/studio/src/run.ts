@@ -3,7 +3,7 @@
 import {
   type ApplicationStatus, type Backend, type ComponentStatus, kPatient, message_of, type Pace, type RunState,
 } from "./backend.ts";
-import { is_saved, project, save } from "./project.ts";
+import { is_saved, project, save, write_typed } from "./project.ts";
 import { selection, tell } from "./selection.ts";
 import { Store } from "./store.ts";
 
@@ -104,6 +104,7 @@ async function told<Result>(done: Promise<Result>): Promise<Result | undefined> 
 }
 
 export async function start(): Promise<void> {
+  await write_typed();
   if (!is_saved(project.get().state) && !(await save())) return;
   const { simulated, pace } = run.get();
   const state = await told(backend.workbench.start({ simulated, pace, mode: "", overrides: [] }, kPatient));

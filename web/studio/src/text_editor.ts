@@ -10,7 +10,7 @@ import { tags } from "@lezer/highlight";
 import { offset_of } from "./bytes.ts";
 import type { Diagnostic } from "./checked.ts";
 import { replacements } from "./merge.ts";
-import { project, write } from "./project.ts";
+import { project, unwritten, write } from "./project.ts";
 
 const kDebounce = 300;  ///< from the last key to the write [ms]
 const from_elsewhere = Annotation.define<boolean>();
@@ -43,7 +43,7 @@ export class TextEditor {
   private version = 0;
   private base = "";     ///< the text of `version`, from which what is typed was made
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private writing = false;
+  private writing: Promise<void> | undefined;
 
   /** The editor makes its own styles; in a shadow root they need no style element. */
   constructor(host: HTMLElement, private readonly path: string) {
@@ -52,6 +52,7 @@ export class TextEditor {
     inside.style.height = "100%";
     root.replaceChildren(inside);
     this.view = new EditorView({ parent: inside, root, state: this.fresh_state("") });
+    unwritten.add(this.write_now);
   }
 
   private fresh_state(doc: string): EditorState {
@@ -89,15 +90,21 @@ export class TextEditor {
 
   private write_soon(): void {
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => void this.write(), kDebounce);
+    this.timer = setTimeout(() => void this.write_now(), kDebounce);
   }
 
-  private async write(): Promise<void> {
-    if (this.writing || this.text === this.base) return;
-    this.writing = true;
-    const sent = this.text;
+  /** Writes what was typed; done once that has an answer. */
+  private readonly write_now = async (): Promise<void> => {
+    await this.writing;
+    clearTimeout(this.timer);
+    if (this.text === this.base) return;
+    this.writing = this.write(this.text).finally(() => (this.writing = undefined));
+    await this.writing;
+  };
+
+  private async write(sent: string): Promise<void> {
     const done = await write(this.version, this.path, sent);
-    this.writing = false;
+    this.writing = undefined;
     if (done) this.base = sent;
     const { texts, textsVersion } = project.get();
     this.take(textsVersion, texts.get(this.path) ?? "");
@@ -123,8 +130,8 @@ export class TextEditor {
 
   /** What was typed last is written, too. */
   close(): void {
-    clearTimeout(this.timer);
-    void this.write();
+    unwritten.delete(this.write_now);
+    void this.write_now();
     this.view.destroy();
   }
 }
