@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
-  applyNodeChanges, Background, BackgroundVariant, type Connection, ConnectionMode, Controls, type Edge, type EdgeChange, MiniMap, type NodeChange,
+  applyNodeChanges, Background, BackgroundVariant, type Connection, ConnectionMode, ControlButton, Controls, type Edge, type EdgeChange, MiniMap, type NodeChange,
   type OnConnectEnd, type OnConnectStart, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
 } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useState } from "react";
@@ -11,6 +11,7 @@ import { port_place, size_of } from "./geometry.ts";
 import type { Box, Graph, Wire } from "./graph.ts";
 import { layout, on_grid, type Point } from "./layout.ts";
 import { change, edit, project } from "./project.ts";
+import { arrange, arrangements, known_places, remember } from "./remembered.ts";
 import { add_model, box_called, connect, is_source, look_for_ends, port_of, remove_selected, useScene, why_not } from "./scene.ts";
 import { open_composite, selection, tell } from "./selection.ts";
 
@@ -59,7 +60,9 @@ function Flow() {
         ariaLabelConfig={{ "node.a11yDescription.default": "Arrows move the box, Enter opens a composite, Delete removes it" }}
         proOptions={{ hideAttribution: false }} colorMode="system">
         <Background variant={BackgroundVariant.Dots} gap={24} size={1} />
-        <Controls showInteractive={false} />
+        <Controls showInteractive={false}>
+          <ControlButton onClick={arrange} title="Lay out anew all boxes that nobody moved" aria-label="Arrange">⇶</ControlButton>
+        </Controls>
         {graph.boxes.length > kMostWithoutMap && <MiniMap pannable zoomable ariaLabel="Overview" />}
       </ReactFlow>
       {graph.boxes.length === 0 && <Empty />}
@@ -87,7 +90,8 @@ function useNodes(graph: Graph) {
   const ports = !far && graph.boxes.length <= kMostWithPorts;
   const [moved, set_moved] = useState<ReadonlyMap<string, Point>>(new Map());
   useEffect(() => set_moved(new Map()), [places, graph]);
-  const laid = useMemo(() => places_of(graph, places), [graph, places]);
+  const arranged = arrangements.use((state) => state.count);
+  const laid = useMemo(() => places_of(graph, places), [graph, places, arranged]);
   const all = useMemo(
     () => graph.boxes.map((box) => node_of(box, moved.get(box.id) ?? laid.get(box.id)!, ports, chosen.includes(box.id), lane_of(box), errors_of(box, diagnostics))),
     [graph, moved, laid, ports, chosen, diagnostics],
@@ -113,7 +117,9 @@ function places_of(graph: Graph, places: ReadonlyMap<string, Point>): Map<string
   const nodes = graph.boxes.map((box) => ({ id: box.id, ...size_of(box, graph.boxes.length <= kMostWithPorts) }));
   const edges = graph.wires.filter((wire) => wire.kind === "data").map((wire) => [wire.from.box, wire.to.box] as const);
   const commands = graph.wires.filter((wire) => wire.kind !== "data").map((wire) => [wire.from.box, wire.to.box] as const);
-  return layout(nodes, [...edges, ...commands], places);
+  const laid = layout(nodes, [...edges, ...commands], known_places(graph.boxes, places));
+  remember(graph.boxes, laid);
+  return laid;
 }
 
 function node_of(box: Box, [x, y]: Point, ports: boolean, selected: boolean, lane: number, errors: number): BoxNodeType {

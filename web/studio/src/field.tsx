@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useEffect, useId, useState } from "react";
+import { type ReactNode, useEffect, useId, useState } from "react";
 import { clear_refusal, project } from "./project.ts";
 
 interface FieldProps {
@@ -10,13 +10,14 @@ interface FieldProps {
   hint?: string;
   title?: string;
   list?: string[];
+  children?: ReactNode;  ///< behind the text
   wide?: boolean;     ///< the text has a line of its own
   /** @return whether it was taken */
   take(text: string): Promise<boolean>;
 }
 
 /** A text that is taken with Enter or on leaving; Escape takes it back. A refusal stands below it. */
-export function Field({ label, about, value, unit, hint, title, list, wide, take }: FieldProps) {
+export function Field({ label, about, value, unit, hint, title, list, children, wide, take }: FieldProps) {
   const id = useId();
   const [text, set_text] = useState(value);
   const [tried, set_tried] = useState<string>();
@@ -47,6 +48,7 @@ export function Field({ label, about, value, unit, hint, title, list, wide, take
         <input id={id} value={text} spellCheck={false} autoComplete="off" aria-invalid={refusal ? true : undefined} list={list ? `${id}-list` : undefined}
           aria-describedby={`${id}-about`} onChange={(event) => set_text(event.target.value)} onBlur={() => void commit()} onKeyDown={on_key} />
         {unit && <span className="unit">{unit}</span>}
+        {children}
       </span>
       {list && <datalist id={`${id}-list`}>{list.map((one) => <option key={one} value={one} />)}</datalist>}
       <div id={`${id}-about`} className="about">

@@ -171,7 +171,7 @@ function place_rows(nodes: LayoutNode[], top: number, places: Map<string, Point>
     let x = 0;
     for (const node of row) {
       places.set(node.id, [on_grid(x), on_grid(y)]);
-      x += node.width + kGapY;
+      x += node.width + kGapX;
     }
     y += Math.max(...row.map((node) => node.height)) + kGapY;
   }

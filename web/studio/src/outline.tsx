@@ -53,6 +53,7 @@ export function Outline() {
   return (
     <section className="outline" aria-label="Outline">
       <h2>Outline</h2>
+      {rows.length === 0 && <p className="hint">Components are listed here.</p>}
       <ul role="tree" aria-label="Boxes and their ports" ref={tree} className="scroll">
         {rows.map((row, index) => (
           row.box.id === renamed && !row.port
@@ -61,7 +62,6 @@ export function Outline() {
                 on_key={(event) => on_key(event, row, index)} on_focus={() => set_at(row.key)} unfold={unfold} />
         ))}
       </ul>
-      {rows.length === 0 && <p className="hint">Components are listed here.</p>}
       {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects a port <kbd>Del</kbd> removes</p>}
     </section>
   );

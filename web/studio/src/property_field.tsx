@@ -18,9 +18,10 @@ export function PropertyField({ box, property, fallback }: { box: Box; property:
   return (
     <div className="property">
       <Field label={property.name} about={about} value={value} unit={property.unit} list={property.values}
-        title={`${property.type}${property.mandatory ? ", has to be set" : ""}`} hint={hint.filter(Boolean).join(" · ")} take={take} />
+        title={`${property.type}${property.mandatory ? ", has to be set" : ""}`} hint={hint.filter(Boolean).join(" · ")} take={take}>
+        {differs && <button type="button" className="unset" title="Unset: takes it out of the file, the default counts" aria-label={`Unset ${property.name}`} onClick={() => void take("")}>↺</button>}
+      </Field>
       {slides(property, value) && <Slide property={property} value={Number(value)} take={take} />}
-      {differs && <button type="button" className="small" title="Takes it out of the file: the default counts" aria-label={`Unset ${property.name}`} onClick={() => void take("")}>Unset</button>}
     </div>
   );
 }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files' text. It comes with the editor, so it is loaded when it is opened.
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useMemo, useRef, useState } from "react";
 import { project } from "./project.ts";
 import { selection } from "./selection.ts";
 import { TextEditor } from "./text_editor.ts";
 
+const kPlaces = ".studio.json";  ///< where boxes are: nobody types that
+
 export default function TextView() {
-  const files = project.use((state) => state.state.files);
+  const all = project.use((state) => state.state.files);
+  const files = useMemo(() => all.filter((file) => !file.path.endsWith(kPlaces)), [all]);
   const place = selection.use((state) => state.textPlace);
   const [path, set_path] = useState(place?.file ?? files[0]?.path ?? "");
   useEffect(() => {
