@@ -48,6 +48,7 @@ export function Outline() {
       rename: () => set_renamed(row.box.id), parent: () => go(rows.find((one) => one.key === row.box.id)) });
     if (!action) return;
     event.preventDefault();
+    event.stopPropagation();  // the canvas hears Delete everywhere
     action();
   };
   return (

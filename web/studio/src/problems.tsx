@@ -27,19 +27,25 @@ export function Problems() {
 }
 
 function Problem({ problem }: { problem: Diagnostic }) {
-  const { severity, message, hint, file, line, column, fix, likewise } = problem;
-  const others = likewise ? `, likewise ${likewise.count} others, '${likewise.first}' to '${likewise.last}'` : "";
+  const { severity, message, hint, file, line, column, fix } = problem;
   return (
     <div className={`problem ${severity}`}>
       <b>{severity}</b>
       <span className="message">
-        <button type="button" className="link" onClick={() => go_to(problem)}>{message}{others}</button>
+        <button type="button" className="link" onClick={() => go_to(problem)}>{message}{others_text(problem)}</button>
         {hint && <small>{hint}</small>}
       </span>
       {fix && <button type="button" className="small" onClick={() => void apply_fix(fix)}>{`Write ${fix.by}`}</button>}
       {file && <button type="button" className="link place" onClick={() => show_text(file, line, column)}>{`${file.split("/").pop()}${line ? `:${line}` : ""}`}</button>}
     </div>
   );
+}
+
+/** For whom else it stands. */
+function others_text({ likewise }: Diagnostic): string {
+  if (!likewise) return "";
+  if (likewise.count === 1) return `, likewise ${likewise.first}`;
+  return `, likewise ${likewise.count} others, ${likewise.first} to ${likewise.last}`;
 }
 
 /** To the box that stands at the place, to the wire, or to the text. */

@@ -131,6 +131,13 @@ page_test("Delete removes what is selected, and Undo brings it back", "wave", as
   assert.equal(await node(page, "Watcher").count(), 1);
 });
 
+page_test("Delete in the outline removes once", "wave", async (page) => {
+  await page.getByRole("treeitem").filter({ hasText: "Watcher" }).focus();
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["remove Watcher"]);
+});
+
 page_test("a selected wire is disconnected by Delete", "wave", async (page) => {
   await page.locator(".react-flow__edge").first().focus();
   await page.keyboard.press("Enter");
