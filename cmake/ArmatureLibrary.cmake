@@ -114,10 +114,10 @@ endfunction()
 #   LINK             third-party targets; private
 #   TESTS            each file becomes the executable and test <NAME>_<file>
 #   TEST_USES        what the tests need beyond that
-#   TEST_DEFINITIONS for their preprocessor
+#   TEST_PATHS       names and paths, as for armature_test_paths()
 function(armature_static_library)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME;LAYER"
-                        "USES;LINK;SOURCES;TESTS;TEST_USES;TEST_DEFINITIONS")
+                        "USES;LINK;SOURCES;TESTS;TEST_USES;TEST_PATHS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "armature_static_library(${arg_NAME}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -133,7 +133,7 @@ function(armature_static_library)
   foreach(test IN LISTS arg_TESTS)
     cmake_path(GET test STEM stem)
     armature_test(NAME ${arg_NAME}_${stem} SOURCES ${test} USES ${arg_NAME} ${arg_TEST_USES})
-    target_compile_definitions(${arg_NAME}_${stem} PRIVATE ${arg_TEST_DEFINITIONS})
+    armature_test_paths(${arg_NAME}_${stem} ${arg_TEST_PATHS})
   endforeach()
 endfunction()
 
@@ -143,7 +143,7 @@ endfunction()
 # robot's component library and its tests are all that use it.
 function(armature_robot)
   armature_static_library(LAYER robots ${ARGV}
-                          TEST_DEFINITIONS ROBOT_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}")
+                          TEST_PATHS ROBOT_FOLDER ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
 
 # Calls inside the library and accesses to its thread-local variables cost no detour.
@@ -192,10 +192,21 @@ endfunction()
 function(armature_test)
   armature_test_program(${ARGV})
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "")
-  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME})
+  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   if(NOT arg_NAME MATCHES "${ARMATURE_TESTS}")
     armature_leave_out(${arg_NAME})
   endif()
+endfunction()
+
+# armature_test_paths(janus_deployed_arming JANUS ${PROJECT_SOURCE_DIR}/robots/janus ...)
+#
+# Macros for the sources of a test. The paths are relative to the root of the tree, where tests run:
+# so they are the same in each checkout, and ccache gives one what another has compiled.
+function(armature_test_paths test)
+  while(ARGN)
+    list(POP_FRONT ARGN name path)
+    target_compile_definitions(${test} PRIVATE "${name}=\"$<PATH:RELATIVE_PATH,${path},${PROJECT_SOURCE_DIR}>\"")
+  endwhile()
 endfunction()
 
 # For a test that defines operator new to count allocations: the thread sanitizer of clang has its

@@ -19,9 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Absolute: each test is run there.
+const fs::path kMistakes = fs::absolute(TESTDATA "/mistakes");
+
 std::vector<std::string> all_mistakes() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(TESTDATA "/mistakes")) {
+  for (const auto& entry : fs::directory_iterator(kMistakes)) {
     if (entry.path().extension() == ".idl") names.push_back(entry.path().stem());
   }
   std::sort(names.begin(), names.end());
@@ -35,7 +38,7 @@ std::string content_of(const fs::path& file) {
 
 class Mistake : public ::testing::TestWithParam<std::string> {
  protected:
-  void SetUp() override { fs::current_path(TESTDATA "/mistakes"); }
+  void SetUp() override { fs::current_path(kMistakes); }
 };
 
 TEST_P(Mistake, IsAnsweredByItsOwnTextWithItsPlace) {
@@ -56,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Files, Mistake, ::testing::ValuesIn(all_mistakes()),
                          [](const auto& name) { return name.param; });
 
 TEST(Mistakes, EveryExpectedTextHasItsFile) {
-  for (const auto& entry : fs::directory_iterator(TESTDATA "/mistakes")) {
+  for (const auto& entry : fs::directory_iterator(kMistakes)) {
     if (entry.path().extension() != ".expected") continue;
     EXPECT_TRUE(fs::exists(fs::path(entry.path()).replace_extension(".idl"))) << entry.path();
   }

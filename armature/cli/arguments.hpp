@@ -41,6 +41,7 @@ struct RunArguments {
   std::string script;
   bool browse = false;
   std::vector<std::string> listen;  ///< addresses beside those of the deployment
+  std::string policy;               ///< a file with rules beside those of the deployment
   std::string write_times;
   std::string output_folder;  ///< of recordings; empty: the working directory
   std::string trace;          ///< the timeline's file; empty: none

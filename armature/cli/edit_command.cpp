@@ -8,7 +8,7 @@
 
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
-#include "armature/cli/save_files.hpp"
+#include "armature/edit/save_files.hpp"
 #include "armature/edit/unified_diff.hpp"
 #include "armature/platform/file.hpp"
 
@@ -90,7 +90,7 @@ int edit_files(const EditArguments& arguments, const Console& console) {
     for (const edit::FileChange& file : outcome.files) console.print(edit::unified_diff(file));
     return kDone;
   }
-  if (const auto saved = save_files(outcome.files); !saved) {
+  if (const auto saved = edit::save_files(outcome.files); !saved) {
     console.say(rt::LogLevel::kError, saved.error());
     return kFailed;
   }

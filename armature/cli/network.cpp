@@ -63,6 +63,7 @@ remote::Network& NetworkOnDemand::network() {
   options.web = [this](const std::string& folder, base::Diagnostics& problems) {
     return web_ = websocket::make_transport({.pages = folder}, problems);
   };
+  options.policy = policy_;
   options.log = [this](const rt::LogRecord& record) { console_.log(record); };
   network_ = remote::make_network(options);
   return *network_;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "armature/cli/arguments.hpp"
 #include "armature/cli/console.hpp"
@@ -15,7 +17,9 @@ namespace armature::cli {
 class NetworkOnDemand {
  public:
   /// @param console  outlives this
-  explicit NetworkOnDemand(const Console& console) : console_(console) {}
+  /// @param policy   a file with rules beside those of the deployment; empty: none
+  explicit NetworkOnDemand(const Console& console, std::string policy = {})
+      : console_(console), policy_(std::move(policy)) {}
 
   /// For `load`: placeholders of components in other processes.
   deploy::MakePlaceholder placeholders();
@@ -39,6 +43,7 @@ class NetworkOnDemand {
   remote::Network& network();
 
   const Console& console_;
+  const std::string policy_;
   std::shared_ptr<websocket::Transport> web_;
   std::unique_ptr<remote::Network> network_;
 };

@@ -340,7 +340,7 @@ bool has_prompt(const deploy::Deployment& deployment) {
 
 int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
-  NetworkOnDemand network(console);
+  NetworkOnDemand network(console, arguments.policy);
   deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;

@@ -79,6 +79,10 @@ void add_run(const CommandLine& to) {
           "address at which other processes reach it: tcp://127.0.0.1:4242, unix:/run/robot.sock")
       ->type_name("ADDRESS")
       ->allow_extra_args(false);
+  command
+      ->add_option("--policy", run.policy,
+                   "who else may do what, beside those whom the deployment's policy allows")
+      ->type_name("FILE");
   command->add_option("--realtime", options->realtime, "off, prefer (default) or require")
       ->check(one_of({"off", "prefer", "require"}))
       ->type_name("MODE");

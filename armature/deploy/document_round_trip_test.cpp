@@ -66,7 +66,7 @@ connections:
   - {name: bus, ports: [S.x, C.x, J1.x], policy: {fifo: 2}}
 grants: {script: [S.arm, left.d.go], remote: [S.arm]}
 before_stop: [S.rest, left.d.go]
-network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, pages: site, memory_kB: 32000, socket_mode: "0660", tls: {certificate: c.pem, key: k.pem, authority: a.pem},
+network: {listen: [tcp://127.0.0.1:4242], policy: a.policy, pages: site, memory_kB: 32000, socket_mode: "0660", serving: {most: 20, least: 10}, tls: {certificate: c.pem, key: k.pem, authority: a.pem},
   inputs: [S.b, {to: left.d.c, max_age: 100 ms, on_old: zero}]}
 modes: {one: ["J{1..2}", left], two: [C, J1]}
 mode: two

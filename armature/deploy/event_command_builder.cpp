@@ -295,11 +295,11 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
   return made;
 }
 
-/// Its type and unit are those of the parameter.
+/// Its type and unit are those of the parameter, or it is a number that becomes one of them.
 bool EventCommandBuilder::fits(const Wire& wire, std::size_t index, const Offer& offer) {
   const NameAndUnit wants = argument(wire.command.signature(), index);
   const types::Type& wanted = *wire.command.signature().arguments[index].type;
-  if (types::same_type(offer.type, wanted) && same_unit(offer.unit, wants.unit)) return true;
+  if (exec::EventCommand::takes(wanted, offer.type) && same_unit(offer.unit, wants.unit)) return true;
   diagnostics_.error(offer.where,
                      offer.what + " is " + in_unit(offer.type, offer.unit) + ", but " +
                          in_quotes(wants.name) + " of " + path(wire.connection.to) + " is " +

@@ -35,12 +35,16 @@ class Button final : public component::Component {
     passed_.raise(0.1 * updates_, updates_ % 20 == 0);
     turned_.raise(1.0);
     crossed_.raise(0.1 * updates_, false);
+    counted_.raise(updates_ / 10);
+    floor_.write(static_cast<std::uint8_t>(updates_ / 10));
   }
 
   component::Event<> pressed_{this, "Pressed", "by somebody"};
   component::Event<double, bool> passed_{this, "Passed", "a place", {"height [m]", "fast"}};
   component::Event<double> turned_{this, "Turned", "a wheel", {"height [rad]"}};
   component::Event<double, bool> crossed_{this, "Crossed", "a place", {"place [m]", "height"}};
+  component::Event<std::int32_t> counted_{this, "Counted", "whole metres", {"height [m]"}};
+  component::OutputPort<std::uint8_t> floor_{this, "Floor", "whole metres", "m"};
   component::OutputPort<double> height_{this, "Height", "of somebody", "m"};
   component::OutputPort<double> never_{this, "Never", "is not written", "m"};
   component::OutputPort<double> angle_{this, "Angle", "of somebody", "rad"};
@@ -65,6 +69,7 @@ class Lift final : public component::Component {
     left_ = 3;
     return component::accepted();
   }
+  Outcome pick(std::int32_t) { return component::accepted(); }
   Outcome level() {
     ++levelled;
     levelled_.raise();
@@ -82,6 +87,8 @@ class Lift final : public component::Component {
                                            "goes there",
                                            component::done_when<&Lift::is_there>,
                                            component::args("height [m]", "quickly")};
+  component::Command<std::int32_t> pick_{this, "pick", component::serve<&Lift::pick>, "picks",
+                                         component::args("floor")};
   component::Command<> level_{this, "level", component::serve<&Lift::level>, "levels the cabin"};
   component::Event<> levelled_{this, "Levelled", "the cabin is level"};
   component::Command<double> move_{this,
@@ -202,6 +209,16 @@ TEST(EventCommand, TakesItsParametersFromTheEvent) {
   Running by_name("  - {on: Button.Passed, do: Lift.travel, with: {quickly: fast}}\n");
   by_name.run_for(300ms);
   EXPECT_EQ(by_name.lift().fast, by_place.lift().fast);
+}
+
+TEST(EventCommand, TakesNumbersOfOtherTypesWhereTheyBecomeTheParameters) {
+  Running run("  - {on: Button.Counted, do: Lift.travel, with: {quickly: false}}\n");
+  run.run_for(200ms);
+  EXPECT_THAT(run.lift().heights, ElementsAre(1.0, 2.0));
+  Running by_port(
+      "  - {on: Button.Pressed, do: Lift.travel, with: {height: Button.Floor, quickly: false}}\n");
+  by_port.run_for(300ms);
+  EXPECT_THAT(by_port.lift().heights, ElementsAre(1.0, 2.0));
 }
 
 TEST(EventCommand, TakesItsParametersFromPortsAsTheyAreThen) {
@@ -450,6 +467,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Button.Pressed -> Lift.travel",
                 "nothing gives the parameter 'height' of 'Lift.travel' (say where it comes from: "
                 "with: {height: a value, Component.Port or a member of the event})"},
+        Mistake{
+            "{on: Button.Turned, do: Lift.pick, with: {floor: height}}",
+            "'height' of 'Button.Turned' is double in 'rad', but 'floor' of 'Lift.pick' is int"},
         Mistake{"Button.Turned -> Lift.move",
                 "'Lift.move' is an act of the operator: no event does it"},
         Mistake{"Button.Pressed -> Lift.Load", "'Lift.Load' is an input port"},

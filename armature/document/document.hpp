@@ -165,6 +165,13 @@ struct OperationOf {
   base::Location where;
 };
 
+/// Real-time priorities of the thread that serves other processes, by the priority of what it does.
+struct Serving {
+  int most = 0;
+  int least = 0;
+  base::Location where;
+};
+
 /// How the application is reached from other processes, and reaches them.
 struct Network {
   std::vector<Reference> listen;  ///< addresses, such as `tcp://127.0.0.1:4242`
@@ -177,6 +184,7 @@ struct Network {
   std::optional<int> memory_kb;    ///< that others may make the process keep
   /// Permissions of the socket files, such as 0660; empty: the owner's alone.
   std::optional<unsigned> socket_mode;
+  std::optional<Serving> serving;  ///< empty: not in real time
 };
 
 /// The component that writes what others send.

@@ -52,6 +52,32 @@ std::optional<unsigned> read_mode(const Value& value, const ValueReader& reader)
   return std::nullopt;
 }
 
+/// `{most: 20, least: 10}`
+std::optional<Serving> read_serving(const Value& value, const ValueReader& reader) {
+  constexpr int kHighest = 99;
+  Serving serving;
+  serving.where = value.where;
+  Fields fields(value, reader);
+  bool whole = true;
+  const std::pair<const char*, int*> kEnds[] = {{"most", &serving.most}, {"least", &serving.least}};
+  for (const auto& [key, priority] : kEnds) {
+    const Value* const given = fields.take(key);
+    const auto read = given == nullptr ? std::nullopt
+                                       : reader.whole_number(
+                                             *given, std::string(key) + " of serving", 1, kHighest);
+    if (given == nullptr)
+      reader.error(value.where, "serving has no '" + std::string(key) + "'",
+                   "for example serving: {most: 20, least: 10}");
+    whole &= read.has_value();
+    *priority = read.value_or(0);
+  }
+  fields.refuse_others();
+  if (!whole) return std::nullopt;
+  if (serving.least <= serving.most) return serving;
+  reader.error(value.where, "least of serving is above most", "exchange them");
+  return std::nullopt;
+}
+
 }  // namespace
 
 Network read_network(const Value& value, const ValueReader& reader) {
@@ -77,6 +103,9 @@ Network read_network(const Value& value, const ValueReader& reader) {
   }
   if (const Value* mode = fields.take("socket_mode")) {
     network.socket_mode = read_mode(*mode, reader);
+  }
+  if (const Value* serving = fields.take("serving")) {
+    network.serving = read_serving(*serving, reader);
   }
   fields.refuse_others();
   return network;

@@ -245,6 +245,12 @@ static Value network_tree(const Network& network) {
   if (!tls.entries.empty()) add(map, "tls", std::move(tls));
   if (network.memory_kb) add(map, "memory_kB", std::to_string(*network.memory_kb));
   if (network.socket_mode) add(map, "socket_mode", octal(*network.socket_mode));
+  if (network.serving) {
+    Value serving = make_map();
+    add(serving, "most", std::to_string(network.serving->most));
+    add(serving, "least", std::to_string(network.serving->least));
+    add(map, "serving", std::move(serving));
+  }
   return map;
 }
 

@@ -10,8 +10,8 @@
 #include "armature/document/limits.hpp"
 #include "armature/edit/replacement.hpp"
 
-/// Edits of deployments as edits of their text: every byte that an edit is not about stays. Nothing
-/// here knows a disk, but through the reader that it is given.
+/// Edits of deployments as edits of their text: every byte that an edit is not about stays. Only
+/// `save_files` knows a disk; the others read through the reader that they are given.
 namespace armature::edit {
 
 /// `path` is the name of a parameter; `Component.Property`, where the component may be as a file

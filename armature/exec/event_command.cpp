@@ -4,12 +4,25 @@
 #include <utility>
 
 #include "armature/component/host.hpp"
+#include "armature/types/elements.hpp"
 
 namespace armature::exec {
 
 using component::CommandStage;
 using component::Outcome;
 using component::Reason;
+
+namespace {
+
+/// nullptr: a constant, which was made as the parameter takes it.
+const types::Type* offered_type(const CommandParameter& parameter,
+                                const component::EventBase& event) {
+  if (parameter.from == CommandParameter::From::kPort) return &parameter.port->type();
+  if (parameter.from == CommandParameter::From::kConstant) return nullptr;
+  return event.signature().arguments[parameter.member].type;
+}
+
+}  // namespace
 
 EventCommand::EventCommand(std::string name, const component::EventBase& event,
                            const component::CommandBase& command,
@@ -30,6 +43,12 @@ EventCommand::EventCommand(std::string name, const component::EventBase& event,
       parameters_(std::move(parameters)),
       max_age_(max_age),
       places_(parameters_.size()) {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const types::Type& wanted = *command.signature().arguments[i].type;
+    const types::Type* const offered = offered_type(parameters_[i], event);
+    const bool same = offered == nullptr || types::same_type(*offered, wanted);
+    conversions_.push_back({same ? nullptr : offered, types::Value(wanted)});
+  }
   for (const CommandParameter& parameter : parameters_) {
     auto& input = inputs_.emplace_back();
     if (parameter.from != CommandParameter::From::kPort) continue;
@@ -44,6 +63,19 @@ Outcome EventCommand::on_start() {
   return component::accepted();
 }
 
+bool EventCommand::takes(const types::Type& parameter, const types::Type& offered) {
+  const bool floating =
+      parameter.kind == types::Kind::kFloat || parameter.kind == types::Kind::kDouble;
+  return types::same_type(parameter, offered) || (floating && types::is_number(offered));
+}
+
+const void* EventCommand::as_taken(std::size_t index, const void* from) {
+  auto& [type, value] = conversions_[index];
+  if (type == nullptr) return from;
+  types::convert_number(*type, from, value.type(), value.data());
+  return value.data();
+}
+
 /// Vectors have their sizes by now.
 Outcome EventCommand::on_activate() {
   std::vector<types::Value> members;
@@ -52,10 +84,10 @@ Outcome EventCommand::on_activate() {
     const CommandParameter& parameter = parameters_[i];
     switch (parameter.from) {
       case CommandParameter::From::kMember:
-        places_[i] = members[parameter.member].data();
+        places_[i] = as_taken(i, members[parameter.member].data());
         break;
       case CommandParameter::From::kPort:
-        places_[i] = inputs_[i]->current();
+        places_[i] = as_taken(i, inputs_[i]->current());
         break;
       case CommandParameter::From::kConstant:
         places_[i] = parameter.constant->data();
@@ -104,7 +136,9 @@ void EventCommand::Refusal::deliver(rt::Message& message) {
 Reason EventCommand::collect(const void* const* members) {
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const CommandParameter& parameter = parameters_[i];
-    if (parameter.from == CommandParameter::From::kMember) places_[i] = members[parameter.member];
+    if (parameter.from == CommandParameter::From::kMember) {
+      places_[i] = as_taken(i, members[parameter.member]);
+    }
     if (parameter.from != CommandParameter::From::kPort) continue;
     const auto read = inputs_[i]->read();
     Reason why(parameter.input);
@@ -112,7 +146,7 @@ Reason EventCommand::collect(const void* const* members) {
     if (max_age_ > base::Duration::zero() && time() - read.time > max_age_) {
       return why.append(" is too old");
     }
-    places_[i] = read.value;
+    places_[i] = as_taken(i, read.value);
   }
   return {};
 }

@@ -55,6 +55,10 @@ class EventCommand final : public component::Component {
                const component::CommandBase& command, std::vector<CommandParameter> parameters,
                base::Duration max_age);
 
+  /// True if a value of type `offered` can be a parameter: of the same type, or a number for a
+  /// floating one.
+  static bool takes(const types::Type& parameter, const types::Type& offered);
+
   /// What it gave is cancelled, and it gives nothing until it is started again.
   /// @thread any
   void rest() { do_.rest(); }
@@ -66,6 +70,8 @@ class EventCommand final : public component::Component {
   void on_cleanup() override { do_.forget(); }
   bool runs_in_circles();
   void give(const void* const* members);
+  /// The value at `from` as the parameter takes it.
+  const void* as_taken(std::size_t index, const void* from);
   /// Empty if all parameters are there.
   component::Reason collect(const void* const* members);
   void refuse(std::string_view reason);
@@ -99,6 +105,12 @@ class EventCommand final : public component::Component {
   std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
   base::Duration max_age_;
   std::vector<const void*> places_;
+  /// A number of another type than the parameter's, which it becomes.
+  struct Conversion {
+    const types::Type* from = nullptr;  ///< nullptr: they are the same
+    types::Value value;
+  };
+  std::vector<Conversion> conversions_;  ///< of each
   base::Time given_at_{};
   std::size_t given_then_ = 0;  ///< so many at that time
   Refusal refusal_{*this};

@@ -213,4 +213,12 @@ std::string checked_as_json(const Checked& checked, const CheckedForm& form) {
   return internal::text_of(json, form.indent);
 }
 
+std::string diagnostics_as_json(
+    const base::Diagnostics& diagnostics,
+    const std::function<base::Result<std::string>(const std::string& file)>& read) {
+  CheckedForm form;
+  form.read = read;
+  return internal::text_of(findings(diagnostics, form), -1);
+}
+
 }  // namespace armature::inspect

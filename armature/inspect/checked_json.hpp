@@ -32,4 +32,10 @@ struct CheckedForm {
 /// the order of execution (docs/check_json.md).
 std::string checked_as_json(const Checked& checked, const CheckedForm& form);
 
+/// What was found alone, a list as in there.
+/// @param read  as in CheckedForm
+std::string diagnostics_as_json(
+    const base::Diagnostics& diagnostics,
+    const std::function<base::Result<std::string>(const std::string& file)>& read);
+
 }  // namespace armature::inspect

@@ -97,6 +97,7 @@ class RideNetwork final : public Network {
     for (const document::Reference& each : document.network.listen) {
       check_means(each, document.network, options, diagnostics);
     }
+    set_serving(document, options, diagnostics);
   }
 
   void open(const document::Document& document, const std::vector<std::string>& listen,
@@ -112,6 +113,7 @@ class RideNetwork final : public Network {
     base::Diagnostics found;
     set_transports(document, options, found);
     set_policy(document, options, found);
+    set_serving(document, options, found);
     for (const document::Reference& each : document.network.listen) {
       check_means(each, document.network, options, found);
     }
@@ -243,23 +245,43 @@ class RideNetwork final : public Network {
   }
 
   /// Without a policy whoever reaches the node may look, and do nothing.
-  static void set_policy(const document::Document& document, ride::NodeOptions& options,
-                         base::Diagnostics& diagnostics) {
+  void set_policy(const document::Document& document, ride::NodeOptions& options,
+                  base::Diagnostics& diagnostics) const {
+    ride::Policy policy = policy_of(document, diagnostics);
+    if (!options_.policy.empty()) policy.add(ride::Policy::load(options_.policy, diagnostics));
+    const bool all_may_look = document.network.policy.name.empty();
+    options.allows = [policy, all_may_look](const ride::AccessQuestion& question) {
+      const bool looks = question.access == ride::Access::kRead;
+      return (all_may_look && looks) || policy.allows(question);
+    };
+  }
+
+  static ride::Policy policy_of(const document::Document& document,
+                                base::Diagnostics& diagnostics) {
     const document::Reference& file = document.network.policy;
-    if (file.name.empty()) {
-      options.allows = [](const ride::AccessQuestion& question) {
-        return question.access == ride::Access::kRead;
-      };
-      return;
-    }
-    const ride::Policy policy =
-        ride::Policy::load(document::path_from(document, file.name), diagnostics);
+    if (file.name.empty()) return {};
+    ride::Policy policy = ride::Policy::load(document::path_from(document, file.name), diagnostics);
     std::vector<std::string> names{Inspector::kName};
     for (const document::Component& each : document.components) names.push_back(each.name);
     policy.check(names, diagnostics);
-    options.allows = [policy](const ride::AccessQuestion& question) {
-      return policy.allows(question);
-    };
+    return policy;
+  }
+
+  /// Others must not hold up the application's own threads, however much they ask for.
+  static void set_serving(const document::Document& document, ride::NodeOptions& options,
+                          base::Diagnostics& diagnostics) {
+    const auto& serving = document.network.serving;
+    if (!serving) return;
+    options.serving = {.most = serving->most, .least = serving->least};
+    for (const document::Component& each : document.components) {
+      if (each.activity.priority == 0 || each.activity.priority > serving->most) continue;
+      diagnostics.error(serving->where,
+                        "serving with priority " + std::to_string(serving->most) +
+                            " would hold up '" + each.name + "', which has " +
+                            std::to_string(each.activity.priority),
+                        "give serving: priorities below those of all components");
+      return;
+    }
   }
 
   void listen_at(const std::string& address, const base::Location& where,

@@ -22,6 +22,7 @@ struct NetworkOptions {
   /// Makes the transport for `ws://`, which serves this folder.
   std::function<std::shared_ptr<ride::Transport>(const std::string&, base::Diagnostics&)> web;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
+  std::string policy{};  ///< a file with rules beside those of the deployment; empty: none
 };
 
 /// A process's part in the network: its node, the placeholders of an application, and its

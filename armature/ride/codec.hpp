@@ -94,6 +94,8 @@ class Encoder {
     put(static_cast<std::uint32_t>(flags.size()));
     for (const std::uint8_t flag : flags) put(flag != 0);
   }
+  /// All of a body that somebody else has encoded, before anything else: for who hands it on.
+  void put_body(std::span<const std::byte> encoded) { body_->append(encoded); }
   /// A struct, event or enum, by its `encode(Encoder&, const S&)`.
   template <typename S>
   requires(std::is_class_v<S> || std::is_enum_v<S>) void put(const S& structure) {
@@ -182,6 +184,13 @@ class Decoder {
   bool take_flags(std::vector<std::uint8_t>& flags) {
     if (!take(flags)) return false;
     return std::ranges::all_of(flags, [](std::uint8_t flag) { return flag <= 1; }) || fail();
+  }
+  /// All that is left, where it lies, unseen: for who hands it on.
+  std::span<const std::byte> take_rest() {
+    const std::size_t size = remaining();
+    if (size == 0) return {};
+    at_ += size;
+    return {start_ + at_ - size, size};
   }
   /// A struct, event or enum, by its `decode(Decoder&, S&)`.
   template <typename S>

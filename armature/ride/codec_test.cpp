@@ -235,5 +235,19 @@ TEST(Body, KeepsItsMemory) {
   EXPECT_EQ(body.capacity(), 0u);
 }
 
+TEST(Codec, ABodyIsHandedOnUnseen) {
+  Body body;
+  Encoder(body).put(std::string("abc"));
+  Decoder unseen(body.bytes());
+  Body other;
+  Encoder(other).put_body(unseen.take_rest());
+  EXPECT_TRUE(unseen.ended());
+  EXPECT_TRUE(unseen.take_rest().empty());
+  Decoder decoder(other.bytes());
+  std::string text;
+  EXPECT_TRUE(decoder.take(text) && decoder.ended());
+  EXPECT_EQ(text, "abc");
+}
+
 }  // namespace
 }  // namespace armature::ride

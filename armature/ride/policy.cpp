@@ -193,6 +193,10 @@ Policy Policy::load(const std::string& path, base::Diagnostics& diagnostics) {
   return {};
 }
 
+void Policy::add(const Policy& other) {
+  rules_.insert(rules_.end(), other.rules_.begin(), other.rules_.end());
+}
+
 bool Policy::allows(const AccessQuestion& question) const {
   const std::string asker = who(question);
   return std::ranges::any_of(rules_, [&](const PolicyRule& rule) {

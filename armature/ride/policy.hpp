@@ -40,6 +40,9 @@ class Policy {
   /// Warns of rules that speak of a component which is none of `components`.
   void check(const std::vector<std::string>& components, base::Diagnostics& diagnostics) const;
 
+  /// What `other` allows is allowed, too.
+  void add(const Policy& other);
+
   const std::vector<PolicyRule>& rules() const { return rules_; }
   /// As a file.
   std::string to_text() const;

@@ -56,6 +56,14 @@ TEST(Policy, ARuleAllowsWhatItSaysAndNothingElse) {
   EXPECT_FALSE(policy.allows({"unix", "operator", "Vision", Access::kRead}));
 }
 
+TEST(Policy, TwoTogetherAllowWhatOneAllows) {
+  Policy policy = policy_of("allow operator@tls read Vision");
+  policy.add(policy_of("allow operator@tls command Arm"));
+  EXPECT_TRUE(policy.allows(by_tls("operator", Access::kRead, "Vision")));
+  EXPECT_TRUE(policy.allows(by_tls("operator", Access::kCommand, "Arm")));
+  EXPECT_FALSE(policy.allows(by_tls("operator", Access::kCommand, "Vision")));
+}
+
 TEST(Policy, LocalIsWhoProvesNothingOnThisMachine) {
   const Policy policy = policy_of("allow local read,command,configure *");
   EXPECT_TRUE(policy.allows({"unix", "", "Vision", Access::kConfigure}));

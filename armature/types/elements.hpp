@@ -85,4 +85,18 @@ auto with_scalar(Kind kind, Code&& code) {
   }
 }
 
+/// The number at `value` as a floating one of type `to`, at `result`.
+/// @rt nonblocking, no allocation
+inline void convert_number(const Type& from, const void* value, const Type& to,
+                           void* result) noexcept {
+  const double number = with_scalar(from.kind, [value](auto type) {
+    return static_cast<double>(*static_cast<const typename decltype(type)::type*>(value));
+  });
+  if (to.kind == Kind::kFloat) {
+    *static_cast<float*>(result) = static_cast<float>(number);
+  } else {
+    *static_cast<double*>(result) = number;
+  }
+}
+
 }  // namespace armature::types

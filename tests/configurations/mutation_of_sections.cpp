@@ -114,7 +114,7 @@ std::optional<std::string> change_modes(Document& document, Random& random) {
 std::optional<std::string> change_network(Document& document, Random& random) {
   document::Network& network = document.network;
   if (network.listen.empty()) return change_placeholder(document, random);
-  switch (random() % 7) {
+  switch (random() % 8) {
     case 0:
       return "policy: " + replace(network.policy, "");
     case 1:
@@ -139,6 +139,9 @@ std::optional<std::string> change_network(Document& document, Random& random) {
       network.inputs.push_back(input);
       return "inputs: " + input.to.component + "." + input.to.port;
     }
+    case 6:
+      network.serving = document::Serving{random() % 2 == 0 ? 1 : 99, 1, {}};
+      return "serving: most " + std::to_string(network.serving->most);
     default:
       network.listen.clear();
       return "listen: nowhere";

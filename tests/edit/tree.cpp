@@ -27,7 +27,7 @@ base::Result<std::string> read_disk(const std::string& path) {
 std::vector<std::string> find_deployments() {
   std::vector<std::string> found;
   for (const char* folder : {"robots", "examples", "tests"}) {
-    const fs::path root = fs::path(SOURCE_FOLDER) / folder;
+    const fs::path root = (fs::path(SOURCE_FOLDER) / folder).lexically_normal();
     for (const auto& file : fs::recursive_directory_iterator(root)) {
       if (file.path().extension() != ".yaml") continue;
       base::Diagnostics diagnostics;

@@ -271,6 +271,14 @@ class AtATerminal(unittest.TestCase):
         terminal.type("\x03")
         terminal.leave()
 
+    def test_an_interrupt_while_the_terminal_takes_nothing_is_no_error_of_the_output(self):
+        terminal = self.browse("--sim")
+        terminal.type("\x13Sou")  # Ctrl-S: what the editor shows of it waits
+        time.sleep(0.3)
+        terminal.type("\x03")
+        terminal.expect("^C")
+        terminal.leave()
+
     def test_a_task_browser_in_the_deployment_opens_the_prompt(self):
         deployment = os.path.join(self.folder.name, "prompt.yaml")
         with open(deployment, "w", encoding="utf-8") as file:

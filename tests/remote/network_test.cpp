@@ -45,6 +45,23 @@ components: {Axis: {model: Axis, activity: {periodic: 2 ms}}}
   EXPECT_TRUE(wrong.network_->addresses().empty());
 }
 
+TEST(RemoteDeployment, WhoServesOthersHoldsUpNobodyHere) {
+  const auto mistakes = [](const std::string& serving) {
+    const Process process("network: {listen: tcp://127.0.0.1:0, serving: " + serving +
+                          "}\ncomponents: {Axis: {model: Axis, activity: {periodic: 2 ms, "
+                          "priority: 30}}}\n");
+    base::Diagnostics diagnostics = process.deployment.diagnostics;
+    process.network_->check(process.deployment.document, diagnostics);
+    return diagnostics.to_text();
+  };
+  EXPECT_EQ(mistakes("{most: 29, least: 10}"), "");
+  EXPECT_THAT(mistakes("{most: 30, least: 10}"),
+              HasSubstr("serving with priority 30 would hold up 'Axis', which has 30"));
+  EXPECT_THAT(mistakes("{most: 20}"), HasSubstr("serving has no 'least'"));
+  EXPECT_THAT(mistakes("{most: 10, least: 20}"), HasSubstr("least of serving is above most"));
+  EXPECT_THAT(mistakes("{most: 100, least: 1}"), HasSubstr("most of serving"));
+}
+
 TEST(RemoteDeployment, UnknownTransportsAreToldWithTheKnownOnes) {
   const Process wrong(
       R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243", "ws://127.0.0.1:8080"]}

@@ -59,7 +59,7 @@ class Robot {
                              "\ncomponents:\n  Silent: {model: Sampler, activity: {triggered: "
                              "true, priority: 20}}\n" +
                              others;
-    deployment_ = deploy::parse_deployment(text, "/unsampled.yaml", options);
+    deployment_ = deploy::parse_deployment(text, "unsampled.yaml", options);
     if (!deployment_.ok()) return;
     deployment_.options.simulated = true;
     application_ =

@@ -84,7 +84,9 @@ TEST(WamSafety, NoFileSaysThatTheArmIsAtHomeAndNoScriptWithoutAGrant) {
   deploy::DeploymentOptions options;
   options.library_folders = {LIBRARIES};
   const auto path = std::filesystem::temp_directory_path() / "armature_at_home.yaml";
-  std::ofstream(path) << "include: " WAM "/deployments/npid7.yaml\nparameters: {at_home: true}\n";
+  std::ofstream(path) << "include: "
+                      << std::filesystem::absolute(WAM "/deployments/npid7.yaml").string()
+                      << "\nparameters: {at_home: true}\n";
   const deploy::Deployment deployment = deploy::load_deployment(path.string(), options);
   std::filesystem::remove(path);
   EXPECT_THAT(

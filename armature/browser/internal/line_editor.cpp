@@ -205,6 +205,9 @@ LineEditor::Outcome LineEditor::read(const std::string& prompt, const Paper& pap
   let_catch_up();
   int count = 0;
   const char* const typed = el_gets(state.editor, &count);
+  // A signal, Ctrl-C for one, ends a write of libedit's, which is no error: what is left goes with
+  // the next write, and that fails, too, when the terminal is gone.
+  std::clearerr(stdout);
   state.typing_now = false;
   if (typed == nullptr || count <= 0) {
     const LineInfo* const rest = el_line(state.editor);

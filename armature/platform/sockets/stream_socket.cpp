@@ -121,6 +121,16 @@ bool is_connected_to_itself(int socket) {
 
 constexpr int kMostThatWait = 64;
 
+std::string name_of_account(uid_t number) {
+  passwd account{};
+  passwd* found = nullptr;
+  std::array<char, 4096> texts{};
+  if (::getpwuid_r(number, &account, texts.data(), texts.size(), &found) == 0 && found) {
+    return account.pw_name;
+  }
+  return std::to_string(number);
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<StreamSocket>> StreamSocket::connect_tcp(const std::string& host,
@@ -260,14 +270,10 @@ std::string StreamSocket::peer_account() const {
       ::getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) {
     return {};
   }
-  passwd account{};
-  passwd* found = nullptr;
-  std::array<char, 4096> texts{};
-  if (::getpwuid_r(peer.uid, &account, texts.data(), texts.size(), &found) == 0 && found) {
-    return account.pw_name;
-  }
-  return std::to_string(peer.uid);
+  return name_of_account(peer.uid);
 }
+
+std::string own_account() { return name_of_account(::geteuid()); }
 
 base::Result<std::unique_ptr<StreamListener>> StreamListener::listen_tcp(const std::string& host,
                                                                          std::uint16_t port) {

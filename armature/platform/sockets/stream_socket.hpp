@@ -121,4 +121,7 @@ base::Result<std::string> look_up(const std::string& host);
 /// True if `host` is a numeric address that only this machine reaches.
 bool is_loopback(const std::string& host);
 
+/// The account of this process, as the other ends of its socket files see it.
+std::string own_account();
+
 }  // namespace armature::platform

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/cli/save_files.hpp"
+#include "armature/edit/save_files.hpp"
 
+#include <filesystem>
 #include <string>
 
 #include "armature/platform/file.hpp"
 
-namespace armature::cli {
+namespace armature::edit {
 namespace {
 
-base::Result<void> expect_unchanged(const edit::FileChange& file) {
+base::Result<void> expect_unchanged(const FileChange& file) {
+  if (file.before.empty() && !std::filesystem::exists(file.file)) {
+    return platform::expect_writable(file.file);
+  }
   const auto now = platform::read_file(file.file);
   if (!now) return base::Error{now.error()};
   if (now.value() == file.before) return platform::expect_writable(file.file);
@@ -18,8 +22,8 @@ base::Result<void> expect_unchanged(const edit::FileChange& file) {
 
 }  // namespace
 
-base::Result<void> save_files(const std::vector<edit::FileChange>& files) {
-  for (const edit::FileChange& file : files) {
+base::Result<void> save_files(const std::vector<FileChange>& files) {
+  for (const FileChange& file : files) {
     if (auto unchanged = expect_unchanged(file); !unchanged) return unchanged;
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -35,4 +39,4 @@ base::Result<void> save_files(const std::vector<edit::FileChange>& files) {
   return {};
 }
 
-}  // namespace armature::cli
+}  // namespace armature::edit

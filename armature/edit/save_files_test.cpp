@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/cli/save_files.hpp"
+#include "armature/edit/save_files.hpp"
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::cli {
+namespace armature::edit {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ class SaveFiles : public testing::Test {
   std::string text(const std::string& name) const {
     return platform::read_file(path(name)).value();
   }
-  edit::FileChange change(const std::string& name) const {
+  FileChange change(const std::string& name) const {
     return {path(name), "before", "after", {{0, 6, "after"}}, {{0, 5, "before"}}};
   }
 
@@ -40,6 +40,11 @@ TEST_F(SaveFiles, WritesAll) {
   ASSERT_TRUE(save_files({change("a.yaml"), change("b.yaml")}).ok());
   EXPECT_EQ(text("a.yaml"), "after");
   EXPECT_EQ(text("b.yaml"), "after");
+}
+
+TEST_F(SaveFiles, MakesTheFileOfWhatWasEmpty) {
+  ASSERT_TRUE(save_files({{path("new.yaml"), "", "after", {{0, 0, "after"}}, {{0, 5, ""}}}}).ok());
+  EXPECT_EQ(text("new.yaml"), "after");
 }
 
 TEST_F(SaveFiles, LeavesAllAloneWhenOneHasChangedMeanwhile) {
@@ -61,4 +66,4 @@ TEST_F(SaveFiles, LeavesAllAloneWhenOneIsGone) {
 }
 
 }  // namespace
-}  // namespace armature::cli
+}  // namespace armature::edit

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "armature/cli/commands.hpp"
+#include "armature/cli/internal/command_line.hpp"
+#include "armature/platform/child_process.hpp"
+#include "armature/platform/shared_object.hpp"
+#include "armature/platform/stop_signal.hpp"
+#include "armature/studio/server.hpp"
+
+namespace armature::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct StudioArguments {
+  std::string file;
+  std::vector<std::string> library_folders;
+  std::string listen = "ws://127.0.0.1:8080";
+  std::string policy;
+  bool no_open = false;
+};
+
+/// Where programs of this account keep what they leave (XDG).
+std::string state_folder() {
+  if (const char* const state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
+    return std::string(state) + "/armature/studio";
+  }
+  const char* const home = std::getenv("HOME");
+  return std::string(home == nullptr ? "/tmp" : home) + "/.local/state/armature/studio";
+}
+
+/// Where the build or the installation has the page.
+std::string page_folder() {
+  return (std::filesystem::path(platform::own_program()).parent_path() /
+          "../share/armature/web/studio")
+      .lexically_normal()
+      .string();
+}
+
+studio::ServerOptions options_of(const StudioArguments& arguments, const Console& console) {
+  studio::ServerOptions options;
+  options.file = arguments.file;
+  options.listen = arguments.listen;
+  options.pages = page_folder();
+  options.policy = arguments.policy;
+  options.folder = state_folder();
+  options.program = platform::own_program();
+  for (const std::string& folder : arguments.library_folders) {
+    options.arguments.insert(options.arguments.end(), {"--library-path", folder});
+  }
+  options.log = [&console](const rt::LogRecord& record) {
+    if (record.level >= rt::LogLevel::kWarning) console.log(record);
+  };
+  return options;
+}
+
+/// Its library is loaded here and not with the program, whose runs have no use for it.
+studio::MakeServer* make_server(base::Diagnostics& diagnostics) {
+  const auto* const beside = reinterpret_cast<const void*>(&platform::own_program);
+  const auto library =
+      platform::SharedObject::load(platform::file_beside(beside, "libarmature_studio.so"));
+  void* const found = library ? library.value().symbol(studio::kMakeServerSymbol) : nullptr;
+  if (!library) diagnostics.error({}, library.error());
+  if (library && found == nullptr) {
+    diagnostics.error({}, "libarmature_studio.so is of another version: install all of it anew");
+  }
+  return found == nullptr ? nullptr : *static_cast<studio::MakeServer**>(found);
+}
+
+/// A desktop opens the page; on a machine without one the address is there to be copied.
+void open_in_browser(const std::string& page) {
+  const bool desktop =
+      std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  if (!desktop || !std::filesystem::exists("/usr/bin/xdg-open")) return;
+  [[maybe_unused]] const auto opened = platform::ChildProcess::start(
+      {"/usr/bin/xdg-open", page}, {.log = "/dev/null", .lasting = true});
+}
+
+/// Who listens for others than pages and this account would let them run what they like.
+bool is_for_pages(const std::string& address) {
+  return address.starts_with("ws://") || address.starts_with("unix:");
+}
+
+int run_studio(const StudioArguments& arguments, const Console& console) {
+  if (!is_for_pages(arguments.listen)) {
+    console.say(rt::LogLevel::kError,
+                "'" + arguments.listen +
+                    "' is no address for a studio: expected ws://127.0.0.1:8080 "
+                    "or, for programs of this account, unix:/run/studio.sock");
+    return kWrongUse;
+  }
+  const platform::StopSignal stop;
+  base::Diagnostics diagnostics;
+  studio::MakeServer* const make = make_server(diagnostics);
+  const auto server = make == nullptr ? nullptr : make(options_of(arguments, console), diagnostics);
+  console.show(diagnostics);
+  if (server == nullptr) return kFailed;
+  for (const std::string& page : server->pages()) {
+    console.say(rt::LogLevel::kInfo, "open " + page + " in a browser of this machine");
+    if (!arguments.no_open) open_in_browser(page);
+  }
+  while (!stop.received()) server->serve(200ms);
+  if (const int process = server->running(); process != 0) {
+    console.say(rt::LogLevel::kInfo, "the application goes on (process " + std::to_string(process) +
+                                         "): `armature studio` finds it again");
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_studio(const CommandLine& to) {
+  CLI::App* command = to.app.add_subcommand(
+      "studio", "assembles, checks, runs and watches a deployment in a browser");
+  const auto arguments = arguments_of(*command, to, run_studio);
+  command->add_option("file", arguments->file, "the deployment, which need not be there yet")
+      ->required();
+  command
+      ->add_option("--listen", arguments->listen,
+                   "where browsers of this machine find it: ws://127.0.0.1:8080 (default)")
+      ->type_name("ADDRESS");
+  command
+      ->add_option("--policy", arguments->policy,
+                   "who may do what; without it whoever opens the page may do everything")
+      ->type_name("FILE");
+  add_folders(*command, arguments->library_folders);
+  command->add_flag("--no-open", arguments->no_open, "starts no browser");
+}
+
+}  // namespace armature::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/studio/internal/worded_edit.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "armature/base/near_name.hpp"
+#include "armature/base/quoted.hpp"
+
+namespace armature::studio::internal {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// The word at `index`, empty if it was left out.
+std::string word(const Words& words, std::size_t index) {
+  return index < words.size() ? words[index] : std::string();
+}
+
+struct Form {
+  const char* name;
+  std::size_t least;  ///< words
+  std::size_t most;
+  edit::Change (*make)(const Words& words);
+};
+
+/// An edit that is made of so many words, in their order.
+template <typename Edit, std::size_t kCount, std::size_t kOptional = 0>
+constexpr Form form(const char* name) {
+  return {name, kCount - kOptional, kCount, [](const Words& words) -> edit::Change {
+            if constexpr (kCount == 1) return Edit{word(words, 0)};
+            if constexpr (kCount == 2) return Edit{word(words, 0), word(words, 1)};
+            if constexpr (kCount == 3) return Edit{word(words, 0), word(words, 1), word(words, 2)};
+          }};
+}
+
+constexpr Form kForms[] = {
+    form<edit::Set, 2>("set"),
+    form<edit::Unset, 1>("unset"),
+    form<edit::AddComponent, 2>("add"),
+    form<edit::RemoveComponent, 1>("remove"),
+    form<edit::Rename, 2>("rename"),
+    form<edit::Connect, 3, 1>("connect"),
+    form<edit::Disconnect, 2, 1>("disconnect"),
+    form<edit::SetConnection, 3, 1>("connection"),
+    form<edit::Bind, 3>("bind"),
+    form<edit::Unbind, 2>("unbind"),
+    form<edit::AddPeer, 2>("peer"),
+    form<edit::RemovePeer, 2>("no_peer"),
+    form<edit::AddParameter, 2>("parameter"),
+    form<edit::AddLibrary, 1>("library"),
+    form<edit::RemoveLibrary, 1>("no_library"),
+};
+
+base::Error unknown(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Form& one : kForms) names.emplace_back(one.name);
+  return base::Error{"unknown edit " + base::quoted(std::string(name)) +
+                     base::suggestion_in_brackets(std::string(name), names)};
+}
+
+}  // namespace
+
+base::Result<edit::Change> change_of(std::string_view name, const Words& words) {
+  const auto* const form = std::ranges::find(kForms, name, &Form::name);
+  if (form == std::end(kForms)) return unknown(name);
+  if (words.size() < form->least || words.size() > form->most) {
+    return base::Error{"the edit " + base::quoted(std::string(name)) + " takes " +
+                       std::to_string(form->least) +
+                       (form->least == form->most ? "" : " or " + std::to_string(form->most)) +
+                       " words, not " + std::to_string(words.size())};
+  }
+  return form->make(words);
+}
+
+}  // namespace armature::studio::internal

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "armature/remote/control_queue.hpp"
+#include "armature/studio/internal/desk.hpp"
+#include "workbench_service.hpp"
+
+namespace armature::studio::internal {
+
+/// The desk for pages: requests wait in a queue for the thread that works at the desk.
+class Workbench final : public WorkbenchService {
+ public:
+  /// @param queue  of the desk's thread
+  /// @param wake   has it look there
+  Workbench(Desk& desk, remote::ControlQueue& queue, std::function<void()> wake)
+      : desk_(desk), queue_(queue), wake_(std::move(wake)) {}
+
+  /// Tells pages that something is other than before.
+  /// @thread the desk's
+  void tell_project();
+  void tell_run();
+
+ private:
+  void project(ride::ReplyOf<ProjectState> reply) override;
+  void text(const std::string& path, ride::ReplyOf<std::string> reply) override;
+  void edit(const Edit& what, ride::ReplyOf<Outcome> reply) override;
+  void write(std::int32_t version, const std::string& path, const std::string& text,
+             ride::ReplyOf<Outcome> reply) override;
+  void undo(ride::ReplyOf<Outcome> reply) override;
+  void redo(ride::ReplyOf<Outcome> reply) override;
+  void save(ride::ReplyOf<Outcome> reply) override;
+  void reload(ride::ReplyOf<Outcome> reply) override;
+  void check(ride::ReplyOf<std::string> reply) override;
+  void fitting(const std::string& component, const std::string& member,
+               ride::ReplyOf<std::string> reply) override;
+  void models(ride::ReplyOf<std::string> reply) override;
+  void places(ride::ReplyOf<std::string> reply) override;
+  void start(const RunSettings& settings, ride::ReplyOf<RunState> reply) override;
+  void stop(ride::ReplyOf<RunState> reply) override;
+  void run(ride::ReplyOf<RunState> reply) override;
+  void log(std::int32_t from, ride::ReplyOf<std::vector<std::string>> reply) override;
+
+  template <typename Result, typename Work>
+  void later(ride::ReplyOf<Result>& reply, Work work);
+  template <typename Work>
+  void change(ride::ReplyOf<Outcome>& reply, Work work);
+  Checker::Then forward(ride::ReplyOf<std::string>& reply);
+
+  ProjectState project_state() const;
+  RunState run_state() const;
+  Outcome outcome_of(const base::Diagnostics& diagnostics) const;
+  Outcome outcome_of(const base::Result<void>& result) const;
+
+  Desk& desk_;
+  remote::ControlQueue& queue_;
+  const std::function<void()> wake_;
+};
+
+}  // namespace armature::studio::internal
