@@ -3,7 +3,7 @@ import {
   applyNodeChanges, Background, BackgroundVariant, type Connection, ConnectionMode, ControlButton, Controls, type Edge, type EdgeChange, MiniMap, type NodeChange,
   type OnConnectEnd, type OnConnectStart, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
 } from "@xyflow/react";
-import { useCallback, useEffect, useMemo, useState } from "react";
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { WireEdge } from "./wire_edge.tsx";
 import { BoxNode, type BoxData, type BoxNodeType } from "./box_node.tsx";
 import { Breadcrumb } from "./breadcrumb.tsx";
@@ -45,6 +45,7 @@ function Flow() {
   const reaching = selection.use((state) => state.reach !== undefined);
   const many = graph.boxes.length > kManyBoxes;
   useReveal();
+  useNewInSight(graph);
   const drop = useDrop();
   const wire_end = useWireEnd();
   return (
@@ -256,4 +257,24 @@ function useReveal(): void {
     if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration: 200, padding: 0.4 });
   }, [flow, reveal]);
   useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path, text]);
+}
+
+/** A box that is new and selected comes into sight, with all others if they are not too many. */
+function useNewInSight(graph: Graph): void {
+  const flow = useReactFlow();
+  const width = useStore((state) => state.width);
+  const height = useStore((state) => state.height);
+  const before = useRef(graph.boxes.length);
+  useEffect(() => {
+    const more = graph.boxes.length > before.current;
+    before.current = graph.boxes.length;
+    const [chosen] = selection.get().boxes;
+    const node = more && chosen ? flow.getNode(chosen) : undefined;
+    if (!node) return;
+    const { x, y, zoom } = flow.getViewport();
+    const [left, top] = [node.position.x * zoom + x, node.position.y * zoom + y];
+    const [right, bottom] = [left + (node.width ?? 0) * zoom, top + (node.height ?? 0) * zoom];
+    if (left >= 0 && top >= 0 && right <= width && bottom <= height) return;
+    void flow.fitView(graph.boxes.length > kManyBoxes ? { nodes: [{ id: node.id }], maxZoom: 1 } : kFit);
+  }, [flow, graph, width, height]);
 }

@@ -53,11 +53,13 @@ export function open_project(from: Backend): void {
   backend = from;
   backend.on_connection(({ connected, text }) => {
     project.set({ connected, trouble: text });
-    if (connected) refresh();
+    if (!connected) return;
+    void refresh();
+    void load_models();
   });
-  backend.workbench.on_ProjectChanged(refresh);
-  refresh();
-  load_models();
+  backend.workbench.on_ProjectChanged(() => void refresh());
+  void refresh();
+  void load_models();
 }
 
 let again = false;
@@ -109,8 +111,8 @@ function what_is_shown(checked: Checked | undefined, texts: Texts, before: Proje
 }
 
 async function load_models(): Promise<void> {
-  const text = await backend.workbench.models(kPatient).catch(() => "[]");
-  project.set({ models: JSON.parse(text) as Model[] });
+  const text = await backend.workbench.models(kPatient).catch(() => undefined);
+  if (text !== undefined) project.set({ models: JSON.parse(text) as Model[] });
 }
 
 /** The deployment's own file, as diagnostics name it. */
@@ -174,7 +176,12 @@ async function with_all_typed(what: () => Promise<Outcome>): Promise<boolean> {
 export const undo = (): Promise<boolean> => with_all_typed(() => backend.workbench.undo(kPatient));
 export const redo = (): Promise<boolean> => with_all_typed(() => backend.workbench.redo(kPatient));
 export const save = (): Promise<boolean> => with_all_typed(() => backend.workbench.save(kPatient));
-export const reload = (): Promise<boolean> => with_all_typed(() => backend.workbench.reload(kPatient));
+
+/** Takes what the disk has, component libraries that were built anew among it. */
+export async function reload(): Promise<void> {
+  await with_all_typed(() => backend.workbench.reload(kPatient));
+  await load_models();
+}
 
 /** Writes a text that was made from the one of `version`. */
 export async function write(version: number, path: string, text: string): Promise<boolean> {

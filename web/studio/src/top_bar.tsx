@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { is_saved, project, redo, save, undo } from "./project.ts";
+import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
 import { selection } from "./selection.ts";
 
@@ -37,6 +37,7 @@ function EditButtons() {
       <button type="button" disabled={!state.undo} title={state.undo ? `Undo ${state.undo} (Ctrl+Z)` : "Nothing to undo"} onClick={() => void undo()}>Undo</button>
       <button type="button" disabled={!state.redo} title={state.redo ? `Redo ${state.redo} (Ctrl+Shift+Z)` : "Nothing to redo"} onClick={() => void redo()}>Redo</button>
       <button type="button" disabled={is_saved(state)} title="Ctrl+S" onClick={() => void save()}>Save</button>
+      <button type="button" title="Takes what the disk has, libraries that were built anew among it; Undo takes it back" onClick={() => void reload()}>Reload</button>
       <button type="button" aria-pressed={text} onClick={() => selection.set({ text: !text })}>Text</button>
     </div>
   );
