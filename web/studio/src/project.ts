@@ -142,10 +142,20 @@ async function how_to_change(file: string | undefined): Promise<Inclusion | "own
   if (!file || file === own_file()) return "own";
   const known = inclusions.get(file);
   if (known) return known;
-  const choice = await new Promise<Inclusion | undefined>((answer) => project.set({ question: { file, answer } }));
-  project.set({ question: undefined });
+  const choice = await ask_where(file);
   if (choice) inclusions.set(file, choice);
   return choice ?? "no";
+}
+
+/** A question that is still open is answered by the next one: no. */
+async function ask_where(file: string): Promise<Inclusion | undefined> {
+  project.get().question?.answer(undefined);
+  const { promise, resolve } = Promise.withResolvers<Inclusion | undefined>();
+  const question: Question = { file, answer: resolve };
+  project.set({ question });
+  const choice = await promise;
+  if (project.get().question === question) project.set({ question: undefined });
+  return choice;
 }
 
 async function settle(outcome: Promise<Outcome>, field: string): Promise<boolean> {

@@ -8,13 +8,15 @@ export function QuestionView() {
   return question ? <Dialog key={question.file} question={question} /> : null;
 }
 
+/** Not modal: Stop can be pressed meanwhile. */
 function Dialog({ question }: { question: Question }) {
   const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => dialog.current?.showModal(), []);
+  useEffect(() => dialog.current?.show(), []);
+  const on_key = (event: React.KeyboardEvent) => event.key === "Escape" && !event.shiftKey && question.answer(undefined);
   const included = question.file.split("/").pop();
   const own = own_file().split("/").pop();
   return (
-    <dialog ref={dialog} aria-labelledby="question" onCancel={() => question.answer(undefined)}>
+    <dialog ref={dialog} aria-labelledby="question" onKeyDown={on_key}>
       <h2 id="question">{`${included} says this`}</h2>
       <p>{`${own} includes it, and others may, too. Where do you want the change? The answer counts for this file until you close the page.`}</p>
       <p className="actions">
