@@ -19,7 +19,8 @@ export class Writer {
   }
 
   count(value: number): void {
-    this.view.setUint32(this.place(4, 4), value, true);
+    const at = this.place(4, 4);  // first: it may make another view
+    this.view.setUint32(at, value, true);
   }
 
   bytes(value: Uint8Array): void {

@@ -81,7 +81,8 @@ export const double = real(8);
 export const bool: Type<boolean> = {
   put(to, value) {
     if (typeof value !== "boolean") throw unfit(value, "true or false");
-    to.view.setUint8(to.place(1, 1), value ? 1 : 0);
+    const at = to.place(1, 1);
+    to.view.setUint8(at, value ? 1 : 0);
   },
   take(from) {
     const value = from.view.getUint8(from.place(1, 1));

@@ -88,3 +88,11 @@ test("Numbers are those of the canonical declarations", () => {
   assert.equal(ride.numberOf("event ObjectPosition{int,int}"), 0x714c2b59);
   assert.equal(ride.Failed.number, ride.numberOf("event Failed{String,String}"));
 });
+
+test("A body grows in the middle of any field", () => {
+  for (let length = 240; length < 280; ++length) {
+    const values = { texts: Array.from({ length: 100 }, (_, i) => "x".repeat((i * 7) % 30)), flags: Array<boolean>(length).fill(true) };
+    const Both = ride.struct<typeof values>("Both", { flags: ride.array(ride.bool), texts: ride.array(ride.string) });
+    assert.deepEqual(decoded(Both, encoded(Both, values)), values);
+  }
+});

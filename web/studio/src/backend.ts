@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page needs of the other side, so that tests can stand in for it.
+import type { InspectorPlaceholder } from "@armature/placeholders/inspection";
+import type { ProjectChanged, RunChanged, WorkbenchPlaceholder } from "@armature/placeholders/workbench";
+
+export type {
+  ApplicationStatus, CommandStatus, ComponentDetails, ComponentStatus, OperationDetails, Pace, ThreadStatus,
+} from "@armature/placeholders/inspection";
+export type { Change, Outcome, ProjectState, RunSettings, RunState } from "@armature/placeholders/workbench";
+
+type WorkbenchCalls =
+  | "project" | "text" | "edit" | "write" | "undo" | "redo" | "save" | "reload" | "check" | "fitting" | "models" | "places"
+  | "start" | "stop" | "run" | "log";
+type InspectorCalls =
+  | "application" | "components" | "faults" | "describe" | "read" | "write" | "call" | "begin" | "follow" | "cancel" | "change"
+  | "watch" | "watched" | "end_watch" | "pace" | "set_pace" | "step";
+
+export interface Workbench extends Pick<WorkbenchPlaceholder, WorkbenchCalls> {
+  on_ProjectChanged(handler: (change: ProjectChanged) => void): unknown;
+  on_RunChanged(handler: (change: RunChanged) => void): unknown;
+}
+
+export type Inspector = Pick<InspectorPlaceholder, InspectorCalls>;
+
+export interface Backend {
+  workbench: Workbench;
+  /** Of what runs; its calls fail while nothing does. */
+  run: Inspector;
+  /** Told at each loss and recovery of the connection. */
+  on_connection(handler: (change: { connected: boolean; text: string }) => void): unknown;
+}
+
+/** For calls that read files or load libraries [ms]. */
+export const kPatient = { deadline: 30_000 };
+
+export const message_of = (error: unknown): string => (error instanceof Error ? error.message : String(error));

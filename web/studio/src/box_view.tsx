@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
+import { Field } from "./field.tsx";
+import type { Box } from "./graph.ts";
+import { change, edit, project } from "./project.ts";
+import { PropertyField } from "./property_field.tsx";
+import { Requirements } from "./requirements.tsx";
+import { change_component, run } from "./run.ts";
+import { remove_selected } from "./scene.ts";
+import { open_composite, select_box, selection, show_text } from "./selection.ts";
+import { boxes_state, state_class } from "./states.ts";
+
+export function BoxView({ box }: { box: Box }) {
+  const model = project.use((state) => state.models.find((one) => one.name === box.model));
+  return (
+    <>
+      <h2>{box.title}{box.names.length > 1 && <span className="count">{`×${box.names.length}`}</span>}</h2>
+      <p className="lead"><b>{box.model}</b>{model?.doc && ` ${model.doc}`}</p>
+      <Live box={box} />
+      <Name box={box} />
+      {!box.composite && <ActivityField box={box} />}
+      {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
+      {!box.composite && <Requirements box={box} />}
+      <p className="actions">
+        {box.file && <button type="button" onClick={() => show_text(box.file!, box.line, box.column)}>Show in the text</button>}
+        <button type="button" className="danger" onClick={() => void remove_selected()}>Remove</button>
+      </p>
+    </>
+  );
+}
+
+function Name({ box }: { box: Box }) {
+  const rename = async (name: string) => {
+    const done = await edit([change("rename", box.edited, name)], { field: `${box.id} name`, file: box.file });
+    if (done) select_box([...selection.get().path, name].join("."));
+    return done;
+  };
+  return <Field label="Name" about={`${box.id} name`} value={box.title} take={rename} />;
+}
+
+/** How the run has it, with what can be done about that. */
+function Live({ box }: { box: Box }) {
+  const components = run.use((all) => all.components);
+  const state = boxes_state(box, components);
+  if (!state) return null;
+  const reasons = [...new Set(box.components.flatMap((one) => components.get(one.name)?.reason || []))];
+  const all = (what: string) => () => box.components.forEach((one) => void change_component(one.name, what));
+  return (
+    <div className={`live ${state_class(state)}`}>
+      <b>{state}</b> {reasons.join("; ")}
+      <span className="group" role="group" aria-label="State">
+        <button type="button" onClick={all("start")}>Start</button>
+        <button type="button" onClick={all("stop")}>Stop this</button>
+        <button type="button" onClick={all("reset")}>Reset</button>
+      </span>
+    </div>
+  );
+}
+
+/** As the file would have it: `{periodic: 10 ms, priority: 70}`. */
+function activity_yaml(activity: Activity): string {
+  if (activity.kind !== "periodic") return activity.kind === "triggered" ? "{triggered: true}" : activity.kind;
+  const priority = activity.scheduler === "realtime" ? `, priority: ${activity.priority}` : "";
+  return `{periodic: ${duration_text(activity.period_ns ?? 0)}${priority}}`;
+}
+
+function ActivityField({ box }: { box: Box }) {
+  const { activity, thread } = box.components[0]!;
+  return (
+    <Field wide label="Activity" about={`${box.id} activity`} value={activity_yaml(activity)}
+      hint={`${activity_text(activity)}${thread ? `, in the thread ${thread}` : ""}`}
+      list={["sequential", "triggered", "{periodic: 10 ms}", "{periodic: 10 ms, priority: 70}"]}
+      take={(text) => edit([change("set", `${box.edited}.activity`, text)], { field: `${box.id} activity`, file: box.file })} />
+  );
+}
+
+function Properties({ box, defaults }: { box: Box; defaults: Property[] }) {
+  const properties = box.components[0]!.properties ?? [];
+  if (properties.length === 0) return null;
+  return (
+    <section aria-label="Properties">
+      <h3>Properties</h3>
+      {properties.map((property) => (
+        <PropertyField key={property.name} box={box} property={property} fallback={defaults.find((one) => one.name === property.name)?.default} />
+      ))}
+    </section>
+  );
+}
+
+function Parts({ box }: { box: Box }) {
+  return (
+    <section aria-label="Parts">
+      <h3>Parts</h3>
+      <p>{`${box.components.length} components. What is inside belongs to the definition of ${box.model}: a change there is one for every instance.`}</p>
+      <button type="button" onClick={() => open_composite([...selection.get().path, box.title])}>Show what is inside</button>
+    </section>
+  );
+}

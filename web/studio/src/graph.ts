@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the canvas shows: a box per entry as written, a wire per written connection.
+import { type Checked, type Component, type Connection, kEventCommand, type Place, split_member } from "./checked.ts";
+import { ports_of_component, ports_of_parts } from "./ports.ts";
+import {
+  type Composite, composites_of, ends_at, entries_of, indexed, is_made_by, key_at, model_of, type Texts, type WrittenEntry,
+} from "./written.ts";
+
+export type EndKind = "input" | "output" | "event" | "command";
+
+export interface BoxPort {
+  id: string;  ///< unique in its box
+  name: string;
+  kind: EndKind;
+  type: string;
+  unit: string;
+  size?: number;
+  doc: string;
+  triggers: boolean;
+  count: number;   ///< of an array that is shown as one
+  ends: string[];  ///< `Component.member` of all that it stands for
+  written: string; ///< as an edit names it
+}
+
+export interface Box extends Place {
+  id: string;       ///< as written, with the composites around it: `Joint{1..7}`, `Rover.left`
+  edited: string;   ///< as edits name it: a part by its composite's definition, `Chassis.left`
+  title: string;
+  model: string;
+  composite: boolean;
+  names: string[];  ///< of its components, or of the composite's instances
+  components: Component[];
+  inputs: BoxPort[];
+  outputs: BoxPort[];
+  thread: string;
+}
+
+export interface Wire extends Place {
+  id: string;
+  kind: "data" | "command";
+  from: { box: string; port: string };
+  to: { box: string; port: string };
+  triggers: boolean;
+  delayed: boolean;
+  crosses_threads: boolean;
+  written: [string, string];
+  connections: Connection[];
+}
+
+export interface Graph {
+  boxes: Box[];
+  wires: Wire[];
+  /** `Component.member` to its port. */
+  ends: Map<string, { box: Box; port: BoxPort }>;
+}
+
+export const kNoGraph: Graph = { boxes: [], wires: [], ends: new Map() };
+
+/** A component with what is left of its name below the composites that are open. */
+interface Located {
+  component: Component;
+  outer: string;  ///< `Rover.`
+  rest: string;   ///< `left`
+}
+
+/** What is below the composites `path`; all if it is empty. */
+export function graph_of(checked: Checked, texts: Texts, path: readonly string[]): Graph {
+  const builder = new Builder(checked, texts);
+  return builder.graph(path);
+}
+
+class Builder {
+  private readonly entries: WrittenEntry[];
+  private readonly composites: Composite[];
+
+  constructor(private readonly checked: Checked, private readonly texts: Texts) {
+    this.entries = entries_of(texts);
+    this.composites = composites_of(texts);
+  }
+
+  graph(path: readonly string[]): Graph {
+    const boxes = this.boxes(this.below(path), path);
+    const ends: Graph["ends"] = new Map();
+    for (const box of boxes) {
+      for (const port of [...box.inputs, ...box.outputs]) {
+        for (const end of port.ends) ends.set(end, { box, port });
+      }
+    }
+    return { boxes, wires: this.wires(ends), ends };
+  }
+
+  private below(path: readonly string[]): Located[] {
+    let all: Located[] = this.checked.components
+      .filter((component) => component.model !== kEventCommand)
+      .map((component) => ({ component, outer: "", rest: component.name }));
+    for (const step of path) all = all.filter((one) => this.instance_key(one) === step).map(descend);
+    return all;
+  }
+
+  /** The written name of the composite that the component is in; empty if it is in none. */
+  private instance_key({ rest, outer }: Located): string {
+    const dot = rest.indexOf(".");
+    if (dot < 0) return "";
+    const name = rest.slice(0, dot);
+    return outer ? name : this.entry_of(name)?.name ?? name;
+  }
+
+  private entry_of(name: string): WrittenEntry | undefined {
+    const made = this.entries.filter((entry) => is_made_by(entry.name, name));
+    return made.find((entry) => entry.name !== name) ?? made[0];
+  }
+
+  private own_key({ component, rest }: Located): string {
+    const { file, line, column } = component;
+    const key = file && line ? key_at(this.texts, file, line, column ?? 1) : "";
+    return key && is_made_by(key, rest) ? key : rest;
+  }
+
+  private boxes(all: Located[], path: readonly string[]): Box[] {
+    const groups = new Map<string, Located[]>();
+    for (const one of all) {
+      const key = this.instance_key(one) || this.own_key(one);
+      const group = groups.get(key);
+      if (group) group.push(one);
+      else groups.set(key, [one]);
+    }
+    return [...groups].map(([key, group]) => this.box(key, group, path));
+  }
+
+  private box(key: string, group: Located[], path: readonly string[]): Box {
+    const id = [...path, key].join(".");
+    const composite = group[0]!.rest.includes(".");
+    const edited = path.length > 0 ? this.edited(id, path) : id;
+    return composite ? this.composite_box(id, edited, key, group) : this.component_box(id, edited, key, group);
+  }
+
+  /** A part belongs to the definition of its composite. */
+  private edited(id: string, path: readonly string[]): string {
+    const entry = this.entries.find((one) => one.name === path[0]);
+    const model = entry ? model_of(this.texts, entry) : "";
+    return model ? [model, ...path.slice(1), id.slice(path.join(".").length + 1)].join(".") : id;
+  }
+
+  private component_box(id: string, edited: string, title: string, group: Located[]): Box {
+    const components = group.map((one) => one.component);
+    const first = components[0]!;
+    const { file, line, column, model } = first;
+    const place = { file, line, column };
+    const ports = ports_of_component(components, indexed(edited), this.checked.connections);
+    return {
+      id, edited, title, model, composite: false, components, ...place, ...ports,
+      names: components.map((one) => one.name), thread: first.thread ?? "",
+    };
+  }
+
+  private composite_box(id: string, edited: string, title: string, group: Located[]): Box {
+    const entry = this.entries.find((one) => one.name === title);
+    const model = entry ? model_of(this.texts, entry) : "";
+    const names = [...new Set(group.map(({ outer, rest }) => outer + rest.slice(0, rest.indexOf("."))))];
+    const parts = group.map(({ component, rest }) => ({ component, path: rest.slice(rest.indexOf(".") + 1) }));
+    const exported = this.composites.find((one) => one.name === model)?.exports ?? new Map<string, string>();
+    const ports = ports_of_parts(parts, names, indexed(edited), exported, this.checked.connections);
+    const threads = new Set(group.map((one) => one.component.thread ?? ""));
+    return {
+      id, edited, title, model: model || "composite", composite: true, components: group.map((one) => one.component), names,
+      file: entry?.file, line: entry?.line, thread: threads.size === 1 ? [...threads][0]! : "", ...ports,
+    };
+  }
+
+  private wires(ends: Graph["ends"]): Wire[] {
+    const wires = new Map<string, Wire>();
+    for (const one of this.with_event_commands()) {
+      const from = ends.get(one.connection.from);
+      const to = ends.get(one.connection.to);
+      if (!from || !to || (from.box === to.box && from.box.composite)) continue;
+      this.add(one.connection, one.kind, from, to, wires);
+    }
+    return [...wires.values()];
+  }
+
+  private add(
+    connection: Connection, kind: Wire["kind"], from: { box: Box; port: BoxPort }, to: { box: Box; port: BoxPort },
+    wires: Map<string, Wire>,
+  ): void {
+    const { file, line, column } = connection;
+    const id = `${from.box.id}.${from.port.id} -> ${to.box.id}.${to.port.id} @${file ?? ""}:${line ?? 0}:${column ?? 0}`;
+    const known = wires.get(id);
+    if (known) {
+      known.connections.push(connection);
+      return;
+    }
+    const written = file && line ? ends_at(this.texts, file, line, column ?? 1) : undefined;
+    wires.set(id, {
+      id, kind, file, line, column,
+      from: { box: from.box.id, port: from.port.id },
+      to: { box: to.box.id, port: to.port.id },
+      triggers: connection.triggers ?? false,
+      delayed: connection.delayed ?? false,
+      crosses_threads: connection.crosses_threads ?? false,
+      written: written ?? [from.port.written, to.port.written],
+      connections: [connection],
+    });
+  }
+
+  /** Data connections, and those from an event to a command, which stand as components of their own. */
+  private with_event_commands(): { connection: Connection; kind: Wire["kind"] }[] {
+    const found: { connection: Connection; kind: Wire["kind"] }[] = [];
+    const between = new Map(this.checked.components.filter((one) => one.model === kEventCommand).map((one) => [one.name, one]));
+    for (const connection of this.checked.connections) {
+      if (connection.kind === "data" && !between.has(split_member(connection.to)[0])) found.push({ connection, kind: "data" });
+    }
+    for (const one of between.values()) {
+      const connection = this.event_command(one);
+      if (connection) found.push({ connection, kind: "command" });
+    }
+    return found;
+  }
+
+  private event_command(between: Component): Connection | undefined {
+    const { name, file, line, column } = between;
+    const all = this.checked.connections;
+    const event = all.find((one) => one.kind === "event" && split_member(one.to)[0] === name);
+    const command = all.find((one) => one.kind === "command" && split_member(one.from)[0] === name);
+    const written = file && line ? ends_at(this.texts, file, line, column ?? 1) : undefined;
+    const from = event?.from ?? written?.[0];
+    const to = command?.to ?? written?.[1];
+    if (!from || !to) return undefined;
+    return { kind: "command", from, to, file, line, column, crosses_threads: command?.crosses_threads };
+  }
+}
+
+function descend({ component, outer, rest }: Located): Located {
+  const dot = rest.indexOf(".") + 1;
+  return { component, outer: outer + rest.slice(0, dot), rest: rest.slice(dot) };
+}

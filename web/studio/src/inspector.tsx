@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is selected, to be read and changed.
+import { BoxView } from "./box_view.tsx";
+import { PortView } from "./port_view.tsx";
+import { project } from "./project.ts";
+import { box_called, port_of, useScene } from "./scene.ts";
+import { selection } from "./selection.ts";
+import { WireView } from "./wire_view.tsx";
+
+export function Inspector() {
+  return (
+    <aside className="inspector scroll" aria-label="Inspector" tabIndex={0}>
+      <Selected />
+    </aside>
+  );
+}
+
+function Selected() {
+  const graph = useScene();
+  const { boxes, wires, port } = selection.use((state) => state);
+  const port_box = port && box_called(port.box);
+  const chosen_port = port_box && port_of(port_box, port.port);
+  if (port_box && chosen_port) return <PortView box={port_box} port={chosen_port} />;
+  const wire = wires.length === 1 && boxes.length === 0 ? graph.wires.find((one) => one.id === wires[0]) : undefined;
+  if (wire) return <WireView wire={wire} />;
+  const box = boxes.length === 1 ? box_called(boxes[0]!) : undefined;
+  if (box) return <BoxView key={box.id} box={box} />;
+  if (boxes.length + wires.length > 1) return <p className="hint">{`${boxes.length} boxes and ${wires.length} wires are selected. Delete removes them.`}</p>;
+  return <Application />;
+}
+
+/** With nothing selected: the application, and what its colours mean. */
+function Application() {
+  const shown = project.use((state) => state.shown);
+  if (!shown) return null;
+  return (
+    <>
+      <h2>{shown.application || "Application"}</h2>
+      <p>{`${counted(shown.components.length, "component")}, ${counted(shown.connections.filter((one) => one.kind === "data").length, "connection")}`}</p>
+      {shown.threads.length > 0 && <h3>Threads</h3>}
+      <ul className="lanes">
+        {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
+      </ul>
+      <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>
+    </>
+  );
+}
+
+const counted = (count: number, noun: string): string => `${count} ${noun}${count === 1 ? "" : "s"}`;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+import { project } from "./project.ts";
+import { faces } from "./faces.tsx";
+import { Operations } from "./operations.tsx";
+import { is_up, run } from "./run.ts";
+import { box_called, useScene } from "./scene.ts";
+import { selection } from "./selection.ts";
+
+/** Controls of the application, and the operations of what is selected. */
+export function Operate() {
+  const up = run.use((all) => is_up(all.state));
+  const components = project.use((state) => state.shown?.components);
+  const box = useSelectedBox();
+  if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
+  const controls = (components ?? []).filter((one) => faces[one.model]);
+  return (
+    <div className="operate scroll" tabIndex={0} aria-label="Operate">
+      <div className="faces">
+        {controls.map((one) => {
+          const Face = faces[one.model]!;
+          return <fieldset key={one.name}><legend>{one.name}</legend><Face component={one} /></fieldset>;
+        })}
+        {controls.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}
+      </div>
+      {box && box.components.slice(0, 1).map((one) => <Operations key={one.name} component={one} />)}
+      {!box && <p className="hint">Select a box to call its operations.</p>}
+    </div>
+  );
+}
+
+function useSelectedBox() {
+  useScene();
+  const boxes = selection.use((state) => state.boxes);
+  const port = selection.use((state) => state.port);
+  return box_called(port?.box ?? boxes[0] ?? "");
+}

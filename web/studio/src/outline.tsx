@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The canvas as a tree, for the keyboard and for screen readers.
+import { useMemo, useRef, useState } from "react";
+import type { Box, BoxPort, Graph } from "./graph.ts";
+import { change, edit } from "./project.ts";
+import { look_for_ends, remove_selected, useScene } from "./scene.ts";
+import { open_composite, select_box, select_port, selection, toggle_plotted } from "./selection.ts";
+
+interface Row {
+  key: string;
+  box: Box;
+  port?: BoxPort;
+  set: number;    ///< how many stand beside it
+  place: number;  ///< which of them it is
+}
+
+function rows_of(graph: Graph, open: ReadonlySet<string>): Row[] {
+  return graph.boxes.flatMap((box, i) => {
+    const ports = [...box.inputs, ...box.outputs];
+    const own: Row = { key: box.id, box, set: graph.boxes.length, place: i + 1 };
+    const rows = ports.map((port, k): Row => ({ key: `${box.id} ${port.id}`, box, port, set: ports.length, place: k + 1 }));
+    return open.has(box.id) ? [own, ...rows] : [own];
+  });
+}
+
+export function Outline() {
+  const graph = useScene();
+  const [open, set_open] = useState<ReadonlySet<string>>(new Set());
+  const [at, set_at] = useState("");
+  const [renamed, set_renamed] = useState("");
+  const tree = useRef<HTMLUListElement>(null);
+  const rows = useMemo(() => rows_of(graph, open), [graph, open]);
+  const current = rows.some((row) => row.key === at) ? at : rows[0]?.key;
+
+  const go = (row: Row | undefined) => {
+    if (!row) return;
+    set_at(row.key);
+    tree.current?.querySelector<HTMLElement>(`[data-key="${CSS.escape(row.key)}"]`)?.focus();
+  };
+  const unfold = (box: Box, unfolded: boolean) => {
+    const now = new Set(open);
+    if (unfolded) now.add(box.id);
+    else now.delete(box.id);
+    set_open(now);
+  };
+  const on_key = (event: React.KeyboardEvent, row: Row, index: number) => {
+    const action = action_of(event, row, { go: (by) => go(rows[index + by]), end: (last) => go(last ? rows.at(-1) : rows[0]), unfold, open,
+      rename: () => set_renamed(row.box.id), parent: () => go(rows.find((one) => one.key === row.box.id)) });
+    if (!action) return;
+    event.preventDefault();
+    event.stopPropagation();  // the canvas hears Delete everywhere
+    action();
+  };
+  return (
+    <section className="outline" aria-label="Outline">
+      <h2>Outline</h2>
+      {rows.length === 0 && <p className="hint">Components are listed here.</p>}
+      <ul role="tree" aria-label="Boxes and their ports" ref={tree} className="scroll">
+        {rows.map((row, index) => (
+          row.box.id === renamed && !row.port
+            ? <Rename key={row.key} box={row.box} done={() => set_renamed("")} />
+            : <RowView key={row.key} row={row} open={open.has(row.box.id)} current={row.key === current}
+                on_key={(event) => on_key(event, row, index)} on_focus={() => set_at(row.key)} unfold={unfold} />
+        ))}
+      </ul>
+      {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects a port <kbd>Del</kbd> removes</p>}
+    </section>
+  );
+}
+
+interface Moves {
+  go(by: number): void;
+  end(last: boolean): void;
+  parent(): void;
+  rename(): void;
+  unfold(box: Box, unfolded: boolean): void;
+  open: ReadonlySet<string>;
+}
+
+function action_of(event: React.KeyboardEvent, row: Row, moves: Moves): (() => void) | undefined {
+  const { box, port } = row;
+  if (event.ctrlKey || event.metaKey || event.altKey) return undefined;
+  const open = moves.open.has(box.id);
+  switch (event.key) {
+    case "ArrowDown": return () => moves.go(1);
+    case "ArrowUp": return () => moves.go(-1);
+    case "Home": return () => moves.end(false);
+    case "End": return () => moves.end(true);
+    case "ArrowRight": return port ? undefined : () => (open ? moves.go(1) : moves.unfold(box, true));
+    case "ArrowLeft": return port ? moves.parent : () => moves.unfold(box, false);
+    case "Enter": return () => enter(row);
+    case " ": return () => choose(row);
+    case "F2": return moves.rename;
+    case "Delete": return () => remove(row);
+    case "c": case "C": return port ? () => void open_menu(event.currentTarget, box, port) : undefined;
+    case "p": case "P": return port ? () => toggle_plotted(port.ends[0]!) : undefined;
+    default: return undefined;
+  }
+}
+
+function choose({ box, port }: Row): void {
+  if (port) select_port(box.id, port.id);
+  else select_box(box.id, true);
+}
+
+/** A second Enter opens a composite. */
+function enter(row: Row): void {
+  const { boxes, path } = selection.get();
+  if (!row.port && row.box.composite && boxes[0] === row.box.id) open_composite([...path, row.box.title]);
+  else choose(row);
+}
+
+function remove(row: Row): void {
+  if (row.port) return;
+  select_box(row.box.id);
+  void remove_selected();
+}
+
+async function open_menu(row: Element, box: Box, port: BoxPort): Promise<void> {
+  const { left, bottom } = row.getBoundingClientRect();
+  select_port(box.id, port.id);
+  await look_for_ends(box.id, port.id);
+  if (selection.get().reach) selection.set({ menu: { box: box.id, port: port.id, x: left + 16, y: bottom } });
+}
+
+function RowView({ row, open, current, on_key, on_focus, unfold }: {
+  row: Row; open: boolean; current: boolean; on_key(event: React.KeyboardEvent): void; on_focus(): void; unfold(box: Box, unfolded: boolean): void;
+}) {
+  const { box, port } = row;
+  const selected = selection.use((state) => (port ? state.port?.box === box.id && state.port.port === port.id : state.boxes.includes(box.id)));
+  return (
+    <li role="treeitem" aria-level={port ? 2 : 1} aria-setsize={row.set} aria-posinset={row.place} aria-selected={selected}
+      aria-expanded={port ? undefined : open} tabIndex={current ? 0 : -1} data-key={row.key} onKeyDown={on_key} onFocus={on_focus}
+      onClick={() => choose(row)} title={port ? `${port.type} ${port.unit}`.trim() : box.model}>
+      {!port && <span className="fold" aria-hidden="true" onClick={(event) => (event.stopPropagation(), unfold(box, !open))}>{open ? "▾" : "▸"}</span>}
+      {port && <span className={`mark ${port.kind}`} aria-hidden="true" />}
+      <span className="name">{port ? port.name : box.title}</span>
+      <small>{port ? port.unit || port.kind : box.model}</small>
+    </li>
+  );
+}
+
+function Rename({ box, done }: { box: Box; done(): void }) {
+  const rename = async (name: string) => {
+    done();
+    if (name && name !== box.title && (await edit([change("rename", box.edited, name)], { field: `${box.id} name`, file: box.file }))) select_box(name);
+  };
+  return (
+    <li role="treeitem" aria-level={1} aria-selected={true}>
+      <input autoFocus defaultValue={box.title} aria-label={`New name of ${box.title}`} onBlur={done}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") void rename(event.currentTarget.value.trim());
+          if (event.key === "Escape") done();
+        }} />
+    </li>
+  );
+}

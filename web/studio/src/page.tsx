@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Component as ReactComponent, lazy, type ReactNode, Suspense, useEffect } from "react";
+import { createRoot } from "react-dom/client";
+import type { Backend } from "./backend.ts";
+import { Canvas } from "./canvas.tsx";
+import { FitMenu } from "./fit_menu.tsx";
+import { Inspector } from "./inspector.tsx";
+import { listen_to_keys } from "./keys.ts";
+import { Notices } from "./notices.tsx";
+import { Outline } from "./outline.tsx";
+import { Palette } from "./palette.tsx";
+import { Panel } from "./panel.tsx";
+import { open_project } from "./project.ts";
+import { QuestionView } from "./question.tsx";
+import { open_run } from "./run.ts";
+import { selection } from "./selection.ts";
+import { TopBar } from "./top_bar.tsx";
+import { start_values } from "./values.ts";
+
+const TextView = lazy(() => import("./text_view.tsx"));
+
+export function show_page(backend: Backend): void {
+  open_project(backend);
+  open_run(backend);
+  start_values();
+  createRoot(document.getElementById("page")!).render(<Page />);
+}
+
+function Page() {
+  const text = selection.use((state) => state.text);
+  useEffect(listen_to_keys, []);
+  return (
+    <div className={`studio${text ? " with-text" : ""}`}>
+      <TopBar />
+      <Notices />
+      <nav className="left" aria-label="Models and outline">
+        <Palette />
+        <Outline />
+      </nav>
+      <main aria-label="Canvas"><Guard><Canvas /></Guard></main>
+      {text && <section className="beside" aria-label="Text"><Guard><Suspense fallback={<p className="hint">Opening the text …</p>}><TextView /></Suspense></Guard></section>}
+      <Guard><Inspector /></Guard>
+      <Panel />
+      <FitMenu />
+      <QuestionView />
+    </div>
+  );
+}
+
+/** A view that fails leaves the others working, Stop among them. */
+export class Guard extends ReactComponent<{ children: ReactNode }, { failed: string }> {
+  override state = { failed: "" };
+
+  static getDerivedStateFromError(error: unknown): { failed: string } {
+    return { failed: error instanceof Error ? error.message : String(error) };
+  }
+
+  override render(): ReactNode {
+    if (!this.state.failed) return this.props.children;
+    return (
+      <div className="empty" role="alert">
+        <p>{`This view has failed: ${this.state.failed}`}</p>
+        <button type="button" onClick={() => this.setState({ failed: "" })}>Show it again</button>
+      </div>
+    );
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+import { useMemo, useState } from "react";
+import { drag_model } from "./canvas.tsx";
+import type { Model } from "./checked.ts";
+import { project } from "./project.ts";
+import { add_model } from "./scene.ts";
+import { composites_of } from "./written.ts";
+
+interface Offer {
+  name: string;
+  doc: string;
+}
+
+/** Models by library, and the composites of the deployment. */
+export function Palette() {
+  const models = project.use((state) => state.models);
+  const texts = project.use((state) => state.texts);
+  const [sought, set_sought] = useState("");
+  const composites = useMemo(() => composites_of(texts), [texts]);
+  const groups = useMemo(() => found(models, composites.map((one) => one.name), sought), [models, composites, sought]);
+  return (
+    <section className="palette" aria-label="Models">
+      <input type="search" placeholder="Find a model" aria-label="Find a model" value={sought}
+        onChange={(event) => set_sought(event.target.value)} onKeyDown={(event) => event.key === "Enter" && add_first(groups)} />
+      <div className="scroll">
+        {groups.map(([library, offers]) => <Group key={library} library={library} offers={offers} open={sought !== "" || groups.length < 4} />)}
+        {groups.length === 0 && <p className="hint">{sought ? "No model is called so, nor says so." : "No models yet: build a library, and start the studio with it."}</p>}
+      </div>
+    </section>
+  );
+}
+
+function add_first(groups: [string, Offer[]][]): void {
+  const first = groups[0]?.[1][0];
+  if (first) void add_model(first.name);
+}
+
+function found(models: Model[], composites: string[], sought: string): [string, Offer[]][] {
+  const groups = new Map<string, Offer[]>();
+  const word = sought.trim().toLowerCase();
+  const offer = (library: string, { name, doc }: Offer) => {
+    if (!`${name} ${doc}`.toLowerCase().includes(word)) return;
+    groups.set(library, [...(groups.get(library) ?? []), { name, doc }]);
+  };
+  for (const name of composites) offer("This deployment", { name, doc: "a composite" });
+  for (const model of models) offer(model.library || "Armature", model);
+  for (const offers of groups.values()) offers.sort((a, b) => rank(a, word) - rank(b, word) || a.name.localeCompare(b.name));
+  return [...groups].sort(([, a], [, b]) => (word ? rank(a[0]!, word) - rank(b[0]!, word) : 0));
+}
+
+/** Names that begin so come first, then those that have it in them. */
+function rank({ name }: Offer, word: string): number {
+  const at = name.toLowerCase().indexOf(word);
+  return at === 0 ? 0 : at > 0 ? 1 : 2;
+}
+
+function Group({ library, offers, open }: { library: string; offers: Offer[]; open: boolean }) {
+  const used = project.use((state) => (state.shown?.components.some((one) => offers.some(({ name }) => name === one.model)) ?? false));
+  return (
+    <details open={open || used}>
+      <summary>{library}<span className="count">{offers.length}</span></summary>
+      <ul>
+        {offers.map(({ name, doc }) => (
+          <li key={name}>
+            <button type="button" draggable onDragStart={(event) => drag_model(event, name)} title={`${doc}\nEnter adds one; or drag it`}
+              onClick={(event) => event.detail === 0 && void add_model(name)} onDoubleClick={() => void add_model(name)}>
+              <span>{name}</span><small>{doc}</small>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </details>
+  );
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+import { lazy, type ReactNode, Suspense } from "react";
+import { Log } from "./log.tsx";
+import { Operate } from "./operate.tsx";
+import { Problems } from "./problems.tsx";
+import { project } from "./project.ts";
+import { type Tab, selection } from "./selection.ts";
+import { Threads } from "./threads.tsx";
+
+const Plot = lazy(() => import("./plot.tsx"));
+
+const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["plot", "Plot"], ["operate", "Operate"]];
+
+const views: Record<Tab, () => ReactNode> = {
+  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, operate: () => <Operate />,
+  plot: () => <Suspense fallback={<p className="hint">Opening the plot …</p>}><Plot /></Suspense>,
+};
+
+/** Below the canvas. */
+export function Panel() {
+  const tab = selection.use((state) => state.tab);
+  return (
+    <section className="panel" aria-label="Panel">
+      <div role="tablist" aria-label="Panel" onKeyDown={on_key}>
+        {kTabs.map(([key, label]) => (
+          <button key={key} type="button" role="tab" id={`tab-${key}`} aria-selected={tab === key} aria-controls="panel-view" tabIndex={tab === key ? 0 : -1}
+            onClick={() => selection.set({ tab: key })}>{label}{key === "problems" && <Count />}</button>
+        ))}
+      </div>
+      <div role="tabpanel" id="panel-view" aria-labelledby={`tab-${tab}`} className="view">{views[tab]()}</div>
+    </section>
+  );
+}
+
+function on_key(event: React.KeyboardEvent<HTMLElement>): void {
+  const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+  if (by === 0) return;
+  const at = kTabs.findIndex(([key]) => key === selection.get().tab);
+  const [next] = kTabs[(at + by + kTabs.length) % kTabs.length]!;
+  selection.set({ tab: next });
+  event.currentTarget.querySelector<HTMLElement>(`#tab-${next}`)?.focus();
+}
+
+function Count() {
+  const errors = project.use((state) => state.checked?.errors ?? 0);
+  const others = project.use((state) => (state.checked?.diagnostics.length ?? 0) - (state.checked?.errors ?? 0));
+  const refused = project.use((state) => (state.refusal?.diagnostics.some((one) => one.severity === "error") ? 1 : 0));
+  const count = errors + Math.max(0, others) + refused;
+  return count === 0 ? null : <span className={`count ${errors + refused > 0 ? "bad" : ""}`}>{count}</span>;
+}

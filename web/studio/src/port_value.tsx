@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+import { useEffect, useRef } from "react";
+import type { BoxPort } from "./graph.ts";
+import { age_text, numbers_text, truth_text, watch } from "./values.ts";
+
+const kMostEnds = 16;
+const kOld = 1;  ///< from this age on a value is shown as old [s]
+
+/** Whether a port's values are numbers, which can be watched. */
+export const has_numbers = (port: BoxPort): boolean =>
+  (port.kind === "input" || port.kind === "output") && /double|float|int|bool|Vector|number|long|short|byte/i.test(port.type);
+
+/** The numbers of a port, as they come. */
+export function PortValue({ port }: { port: BoxPort }) {
+  const place = useRef<HTMLOutputElement>(null);
+  const items = has_numbers(port) ? port.ends.slice(0, kMostEnds).join("\n") : "";
+  useEffect(() => (items ? show_numbers(items.split("\n"), place.current!, port) : undefined), [items, port.unit, port.type]);
+  return items ? <output className="value" ref={place} aria-live="off" /> : null;
+}
+
+function show_numbers(items: string[], place: HTMLOutputElement, { type, unit }: BoxPort): () => void {
+  const text_of = type === "bool" ? truth_text : numbers_text;
+  const known = new Map<string, number[]>();
+  let text = "";
+  const ends = items.map((item) => watch(item, (numbers, age) => {
+    known.set(item, numbers);
+    const now = text_of([...known.values()].flat());
+    if (now !== text) place.textContent = text = now;
+    place.classList.toggle("old", !(age < kOld));
+    place.title = `${now} ${unit}, ${age_text(age)}`;
+  }));
+  return () => ends.forEach((end) => end());
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+import { useState } from "react";
+import type { Property } from "./checked.ts";
+import { Field } from "./field.tsx";
+import type { Box } from "./graph.ts";
+import { change, edit } from "./project.ts";
+import { number_text } from "./values.ts";
+
+/** @param fallback  what the model has if the deployment says nothing */
+export function PropertyField({ box, property, fallback }: { box: Box; property: Property; fallback?: string }) {
+  const name = `${box.edited}.${property.name}`;
+  const about = `${box.id}.${property.name}`;
+  const values = [...new Set(box.components.map((one) => one.properties.find(({ name }) => name === property.name)?.value ?? ""))];
+  const value = values[0] ?? "";
+  const take = (text: string) => edit([text === "" ? change("unset", name) : change("set", name, text)], { field: about, file: box.file });
+  const differs = value !== fallback && fallback !== undefined;
+  const hint = [property.doc, range_text(property), differs && fallback !== "" && `default ${fallback}`, values.length > 1 && `differs: ${values.slice(0, 7).join("; ")}`];
+  return (
+    <div className="property">
+      <Field label={property.name} about={about} value={value} unit={property.unit} list={property.values}
+        title={`${property.type}${property.mandatory ? ", has to be set" : ""}`} hint={hint.filter(Boolean).join(" · ")} take={take}>
+        {differs && <button type="button" className="unset" title="Unset: takes it out of the file, the default counts" aria-label={`Unset ${property.name}`} onClick={() => void take("")}>↺</button>}
+      </Field>
+      {slides(property, value) && <Slide property={property} value={Number(value)} take={take} />}
+    </div>
+  );
+}
+
+const is_bound = (bound: number | null | undefined): bound is number => typeof bound === "number" && Math.abs(bound) < 1e6;
+
+const kMostWhole = 200;  ///< from here on a slider does not meet each whole number
+
+const is_whole = ({ type }: Property): boolean => /int|long|short/.test(type);
+
+function slides(property: Property, value: string): boolean {
+  const [low, high] = property.range ?? [];
+  if (!is_bound(low) || !is_bound(high) || value === "" || !Number.isFinite(Number(value))) return false;
+  return !is_whole(property) || high - low <= kMostWhole;
+}
+
+function range_text({ range }: Property): string {
+  if (!range) return "";
+  const [low, high] = range;
+  if (low === null) return high === null ? "" : `at most ${number_text(high)}`;
+  return high === null ? `at least ${number_text(low)}` : `${number_text(low)} to ${number_text(high)}`;
+}
+
+/** Moves a number within its range; it is set when it is let go. */
+function Slide({ property, value, take }: { property: Property; value: number; take(text: string): Promise<boolean> }) {
+  const [moved, set_moved] = useState<number>();
+  const [low, high] = property.range as [number, number];
+  const let_go = () => {
+    if (moved !== undefined && moved !== value) void take(String(Number(moved.toPrecision(6))));
+    set_moved(undefined);
+  };
+  return (
+    <input type="range" aria-label={`${property.name}, slider`} min={low} max={high} step={is_whole(property) ? 1 : (high - low) / 200} value={moved ?? value}
+      aria-valuetext={`${number_text(moved ?? value)} ${property.unit}`} onChange={(event) => set_moved(Number(event.target.value))}
+      onPointerUp={let_go} onKeyUp={let_go} onBlur={let_go} />
+  );
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The graph of what is open now, made once for all views.
+import type { Checked, Fitting } from "./checked.ts";
+import { type Box, type BoxPort, type Graph, graph_of, kNoGraph, type Wire } from "./graph.ts";
+import { change, edit, fitting, project } from "./project.ts";
+import { type FitMenu, reach_of, selection, tell } from "./selection.ts";
+import { free_name } from "./free_name.ts";
+import { message_of } from "./backend.ts";
+import { split_member } from "./checked.ts";
+import type { Texts } from "./written.ts";
+import { entries_of } from "./written.ts";
+import type { Point } from "./layout.ts";
+
+let made: { checked?: Checked; texts?: Texts; path?: string[]; graph: Graph } = { graph: kNoGraph };
+
+/** The graph at this moment; the same object while nothing has changed. */
+export function scene(): Graph {
+  const { shown, shownTexts } = project.get();
+  const { path } = selection.get();
+  if (made.checked !== shown || made.texts !== shownTexts || made.path !== path) {
+    const graph = shown ? graph_of(shown, shownTexts, path) : kNoGraph;
+    made = { checked: shown, texts: shownTexts, path, graph };
+  }
+  return made.graph;
+}
+
+/** For views: the graph, again whenever the project or the open composite changes. */
+export function useScene(): Graph {
+  project.use((state) => state.shown);
+  project.use((state) => state.shownTexts);
+  selection.use((state) => state.path);
+  return scene();
+}
+
+export const box_called = (id: string): Box | undefined => scene().boxes.find((box) => box.id === id);
+
+export const port_of = (box: Box, id: string): BoxPort | undefined => [...box.inputs, ...box.outputs].find((port) => port.id === id);
+
+export const is_source = (port: BoxPort): boolean => port.kind === "output" || port.kind === "event";
+
+/** Finds out where a wire from a port could lead, and shows it. */
+export async function look_for_ends(box: string, port: string): Promise<void> {
+  const from = box_called(box);
+  const end = from && port_of(from, port)?.ends[0];
+  if (!end) return;
+  try {
+    const answer = JSON.parse(await fitting(...split_member(end))) as Fitting;
+    selection.set({ reach: reach_of(box, port, answer) });
+  } catch (error) {
+    tell(message_of(error));
+  }
+}
+
+/** Why a wire cannot lead to a port; empty if it can, undefined if nobody knows. */
+export function why_not(port: BoxPort): string | undefined {
+  const { reach } = selection.get();
+  const answers = port.ends.flatMap((end) => reach?.ends.get(end) ?? []);
+  return answers.length === 0 ? undefined : answers.includes("") ? "" : answers[0];
+}
+
+/** The port as a connection names it; of an array that is one port, the first that fits, unless a range meets it. */
+function end_words(port: BoxPort, other: BoxPort): string {
+  if (port.count === 1 || other.written.includes("{i}")) return port.written;
+  const { reach } = selection.get();
+  const free = port.ends.find((end) => reach?.ends.get(end) === "") ?? port.ends[0]!;
+  return port.written.replace(/[^.]*$/, split_member(free)[1]);
+}
+
+export async function connect(a: { box: string; port: string }, b: { box: string; port: string }): Promise<boolean> {
+  const first = port_in(a);
+  const second = port_in(b);
+  if (!first || !second) return false;
+  const [from, to] = is_source(first) ? [first, second] : [second, first];
+  return edit([change("connect", end_words(from, to), end_words(to, from))], { field: "canvas" });
+}
+
+function port_in({ box, port }: { box: string; port: string }): BoxPort | undefined {
+  const found = box_called(box);
+  return found && port_of(found, port);
+}
+
+/** Names that something new must not have. */
+function taken_names(): string[] {
+  const { shown, texts } = project.get();
+  return [...(shown?.components ?? []).map((one) => one.name.split(".")[0]!), ...entries_of(texts).map((entry) => entry.name)];
+}
+
+/** Adds a component of a model; @return its name, or undefined if that was refused. */
+export async function add_model(model: string, place?: Point, then: (name: string) => ReturnType<typeof change>[] = () => []): Promise<string | undefined> {
+  const name = free_name(model, taken_names());
+  const placed = place ? [change("place", name, String(place[0]), String(place[1]))] : [];
+  const library = library_to_load(model);
+  const loaded = library ? [change("library", library)] : [];
+  if (!(await edit([...loaded, change("add", name, model), ...then(name), ...placed], { field: "canvas" }))) return undefined;
+  selection.set({ path: [], boxes: [name], wires: [], port: undefined });
+  return name;
+}
+
+/** The library of a model that the deployment does not load yet. */
+function library_to_load(model: string): string | undefined {
+  const { models, texts } = project.get();
+  const library = models.find((one) => one.name === model)?.library;
+  if (!library) return undefined;
+  const loaded = [...texts.values()].some((text) => libraries_of(text).includes(library));
+  return loaded ? undefined : library;
+}
+
+function libraries_of(text: string): string[] {
+  const flow = /^libraries:\s*\[([^\]]*)\]/m.exec(text)?.[1];
+  if (flow !== undefined) return flow.split(",").map((one) => one.trim());
+  const block = /^libraries:\s*\n((?:\s*-\s.*\n?)+)/m.exec(text)?.[1] ?? "";
+  return [...block.matchAll(/-\s*(\S+)/g)].map((match) => match[1]!);
+}
+
+/** Adds a model and connects one of its ports with the one that the menu was opened for. */
+export async function add_and_connect(menu: FitMenu, model: string, member: string): Promise<void> {
+  const port = port_in(menu);
+  if (!port) return;
+  const ends = (name: string) => (is_source(port) ? [port.written, `${name}.${member}`] : [`${name}.${member}`, port.written]);
+  await add_model(model, menu.place, (name) => [change("connect", ...ends(name))]);
+}
+
+export const disconnect = (wire: Wire) => change("disconnect", ...wire.written);
+
+/** Removes what is selected. */
+export async function remove_selected(): Promise<void> {
+  const { boxes, wires } = selection.get();
+  const graph = scene();
+  const gone = graph.boxes.filter((box) => boxes.includes(box.id));
+  const cut = graph.wires.filter((wire) => wires.includes(wire.id) && !gone.some((box) => box.id === wire.from.box || box.id === wire.to.box));
+  const changes = [...cut.map(disconnect), ...gone.map((box) => change("remove", box.edited))];
+  if (changes.length === 0) return;
+  const file = gone.find((box) => box.file)?.file ?? cut.find((wire) => wire.file)?.file;
+  if (await edit(changes, { field: "canvas", file })) selection.set({ boxes: [], wires: [], port: undefined });
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the user looks at: the open composite, what is selected, the panels that are open.
+import type { End, Fitting } from "./checked.ts";
+import { Store } from "./store.ts";
+
+export type Tab = "problems" | "log" | "threads" | "plot" | "operate";
+
+/** Where a wire could lead from a port. */
+export interface Reach {
+  box: string;
+  port: string;
+  /** `Component.member` to why it does not fit; empty: it fits. */
+  ends: Map<string, string>;
+  models: End[];
+}
+
+/** The list of what fits, opened at a point of the window. */
+export interface FitMenu {
+  box: string;
+  port: string;
+  x: number;
+  y: number;
+  /** Where a new box is put on the canvas. */
+  place?: [number, number];
+}
+
+export interface Selection {
+  path: string[];       ///< composites that are open
+  boxes: string[];
+  wires: string[];
+  port?: { box: string; port: string };
+  reach?: Reach;
+  menu?: FitMenu;
+  text: boolean;        ///< the text stands beside the canvas
+  textPlace?: { file: string; line: number; column: number; ask: number };
+  tab: Tab;
+  reveal?: { box: string; ask: number };  ///< the canvas moves there
+  plotted: string[];    ///< items of the run
+  told: string;         ///< a short message; empty: none
+}
+
+export const selection = new Store<Selection>({
+  path: [], boxes: [], wires: [], text: false, tab: "problems", plotted: [], told: "",
+});
+
+let asks = 0;
+
+export function select_box(box: string, reveal = false): void {
+  selection.set({ boxes: [box], wires: [], port: undefined, ...(reveal ? { reveal: { box, ask: ++asks } } : {}) });
+}
+
+export const select_wire = (wire: string): void => selection.set({ boxes: [], wires: [wire], port: undefined });
+
+export function select_port(box: string, port: string): void {
+  selection.set({ boxes: [box], wires: [], port: { box, port } });
+}
+
+export const open_composite = (path: string[]): void => selection.set({ path, boxes: [], wires: [], port: undefined });
+
+export function show_text(file: string, line = 1, column = 1): void {
+  selection.set({ text: true, textPlace: { file, line, column, ask: ++asks } });
+}
+
+export function reach_of(box: string, port: string, { ends, models }: Fitting): Reach {
+  const all = new Map(ends.map((end) => [`${end.component}.${end.member}`, end.why_not ?? ""]));
+  return { box, port, ends: all, models: models ?? [] };
+}
+
+let telling: ReturnType<typeof setTimeout> | undefined;
+
+export function tell(told: string): void {
+  clearTimeout(telling);
+  selection.set({ told });
+  telling = setTimeout(() => selection.set({ told: "" }), 6000);
+}
+
+export function toggle_plotted(item: string): void {
+  const { plotted } = selection.get();
+  const without = plotted.filter((one) => one !== item);
+  selection.set({ plotted: without.length < plotted.length ? without : [...plotted, item], tab: "plot" });
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+import { is_saved, project, redo, reload, save, undo } from "./project.ts";
+import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
+import { selection } from "./selection.ts";
+
+const kPaces: [number, string][] = [[0.1, "0.1 ×"], [1, "1 ×"], [10, "10 ×"], [Infinity, "as fast as possible"]];
+
+export function TopBar() {
+  return (
+    <header className="top-bar">
+      <FileState />
+      <EditButtons />
+      <RunControls />
+      <RunTime />
+      <StopButton />
+    </header>
+  );
+}
+
+function FileState() {
+  const state = project.use((all) => all.state);
+  const name = state.file.split("/").pop() || "…";
+  const saved = is_saved(state);
+  return (
+    <div className="file">
+      <h1 title={state.file}>{name}</h1>
+      <span className={saved ? "saved" : "changed"} role="status">{saved ? "saved" : "changed"}</span>
+    </div>
+  );
+}
+
+function EditButtons() {
+  const state = project.use((all) => all.state);
+  const text = selection.use((all) => all.text);
+  return (
+    <div className="group" role="group" aria-label="Edit">
+      <button type="button" disabled={!state.undo} title={state.undo ? `Undo ${state.undo} (Ctrl+Z)` : "Nothing to undo"} onClick={() => void undo()}>Undo</button>
+      <button type="button" disabled={!state.redo} title={state.redo ? `Redo ${state.redo} (Ctrl+Shift+Z)` : "Nothing to redo"} onClick={() => void redo()}>Redo</button>
+      <button type="button" disabled={is_saved(state)} title="Ctrl+S" onClick={() => void save()}>Save</button>
+      <button type="button" title="Takes what the disk has, libraries that were built anew among it; Undo takes it back" onClick={() => void reload()}>Reload</button>
+      <button type="button" aria-pressed={text} onClick={() => selection.set({ text: !text })}>Text</button>
+    </div>
+  );
+}
+
+function RunControls() {
+  const { state, simulated, pace, now } = run.use((all) => all);
+  const saved = project.use((all) => is_saved(all.state));
+  const errors = project.use((all) => all.checked?.errors ?? 0);
+  const going = is_going(state);
+  const live_sim = is_up(state) && state.simulated;
+  return (
+    <div className="group" role="group" aria-label="Run">
+      <select aria-label="Time" value={simulated ? "simulated" : "real"} disabled={going}
+        onChange={(event) => run.set({ simulated: event.target.value === "simulated" })}>
+        <option value="simulated">Simulated</option>
+        <option value="real">Real time</option>
+      </select>
+      <select aria-label="Pace of simulated time" value={String(now?.rate ?? pace)} disabled={going ? !live_sim : !simulated}
+        onChange={(event) => void set_pace(Number(event.target.value))}>
+        {kPaces.map(([value, label]) => <option key={label} value={String(value)}>{label}</option>)}
+      </select>
+      <button type="button" className="primary" disabled={going || errors > 0} onClick={() => void start()}
+        title={errors > 0 ? "Mend the errors below first" : "Starts the application"}>
+        {saved ? "Run" : "Save and run"}
+      </button>
+      <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
+      <button type="button" disabled={!live_sim || !now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
+    </div>
+  );
+}
+
+function RunTime() {
+  const state = run.use((all) => all.state);
+  const time = run.use((all) => all.application?.time);
+  const faults = run.use((all) => Number(all.application?.faults ?? 0));
+  const paused = run.use((all) => all.now?.paused ?? false);
+  return (
+    <div className={`run-state is-${state.state}`}>
+      <span role="status">{state_text(state.state, state.exit_code, paused)}</span>
+      {time !== undefined && <span className="time">{`${time.toFixed(2)} s`}</span>}
+      {faults > 0 && <button type="button" className="faults" onClick={() => selection.set({ tab: "threads" })}>{`${faults} faults`}</button>}
+    </div>
+  );
+}
+
+function state_text(state: string, exit_code: number, paused: boolean): string {
+  if (state === "none") return "not run yet";
+  if (state === "ended") return exit_code === 0 ? "ended" : `ended with code ${exit_code}, see the log`;
+  return paused ? "paused" : state;
+}
+
+/** Always at the same place, and never disabled: what it does is safe at any time. */
+function StopButton() {
+  const stopping = run.use((all) => all.state.state === "stopping");
+  return (
+    <button type="button" className="stop" title="Stops the run in order; a second time at once (Shift+Esc). It replaces no emergency switch."
+      onClick={() => void stop()}>
+      {stopping ? "Stop now" : "Stop"}
+    </button>
+  );
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A few models, as `armature models --json` has them.
+import type { Model, Operation, Port, Property } from "../../src/checked.ts";
+
+const property = (name: string, type: string, value: string, doc: string, more: Partial<Property> = {}): Property => ({
+  name, type, unit: "", doc, default: value, persistent: true, mandatory: false, changeable_while_running: true, ...more,
+});
+const port = (name: string, doc: string, unit = "", type = "double", more: Partial<Port> = {}): Port => ({ name, type, unit, doc, ...more });
+const operation = (name: string, doc: string, args: [string, string][] = [], command = false): Operation => ({
+  name, doc, command, by_operator: false, result: "", signature: `void(${args.map(([type, what]) => `${type} ${what}`).join(", ")})`,
+  arguments: args.map(([type, what]) => ({ name: what, type })),
+});
+const event = (name: string, doc: string) => ({ name, doc, signature: "void()", arguments: [] });
+
+function model(name: string, library: string, doc: string, members: Partial<Model>): Model {
+  return { name, library, doc, properties: [], inputs: [], outputs: [], port_arrays: [], operations: [], events: [], requirements: [], ...members };
+}
+
+const unit = property("Unit", "string", "", "of the number and of all bounds");
+const numbered = (name: string, count: number, doc: string, of_unit: string): Port[] =>
+  Array.from({ length: count }, (_, i) => port(`${name}${i + 1}`, doc, of_unit));
+
+export const kModels: Model[] = [
+  model("Source", "wave", "a wave", {
+    properties: [
+      property("Frequency", "double", "1", "of the wave", { unit: "Hz", range: [0, 50] }),
+      property("Amplitude", "double", "0.5", "half of the wave's height", { unit: "rad", range: [0, 3.14159] }),
+    ],
+    outputs: [port("Position", "where the wave is", "rad")],
+  }),
+  model("LowPass", "wave", "smooths what it reads", {
+    properties: [property("Weight", "double", "0.1", "of a new value", { range: [0, 1] })],
+    inputs: [port("Raw", "what is smoothed", "rad", "double", { triggers: true })], outputs: [port("Filtered", "smoothed", "rad")],
+  }),
+  model("Watcher", "wave", "logs what it sees", { inputs: [port("Value", "what is looked at", "rad")] }),
+  model("Joint", "robot", "a joint of the robot with its limiter", {
+    properties: [
+      property("PositionMin", "double", "", "least position", { unit: "rad", mandatory: true }),
+      property("PositionMax", "double", "", "greatest position", { unit: "rad", mandatory: true }),
+      property("MaxVelocity", "double", "3", "the limiter lets pass", { unit: "rad/s", range: [0, null] }),
+      property("GearRatio", "double", "1", "turns of the motor for one of the joint"),
+      property("Brake", "bool", "false", "the joint has a brake", { values: ["false", "true"] }),
+    ],
+    inputs: [port("Voltage", "that is to be applied", "V")],
+    outputs: [port("Position", "measured", "rad"), port("Velocity", "measured", "rad/s"), port("Armed", "whether it may move", "", "bool")],
+    operations: [operation("brakeApply", "applies the brake"), operation("moveTo", "goes to a position", [["double", "target [rad]"]], true)],
+    events: [event("Limited", "the limiter changed a command")],
+    requirements: [{ name: "sensorRead", kind: "operation", signature: "double()", doc: "reads the encoder", optional: true }],
+  }),
+  model("PID", "robot", "controls a joint", {
+    properties: [property("Kp", "double", "100", "gain", { range: [0, 1000] }), property("Ki", "double", "0", "integral gain", { range: [0, 200] })],
+    inputs: [port("Ref", "wanted position", "rad"), port("Sen", "measured position", "rad")], outputs: [port("Out", "voltage", "V")],
+  }),
+  model("Sensor", "robot", "collects the joints' positions", {
+    properties: [property("joints", "int", "7", "how many joints there are", { range: [1, 64] })],
+    inputs: numbered("Position", 7, "of a joint", "rad"), port_arrays: [{ name: "Position", count: "joints" }],
+    outputs: [port("sensor", "all positions", "rad", "vector<double>", { size: 7 })],
+  }),
+  model("Generator", "robot", "moves the axes from point to point", {
+    properties: [property("max_vel", "vector<double>", "[1]", "greatest velocity of each axis", { unit: "rad/s" })],
+    inputs: [port("sensor", "measured", "rad", "vector<double>", { size: 7 })], outputs: numbered("Ref", 7, "wanted position of an axis", "rad"),
+    port_arrays: [{ name: "Ref", count: "num_axes" }],
+    operations: [operation("moveTo", "goes to a position", [["vector<double>", "target [rad]"], ["double", "time [s]"]], true), operation("hold", "stays", [], true)],
+    events: [event("Arrived", "the last motion has ended")],
+  }),
+  model("Button", "controls", "something to press", { operations: [operation("press", "as a finger does")], events: [event("Pressed", "somebody pressed it")] }),
+  model("Switch", "controls", "something to turn on and off", {
+    properties: [property("Initially", "bool", "false", "whether it is on at the start")], outputs: [port("On", "whether it is on", "", "bool")],
+    operations: [operation("turn", "on or off", [["bool", "on"]])], events: [event("TurnedOn", "it was off before")],
+  }),
+  model("Slider", "controls", "a number that somebody moves", {
+    properties: [
+      property("Low", "double", "0", "the least number"), property("High", "double", "1", "the greatest number"),
+      property("Hold", "bool", "false", "whether it goes back when it is let go of"), unit,
+    ],
+    outputs: [port("Out", "where it is")], operations: [operation("move", "moves it", [["double", "value"]], true)],
+  }),
+  model("Light", "controls", "shines while it reads true", { inputs: [port("On", "whether it shines", "", "bool")] }),
+  model("Number", "controls", "shows a number", { properties: [unit], inputs: [port("Value", "what is shown")] }),
+  model("Mixer", "chassis", "wheel speeds of a motion", {
+    properties: [property("Track", "double", "0.3", "from wheel to wheel", { unit: "m" })],
+    inputs: [port("Forward", "speed", "m/s"), port("Turn", "rate", "rad/s")], outputs: [port("Left", "speed", "m/s"), port("Right", "speed", "m/s")],
+  }),
+  model("Wheel", "chassis", "a wheel", {
+    properties: [property("Radius", "double", "0.1", "of the wheel", { unit: "m", range: [0.01, 1] })],
+    inputs: [port("Speed", "at the rim", "m/s")], outputs: [port("Angle", "turned", "rad")],
+  }),
+  model("Driver", "chassis", "drives a quarter of a circle", {
+    inputs: [port("Left", "angle", "rad"), port("Right", "angle", "rad")], outputs: [port("Forward", "speed", "m/s"), port("Turn", "rate", "rad/s")],
+  }),
+];

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+
+export const kDeployments: Record<string, Record<string, string>> = {
+  wave: {
+    "wave.yaml": `# armature run --sim --for 1s wave.yaml
+application: wave
+libraries: [wave, controls]
+components:
+  Source: {model: Source, activity: {periodic: 10 ms, priority: 70}, properties: {Frequency: 2, Amplitude: 0.785}}
+  Filter: {model: LowPass, activity: sequential, properties: {Weight: 0.2}}
+  Watcher: {model: Watcher, activity: {periodic: 200 ms}}
+connections:
+  - Source.Position -> Filter.Raw
+  - Filter.Filtered -> Watcher.Value
+`,
+  },
+  arm: {
+    "arm.yaml": `# An arm of seven joints on a rover.
+include: control.yaml
+application: arm
+libraries: [robot, controls, chassis]
+composites:
+  Chassis:
+    components:
+      mixer: {model: Mixer, properties: {Track: 0.4}}
+      left: {model: Wheel}
+      right: {model: Wheel}
+    connections:
+      - mixer.Left -> left.Speed
+      - mixer.Right -> right.Speed
+    exports:
+      ports: {Forward: mixer.Forward, Turn: mixer.Turn, LeftAngle: left.Angle, RightAngle: right.Angle}
+components:
+  Driver: {model: Driver, activity: {periodic: 10 ms, priority: 60}}
+  Rover: {model: Chassis}
+  Go: {model: Button}
+  Jog: {model: Slider, activity: {periodic: 50 ms}, properties: {High: 2, Unit: rad, Hold: true}}
+  Lamp: {model: Light}
+  Power: {model: Switch, activity: {periodic: 50 ms}}
+  Height: {model: Number, properties: {Unit: rad}}
+connections:
+  - Driver.Forward -> Rover.Forward
+  - Driver.Turn -> Rover.Turn
+  - Rover.LeftAngle -> Driver.Left
+  - Rover.RightAngle -> Driver.Right
+  - Power.On -> Lamp.On
+  - {on: Go.Pressed, do: Generator.hold, name: Hold}
+  - Jog.Out -> Height.Value
+`,
+    "control.yaml": `# The control of the joints, to be included.
+components:
+  Joint{1..7}:
+    model: Joint
+    activity: {periodic: 10 ms, priority: 80}
+    peers: [Sampler]
+    properties: {PositionMin: -0.5, PositionMax: 4.5, MaxVelocity: 3}
+  Sensor: {model: Sensor, activity: sequential}
+  Generator: {model: Generator, activity: {periodic: 20 ms, priority: 40}}
+  PID{1..7}: {model: PID, activity: sequential, properties: {Kp: 400, Ki: 20}}
+connections:
+  - Joint{i}.Position -> Sensor.Position{i}
+  - Sensor.sensor -> Generator.sensor
+  - Generator.Ref{i} -> PID{i}.Ref
+  - Joint{i}.Position -> PID{i}.Sen
+  - PID{i}.Out -> Joint{i}.Voltage
+`,
+  },
+  empty: { "new.yaml": "application: new\n" },
+  wrong: {
+    "wrong.yaml": `application: wrong
+libraries: [wave]
+components:
+  Source: {model: Source, activity: {periodic: 10 ms}}
+  Filter: {model: LowPas}
+  Watcher: {model: Watcher, activity: {periodic: 200 ms}}
+connections:
+  - Source.Position -> Watcher.Valu
+`,
+  },
+};
+
+/** A deployment of many boxes, each connected with the next two. */
+export function many(count: number): Record<string, string> {
+  const lines = ["application: many", "libraries: [wave]", "components:"];
+  for (let i = 1; i <= count; ++i) lines.push(`  F${i}: {model: LowPass}`);
+  lines.push("connections:");
+  for (let i = 1; i < count; ++i) lines.push(`  - F${i}.Filtered -> F${i + 1}.Raw`);
+  return { "many.yaml": `${lines.join("\n")}\n` };
+}

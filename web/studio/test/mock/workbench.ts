@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands for `armature studio` in tests: texts in memory, edits by the package yaml.
+import { Document, parseDocument } from "yaml";
+import type { Change, Outcome, ProjectState, RunSettings, RunState, Workbench } from "../../src/backend.ts";
+import { type Checked, type End, type Model, split_member } from "../../src/checked.ts";
+import { check } from "./checker.ts";
+import { kModels } from "./models.ts";
+
+type Texts = Map<string, string>;
+type Snapshot = { texts: Texts; what: string };
+
+const copy = (texts: Texts): Texts => new Map(texts);
+
+export class MockWorkbench implements Workbench {
+  readonly edits: Change[] = [];
+  private readonly saved: Texts;
+  private texts: Texts;
+  private version = 1;
+  private past: Snapshot[] = [];
+  private future: Snapshot[] = [];
+  private readonly boxes: Record<string, [number, number]> = {};
+  private readonly project_handlers: ((change: { version: number; checked: number }) => void)[] = [];
+  private readonly run_handlers: ((change: { number: number; log_end: number }) => void)[] = [];
+  private lines: string[] = [];
+  private runs: RunState = { number: 0, state: "none", simulated: true, version: 0, exit_code: 0, log_begin: 0, log_end: 0 };
+  started = 0;
+  on_state: (state: string, simulated: boolean) => void = () => undefined;
+
+  /** @param captured  what the real check said of these texts, in place of the mock's */
+  constructor(private readonly file: string, texts: Record<string, string>, private readonly captured?: { check: Checked; models: Model[] }) {
+    this.texts = new Map(Object.entries(texts));
+    this.saved = copy(this.texts);
+  }
+
+  on_ProjectChanged(handler: (change: { version: number; checked: number }) => void): void {
+    this.project_handlers.push(handler);
+  }
+
+  on_RunChanged(handler: (change: { number: number; log_end: number }) => void): void {
+    this.run_handlers.push(handler);
+  }
+
+  async project(): Promise<ProjectState> {
+    const files = [...this.texts].map(([path, text]) => ({ path, changed: this.saved.get(path) !== text }));
+    const undo = this.past.at(-1)?.what ?? "";
+    const redo = this.future.at(-1)?.what ?? "";
+    return { file: this.file, version: this.version, files, undo, redo, checked: this.version, notice: "" };
+  }
+
+  text = async (path: string): Promise<string> => this.texts.get(path) ?? "";
+  places = async (): Promise<string> => JSON.stringify({ boxes: this.boxes });
+  models = async (): Promise<string> => JSON.stringify(this.captured?.models ?? kModels);
+  check = async (): Promise<string> => JSON.stringify(this.checked());
+
+  checked(): Checked {
+    return this.captured?.check ?? check(this.file, this.texts, kModels);
+  }
+
+  async edit({ changes, files, overrides }: { changes: Change[]; files: string[]; overrides: boolean }): Promise<Outcome> {
+    const texts = copy(this.texts);
+    for (const one of changes) {
+      this.edits.push(one);
+      const refused = this.make(one, texts, files, overrides);
+      if (refused) return this.refused(refused);
+    }
+    const written = changes.filter((one) => one.edit !== "place");
+    const what = written.map((one) => `${one.edit} ${one.words.join(" ")}`).join(", ");
+    if (written.length > 0) this.become(texts, what);
+    else this.tell();
+    return { done: true, version: this.version, diagnostics: "[]" };
+  }
+
+  private refused(message: string): Outcome {
+    return { done: false, version: this.version, diagnostics: JSON.stringify([{ severity: "error", message, hint: "choose another" }]) };
+  }
+
+  private become(texts: Texts, what: string): void {
+    this.past.push({ texts: this.texts, what });
+    this.future = [];
+    this.texts = texts;
+    ++this.version;
+    this.tell();
+  }
+
+  private tell(): void {
+    for (const handler of this.project_handlers) handler({ version: this.version, checked: this.version });
+  }
+
+  private make({ edit, words }: Change, texts: Texts, files: string[], overrides: boolean): string {
+    const [a = "", b = "", c = ""] = words;
+    if (edit === "place") {
+      this.boxes[a] = [Number(b), Number(c)];
+      return "";
+    }
+    const path = overrides ? this.file : files[0] ?? this.file_of(a, texts);
+    const document = parseDocument(texts.get(path) ?? "");
+    if (overrides) document.setIn(["components", a.split(".")[0], "override"], true);
+    const refused = this.change_document(document, edit, a, b, c);
+    if (!refused) texts.set(path, document.toString({ lineWidth: 0, flowCollectionPadding: false }));
+    return refused;
+  }
+
+  /** The file that has the component. */
+  private file_of(name: string, texts: Texts): string {
+    const found = [...texts].find(([, text]) => parseDocument(text).hasIn(["components", name.split(".")[0]]));
+    return found?.[0] ?? this.file;
+  }
+
+  private change_document(document: Document, edit: string, a: string, b: string, c: string): string {
+    const [owner, member] = split_member(a);
+    if (edit === "add") {
+      if (document.hasIn(["components", a])) return `'${a}' is there already`;
+      document.setIn(["components", a], document.createNode({ model: b }, { flow: true }));
+    } else if (edit === "remove") document.deleteIn(["components", a]);
+    else if (edit === "rename") return this.rename(document, a, b);
+    else if (edit === "set") return set(document, owner, member, b);
+    else if (edit === "unset") document.deleteIn(["components", owner, "properties", member]);
+    else if (edit === "connect") add_to(document, ["connections"], c ? document.createNode({ from: a, to: b }) : `${a} -> ${b}`);
+    else if (edit === "disconnect") remove_connection(document, `${a} -> ${b}`);
+    else if (edit === "library") add_to(document, ["libraries"], a);
+    else if (edit === "peer") add_to(document, ["components", a, "peers"], b);
+    return "";
+  }
+
+  private rename(document: Document, from: string, to: string): string {
+    if (document.hasIn(["components", to])) return `'${to}' is there already`;
+    const map = document.get("components") as unknown as { items: { key: { value: string } }[] };
+    const pair = map.items.find((one) => one.key.value === from);
+    if (!pair) return `there is no '${from}'`;
+    pair.key.value = to;
+    const text = document.toString().replaceAll(`${from}.`, `${to}.`);
+    document.contents = parseDocument(text).contents as never;
+    return "";
+  }
+
+  async write(version: number, path: string, text: string): Promise<Outcome> {
+    if (version !== this.version) return this.refused("somebody changed the same lines");
+    this.become(copy(this.texts).set(path, text), `change of ${path}`);
+    return { done: true, version: this.version, diagnostics: "[]" };
+  }
+
+  /** What another person does in the meantime. */
+  change_elsewhere(path: string, text: string): void {
+    this.become(copy(this.texts).set(path, text), `change of ${path}`);
+  }
+
+  undo = async (): Promise<Outcome> => this.step(this.past, this.future);
+  redo = async (): Promise<Outcome> => this.step(this.future, this.past);
+
+  private step(from: Snapshot[], to: Snapshot[]): Outcome {
+    const last = from.pop();
+    if (!last) return this.refused("there is nothing to take back");
+    to.push({ texts: this.texts, what: last.what });
+    this.texts = last.texts;
+    ++this.version;
+    this.tell();
+    return { done: true, version: this.version, diagnostics: "[]" };
+  }
+
+  async save(): Promise<Outcome> {
+    for (const [path, text] of this.texts) this.saved.set(path, text);
+    this.tell();
+    return { done: true, version: this.version, diagnostics: "[]" };
+  }
+
+  async reload(): Promise<Outcome> {
+    this.become(copy(this.saved), "reload");
+    return { done: true, version: this.version, diagnostics: "[]" };
+  }
+
+  async fitting(component: string, member: string): Promise<string> {
+    const { components, connections } = this.checked();
+    const own = components.find((one) => one.name === component)!;
+    const output = own.outputs.find((one) => one.name === member);
+    const input = own.inputs.find((one) => one.name === member);
+    const port = output ?? input;
+    if (!port) return JSON.stringify({ ends: this.commands(own.events.some((one) => one.name === member), components), models: [] });
+    const side = output ? "inputs" : "outputs";
+    const why_not = (owner: string, other: { name: string; type: string; unit: string }) => {
+      if (other.type !== port.type) return `it is a ${other.type}, this is a ${port.type}`;
+      if (other.unit !== port.unit && other.unit && port.unit) return `it is in ${other.unit}, this is in ${port.unit}`;
+      const written = connections.find((one) => one.to === `${owner}.${other.name}`);
+      return output && written ? `it is written by '${written.from}' already` : "";
+    };
+    const kind: End["kind"] = output ? "input" : "output";
+    const ends = components.flatMap((one) => one[side].map((other): End => ({ component: one.name, member: other.name, kind, why_not: why_not(one.name, other) })));
+    const models = (this.captured?.models ?? kModels).flatMap((one) => one[side].filter((other) => why_not("", other) === "").map((other): End => ({ component: one.name, member: other.name, kind })));
+    return JSON.stringify({ ends, models });
+  }
+
+  private commands(event: boolean, components: Checked["components"]): End[] {
+    return components.flatMap((one) => event
+      ? one.operations.filter(({ command }) => command).map(({ name }): End => ({ component: one.name, member: name, kind: "command" }))
+      : one.events.map(({ name }): End => ({ component: one.name, member: name, kind: "event" })));
+  }
+
+  async start({ simulated }: RunSettings): Promise<RunState> {
+    this.lines = [];
+    this.started = Date.now();
+    this.runs = { ...this.runs, number: this.runs.number + 1, state: "running", simulated, version: this.version, log_begin: 0, log_end: 0 };
+    this.on_state("running", simulated);
+    this.say(`note: '${this.checked().application}' runs`);
+    this.say("warning: Watcher: the first value is 0.4 s old");
+    return this.runs;
+  }
+
+  async stop(): Promise<RunState> {
+    if (this.runs.state === "running") {
+      this.runs = { ...this.runs, state: "ended" };
+      this.on_state("ended", false);
+      this.say("note: it has stopped");
+    }
+    return this.runs;
+  }
+
+  say(line: string): void {
+    this.lines.push(`[${((Date.now() - this.started) / 1000).toFixed(3)}] ${line}`);
+    this.runs = { ...this.runs, log_end: this.lines.length };
+    for (const handler of this.run_handlers) handler({ number: this.runs.number, log_end: this.runs.log_end });
+  }
+
+  run = async (): Promise<RunState> => this.runs;
+  log = async (from: number): Promise<string[]> => this.lines.slice(from, from + 500);
+}
+
+function set(document: Document, owner: string, member: string, value: string): string {
+  const parsed: unknown = parseDocument(value).toJS();
+  if (member === "activity") document.setIn(["components", owner, "activity"], parsed);
+  else {
+    const model = document.getIn(["components", owner, "model"]);
+    const property = kModels.find((one) => one.name === model)?.properties.find((one) => one.name === member);
+    const number = Number.parseFloat(value);
+    if (property?.type === "double" && Number.isNaN(number)) return `'${value}' is no number`;
+    document.setIn(["components", owner, "properties", member], /deg$/.test(value) ? (number * Math.PI) / 180 : parsed);
+  }
+  return "";
+}
+
+function add_to(document: Document, path: string[], item: unknown): void {
+  if (document.hasIn(path)) document.addIn(path, item);
+  else document.setIn(path, document.createNode([item]));
+}
+
+function remove_connection(document: Document, written: string): void {
+  const list = document.get("connections") as unknown as { items: { value?: string }[] };
+  list.items = list.items.filter((one) => one.value !== written);
+}

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+// node --test page_test.mjs, with PAGE=FOLDER that has the page over the mock: a browser uses it by
+// mouse and by keyboard alone. Skipped without a browser.
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+import { launch, open, serve } from "./browser.mjs";
+
+const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
+let browser;
+let server;
+
+before(async () => {
+  if (skip) return;
+  server = await serve(process.env.PAGE);
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+/** Runs a test at the page of a deployment; no error may have come by then. */
+function page_test(name, query, body, options) {
+  test(name, { skip, timeout: 60_000 }, async () => {
+    const { page, errors, close } = await open(browser, `${server.address}?${query}`, options);
+    try {
+      await body(page);
+      assert.deepEqual(errors, []);
+    } finally {
+      await close();
+    }
+  });
+}
+
+const edits = (page) => page.evaluate(() => window.mock.workbench.edits.filter((one) => one.edit !== "place").map((one) => `${one.edit} ${one.words.join(" ")}`));
+const node = (page, title) => page.locator(".react-flow__node", { has: page.locator("header strong", { hasText: new RegExp(`^${title}$`) }) });
+const text_of = (page, file) => page.evaluate((path) => window.mock.workbench.text(path), file);
+
+async function drag(page, from, to) {
+  await from.hover();
+  await page.mouse.down();
+  const { x, y } = "x" in to ? to : await middle(to);
+  await page.mouse.move(x - 20, y, { steps: 5 });
+  await page.waitForTimeout(150);
+  await page.mouse.move(x, y, { steps: 3 });
+  await page.mouse.up();
+  await page.waitForTimeout(150);
+}
+
+async function middle(locator) {
+  const { x, y, width, height } = await locator.boundingBox();
+  return { x: x + width / 2, y: y + height / 2 };
+}
+
+page_test("the keyboard alone adds, connects, renames, sets, removes and saves", "empty", async (page) => {
+  await page.getByLabel("Find a model").focus();
+  for (const model of ["source", "lowpass"]) {
+    await page.getByLabel("Find a model").fill(model);
+    await page.keyboard.press("Enter");
+    await page.waitForTimeout(250);
+  }
+  const tree = page.getByRole("tree");
+  await tree.getByRole("treeitem").first().focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("c");
+  await page.getByLabel("Connect with").waitFor();
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(200);
+  await tree.getByRole("treeitem").first().focus();
+  await page.keyboard.press("F2");
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("Wave");
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(200);
+  await tree.getByRole("treeitem").first().focus();
+  await page.keyboard.press("Enter");
+  await page.getByLabel("Frequency", { exact: true }).focus();
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("4");
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(200);
+  await page.keyboard.press("Control+s");
+  await page.waitForTimeout(200);
+  assert.deepEqual(await edits(page), [
+    "library wave", "add Source Source", "add LowPass LowPass", "connect Source.Position LowPass.Raw", "rename Source Wave", "set Wave.Frequency 4",
+  ]);
+  assert.equal(await page.locator(".saved").textContent(), "saved");
+});
+
+page_test("a wire that is dropped on a port that fits connects", "wrong", async (page) => {
+  await drag(page, node(page, "Source").locator(".pin.output"), node(page, "Watcher").locator(".pin.input"));
+  assert.deepEqual(await edits(page), ["connect Source.Position Watcher.Value"]);
+});
+
+page_test("a wire that is dropped on a port that does not fit says why", "wave", async (page) => {
+  await drag(page, node(page, "Source").locator(".pin.output"), node(page, "Watcher").locator(".pin.input"));
+  assert.deepEqual(await edits(page), []);
+  assert.match(await page.locator(".banner").textContent(), /it is written by 'Filter.Filtered' already/);
+});
+
+page_test("a wire that is dropped on nothing offers models, and the chosen one is connected", "wave", async (page) => {
+  await drag(page, node(page, "Source").locator(".pin.output"), { x: 600, y: 500 });
+  await page.getByRole("option", { name: "new LowPass: Raw" }).click();
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["add LowPass LowPass", "connect Source.Position LowPass.Raw"]);
+});
+
+page_test("a moved box is placed on the grid, once", "wave", async (page) => {
+  const header = node(page, "Filter").locator("header");
+  const { x, y } = await middle(header);
+  await drag(page, header, { x: x + 50, y: y + 70 });
+  const placed = await page.evaluate(() => window.mock.workbench.edits);
+  assert.equal(placed.length, 1);
+  const [box, ...place] = placed[0].words;
+  assert.equal(box, "Filter");
+  assert.ok(place.every((one) => Number(one) % 8 === 0));
+});
+
+page_test("Delete removes what is selected, and Undo brings it back", "wave", async (page) => {
+  await node(page, "Watcher").locator("header").click();
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(200);
+  assert.equal(await node(page, "Watcher").count(), 0);
+  assert.match(await page.getByRole("button", { name: "Undo" }).getAttribute("title"), /remove Watcher/);
+  await page.keyboard.press("Control+z");
+  await page.waitForTimeout(300);
+  assert.equal(await node(page, "Watcher").count(), 1);
+});
+
+page_test("Delete in the outline removes once", "wave", async (page) => {
+  await page.getByRole("treeitem").filter({ hasText: "Watcher" }).focus();
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["remove Watcher"]);
+});
+
+page_test("a selected wire is disconnected by Delete", "wave", async (page) => {
+  await page.locator(".react-flow__edge").first().focus();
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(100);
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(200);
+  assert.deepEqual(await edits(page), ["disconnect Source.Position Filter.Raw"]);
+});
+
+page_test("what an included file says is asked for once", "arm", async (page) => {
+  await node(page, "Generator").locator("header").click();
+  const field = page.getByLabel("max_vel", { exact: true });
+  await field.fill("[2]");
+  await field.press("Enter");
+  await page.getByRole("button", { name: "Change control.yaml" }).click();
+  await page.waitForTimeout(300);
+  await field.fill("[3]");
+  await field.press("Enter");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["set Generator.max_vel [2]", "set Generator.max_vel [3]"]);
+  assert.match(await text_of(page, "control.yaml"), /max_vel: +\[3\]/);
+});
+
+page_test("a refused value stays in its field with the reason, until it is mended", "wave", async (page) => {
+  await node(page, "Source").locator("header").click();
+  const field = page.getByLabel("Frequency", { exact: true });
+  await field.fill("fast");
+  await field.press("Enter");
+  assert.match(await page.getByRole("alert").textContent(), /'fast' is no number/);
+  await field.fill("3");
+  await field.press("Enter");
+  await page.waitForTimeout(200);
+  assert.equal(await page.getByRole("alert").count(), 0);
+});
+
+page_test("a fix is applied by its button", "wrong", async (page) => {
+  await page.getByRole("button", { name: "Write LowPass" }).click();
+  await page.getByRole("button", { name: "Write Value" }).click();
+  await page.waitForTimeout(300);
+  assert.match(await text_of(page, "wrong.yaml"), /Filter: \{model: LowPass\}[^]*Watcher\.Value/);
+});
+
+page_test("typed text is written, and what others write comes in beside the cursor", "wave", async (page) => {
+  await page.getByRole("button", { name: "Text", exact: true }).click();
+  const editor = page.locator(".editor .cm-content");
+  await editor.click();
+  await page.keyboard.press("Control+End");
+  await page.keyboard.type("# mine");
+  await page.evaluate(() => {
+    const { workbench } = window.mock;
+    return workbench.text("wave.yaml").then((text) => workbench.change_elsewhere("wave.yaml", `# theirs\n${text}`));
+  });
+  await page.waitForTimeout(700);
+  await page.keyboard.type("!");
+  await page.waitForTimeout(700);
+  const text = await text_of(page, "wave.yaml");
+  assert.match(text, /^# theirs\n/);
+  assert.match(text, /# mine!$/);
+});
+
+page_test("a mistake that hides everything leaves the canvas as it was, and is mended in the text", "wave", async (page) => {
+  const before = await text_of(page, "wave.yaml");
+  await page.evaluate((text) => window.mock.workbench.change_elsewhere("wave.yaml", text), before.replace("{model: LowPass", "{model: LowPass]"));
+  await page.locator(".canvas.stale").waitFor();
+  assert.equal(await page.locator(".react-flow__node").count(), 3);
+  await page.evaluate((text) => window.mock.workbench.change_elsewhere("wave.yaml", text), before);
+  await page.locator(".canvas:not(.stale)").waitFor();
+});
+
+page_test("a run shows values and states, and Shift+Esc stops it", "arm", async (page) => {
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".box.is-running").first().waitFor();
+  await page.locator(".port .value:not(:empty)").first().waitFor();
+  assert.match(await node(page, "PID\\{1..7\\}").textContent(), /Exception/);
+  await page.keyboard.press("Shift+Escape");
+  await page.getByText("ended", { exact: true }).waitFor();
+});
+
+page_test("controls are operated; what holds is moved again while it is held", "arm", async (page) => {
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByRole("button", { name: "Press", exact: true }).click();
+  await page.getByRole("switch", { name: "Power" }).click();
+  const slider = page.getByRole("slider", { name: "Jog" });
+  await slider.hover();
+  const { x, y } = await middle(slider);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.waitForTimeout(400);
+  await page.mouse.up();
+  await page.waitForTimeout(200);
+  const called = await page.evaluate(() => window.mock.run.called);
+  assert.ok(called.includes("Go.press()") && called.some((one) => one.startsWith("Power.turn(")));
+  const moves = called.filter((one) => one.startsWith("Jog.move("));
+  assert.ok(moves.length >= 4, `${moves.length} moves`);
+  await page.waitForTimeout(200);
+  assert.equal((await page.evaluate(() => window.mock.run.called)).length, called.length, "it is let go of");
+});
+
+page_test("a lost connection is told, and its recovery", "wave", async (page) => {
+  await page.evaluate(() => window.mock.connection(false, "closed"));
+  await page.getByText("The connection to the studio is lost").waitFor();
+  await page.evaluate(() => window.mock.connection(true));
+  await page.getByText("The connection to the studio is lost").waitFor({ state: "detached" });
+});
+
+page_test("a composite opens, and the breadcrumb leads back", "arm", async (page) => {
+  await node(page, "Rover").locator("header").dblclick();
+  await node(page, "mixer").waitFor();
+  await page.getByRole("navigation", { name: "Open composite" }).getByRole("button", { name: "arm" }).click();
+  await node(page, "Rover").waitFor();
+});
+
+page_test("of 1000 boxes those in sight are drawn, without ports", "many=1000", async (page) => {
+  const drawn = await page.locator(".react-flow__node").count();
+  assert.ok(drawn > 20 && drawn < 400, `${drawn} boxes`);
+  assert.equal(await page.locator(".port").count(), 0);
+});
+
+page_test("what was typed last is saved, too", "wave", async (page) => {
+  await page.getByRole("button", { name: "Text", exact: true }).click();
+  await page.locator(".editor .cm-content").click();
+  await page.keyboard.press("Control+End");
+  await page.keyboard.type("# last words");
+  await page.keyboard.press("Control+s");
+  await page.waitForTimeout(600);
+  assert.match(await text_of(page, "wave.yaml"), /# last words$/);
+  assert.equal(await page.locator(".saved").textContent(), "saved");
+});
+
+const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+
+for (const dark of [false, true]) {
+  for (const [view, query, act] of [
+    ["the canvas", "arm", async () => undefined],
+    ["an inspected box", "wave", async (page) => node(page, "Source").locator("header").click()],
+    ["problems and text", "wrong", async (page) => {
+      await page.getByRole("button", { name: "Text", exact: true }).click();
+      await page.locator(".editor .cm-content").waitFor();
+    }],
+    ["a run", "arm", async (page) => {
+      await page.getByRole("button", { name: "Run", exact: true }).click();
+      await page.locator(".box.is-running").first().waitFor();
+      await page.getByRole("tab", { name: "Operate" }).click();
+    }],
+  ]) {
+    page_test(`axe finds nothing at ${view}, ${dark ? "dark" : "light"}`, query, async (page) => {
+      await act(page);
+      await page.evaluate(await readFile(axe, "utf8"));
+      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"] }));
+      assert.deepEqual(found.violations.map((one) => `${one.id} (${one.impact}): ${one.nodes.slice(0, 3).map((where) => where.html.slice(0, 140)).join(" | ")}`), []);
+    }, { dark });
+  }
+}
