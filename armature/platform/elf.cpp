@@ -49,19 +49,6 @@ std::span<const ElfW(Sym)> Elf::symbols(const ElfW(Shdr) & section) const {
   return table<ElfW(Sym)>(section.sh_offset, section.sh_size / sizeof(ElfW(Sym)));
 }
 
-std::vector<std::string> Elf::needed() const {
-  std::vector<std::string> names;
-  for (const auto& section : sections()) {
-    if (section.sh_type != SHT_DYNAMIC || section.sh_link >= sections().size()) continue;
-    const std::size_t texts = sections()[section.sh_link].sh_offset;
-    const std::size_t count = section.sh_size / sizeof(ElfW(Dyn));
-    for (const auto& entry : table<ElfW(Dyn)>(section.sh_offset, count)) {
-      if (entry.d_tag == DT_NEEDED) names.emplace_back(text(texts + entry.d_un.d_val));
-    }
-  }
-  return names;
-}
-
 const char* Elf::text(std::size_t offset) const {
   if (offset >= size_) return "";
   const bool ends = std::memchr(bytes_ + offset, '\0', size_ - offset) != nullptr;

@@ -4,7 +4,7 @@
 #include <dlfcn.h>
 
 #include "armature/platform/file.hpp"
-#include "armature/platform/internal/elf.hpp"
+#include "armature/platform/linked_file.hpp"
 
 namespace armature::platform {
 
@@ -22,8 +22,8 @@ base::Result<SharedObject> SharedObject::load(const std::string& path) {
 void* SharedObject::symbol(const char* name) const { return dlsym(handle_, name); }
 
 std::vector<std::string> needed_libraries(const std::string& file) {
-  if (!expect_file(file)) return {};
-  return Elf(file).needed();
+  const base::Result<LinkedFile> linked = read_linked_file(file);
+  return linked ? linked.value().needed : std::vector<std::string>{};
 }
 
 std::string file_of(const void* address) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <link.h>
 
@@ -22,8 +21,6 @@ class Elf {
   std::span<const ElfW(Phdr)> segments() const;
   std::span<const ElfW(Shdr)> sections() const;
   std::span<const ElfW(Sym)> symbols(const ElfW(Shdr) & section) const;
-  /// The libraries that it was linked with, by the names that the linker wrote down.
-  std::vector<std::string> needed() const;
   /// The text that begins at `offset`.
   const char* text(std::size_t offset) const;
 
