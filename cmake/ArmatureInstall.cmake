@@ -17,6 +17,8 @@ install(DIRECTORY armature DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHIN
         REGEX "armature/(guard|testing/model)$" EXCLUDE
         PATTERN "test_*" EXCLUDE)
 
+install(FILES LICENSE DESTINATION share/doc/armature)
+
 write_basic_package_version_file(armatureConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/armatureConfig.cmake cmake/ArmatureComponentLibrary.cmake
               cmake/component_library.map cmake/ArmatureIdl.cmake

@@ -24,6 +24,7 @@ set(ARMATURE_LAYERS
     "inspect: base exec component types platform"
     "deploy: base document orocos analysis inspect exec component platform"
     "edit: base deploy document platform"
+    "bundle: base platform document orocos deploy idl"
     "report: base platform control component exec record"
     "remote: base idl ride document inspect exec component rt types platform"
     "studio: base platform rt ride websocket remote document deploy inspect edit"
@@ -33,5 +34,5 @@ set(ARMATURE_LAYERS
     "general: base component record rt"
     "sim: base control"
     "robots: base platform rt types controllers component can control guardian sim"
-    "cli: base platform types rt control component can ride tls websocket exec record document orocos analysis inspect deploy edit studio report lua remote browser controllers general sim"
-    "testing: base platform types rt guard control component can guardian ride tls websocket exec record document orocos analysis inspect deploy edit studio report lua remote browser controllers general sim")
+    "cli: base platform types rt control component can ride tls websocket exec record document orocos analysis inspect deploy edit bundle studio report lua remote browser controllers general sim"
+    "testing: base platform types rt guard control component can guardian ride tls websocket exec record document orocos analysis inspect deploy edit bundle studio report lua remote browser controllers general sim")

@@ -25,15 +25,6 @@ struct CheckArguments {
   bool serve = false;
 };
 
-/// Loads as `check` does, with what the deployment says of the network.
-deploy::Deployment load_for_check(const LoadArguments& arguments, const Console& console,
-                                  deploy::FileReader read = {}) {
-  NetworkOnDemand network(console);
-  deploy::Deployment deployment = load(arguments, network, std::move(read));
-  network.check(deployment.document, deployment.diagnostics);
-  return deployment;
-}
-
 int print_json(const deploy::Deployment& deployment, const std::string& file,
                const Console& console) {
   inspect::CheckedForm form;
@@ -47,7 +38,7 @@ int print_json(const deploy::Deployment& deployment, const std::string& file,
 int serve(const CheckArguments& arguments, const Console& console) {
   CheckService service(arguments.load.library_folders,
                        [&](const LoadArguments& load, deploy::FileReader read) {
-                         return load_for_check(load, console, std::move(read));
+                         return load_and_check(load, console, std::move(read));
                        });
   std::string line;
   while (std::getline(std::cin, line)) {
@@ -63,7 +54,7 @@ int check(const CheckArguments& arguments, const Console& console) {
     console.say(rt::LogLevel::kError, "file is required; armature check --help says more");
     return kWrongUse;
   }
-  const deploy::Deployment deployment = load_for_check(arguments.load, console);
+  const deploy::Deployment deployment = load_and_check(arguments.load, console);
   if (arguments.json) return print_json(deployment, arguments.load.file, console);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) {

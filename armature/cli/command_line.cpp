@@ -31,7 +31,7 @@ CLI::Validator one_of(std::vector<std::string> names) {
   return CLI::Validator(check, "");
 }
 
-void add_load_options(CLI::App& command, LoadArguments& load) {
+void add_deployment_options(CLI::App& command, LoadArguments& load) {
   command.add_option("file", load.file, "the deployment, YAML or OROCOS XML")->required();
   command
       .add_option("--set", load.overrides, "changes a parameter or property: Joint1.GearRatio=0.02")
@@ -39,6 +39,10 @@ void add_load_options(CLI::App& command, LoadArguments& load) {
       ->allow_extra_args(false);
   command.add_option("--mode", load.mode, "the mode to start in")->type_name("NAME");
   add_folders(command, load.library_folders);
+}
+
+void add_load_options(CLI::App& command, LoadArguments& load) {
+  add_deployment_options(command, load);
   command.add_option("--times", load.times_file, "file of measured execution times, for the load");
 }
 

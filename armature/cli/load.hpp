@@ -27,4 +27,13 @@ inline deploy::Deployment load(const LoadArguments& arguments, NetworkOnDemand& 
   return deploy::load_deployment(arguments.file, options);
 }
 
+/// Likewise, with what the deployment says of the network, for commands that do not run it.
+inline deploy::Deployment load_and_check(const LoadArguments& arguments, const Console& console,
+                                         deploy::FileReader read = {}) {
+  NetworkOnDemand network(console);
+  deploy::Deployment deployment = load(arguments, network, std::move(read));
+  network.check(deployment.document, deployment.diagnostics);
+  return deployment;
+}
+
 }  // namespace armature::cli

@@ -36,6 +36,9 @@ std::shared_ptr<Arguments> arguments_of(CLI::App& command, const CommandLine& to
 CLI::Validator one_of(std::vector<std::string> names);
 
 /// Of a command that loads a deployment.
+void add_deployment_options(CLI::App& command, LoadArguments& load);
+
+/// Likewise, and of one that tells its load.
 void add_load_options(CLI::App& command, LoadArguments& load);
 
 /// Where component libraries are looked for.

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/bundle/architecture.hpp"
+#include "armature/document/document.hpp"
+
+namespace armature::bundle {
+
+/// The programs and libraries that run a deployment.
+struct ProgramFiles {
+  std::map<std::string, std::string> own;     ///< place in the bundle -> file
+  std::map<std::string, std::string> system;  ///< library -> file, empty if it was not found
+};
+
+/// An installed Armature: bin/armature, and beside that lib/ and lib/armature/.
+class Installation {
+ public:
+  /// Its programs must be for `architecture`, and look for their libraries beside themselves.
+  Installation(std::string folder, const Architecture& architecture)
+      : folder_(std::move(folder)), architecture_(architecture) {}
+
+  std::string component_folder() const { return folder_ + "/lib/armature"; }
+  std::string licence() const { return folder_ + "/share/doc/armature/LICENSE"; }
+
+  /// What is needed to run component libraries, by what their files say.
+  /// @param components  found in `folders`; they come into lib/armature
+  /// @param others      component libraries that stay in the deployment's folder, by path
+  ProgramFiles files(const std::vector<document::Reference>& components,
+                     const std::vector<std::string>& folders,
+                     const std::vector<std::string>& others, base::Diagnostics& diagnostics) const;
+
+ private:
+  const std::string folder_;
+  const Architecture& architecture_;
+};
+
+}  // namespace armature::bundle
