@@ -64,18 +64,20 @@ class Maker {
     if (!content) return diagnostics_.error(copy.where, content.error());
     if (place.starts_with("deployment/") &&
         content.value().find("PRIVATE KEY-----") != std::string::npos) {
-      return diagnostics_.error(copy.where,
-                                path_in_quotes(copy.file) +
-                                    " has a private key, which must not leave this machine",
-                                "keep the key in a file of its own, named by key: in network");
+      return diagnostics_.error(
+          copy.where,
+          path_in_quotes(copy.file) + " has a private key, which must not leave this machine",
+          "keep the key in a file of its own, named by key: in network");
     }
     add(place, content.value(), place.starts_with("bin/"));
   }
 
   void add_sums() {
-    std::vector<std::string> words{"/bin/sh", "-c", "cd \"$1\" && shift && exec sha256sum -- \"$@\"",
-                                   "sh", staging_.folder() + "/" + within_};
-    for (const std::string& place : staging_.places()) words.push_back(place.substr(within_.size()));
+    std::vector<std::string> words{"/bin/sh", "-c",
+                                   "cd \"$1\" && shift && exec sha256sum -- \"$@\"", "sh",
+                                   staging_.folder() + "/" + within_};
+    for (const std::string& place : staging_.places())
+      words.push_back(place.substr(within_.size()));
     const Ran ran = run_program(words);
     if (ran.code != 0) return diagnostics_.error({}, "sha256sum has failed: " + ran.output);
     add(kSums, ran.output, false);
@@ -101,16 +103,22 @@ class Maker {
   /// False if the programs of the bundle cannot run here.
   bool add_emulator(std::vector<std::string>& words) {
     const std::string emulator(plan_.architecture->emulator);
-    std::string missing = plan_.missing.empty() ? std::string() : plan_.missing.front();
+    const std::string libraries = "/usr/" + std::string(plan_.architecture->folder);
+    const bool with_libraries = fs::exists(libraries + "/lib");
+    std::string missing;
+    for (const std::string& library : plan_.missing) {
+      if (!fs::exists(libraries + "/lib/" + library)) missing = library;
+    }
     if (!fs::exists(emulator)) missing = emulator + " (apt install qemu-user)";
     if (!missing.empty()) {
-      diagnostics_.note({}, "the bundle was not checked by its own program, since this machine has no " +
-                                missing + ": run bin/armature check on the target");
+      diagnostics_.note(
+          {}, "the bundle was not checked by its own program, since this machine has no " +
+                  missing + " for " + std::string(plan_.architecture->name) +
+                  ": run bin/armature check on the target");
       return false;
     }
     words.push_back(emulator);
-    const std::string libraries = "/usr/" + std::string(plan_.architecture->folder);
-    if (fs::exists(libraries)) words.insert(words.end(), {"-L", libraries});
+    if (with_libraries) words.insert(words.end(), {"-L", libraries});
     return true;
   }
 
@@ -130,7 +138,8 @@ class Maker {
     const std::string root = kPackageRoot + std::string("/");
     const std::string doc = root + "usr/share/doc/" + name_of_package(facts.name) + "/copyright";
     const std::string archive = staging_.folder() + "/" + kPackage;
-    if (!done(staging_.write(root + "lib/systemd/system/" + name_of_unit(facts.name), unit_text(facts), false)) ||
+    if (!done(staging_.write(root + "lib/systemd/system/" + name_of_unit(facts.name),
+                             unit_text(facts), false)) ||
         !done(staging_.write(doc, licences_text(facts), false)) ||
         !done(staging_.write(root + "DEBIAN/control", control_text(facts, kilobytes), false))) {
       return false;

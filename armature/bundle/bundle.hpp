@@ -10,10 +10,10 @@
 namespace armature::bundle {
 
 struct BundleRequest {
-  std::string file;                          ///< the deployment, absolute
-  std::vector<std::string> overrides;        ///< of the run, as `--set` has them
-  std::string mode;                          ///< in which it starts; empty: what the deployment says
-  std::string script;                        ///< that commands it, absolute; empty: none
+  std::string file;                    ///< the deployment, absolute
+  std::vector<std::string> overrides;  ///< of the run, as `--set` has them
+  std::string mode;                    ///< in which it starts; empty: what the deployment says
+  std::string script;                  ///< that commands it, absolute; empty: none
   std::vector<std::string> library_folders;  ///< for component libraries, before all others
   std::string out;           ///< what is made; empty: named after the application, in this folder
   bool package = false;      ///< a Debian package in place of a folder

@@ -58,12 +58,14 @@ std::string package_in(const std::string& archive) {
 
 base::Result<void> build_package(const std::string& folder, const std::string& file) {
   if (!std::filesystem::exists(kBuild)) {
-    return base::Error{std::string("--deb needs ") + kBuild +
-                       ", which is not installed: apt install dpkg, or make a folder without --deb"};
+    return base::Error{
+        std::string("--deb needs ") + kBuild +
+        ", which is not installed: apt install dpkg, or make a folder without --deb"};
   }
   // gzip has one thread, whose bytes are the same on every machine.
-  const Ran ran = run_program({"/usr/bin/env", "SOURCE_DATE_EPOCH=" + std::to_string(time_of_files()),
-                               kBuild, "-Zgzip", "--root-owner-group", "--build", folder, file});
+  const Ran ran =
+      run_program({"/usr/bin/env", "SOURCE_DATE_EPOCH=" + std::to_string(time_of_files()), kBuild,
+                   "-Zgzip", "--root-owner-group", "--build", folder, file});
   if (ran.code != 0) return base::Error{"dpkg-deb has failed: " + ran.output};
   return {};
 }

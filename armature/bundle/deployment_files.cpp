@@ -42,6 +42,11 @@ base::Location here(base::Location where) {
   return where;
 }
 
+bool is_there(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
 bool is_file(const std::string& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
@@ -89,17 +94,20 @@ class Finder {
   std::optional<std::string> take(const std::string& path, const std::string& what,
                                   const base::Location& where) {
     if (!follows_the_deployment(path)) {
-      diagnostics_.error(here(where), what + " is named by the absolute path " + path_in_quotes(path) +
-                                          ", which another machine does not have",
+      diagnostics_.error(here(where),
+                         what + " is named by the absolute path " + path_in_quotes(path) +
+                             ", which another machine does not have",
                          "name it relative to this file; in a property write "
                          "\"${here}/...\"");
       return std::nullopt;
     }
     const std::string written = here(path);
     std::string plain = fs::path(written).lexically_normal().string();
-    if (plain != written && fs::exists(written) && !platform::is_same_file(plain, written)) {
-      diagnostics_.error(here(where), path_in_quotes(written) + " leads over a link, so '..' is not the folder "
-                                          "that the name says",
+    if (plain != written && is_there(written) && !platform::is_same_file(plain, written)) {
+      diagnostics_.error(here(where),
+                         path_in_quotes(written) +
+                             " leads over a link, so '..' is not the folder "
+                             "that the name says",
                          "name the file without the link");
       return std::nullopt;
     }
@@ -144,7 +152,8 @@ class Finder {
   }
 
   void add_interface(const document::Reference& interface, const document::Document& document) {
-    const std::string path = path_from(document, interface.name.substr(0, interface.name.find('#')));
+    const std::string path =
+        path_from(document, interface.name.substr(0, interface.name.find('#')));
     const auto file = take(path, "interface file", interface.where);
     if (!file) return;
     const idl::Loaded loaded = idl::load(*file);
@@ -190,7 +199,9 @@ class Finder {
   }
 
   void add(const document::Network& network, const document::Document& document) {
-    const auto place = [&](const document::Reference& file) { return path_from(document, file.name); };
+    const auto place = [&](const document::Reference& file) {
+      return path_from(document, file.name);
+    };
     if (!network.policy.name.empty()) add(place(network.policy), "policy", network.policy.where);
     for (const document::Reference* file : {&network.certificate, &network.authority}) {
       if (!file->name.empty()) add(place(*file), "certificate", file->where);
@@ -210,9 +221,10 @@ class Finder {
     for (fs::recursive_directory_iterator each(folder, failure), end; !failure && each != end;
          each.increment(failure)) {
       const std::string path = each->path().string();
-      if (each->is_symlink()) {
+      std::error_code ignored;
+      if (each->is_symlink(ignored)) {
         diagnostics_.note(where, path_in_quotes(path) + " is a link: it is left out");
-      } else if (each->is_regular_file()) {
+      } else if (each->is_regular_file(ignored)) {
         found_.files.emplace(path, where);
       }
     }

@@ -13,9 +13,9 @@ namespace {
 
 using document::path_in_quotes;
 
-constexpr std::array<std::string_view, 11> kOfTheSystem = {
-    "/bin/", "/boot/", "/dev/", "/etc/", "/lib/", "/lib64/", "/proc/",
-    "/run/", "/sbin/", "/sys/", "/usr/"};
+constexpr std::array<std::string_view, 11> kOfTheSystem = {"/bin/",  "/boot/",  "/dev/",  "/etc/",
+                                                           "/lib/",  "/lib64/", "/proc/", "/run/",
+                                                           "/sbin/", "/sys/",   "/usr/"};
 
 bool is_of_the_system(std::string_view path) {
   return std::ranges::any_of(kOfTheSystem,
@@ -45,15 +45,17 @@ std::string deployment_root(const DeploymentFiles& files, base::Diagnostics& dia
     root = common(root, path);
     if (!is_of_the_system(path)) continue;
     const auto named = files.files.find(path);
-    diagnostics.error(named == files.files.end() ? base::Location{} : named->second,
-                      path_in_quotes(path) + " belongs to the system, expected a file of the deployment",
-                      "copy it beside the deployment, and name the copy");
+    diagnostics.error(
+        named == files.files.end() ? base::Location{} : named->second,
+        path_in_quotes(path) + " belongs to the system, expected a file of the deployment",
+        "copy it beside the deployment, and name the copy");
   }
   if (root == "/" && diagnostics.ok()) {
     const auto [least, most] = std::ranges::minmax_element(paths);
-    diagnostics.error({}, path_in_quotes(*least) + " and " + path_in_quotes(*most) +
-                              " have no folder in common, expected the files of a deployment in one "
-                              "tree of folders",
+    diagnostics.error({},
+                      path_in_quotes(*least) + " and " + path_in_quotes(*most) +
+                          " have no folder in common, expected the files of a deployment in one "
+                          "tree of folders",
                       "copy them into one");
   }
   return diagnostics.ok() ? root : std::string();

@@ -25,8 +25,9 @@ TEST(DeploymentRoot, IsTheDeepestFolderThatHasAll) {
   EXPECT_EQ(deployment_root(files({"/home/ann/arm/deployments/arm.yaml", "/home/ann/arm/arm.urdf"}),
                             diagnostics),
             "/home/ann/arm/");
-  EXPECT_EQ(deployment_root(files({"/home/ann/arm2/a.yaml", "/home/ann/arm/arm.urdf"}), diagnostics),
-            "/home/ann/");
+  EXPECT_EQ(
+      deployment_root(files({"/home/ann/arm2/a.yaml", "/home/ann/arm/arm.urdf"}), diagnostics),
+      "/home/ann/");
   EXPECT_TRUE(diagnostics.empty()) << diagnostics.to_text();
 }
 
@@ -39,8 +40,9 @@ TEST(DeploymentRoot, HasThePlaceOfAKeyThatStaysAtHome) {
 
 TEST(DeploymentRoot, RefusesFilesOfTheSystem) {
   base::Diagnostics diagnostics;
-  EXPECT_EQ(deployment_root(files({"/etc/armature/robot.policy", "/home/ann/arm.yaml"}), diagnostics),
-            "");
+  EXPECT_EQ(
+      deployment_root(files({"/etc/armature/robot.policy", "/home/ann/arm.yaml"}), diagnostics),
+      "");
   EXPECT_THAT(diagnostics.to_text(),
               HasSubstr("a.yaml:3:1: error: '/etc/armature/robot.policy' belongs to the system, "
                         "expected a file of the deployment (copy it beside the deployment"));

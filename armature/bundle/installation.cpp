@@ -41,7 +41,8 @@ std::string system_file(const std::string& library, const Architecture& architec
 /// Follows what files need, each once.
 class Search {
  public:
-  Search(const std::string& folder, const Architecture& architecture, base::Diagnostics& diagnostics)
+  Search(const std::string& folder, const Architecture& architecture,
+         base::Diagnostics& diagnostics)
       : folder_(folder), architecture_(architecture), diagnostics_(diagnostics) {}
 
   /// A program or a library of Armature, by its place in the installation.
@@ -88,7 +89,8 @@ class Search {
   void refuse_build_tree(const std::string& file, const std::string& folder) {
     if (std::exchange(refused_, true)) return;
     diagnostics_.error({},
-                       path_in_quotes(file) + " looks for its libraries in " + path_in_quotes(folder) +
+                       path_in_quotes(file) + " looks for its libraries in " +
+                           path_in_quotes(folder) +
                            ", as in a build tree; expected an installation, which finds them "
                            "beside itself",
                        "cmake --install BUILD --prefix FOLDER, then --installation FOLDER");
@@ -117,8 +119,8 @@ class Search {
     }
     if (refused_) return;
     diagnostics_.error({},
-                       path_in_quotes(needed_by) + " needs " + library + ", which is not in the installation " +
-                           path_in_quotes(folder_),
+                       path_in_quotes(needed_by) + " needs " + library +
+                           ", which is not in the installation " + path_in_quotes(folder_),
                        "build both of the same version");
   }
 

@@ -63,7 +63,8 @@ class Planner {
         request_.architecture.empty() ? here : find_architecture(request_.architecture);
     plan_.foreign = plan_.architecture != here;
     if (plan_.architecture == nullptr) {
-      return diagnostics_.error({}, "bundles are made for amd64, arm64 and armhf, found another machine");
+      return diagnostics_.error(
+          {}, "bundles are made for amd64, arm64 and armhf, found another machine");
     }
     plan_.facts.architecture = plan_.architecture->name;
     if (!plan_.foreign || !request_.installation.empty()) return;
@@ -97,8 +98,8 @@ class Planner {
   void plan_programs() {
     const fs::path own = fs::path(request_.program).parent_path().parent_path();
     const fs::path folder = request_.installation.empty() ? own : fs::path(request_.installation);
-    const Installation installation(fs::absolute(folder / "").lexically_normal().parent_path().string(),
-                                    *plan_.architecture);
+    const Installation installation(
+        fs::absolute(folder / "").lexically_normal().parent_path().string(), *plan_.architecture);
     std::vector<document::Reference> components = document_.libraries;
     std::erase_if(components, [](const document::Reference& library) {
       return library.name.find('/') != std::string::npos;
@@ -150,11 +151,14 @@ class Planner {
   }
 
   void choose_target() {
-    const std::string usual = request_.package ? name_of_archive(plan_.facts) : plan_.facts.name + "-bundle";
+    const std::string usual =
+        request_.package ? name_of_archive(plan_.facts) : plan_.facts.name + "-bundle";
     const fs::path target =
         fs::absolute(request_.out.empty() ? usual : request_.out).lexically_normal();
     plan_.target = (target.has_filename() ? target : target.parent_path()).string();
-    if (!fs::exists(fs::symlink_status(plan_.target)) || is_ours(plan_.target)) return;
+    std::error_code ignored;
+    const bool taken = fs::exists(fs::symlink_status(plan_.target, ignored));
+    if (!taken || is_ours(plan_.target)) return;
     diagnostics_.error({},
                        path_in_quotes(plan_.target) + " is there, and is no " +
                            (request_.package ? "package" : "bundle") + " of '" + plan_.facts.name +
@@ -165,8 +169,9 @@ class Planner {
   bool is_ours(const fs::path& target) const {
     const std::string& name = plan_.facts.name;
     if (request_.package) return package_in(target.string()) == name_of_package(name);
-    return fs::is_directory(fs::symlink_status(target)) && fs::exists(target / kSums) &&
-           fs::exists(target / name_of_unit(name));
+    std::error_code ignored;
+    return fs::is_directory(fs::symlink_status(target, ignored)) &&
+           fs::exists(target / kSums, ignored) && fs::exists(target / name_of_unit(name), ignored);
   }
 
   const BundleRequest& request_;

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "armature/platform/file.hpp"
+#include "armature/platform/output_file.hpp"
 
 namespace armature::bundle {
 namespace {
@@ -31,11 +31,20 @@ std::error_code make_folders(const fs::path& folder) {
   return failure;
 }
 
+/// Without waiting for the disk, file by file: a loss of power is seen by the hashes.
+base::Result<void> write_all(const std::string& path, std::string_view content) {
+  auto file = platform::OutputFile::create(path);
+  if (!file) return base::Error{file.error()};
+  if (auto written = file.value().write(content); !written) return written;
+  return file.value().close();
+}
+
 }  // namespace
 
 Staging::Staging(std::string target)
     : target_(std::move(target)),
-      folder_((fs::path(target_).parent_path() / ("." + fs::path(target_).filename().string() + ".part"))
+      folder_((fs::path(target_).parent_path() /
+               ("." + fs::path(target_).filename().string() + ".part"))
                   .string()) {}
 
 Staging::~Staging() {
@@ -50,7 +59,8 @@ base::Result<void> Staging::make() {
   if (made_) fs::permissions(folder_, kFolderMode, failure);
   if (failure) return problem(beside, failure);
   if (made_) return {};
-  return base::Error{"'" + folder_ + "' is there: another bundle is being made, or was killed while it was; "
+  return base::Error{"'" + folder_ +
+                     "' is there: another bundle is being made, or was killed while it was; "
                      "remove the folder if none is"};
 }
 
@@ -59,7 +69,7 @@ base::Result<void> Staging::write(const std::string& place, std::string_view con
   const fs::path path = fs::path(folder_) / place;
   std::error_code failure = make_folders(path.parent_path());
   if (failure) return problem(path.parent_path().string(), failure);
-  if (auto written = platform::write_file(path.string(), content); !written) return written;
+  if (auto written = write_all(path.string(), content); !written) return written;
   fs::permissions(path, executable ? kProgramMode : kFileMode, failure);
   if (failure) return problem(path.string(), failure);
   return {};

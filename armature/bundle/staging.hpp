@@ -10,8 +10,8 @@
 
 namespace armature::bundle {
 
-/// Where something is made: a folder beside its target, which is gone when this object is, unless it
-/// was handed over. Errors name the file and the system's reason.
+/// Where something is made: a folder beside its target, which is gone when this object is, unless
+/// it was handed over. Errors name the file and the system's reason.
 class Staging {
  public:
   /// @param target  a file or folder that need not be there; its folder has to be

@@ -16,17 +16,17 @@ inline constexpr const char* kSums = "SHA256SUMS";
 
 /// What the texts of a bundle tell.
 struct Facts {
-  std::string name;          ///< of the bundle, from the application's
-  std::string version;       ///< of Armature
-  std::string architecture;  ///< as Debian calls it
-  std::string deployment;    ///< the file's place in the bundle
-  std::vector<std::string> options;     ///< of `armature run`, such as --mode
-  std::string script;                   ///< the place of the one that commands it; empty: none
-  std::set<std::string> packages;       ///< of Debian that it needs
-  std::vector<std::string> strangers;   ///< libraries it needs that no package has
-  std::vector<std::string> keys;        ///< places at which private keys are to be put
-  std::vector<std::string> saved;       ///< places of files that a run writes at its stop
-  base::Duration stop_time{};           ///< that an orderly stop may take
+  std::string name;                    ///< of the bundle, from the application's
+  std::string version;                 ///< of Armature
+  std::string architecture;            ///< as Debian calls it
+  std::string deployment;              ///< the file's place in the bundle
+  std::vector<std::string> options;    ///< of `armature run`, such as --mode
+  std::string script;                  ///< the place of the one that commands it; empty: none
+  std::set<std::string> packages;      ///< of Debian that it needs
+  std::vector<std::string> strangers;  ///< libraries it needs that no package has
+  std::vector<std::string> keys;       ///< places at which private keys are to be put
+  std::vector<std::string> saved;      ///< places of files that a run writes at its stop
+  base::Duration stop_time{};          ///< that an orderly stop may take
 };
 
 /// `application` as a name of folders, units and packages; empty if it cannot be one.

@@ -24,7 +24,8 @@ Facts facts() {
 
 TEST(Texts, ANameHasLettersDigitsAndLittleElse) {
   EXPECT_EQ(name_of_bundle("two-joint_arm.7"), "two-joint_arm.7");
-  for (const char* const bad : {"", "two arms", "../arm", "-arm", ".arm", "arm/a", "böse", "a\nb"}) {
+  for (const char* const bad :
+       {"", "two arms", "../arm", "-arm", ".arm", "arm/a", "böse", "a\nb"}) {
     EXPECT_EQ(name_of_bundle(bad), "") << bad;
   }
   EXPECT_EQ(name_of_archive(facts()), "armature-two-joints_0.1.0_amd64.deb");
@@ -53,7 +54,8 @@ TEST(Texts, TheUnitRunsInRealTimeAndStopsInOrderOnce) {
 TEST(Texts, TheUnitMayWriteWhatARunSaves) {
   Facts arm = facts();
   arm.saved = {"deployment/arm.cpf"};
-  EXPECT_THAT(unit_text(arm), HasSubstr("ReadWritePaths=/run /opt/armature/Two_Joints/deployment\n"));
+  EXPECT_THAT(unit_text(arm),
+              HasSubstr("ReadWritePaths=/run /opt/armature/Two_Joints/deployment\n"));
 }
 
 TEST(Texts, TheReadmeSaysWhatIsToBeDoneByHand) {

@@ -61,8 +61,9 @@ int run_bundle(const BundleArguments& given, const Console& console) {
   }
   base::Diagnostics diagnostics;
   bundle::MakeBundle* const make = make_bundle(diagnostics);
-  const std::string made =
-      make == nullptr ? std::string() : make(request_of(arguments), deployment.document, diagnostics);
+  const std::string made = make == nullptr
+                               ? std::string()
+                               : make(request_of(arguments), deployment.document, diagnostics);
   console.show(diagnostics);
   if (made.empty()) return kFailed;
   console.say(rt::LogLevel::kInfo, "made " + made);
@@ -84,8 +85,7 @@ void add_bundle(const CommandLine& to) {
                    "what is made: NAME-bundle in the working directory unless given")
       ->type_name("PATH");
   command->add_flag("--deb", request.package, "a Debian package in place of a folder");
-  command
-      ->add_option("--for", request.architecture, "the target's machine: amd64, arm64 or armhf")
+  command->add_option("--for", request.architecture, "the target's machine: amd64, arm64 or armhf")
       ->type_name("MACHINE")
       ->check(one_of({"amd64", "arm64", "armhf"}));
   command

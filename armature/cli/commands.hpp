@@ -20,7 +20,7 @@ void add_new(const CommandLine& to);
 
 /// In the order of the help.
 inline constexpr void (*kCommands[])(const CommandLine& to) = {
-    add_run,    add_browse,  add_check, add_graph,  add_models,
-    add_report, add_convert, add_edit,  add_bundle, add_studio, add_new};
+    add_run,     add_browse, add_check,  add_graph,  add_models, add_report,
+    add_convert, add_edit,   add_bundle, add_studio, add_new};
 
 }  // namespace armature::cli

@@ -7,7 +7,6 @@
 #include <string>
 
 #include <elf.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
