@@ -78,11 +78,11 @@ void add_bundle(const CommandLine& to) {
   const auto arguments = arguments_of(*command, to, run_bundle);
   add_deployment_options(*command, arguments->load);
   bundle::BundleRequest& request = arguments->request;
-  command->add_option("--script", request.script, "that commands it: a script in Lua")
+  command->add_option("--script", request.script, "a script in Lua that commands its runs")
       ->type_name("FILE");
   command
       ->add_option("--out", request.out,
-                   "what is made: NAME-bundle in the working directory unless given")
+                   "where it is made; NAME-bundle in the working directory unless given")
       ->type_name("PATH");
   command->add_flag("--deb", request.package, "a Debian package in place of a folder");
   command->add_option("--for", request.architecture, "the target's machine: amd64, arm64 or armhf")
@@ -90,7 +90,7 @@ void add_bundle(const CommandLine& to) {
       ->check(one_of({"amd64", "arm64", "armhf"}));
   command
       ->add_option("--installation", request.installation,
-                   "folder of an installed Armature for the target; this program's unless given")
+                   "an installed Armature for the target; that of this program unless given")
       ->type_name("FOLDER");
 }
 
