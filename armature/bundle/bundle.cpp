@@ -7,15 +7,17 @@
 #include <optional>
 #include <system_error>
 
-#include "armature/bundle/child.hpp"
-#include "armature/bundle/debian.hpp"
-#include "armature/bundle/plan.hpp"
-#include "armature/bundle/staging.hpp"
-#include "armature/bundle/texts.hpp"
+#include "armature/bundle/internal/child.hpp"
+#include "armature/bundle/internal/debian.hpp"
+#include "armature/bundle/internal/plan.hpp"
+#include "armature/bundle/internal/staging.hpp"
+#include "armature/bundle/internal/texts.hpp"
 #include "armature/document/value_tree.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::bundle {
+
+using namespace internal;
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,18 +31,18 @@ constexpr const char* kPackage = "package.deb";
 /// Makes what a plan says, each step if all before it went well.
 class Maker {
  public:
-  Maker(const Plan& plan, bool package, base::Diagnostics& diagnostics)
+  Maker(const Plan& plan, const BundleRequest& request, base::Diagnostics& diagnostics)
       : plan_(plan),
-        package_(package),
-        within_(package ? kPackageRoot + installed_folder(plan.facts.name) + "/" : ""),
+        request_(request),
+        within_(request.package ? kPackageRoot + installed_folder(plan.facts.name) + "/" : ""),
         staging_(plan.target),
         diagnostics_(diagnostics) {}
 
   bool make() {
     if (!done(staging_.make()) || !fill() || !check()) return false;
-    if (package_) return pack();
+    if (request_.package) return pack();
     staging_.set_times(time_of_files());
-    return done(staging_.hand_over(staging_.folder()));
+    return hand_over(staging_.folder());
   }
 
  private:
@@ -146,7 +148,12 @@ class Maker {
     }
     staging_.set_times(time_of_files());
     return done(build_package(staging_.folder() + "/" + kPackageRoot, archive)) &&
-           done(staging_.hand_over(archive));
+           hand_over(archive);
+  }
+
+  bool hand_over(const std::string& made) {
+    if (request_.stopped()) diagnostics_.error({}, "stopped by a signal: nothing is made");
+    return diagnostics_.ok() && done(staging_.hand_over(made));
   }
 
   bool done(const base::Result<void>& step) {
@@ -155,7 +162,7 @@ class Maker {
   }
 
   const Plan& plan_;
-  const bool package_;
+  const BundleRequest& request_;
   const std::string within_;  ///< the bundle's place in what is made, with a slash
   Staging staging_;
   base::Diagnostics& diagnostics_;
@@ -166,7 +173,7 @@ class Maker {
 std::string make_bundle(const BundleRequest& request, const document::Document& document,
                         base::Diagnostics& diagnostics) {
   const std::optional<Plan> plan = plan_bundle(request, document, diagnostics);
-  if (!plan || !Maker(*plan, request.package, diagnostics).make()) return {};
+  if (!plan || !Maker(*plan, request, diagnostics).make()) return {};
   return plan->target;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 namespace armature::bundle {
 
+/// What is to be made, and of what.
 struct BundleRequest {
   std::string file;                    ///< the deployment, absolute
   std::vector<std::string> overrides;  ///< of the run, as `--set` has them
@@ -21,6 +23,7 @@ struct BundleRequest {
   std::string installation;  ///< folder of an installed Armature; empty: that of `program`
   std::string program;       ///< `armature` that runs
   std::string version;       ///< of it
+  std::function<bool()> stopped;  ///< whether somebody wants it no more
 };
 
 /// Puts a deployment and all that it needs to run on another machine into a folder or a Debian

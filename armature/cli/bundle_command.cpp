@@ -24,7 +24,8 @@ std::string absolute(const std::string& path) {
   return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }
 
-bundle::BundleRequest request_of(const BundleArguments& arguments) {
+bundle::BundleRequest request_of(const BundleArguments& arguments,
+                                 const platform::StopSignal& stop) {
   bundle::BundleRequest request = arguments.request;
   request.file = arguments.load.file;
   request.overrides = arguments.load.overrides;
@@ -33,6 +34,7 @@ bundle::BundleRequest request_of(const BundleArguments& arguments) {
   request.script = absolute(request.script);
   request.program = platform::own_program();
   request.version = ARMATURE_VERSION;
+  request.stopped = [&stop] { return stop.received(); };
   return request;
 }
 
@@ -50,7 +52,7 @@ bundle::MakeBundle* make_bundle(base::Diagnostics& diagnostics) {
 }
 
 int run_bundle(const BundleArguments& given, const Console& console) {
-  const platform::StopSignal stop;  // what is half made is removed first
+  const platform::StopSignal stop;  // what is half made is removed before the end
   BundleArguments arguments = given;
   arguments.load.file = absolute(given.load.file);
   const deploy::Deployment deployment = load_and_check(arguments.load, console);
@@ -61,9 +63,9 @@ int run_bundle(const BundleArguments& given, const Console& console) {
   }
   base::Diagnostics diagnostics;
   bundle::MakeBundle* const make = make_bundle(diagnostics);
-  const std::string made = make == nullptr
-                               ? std::string()
-                               : make(request_of(arguments), deployment.document, diagnostics);
+  const std::string made =
+      make == nullptr ? std::string()
+                      : make(request_of(arguments, stop), deployment.document, diagnostics);
   console.show(diagnostics);
   if (made.empty()) return kFailed;
   console.say(rt::LogLevel::kInfo, "made " + made);

@@ -9,10 +9,12 @@ import filecmp
 import os
 import re
 import shutil
+import signal
 import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -118,7 +120,8 @@ class Folders(Test):
             self.assertTrue(filecmp.cmp(here / name, there / name, shallow=False), name)
 
     def test_its_hashes_are_those_of_all_its_files(self):
-        self.bundle(WAVE / "wave.yaml")
+        self.bundle(WAVE / "wave.yaml", "-L", BUILD / "lib" / "armature", installation=False,
+                    program=prefix / "bin" / "armature")
         bundle = self.work / "wave-bundle"
         run("sha256sum", "--check", "--strict", "SHA256SUMS", cwd=bundle, check=True)
         listed = [line[66:] for line in (bundle / "SHA256SUMS").read_text().splitlines()]
@@ -330,6 +333,17 @@ class Refusals(Test):
         file = self.deployment()
         file.write_text(file.read_text().replace("application: hello", "application: ../hello"))
         self.refuse(file, says="application '../hello' cannot name a bundle, expected letters")
+
+    def test_a_signal_leaves_nothing(self):
+        making = subprocess.Popen([PROGRAM, "bundle", self.deployment(), "--deb", "--installation", prefix],
+                                  cwd=self.work, stderr=subprocess.PIPE, text=True)
+        while making.poll() is None and not any(self.work.iterdir()):
+            time.sleep(0.001)
+        making.send_signal(signal.SIGINT)
+        _, told = making.communicate(timeout=300)
+        self.assertEqual(making.returncode, 1, told)
+        self.assertIn("stopped by a signal: nothing is made", told)
+        self.assertEqual(list(self.work.iterdir()), [])
 
     def test_an_unknown_machine(self):
         done = run(PROGRAM, "bundle", self.deployment(), "--for", "arm46", cwd=self.work)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// How a program ended, and what it has written to its outputs.
 struct Ran {
@@ -16,4 +16,4 @@ struct Ran {
 /// @param arguments  the program's path, then its arguments
 Ran run_program(std::vector<std::string> arguments);
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/child.hpp"
+#include "armature/bundle/internal/child.hpp"
 
 #include <chrono>
 #include <thread>
@@ -7,7 +7,7 @@
 
 #include "armature/platform/child_process.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 Ran run_program(std::vector<std::string> arguments) {
   // The shell puts both outputs into one, in the order in which they were written.
@@ -29,4 +29,4 @@ Ran run_program(std::vector<std::string> arguments) {
   return ran;
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/debian.hpp"
+#include "armature/bundle/internal/debian.hpp"
 
 #include <charconv>
 #include <cstdlib>
@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "armature/bundle/child.hpp"
+#include "armature/bundle/internal/child.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 constexpr const char* kQuery = "/usr/bin/dpkg-query";
@@ -80,4 +80,4 @@ std::int64_t time_of_files() {
   return whole ? seconds : kConstant;
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/deployment_files.hpp"
+#include "armature/bundle/internal/deployment_files.hpp"
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(FilesTest, APathFromTheWorkingDirectoryIsTold) {
 }
 
 }  // namespace
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

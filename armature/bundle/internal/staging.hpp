@@ -8,7 +8,7 @@
 
 #include "armature/base/result.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// Where something is made: a folder beside its target, which is gone when this object is, unless
 /// it was handed over. Errors name the file and the system's reason.
@@ -41,4 +41,4 @@ class Staging {
   bool made_ = false;
 };
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

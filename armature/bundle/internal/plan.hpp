@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/bundle/architecture.hpp"
 #include "armature/bundle/bundle.hpp"
-#include "armature/bundle/texts.hpp"
+#include "armature/bundle/internal/architecture.hpp"
+#include "armature/bundle/internal/texts.hpp"
 #include "armature/document/document.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// A file as it comes into a bundle.
 struct Copy {
@@ -36,4 +36,4 @@ struct Plan {
 std::optional<Plan> plan_bundle(const BundleRequest& request, const document::Document& document,
                                 base::Diagnostics& diagnostics);
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -9,7 +9,7 @@
 
 #include "armature/base/result.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// Which Debian packages libraries are of.
 struct Packages {
@@ -29,4 +29,4 @@ base::Result<void> build_package(const std::string& folder, const std::string& f
 /// Of all files that are made, in seconds since 1970: what SOURCE_DATE_EPOCH says, else a constant.
 std::int64_t time_of_files();
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

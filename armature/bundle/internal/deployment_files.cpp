@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/deployment_files.hpp"
+#include "armature/bundle/internal/deployment_files.hpp"
 
+#include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <regex>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,7 +15,7 @@
 #include "armature/platform/file.hpp"
 #include "idl/load.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,11 +51,15 @@ bool is_file(const std::string& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// What `pattern` finds in a text, by its first group.
-std::set<std::string> all_in(const std::string& text, const std::regex& pattern) {
+/// The texts in quotes behind each `word`, with nothing but letters of `between` before them.
+std::set<std::string> quoted_behind(std::string_view word, std::string_view between,
+                                    std::string_view text) {
   std::set<std::string> found;
-  for (std::sregex_iterator each(text.begin(), text.end(), pattern), end; each != end; ++each) {
-    found.insert((*each)[1].str());
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    const std::size_t open = text.find_first_not_of(between, at + word.size());
+    if (open == text.npos || (text[open] != '"' && text[open] != '\'')) continue;
+    const std::size_t close = text.find(text[open], open + 1);
+    if (close != text.npos) found.emplace(text.substr(open + 1, close - open - 1));
   }
   return found;
 }
@@ -181,19 +184,17 @@ class Finder {
 
   /// Armature needs none of them, but whoever shows the robot does.
   void add_meshes(const std::string& urdf) {
-    static const std::regex mesh("<mesh\\s[^>]*filename\\s*=\\s*[\"']([^\"']+)[\"']");
     const auto text = platform::read_file(urdf);
     if (!text) return;
     const fs::path folder = fs::path(urdf).parent_path();
-    for (const std::string& name : all_in(text.value(), mesh)) {
+    for (const std::string& name : quoted_behind("filename", " \t\r\n=", text.value())) {
       const std::string file = (folder / name).string();
       if (is_file(file)) {
         add(elsewhere(file), "mesh", {urdf, 0, 0});
       } else {
-        diagnostics_.note({urdf, 0, 0},
-                          "the mesh " + path_in_quotes(name) +
-                              " is left out: expected a path relative to this file (Armature runs "
-                              "without meshes)");
+        diagnostics_.note({urdf, 0, 0}, "the mesh " + path_in_quotes(name) +
+                                            " is left out, expected a path relative to this file "
+                                            "(Armature itself needs no meshes)");
       }
     }
   }
@@ -233,11 +234,10 @@ class Finder {
 
   /// With those that it requires, which lie beside it.
   void add_script(const std::string& path) {
-    static const std::regex module("require\\s*\\(?\\s*[\"']([A-Za-z0-9_-]+)[\"']");
     const bool known = !found_.files.emplace(path, base::Location{path, 0, 0}).second;
     const auto text = platform::read_file(path);
     if (known || !text) return;
-    for (const std::string& name : all_in(text.value(), module)) {
+    for (const std::string& name : quoted_behind("require", " \t\r\n(", text.value())) {
       const std::string file = (fs::path(path).parent_path() / (name + ".lua")).string();
       if (is_file(file)) add_script(file);
     }
@@ -254,4 +254,4 @@ DeploymentFiles find_files(const DeploymentSource& source, base::Diagnostics& di
   return Finder(source, diagnostics).find();
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

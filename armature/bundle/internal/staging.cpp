@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/staging.hpp"
+#include "armature/bundle/internal/staging.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 
 #include "armature/platform/output_file.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ base::Result<void> Staging::hand_over(const std::string& made) {
   return {};
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

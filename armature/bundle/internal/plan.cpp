@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/plan.hpp"
+#include "armature/bundle/internal/plan.hpp"
 
 #include <filesystem>
 #include <set>
 #include <system_error>
 #include <utility>
 
-#include "armature/bundle/debian.hpp"
-#include "armature/bundle/deployment_files.hpp"
-#include "armature/bundle/deployment_root.hpp"
-#include "armature/bundle/installation.hpp"
+#include "armature/bundle/internal/debian.hpp"
+#include "armature/bundle/internal/deployment_files.hpp"
+#include "armature/bundle/internal/deployment_root.hpp"
+#include "armature/bundle/internal/installation.hpp"
 #include "armature/deploy/loader.hpp"
 #include "armature/document/value_tree.hpp"
 #include "armature/platform/linked_file.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ std::optional<Plan> plan_bundle(const BundleRequest& request, const document::Do
   return Planner(request, document, diagnostics).plan();
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/texts.hpp"
+#include "armature/bundle/internal/texts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 using ::testing::EndsWith;
@@ -80,4 +80,4 @@ TEST(Texts, TheLicencesOfPackagesAreWhereDebianHasThem) {
 }
 
 }  // namespace
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

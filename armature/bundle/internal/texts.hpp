@@ -9,7 +9,7 @@
 
 #include "armature/base/time.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// The file with the hashes of all others.
 inline constexpr const char* kSums = "SHA256SUMS";
@@ -62,4 +62,4 @@ std::string licences_text(const Facts& facts);
 /// What dpkg wants to know.
 std::string control_text(const Facts& facts, std::uint64_t kilobytes);
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/bundle/deployment_files.hpp"
+#include "armature/bundle/internal/deployment_files.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// The folder that becomes `deployment/` in a bundle: the deepest one that has all files of the
 /// deployment, and the places of those that do not travel with it. Refuses files of the system, and
@@ -14,4 +14,4 @@ namespace armature::bundle {
 /// @return with a slash at its end; empty after an error
 std::string deployment_root(const DeploymentFiles& files, base::Diagnostics& diagnostics);
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

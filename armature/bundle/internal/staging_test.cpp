@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/staging.hpp"
+#include "armature/bundle/internal/staging.hpp"
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include "armature/platform/file.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_F(StagingTest, NamesAFolderThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

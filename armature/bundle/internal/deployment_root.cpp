@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/deployment_root.hpp"
+#include "armature/bundle/internal/deployment_root.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "armature/document/value_tree.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 using document::path_in_quotes;
@@ -61,4 +61,4 @@ std::string deployment_root(const DeploymentFiles& files, base::Diagnostics& dia
   return diagnostics.ok() ? root : std::string();
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -8,7 +8,7 @@
 
 #include "armature/base/diagnostic.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// The deployment whose files are looked for.
 struct DeploymentSource {
@@ -33,4 +33,4 @@ struct DeploymentFiles {
 /// @param source  of a deployment that has been checked
 DeploymentFiles find_files(const DeploymentSource& source, base::Diagnostics& diagnostics);
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/bundle/architecture.hpp"
+#include "armature/bundle/internal/architecture.hpp"
 #include "armature/document/document.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// The programs and libraries that run a deployment.
 struct ProgramFiles {
@@ -39,4 +39,4 @@ class Installation {
   const Architecture& architecture_;
 };
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

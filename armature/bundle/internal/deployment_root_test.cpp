@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/deployment_root.hpp"
+#include "armature/bundle/internal/deployment_root.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 using ::testing::HasSubstr;
@@ -56,4 +56,4 @@ TEST(DeploymentRoot, RefusesFilesWithoutACommonFolder) {
 }
 
 }  // namespace
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/architecture.hpp"
+#include "armature/bundle/internal/architecture.hpp"
 
 #include <algorithm>
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 template <typename Condition>
@@ -30,4 +30,4 @@ std::string machine_name(const platform::LinkedFile& file) {
   return "machine " + std::to_string(file.machine) + " with " + std::to_string(file.bits) + " bits";
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

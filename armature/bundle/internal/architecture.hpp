@@ -7,7 +7,7 @@
 
 #include "armature/platform/linked_file.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 
 /// A kind of machine that a bundle may be for.
 struct Architecture {
@@ -32,4 +32,4 @@ const Architecture* architecture_of(const platform::LinkedFile& file);
 /// What a program or library is for, for messages: `arm64`, `machine 243`.
 std::string machine_name(const platform::LinkedFile& file);
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/bundle/installation.hpp"
+#include "armature/bundle/internal/installation.hpp"
 
 #include <array>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include "armature/document/value_tree.hpp"
 #include "armature/platform/linked_file.hpp"
 
-namespace armature::bundle {
+namespace armature::bundle::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ ProgramFiles Installation::files(const std::vector<document::Reference>& compone
   return search.take();
 }
 
-}  // namespace armature::bundle
+}  // namespace armature::bundle::internal
