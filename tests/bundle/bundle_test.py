@@ -293,7 +293,7 @@ class Refusals(Test):
     def test_absolute_paths(self):
         policy = self.write("robot/hello.policy")
         self.refuse(self.deployment(more=f"network: {{listen: \"unix:a.sock\", policy: \"{policy}\"}}\n"),
-                    says=["hello.yaml:3:", f"policy is named by the absolute path '{policy}'"])
+                    says=["hello.yaml:3:", f"policy has the absolute path '{policy}'"])
 
     def test_files_of_the_system(self):
         self.refuse(self.deployment(), "--script", "/etc/hostname",

@@ -97,11 +97,13 @@ class Finder {
   std::optional<std::string> take(const std::string& path, const std::string& what,
                                   const base::Location& where) {
     if (!follows_the_deployment(path)) {
-      diagnostics_.error(here(where),
-                         what + " is named by the absolute path " + path_in_quotes(path) +
-                             ", which another machine does not have",
-                         "name it relative to this file; in a property write "
-                         "\"${here}/...\"");
+      const bool absolute = path.starts_with('/');
+      diagnostics_.error(
+          here(where),
+          what +
+              (absolute ? " has the absolute path " : " is found in the working directory, as ") +
+              path_in_quotes(path) + ", which another machine does not have",
+          "name it relative to this file; in a property write \"${here}/...\"");
       return std::nullopt;
     }
     const std::string written = here(path);
@@ -189,7 +191,7 @@ class Finder {
     const fs::path folder = fs::path(urdf).parent_path();
     for (const std::string& name : quoted_behind("filename", " \t\r\n=", text.value())) {
       const std::string file = (folder / name).string();
-      if (is_file(file)) {
+      if (is_file(file) && !name.starts_with('/')) {
         add(elsewhere(file), "mesh", {urdf, 0, 0});
       } else {
         diagnostics_.note({urdf, 0, 0}, "the mesh " + path_in_quotes(name) +

@@ -126,7 +126,7 @@ TEST_F(FilesTest, AbsolutePathsAreRefusedWhereTheyStand) {
   EXPECT_EQ(diagnostics_.error_count(), 2u) << diagnostics_.to_text();
   EXPECT_THAT(diagnostics_.to_text(), HasSubstr(path("arm.yaml") + ":3:"));
   EXPECT_THAT(diagnostics_.to_text(),
-              HasSubstr("property 'robot_description' of 'Model' is named by the absolute path '" +
+              HasSubstr("property 'robot_description' of 'Model' has the absolute path '" +
                         path("arm.urdf") + "', which another machine does not have"));
 }
 

@@ -12,7 +12,8 @@ here=$(dirname -- "$(readlink -f -- "$0")")
 exec "$here/bin/armature" run "$here"/@deployment@@options@ "$@"
 )sh";
 
-inline constexpr std::string_view kUnit = R"(# Runs @folder@. It arms nothing: that stays with the operator.
+inline constexpr std::string_view kUnit =
+    R"(# Runs @folder@. It arms nothing: that stays with the operator.
 [Unit]
 Description=@name@, run by Armature
 Documentation=file:@folder@/README
