@@ -166,6 +166,17 @@ class Folders(Test):
         self.assertEqual(done.returncode, 0, done.stderr)
 
 
+    def test_every_deployment_of_the_robots_passes_its_check_in_a_bundle(self):
+        files = [file for pattern in ("*/deployments/**/*.yaml", "*/deployments/**/*.xml", "*/demo/*.yaml")
+                 for file in sorted((SOURCE / "robots").glob(pattern))]
+        whole = [file for file in files if run(PROGRAM, "check", file).returncode == 0]
+        self.assertGreater(len(whole), 20)
+        for file in whole:
+            with self.subTest(file=file):
+                self.bundle(file, "--out", "robot")
+                shutil.rmtree(self.work / "robot")
+
+
 class Keys(Test):
     def setUp(self):
         super().setUp()
