@@ -299,7 +299,8 @@ std::optional<exec::CommandParameter> EventCommandBuilder::from_member(
 bool EventCommandBuilder::fits(const Wire& wire, std::size_t index, const Offer& offer) {
   const NameAndUnit wants = argument(wire.command.signature(), index);
   const types::Type& wanted = *wire.command.signature().arguments[index].type;
-  if (exec::EventCommand::takes(wanted, offer.type) && same_unit(offer.unit, wants.unit)) return true;
+  if (exec::EventCommand::takes(wanted, offer.type) && same_unit(offer.unit, wants.unit))
+    return true;
   diagnostics_.error(offer.where,
                      offer.what + " is " + in_unit(offer.type, offer.unit) + ", but " +
                          in_quotes(wants.name) + " of " + path(wire.connection.to) + " is " +

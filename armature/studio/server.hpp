@@ -13,6 +13,7 @@
 
 namespace armature::studio {
 
+/// What a studio works on, and where it listens.
 struct ServerOptions {
   std::string file;     ///< the deployment; it need not be there yet
   std::string listen;   ///< `ws://127.0.0.1:8080`

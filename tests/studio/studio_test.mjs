@@ -66,10 +66,9 @@ async function middle(locator) {
 }
 
 async function drag(page, from, to) {
-  const begin = await middle(from);
-  const end = await middle(to);
-  await page.mouse.move(begin.x, begin.y);
+  await from.hover();
   await page.mouse.down();
+  const end = await middle(to);
   await page.mouse.move(end.x - 30, end.y, { steps: 8 });
   await page.waitForTimeout(300); // what fits comes from the check
   await page.mouse.move(end.x, end.y, { steps: 4 });

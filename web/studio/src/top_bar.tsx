@@ -86,7 +86,8 @@ function RunTime() {
 
 function state_text(state: string, exit_code: number, paused: boolean): string {
   if (state === "none") return "not run yet";
-  if (state === "ended") return exit_code === 0 ? "ended" : `ended with code ${exit_code}, see the log`;
+  // -1: a run that an earlier studio has started; nobody knows how it ended.
+  if (state === "ended") return exit_code <= 0 ? "ended" : `ended with code ${exit_code}, see the log`;
   return paused ? "paused" : state;
 }
 
