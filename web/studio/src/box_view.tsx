@@ -75,7 +75,8 @@ function ActivityField({ box }: { box: Box }) {
 }
 
 function Properties({ box, defaults }: { box: Box; defaults: Property[] }) {
-  const properties = box.components[0]!.properties ?? [];
+  // Attributes are what a component tells while it runs: here they would be what they are before.
+  const properties = (box.components[0]!.properties ?? []).filter((one) => one.persistent);
   if (properties.length === 0) return null;
   return (
     <section aria-label="Properties">
