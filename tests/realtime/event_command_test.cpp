@@ -10,6 +10,7 @@
 #include "armature/component/host.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/rt/inbox.hpp"
+#include "armature/types/elements.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::exec {
@@ -142,6 +143,16 @@ TEST_P(EventCommandFunctions, ItIsStoppedAndStartedAsAModeDoesIt) {
 
 INSTANTIATE_TEST_SUITE_P(Each, EventCommandFunctions, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "OneThread" : "TwoThreads"; });
+
+TEST(EventCommandNumbers, ANumberBecomesTheParameters) {
+  const std::int32_t pixels = 160;
+  double parameter = 0.0;
+  expect_realtime("types::convert_number", [&] {
+    types::convert_number(types::type_of<std::int32_t>(), &pixels, types::type_of<double>(),
+                          &parameter);
+  });
+  EXPECT_EQ(parameter, 160.0);
+}
 
 }  // namespace
 }  // namespace armature::exec
