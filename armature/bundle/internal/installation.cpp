@@ -22,7 +22,7 @@ constexpr std::string_view kProgram = "bin/armature";
 constexpr std::string_view kGuardian = "bin/armature-guardian";
 constexpr std::string_view kOrigin = "$ORIGIN";
 
-bool is_there(const std::string& file) {
+bool is_installed(const std::string& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
 }
@@ -33,7 +33,7 @@ bool is_of_armature(std::string_view library) { return library.starts_with("liba
 std::string system_file(const std::string& library, const Architecture& architecture) {
   for (const std::string& folder : {"/lib/" + std::string(architecture.folder),
                                     "/usr/lib/" + std::string(architecture.folder)}) {
-    if (std::string file = folder + "/" + library; is_there(file)) return file;
+    if (std::string file = folder + "/" + library; is_installed(file)) return file;
   }
   return {};
 }
@@ -115,7 +115,7 @@ class Search {
   void add_library(const std::string& library, const std::string& needed_by) {
     for (const std::string& folder : library_folders_) {
       const std::string place = (fs::path(folder) / library).string();
-      if (is_there(folder_ + "/" + place)) return add_own(place);
+      if (is_installed(folder_ + "/" + place)) return add_own(place);
     }
     if (refused_) return;
     diagnostics_.error({},
