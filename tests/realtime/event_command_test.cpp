@@ -147,10 +147,10 @@ INSTANTIATE_TEST_SUITE_P(Each, EventCommandFunctions, ::testing::Bool(),
 TEST(EventCommandNumbers, ANumberBecomesTheParameters) {
   const std::int32_t pixels = 160;
   double parameter = 0.0;
-  expect_realtime("types::convert_number", [&] {
-    types::convert_number(types::type_of<std::int32_t>(), &pixels, types::type_of<double>(),
-                          &parameter);
-  });
+  const types::Type& from = types::type_of<std::int32_t>();
+  const types::Type& to = types::type_of<double>();
+  expect_realtime("types::convert_number",
+                  [&] { types::convert_number(from, &pixels, to, &parameter); });
   EXPECT_EQ(parameter, 160.0);
 }
 

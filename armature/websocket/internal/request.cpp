@@ -38,7 +38,7 @@ int answer(lws* request, unsigned status, const std::string& cookie) {
     const int size = static_cast<int>(cookie.size());
     if (lws_add_http_header_by_name(request, name, value, size, &at, end) != 0) return kEnd;
   }
-  static_cast<void>(lws_finalize_write_http_header(request, begin, &at, end));
+  [[maybe_unused]] const int written = lws_finalize_write_http_header(request, begin, &at, end);
   return kEnd;
 }
 
