@@ -48,14 +48,14 @@ void add_parts(std::vector<Part>& parts, const std::string& kind, const Value& s
 
 /// The document in the order of its file: each component, connection, mode, and so on.
 std::vector<Part> parts_of(const Document& document) {
-  static const std::unordered_map<std::string, std::string> kKinds = {
+  static const std::unordered_map<std::string, std::string> kNouns = {
       {"components", "component"}, {"connections", "connection"},
       {"composed", "composite"},   {"parameters", "parameter"},
       {"modes", "mode"},           {"libraries", "library"}};
   std::vector<Part> parts;
   for (const Property& section : document::to_tree(document).entries) {
-    const auto kind = kKinds.find(section.name);
-    if (kind != kKinds.end()) {
+    const auto kind = kNouns.find(section.name);
+    if (kind != kNouns.end()) {
       add_parts(parts, kind->second, section.value);
     } else {
       parts.push_back({section.name, document::flow_text(section.value)});
