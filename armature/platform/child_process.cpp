@@ -69,6 +69,8 @@ class Arrangement {
     std::vector<char*> words;
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
+    // Asked first, as an emulated kernel does not tell what keeps a program from starting.
+    if (::access(words[0], X_OK) != 0) return errno;
     return ::posix_spawn(&id, words[0], &actions_, &attributes_, words.data(), environ);
   }
 

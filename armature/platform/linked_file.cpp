@@ -2,6 +2,7 @@
 #include "armature/platform/linked_file.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -34,9 +35,9 @@ class Parts {
   explicit Parts(const std::string& path) : stream_(path, std::ios::binary) {}
 
   template <typename Entry>
-  std::vector<Entry> read(std::size_t offset, std::size_t count) {
+  std::vector<Entry> read(std::uint64_t offset, std::uint64_t count) {
     if (count > kMostBytes / sizeof(Entry)) return {};
-    std::vector<Entry> entries(count);
+    std::vector<Entry> entries(static_cast<std::size_t>(count));
     const auto size = static_cast<std::streamsize>(count * sizeof(Entry));
     stream_.clear();
     stream_.seekg(static_cast<std::streamoff>(offset));
@@ -49,10 +50,11 @@ class Parts {
 };
 
 /// The text that begins at `offset` of `texts`, up to its end.
-std::string text_at(const std::vector<char>& texts, std::size_t offset) {
+std::string text_at(const std::vector<char>& texts, std::uint64_t offset) {
   if (offset >= texts.size()) return {};
-  const char* const begin = texts.data() + offset;
-  return {begin, ::strnlen(begin, texts.size() - offset)};
+  const auto at = static_cast<std::size_t>(offset);
+  const char* const begin = texts.data() + at;
+  return {begin, ::strnlen(begin, texts.size() - at)};
 }
 
 void add_folders(std::string_view list, std::vector<std::string>& folders) {

@@ -13,6 +13,7 @@ const program = process.env.ARMATURE;
 const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
 const folder = mkdtempSync(join(tmpdir(), "studio_test_"));
 const environment = { ...process.env, XDG_STATE_HOME: folder };
+const servers = [];
 let browser;
 
 before(async () => {
@@ -20,6 +21,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
+  for (const server of servers) server.kill("SIGKILL"); // those that a failed test left, which would keep this process
   rmSync(folder, { recursive: true, force: true });
 });
 
@@ -28,6 +30,7 @@ async function studio(name, text) {
   const file = join(folder, name);
   if (text !== undefined) writeFileSync(file, text);
   const server = spawn(program, ["studio", file, "--listen", "ws://127.0.0.1:0", "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
+  servers.push(server);
   let told = "";
   const address = await new Promise((resolve, reject) => {
     server.stderr.on("data", (data) => {
@@ -77,6 +80,7 @@ async function drag(page, from, to) {
 
 async function add(page, model, name) {
   await page.getByLabel("Find a model").fill(model);
+  await page.locator(".palette li", { hasText: new RegExp(`^${name}`) }).waitFor(); // the libraries have been read
   await page.getByLabel("Find a model").press("Enter");
   await box(page, name).waitFor();
 }

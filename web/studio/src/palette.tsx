@@ -24,7 +24,7 @@ export function Palette() {
         onChange={(event) => set_sought(event.target.value)} onKeyDown={(event) => event.key === "Enter" && add_first(groups)} />
       <div className="scroll">
         {groups.map(([library, offers]) => <Group key={library} library={library} offers={offers} open={sought !== "" || groups.length < 4} />)}
-        {groups.length === 0 && <p className="hint">{sought ? "No model is called so, nor says so." : "No models yet: build a library, and start the studio with it."}</p>}
+        {groups.length === 0 && <p className="hint">{models.length > 0 ? "No model is called so, nor says so." : "No models yet: libraries are being read. If none come, build a library, and start the studio with it."}</p>}
       </div>
     </section>
   );
