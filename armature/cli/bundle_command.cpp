@@ -9,7 +9,7 @@
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/platform/child_process.hpp"
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 #include "armature/platform/stop_signal.hpp"
 
 namespace armature::cli {

@@ -8,7 +8,7 @@
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/platform/child_process.hpp"
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/studio/server.hpp"
 

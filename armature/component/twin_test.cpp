@@ -8,8 +8,8 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
+#include "armature/component/observing/tap.hpp"
 #include "armature/component/stand_in.hpp"
-#include "armature/component/tap.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/testing/test_thread.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "armature/base/near_name.hpp"
 #include "armature/document/value_tree.hpp"
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 
 namespace armature::deploy {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "armature/platform/symbols.hpp"
+#include "armature/platform/elf/symbols.hpp"
 #include "armature/rt/guard.hpp"
 
 namespace armature::exec {

@@ -12,7 +12,7 @@
 #include "armature/base/time.hpp"
 #include "armature/component/black_box.hpp"
 #include "armature/component/component.hpp"
-#include "armature/component/timeline.hpp"
+#include "armature/component/observing/timeline.hpp"
 #include "armature/exec/activity.hpp"
 #include "armature/exec/periodic_schedule.hpp"
 #include "armature/exec/thread_watch.hpp"

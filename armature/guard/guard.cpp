@@ -14,7 +14,7 @@
 #include "armature/guard/internal/places.hpp"
 #include "armature/guard/internal/report.hpp"
 #include "armature/guard/internal/watch.hpp"
-#include "armature/platform/symbols.hpp"
+#include "armature/platform/elf/symbols.hpp"
 #include "armature/rt/loaded_guard.hpp"
 
 namespace armature::guard {

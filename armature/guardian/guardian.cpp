@@ -17,7 +17,7 @@
 #include "armature/can/packets.hpp"
 #include "armature/guardian/internal/page.hpp"
 #include "armature/platform/clock.hpp"
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 
 namespace armature::guardian {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/events/event_tap.hpp"
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 #include "armature/rt/ring.hpp"
 
 namespace armature::remote {

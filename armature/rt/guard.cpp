@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 #include "armature/rt/loaded_guard.hpp"
 
 /// Defined by libarmature_guard.so, if that is loaded.

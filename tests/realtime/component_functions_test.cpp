@@ -6,7 +6,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/events/event_tap.hpp"
 #include "armature/component/host.hpp"
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/periodic_schedule.hpp"
 #include "tests/realtime/expect_realtime.hpp"

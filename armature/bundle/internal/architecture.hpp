@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "armature/platform/linked_file.hpp"
+#include "armature/platform/elf/linked_file.hpp"
 
 namespace armature::bundle::internal {
 

@@ -10,7 +10,7 @@
 
 #include "armature/deploy/loader.hpp"
 #include "armature/document/value_tree.hpp"
-#include "armature/platform/linked_file.hpp"
+#include "armature/platform/elf/linked_file.hpp"
 
 namespace armature::bundle::internal {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "armature/component/black_box.hpp"
 #include "armature/component/internal/component_rest.hpp"
+#include "armature/component/observing/timeline.hpp"
 #include "armature/component/ports/input_port.hpp"
 #include "armature/component/ports/output_port.hpp"
-#include "armature/component/timeline.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/rt/ticks.hpp"

@@ -12,10 +12,10 @@
 
 #include "armature/component/internal/channel.hpp"
 #include "armature/component/internal/sample_form.hpp"
+#include "armature/component/observing/tap.hpp"
 #include "armature/component/ports/input_port.hpp"
 #include "armature/component/ports/output_port.hpp"
 #include "armature/component/ports/port.hpp"
-#include "armature/component/tap.hpp"
 #include "armature/rt/inbox.hpp"
 
 namespace armature::component {

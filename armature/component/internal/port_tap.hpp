@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 
 namespace armature::component::internal {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "armature/component/observing/tap.hpp"
 #include "armature/component/properties/property.hpp"
-#include "armature/component/tap.hpp"
 #include "armature/rt/ring.hpp"
 
 namespace armature::component::internal {

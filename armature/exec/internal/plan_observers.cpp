@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "armature/component/interface.hpp"
-#include "armature/component/observer.hpp"
+#include "armature/component/observing/observer.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {

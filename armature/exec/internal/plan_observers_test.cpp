@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/interface.hpp"
-#include "armature/component/observer.hpp"
+#include "armature/component/observing/observer.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
 namespace armature::exec {

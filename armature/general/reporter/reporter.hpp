@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/component/observer.hpp"
+#include "armature/component/observing/observer.hpp"
 #include "armature/general/reporter/selection.hpp"
 #include "armature/general/reporter/sink.hpp"
 #include "armature/record/recording.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/component/observer.hpp"
+#include "armature/component/observing/observer.hpp"
 
 namespace armature::general {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "armature/guard/internal/places.hpp"
-#include "armature/platform/symbols.hpp"
+#include "armature/platform/elf/symbols.hpp"
 
 namespace armature::guard {
 

@@ -8,7 +8,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/component/events/event_tap.hpp"
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 #include "armature/lua/internal/values.hpp"
 #include "armature/rt/entry_pool.hpp"
 

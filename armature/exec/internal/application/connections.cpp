@@ -4,7 +4,7 @@
 #include "armature/base/quoted.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/interface.hpp"
-#include "armature/component/observer.hpp"
+#include "armature/component/observing/observer.hpp"
 #include "armature/exec/internal/wiring.hpp"
 
 namespace armature::exec::internal {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 
 #include <string>
 #include <thread>
@@ -10,7 +10,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 
 namespace armature::component {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/platform/linked_file.hpp"
+#include "armature/platform/elf/linked_file.hpp"
 
 #include <cstring>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 
 namespace armature::platform {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/platform/shared_object.hpp"
+#include "armature/platform/elf/shared_object.hpp"
 
 #include <dlfcn.h>
 
+#include "armature/platform/elf/linked_file.hpp"
 #include "armature/platform/file.hpp"
-#include "armature/platform/linked_file.hpp"
 
 namespace armature::platform {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/component/timeline.hpp"
+#include "armature/component/observing/timeline.hpp"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/platform/linked_file.hpp"
+#include "armature/platform/elf/linked_file.hpp"
 
 #include <cstddef>
 #include <cstdint>

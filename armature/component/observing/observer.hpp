@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "armature/component/component.hpp"
-#include "armature/component/tap.hpp"
+#include "armature/component/observing/tap.hpp"
 
 namespace armature::component {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/component/observer.hpp"
+#include "armature/component/observing/observer.hpp"
 
 #include "armature/component/host.hpp"
 

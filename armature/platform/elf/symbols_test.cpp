@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/platform/symbols.hpp"
+#include "armature/platform/elf/symbols.hpp"
 
 #include <gtest/gtest.h>
 
