@@ -15,7 +15,7 @@ set(ARMATURE_LAYERS
     "guardian: base platform can"
     "ride: base platform rt types"
     "tls: base platform ride"
-    "websocket: base platform ride"
+    "websocket: base platform ride tls"
     "exec: base component rt types platform"
     "record: base exec types platform"
     "document: base exec component types"

@@ -38,8 +38,12 @@ bool NetworkOnDemand::open(const document::Document& document, const RunArgument
   for (const std::string& address : network().addresses()) {
     console_.say(rt::LogLevel::kInfo, "listens at " + address);
   }
-  for (const std::string& page : web_ == nullptr ? std::vector<std::string>{} : web_->pages()) {
-    console_.say(rt::LogLevel::kInfo, "open " + page + " in a browser of this machine");
+  for (const auto& transport : web_) {
+    const bool anywhere = transport->scheme() == "wss";
+    for (const std::string& page : transport->pages()) {
+      console_.say(rt::LogLevel::kInfo,
+                   "open " + page + " in a browser" + (anywhere ? "" : " of this machine"));
+    }
   }
   console_.show(diagnostics);
   return diagnostics.ok();
@@ -60,8 +64,14 @@ remote::Network& NetworkOnDemand::network() {
     return tls::make_transport({files.certificate.name, files.key.name, files.authority.name},
                                problems);
   };
-  options.web = [this](const std::string& folder, base::Diagnostics& problems) {
-    return web_ = websocket::make_transport({.pages = folder}, problems);
+  options.web = [this](const document::Network& files, base::Diagnostics& problems) {
+    const bool encrypted = !files.certificate.name.empty();
+    auto transport = websocket::make_transport({.pages = files.pages.name,
+                                                .certificate = files.certificate.name,
+                                                .key = encrypted ? files.key.name : std::string()},
+                                               problems);
+    if (transport != nullptr) web_.push_back(transport);
+    return transport;
   };
   options.policy = policy_;
   options.log = [this](const rt::LogRecord& record) { console_.log(record); };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "armature/cli/arguments.hpp"
 #include "armature/cli/console.hpp"
@@ -44,7 +45,7 @@ class NetworkOnDemand {
 
   const Console& console_;
   const std::string policy_;
-  std::shared_ptr<websocket::Transport> web_;
+  std::vector<std::shared_ptr<websocket::Transport>> web_;
   std::unique_ptr<remote::Network> network_;
 };
 

@@ -22,6 +22,8 @@ struct StudioArguments {
   std::vector<std::string> library_folders;
   std::string listen = "ws://127.0.0.1:8080";
   std::string policy;
+  std::string certificate;
+  std::string key;
   bool no_open = false;
 };
 
@@ -48,6 +50,8 @@ studio::ServerOptions options_of(const StudioArguments& arguments, const Console
   options.listen = arguments.listen;
   options.pages = page_folder();
   options.policy = arguments.policy;
+  options.certificate = arguments.certificate;
+  options.key = arguments.key;
   options.folder = state_folder();
   options.program = platform::own_program();
   for (const std::string& folder : arguments.library_folders) {
@@ -81,17 +85,33 @@ void open_in_browser(const std::string& page) {
       {"/usr/bin/xdg-open", page}, {.log = "/dev/null", .lasting = true});
 }
 
-/// Who listens for others than pages and this account would let them run what they like.
-bool is_for_pages(const std::string& address) {
-  return address.starts_with("ws://") || address.starts_with("unix:");
+/// What is wrong with the address and what is given beside it; empty: nothing. Who listens for
+/// others than pages and this account would let them run what they like.
+std::string refusal_of(const StudioArguments& arguments) {
+  const auto& address = arguments.listen;
+  const bool encrypted = address.starts_with("wss://");
+  if (!encrypted && !address.starts_with("ws://") && !address.starts_with("unix:")) {
+    return "'" + address +
+           "' is no address for a studio: expected ws://127.0.0.1:8080, wss://0.0.0.0:8443 for "
+           "other machines or, for programs of this account, unix:/run/studio.sock";
+  }
+  if (encrypted && (arguments.certificate.empty() || arguments.key.empty())) {
+    return "'" + address + "' needs --certificate and --key";
+  }
+  if (encrypted && arguments.policy.empty()) {
+    return "'" + address +
+           "' is for other machines, too: say with --policy what their pages may do (whoever may "
+           "configure 'workbench' loads libraries, which is running code)";
+  }
+  if (!encrypted && !(arguments.certificate.empty() && arguments.key.empty())) {
+    return "a certificate is for wss:// addresses, found '" + address + "'";
+  }
+  return {};
 }
 
 int run_studio(const StudioArguments& arguments, const Console& console) {
-  if (!is_for_pages(arguments.listen)) {
-    console.say(rt::LogLevel::kError,
-                "'" + arguments.listen +
-                    "' is no address for a studio: expected ws://127.0.0.1:8080 "
-                    "or, for programs of this account, unix:/run/studio.sock");
+  if (const std::string refusal = refusal_of(arguments); !refusal.empty()) {
+    console.say(rt::LogLevel::kError, refusal);
     return kWrongUse;
   }
   const platform::StopSignal stop;
@@ -101,7 +121,9 @@ int run_studio(const StudioArguments& arguments, const Console& console) {
   console.show(diagnostics);
   if (server == nullptr) return kFailed;
   for (const std::string& page : server->pages()) {
-    console.say(rt::LogLevel::kInfo, "open " + page + " in a browser of this machine");
+    const bool anywhere = page.starts_with("https:");
+    console.say(rt::LogLevel::kInfo,
+                "open " + page + " in a browser" + (anywhere ? "" : " of this machine"));
     if (!arguments.no_open) open_in_browser(page);
   }
   while (!stop.received()) server->serve(200ms);
@@ -122,8 +144,15 @@ void add_studio(const CommandLine& to) {
       ->required();
   command
       ->add_option("--listen", arguments->listen,
-                   "where browsers of this machine find it: ws://127.0.0.1:8080 (default)")
+                   "where browsers of this machine find it: ws://127.0.0.1:8080 (default); for "
+                   "other machines wss://0.0.0.0:8443 with --certificate, --key and --policy")
       ->type_name("ADDRESS");
+  command
+      ->add_option("--certificate", arguments->certificate,
+                   "what a wss:// address proves itself with, in PEM form; browsers reach it by "
+                   "the names that it is for")
+      ->type_name("FILE");
+  command->add_option("--key", arguments->key, "the certificate's private key")->type_name("FILE");
   command
       ->add_option("--policy", arguments->policy,
                    "who may do what; without it whoever opens the page may do everything")

@@ -177,9 +177,9 @@ struct Network {
   std::vector<Reference> listen;  ///< addresses, such as `tcp://127.0.0.1:4242`
   Reference policy;               ///< file that says who may do what; empty: this machine may read
   Reference pages;                ///< folder that `ws://` addresses serve
-  Reference certificate;          ///< files of TLS: all of them, or none
+  Reference certificate;          ///< files of TLS: certificate and key, or none
   Reference key;
-  Reference authority;
+  Reference authority;  ///< of those who need certificates, too; empty: only pages use TLS
   std::vector<Connection> inputs;  ///< that others may write, from `kNetworkName`
   std::optional<int> memory_kb;    ///< that others may make the process keep
   /// Permissions of the socket files, such as 0660; empty: the owner's alone.

@@ -20,7 +20,8 @@ void read_path(const Value* value, std::string_view what, const ValueReader& rea
   assign(reader.text(*value, what), path.name);
 }
 
-/// Half of what proves who somebody is proves nothing.
+/// Half of what proves who somebody is proves nothing. Pages have no certificates: an authority is
+/// needed by those that have.
 void read_tls(const Value& value, const ValueReader& reader, Network& network) {
   Fields fields(value, reader);
   const std::pair<const char*, Reference*> kFiles[] = {{"certificate", &network.certificate},
@@ -29,9 +30,9 @@ void read_tls(const Value& value, const ValueReader& reader, Network& network) {
   for (const auto& [key, file] : kFiles) {
     const Value* const given = fields.take(key);
     read_path(given, std::string(key) + " of tls", reader, *file);
-    if (given == nullptr) {
+    if (given == nullptr && file != &network.authority) {
       reader.error(value.where, "tls has no '" + std::string(key) + "'",
-                   "it needs the files certificate, key and authority");
+                   "it needs the files certificate and key, and for tls:// the authority");
     }
   }
   fields.refuse_others();

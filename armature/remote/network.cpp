@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/remote/network.hpp"
 
-#include <algorithm>
 #include <mutex>
 #include <utility>
 
-#include "armature/base/near_name.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/exec/inlets.hpp"
 #include "armature/remote/control_queue.hpp"
 #include "armature/remote/exported_component.hpp"
 #include "armature/remote/inspector.hpp"
 #include "armature/remote/internal/described_component.hpp"
+#include "armature/remote/internal/transports.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/policy.hpp"
@@ -19,16 +18,8 @@
 namespace armature::remote {
 namespace {
 
-/// Pages come over ws, and nobody is reached by it.
-const std::vector<std::string> kTransports{"tcp", "unix", "tls", "ws"};
+/// Nobody is reached by what pages come over.
 const std::vector<std::string> kTransportsToOthers{"tcp", "unix", "tls"};
-
-base::Result<void> check_transport(const ride::Address& address,
-                                   const std::vector<std::string>& known) {
-  if (std::ranges::find(known, address.scheme) != known.end()) return {};
-  return base::Error{"'" + address.text() + "' has the unknown transport '" + address.scheme +
-                     "' (" + base::suggestion(address.scheme, known).text + ")"};
-}
 
 /// Of `tcp://host:port/Name`.
 struct RemoteAddress {
@@ -48,7 +39,7 @@ base::Result<RemoteAddress> parse_remote(const std::string& text) {
   RemoteAddress remote{text.substr(0, slash), text.substr(slash + 1)};
   const auto address = ride::Address::parse(remote.peer);
   if (!address) return base::Error{address.error()};
-  if (const auto known = check_transport(address.value(), kTransportsToOthers); !known) {
+  if (const auto known = internal::check_transport(address.value(), kTransportsToOthers); !known) {
     return base::Error{known.error()};
   }
   return remote;
@@ -92,11 +83,8 @@ class RideNetwork final : public Network {
 
   void check(const document::Document& document, base::Diagnostics& diagnostics) override {
     ride::NodeOptions options;
-    set_transports(document, options, diagnostics);
+    internal::set_transports(document, document.network.listen, options_, options, diagnostics);
     set_policy(document, options, diagnostics);
-    for (const document::Reference& each : document.network.listen) {
-      check_means(each, document.network, options, diagnostics);
-    }
     set_serving(document, options, diagnostics);
   }
 
@@ -111,22 +99,15 @@ class RideNetwork final : public Network {
       options.limits.memory_bytes = static_cast<std::size_t>(*memory) * 1000;
     }
     base::Diagnostics found;
-    set_transports(document, options, found);
+    std::vector<document::Reference> addresses = document.network.listen;
+    for (const std::string& each : listen) addresses.push_back({each, {}});
+    internal::set_transports(document, addresses, options_, options, found);
     set_policy(document, options, found);
     set_serving(document, options, found);
-    for (const document::Reference& each : document.network.listen) {
-      check_means(each, document.network, options, found);
-    }
-    for (const std::string& each : listen) {
-      check_means({each, {}}, document.network, options, found);
-    }
     if (found.ok()) {
       node_ = std::make_unique<ride::Node>(std::move(options));
-      if (!listen.empty() || !document.network.listen.empty()) host(application, found);
-      for (const document::Reference& each : document.network.listen) {
-        listen_at(each.name, each.where, found);
-      }
-      for (const std::string& each : listen) listen_at(each, {}, found);
+      if (!addresses.empty()) host(application, found);
+      for (const document::Reference& each : addresses) listen_at(each.name, each.where, found);
     }
     if (!found.ok()) {
       leave();
@@ -160,32 +141,6 @@ class RideNetwork final : public Network {
   }
 
  private:
-  /// An address to listen at, and what its transport needs beside it.
-  static void check_means(const document::Reference& written, const document::Network& network,
-                          const ride::NodeOptions& options, base::Diagnostics& diagnostics) {
-    const auto parsed = ride::Address::parse(written.name);
-    if (!parsed) return diagnostics.error(written.where, parsed.error());
-    const ride::Address& address = parsed.value();
-    if (const auto known = check_transport(address, kTransports); !known) {
-      return diagnostics.error(written.where, known.error());
-    }
-    if (address.scheme == "tls" && network.certificate.name.empty()) {
-      diagnostics.error(written.where, "'" + written.name + "' needs certificates",
-                        "add tls: {certificate: ..., key: ..., authority: ...} to network");
-    }
-    if (address.scheme != "ws") return;
-    if (network.pages.name.empty()) {
-      diagnostics.error(written.where, "'" + written.name + "' has no pages to serve",
-                        "add pages: FOLDER to network");
-    }
-    for (const auto& transport : options.transports) {
-      if (transport->scheme() != "ws" || transport->safe(address)) continue;
-      diagnostics.error(written.where,
-                        "'" + written.name + "': pages are served to this machine only",
-                        "listen at ws://127.0.0.1:8080 or ws://[::1]:8080");
-    }
-  }
-
   struct Hosted {
     std::unique_ptr<InterfaceNumbers> numbers;
     std::unique_ptr<ExportedComponent> service;
@@ -217,31 +172,6 @@ class RideNetwork final : public Network {
   ride::Node& node() {
     if (node_ == nullptr) node_ = std::make_unique<ride::Node>();
     return *node_;
-  }
-
-  void set_transports(const document::Document& document, ride::NodeOptions& options,
-                      base::Diagnostics& diagnostics) {
-    document::Network network = document.network;
-    if (!network.pages.name.empty()) set_pages(document, options, diagnostics);
-    if (network.certificate.name.empty()) return;
-    for (document::Reference* file : {&network.certificate, &network.key, &network.authority}) {
-      file->name = document::path_from(document, file->name);
-    }
-    if (auto transport = options_.tls(network, diagnostics)) {
-      options.transports.push_back(std::move(transport));
-    }
-  }
-
-  void set_pages(const document::Document& document, ride::NodeOptions& options,
-                 base::Diagnostics& diagnostics) {
-    const document::Reference& pages = document.network.pages;
-    base::Diagnostics found;
-    if (auto transport = options_.web(document::path_from(document, pages.name), found)) {
-      options.transports.push_back(std::move(transport));
-    }
-    for (const base::Diagnostic& each : found.all()) {
-      diagnostics.error(pages.where, each.message, each.hint);
-    }
   }
 
   /// Without a policy whoever reaches the node may look, and do nothing.

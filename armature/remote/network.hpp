@@ -17,10 +17,13 @@ namespace armature::remote {
 
 /// What a process's part in the network needs beside the deployment.
 struct NetworkOptions {
-  /// Makes the transport for `tls://`; what is wrong is added to the diagnostics.
-  std::function<std::shared_ptr<ride::Transport>(const document::Network&, base::Diagnostics&)> tls;
-  /// Makes the transport for `ws://`, which serves this folder.
-  std::function<std::shared_ptr<ride::Transport>(const std::string&, base::Diagnostics&)> web;
+  /// Makes a transport with the files that the network names; what is wrong is added to the
+  /// diagnostics.
+  using MakeTransport =
+      std::function<std::shared_ptr<ride::Transport>(const document::Network&, base::Diagnostics&)>;
+  MakeTransport tls;  ///< for `tls://`
+  MakeTransport
+      web;  ///< for `ws://`, which serves the folder of pages; with a certificate `wss://`
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
   std::string policy{};  ///< a file with rules beside those of the deployment; empty: none
 };

@@ -13,8 +13,8 @@ std::string who(const AccessQuestion& question) {
     return here ? "local" : "nobody@" + std::string(question.transport);
   }
   if (question.transport == "unix") return "local:" + std::string(question.identity);
-  const std::string_view where = question.transport == "ws" ? "web" : question.transport;
-  return std::string(question.identity) + "@" + std::string(where);
+  const bool page = question.transport == "ws" || question.transport == "wss";
+  return std::string(question.identity) + "@" + std::string(page ? "web" : question.transport);
 }
 
 Node::Node(NodeOptions options)

@@ -169,7 +169,9 @@ std::unique_ptr<Server> Server::make(const ServerOptions& options, base::Diagnos
     diagnostics.error({}, "another studio has '" + options.file + "' open: " + lock.error());
   auto poller = platform::Poller::make();
   if (!poller) diagnostics.error({}, poller.error());
-  auto transport = websocket::make_transport({.pages = options.pages}, diagnostics);
+  auto transport = websocket::make_transport(
+      {.pages = options.pages, .certificate = options.certificate, .key = options.key},
+      diagnostics);
   ride::NodeOptions node;
   node.name = "studio";
   node.log = options.log;

@@ -15,12 +15,14 @@ namespace armature::studio {
 
 /// What a studio works on, and where it listens.
 struct ServerOptions {
-  std::string file;     ///< the deployment; it need not be there yet
-  std::string listen;   ///< `ws://127.0.0.1:8080`
-  std::string pages;    ///< the folder with the studio's page
-  std::string policy;   ///< of who may do what; empty: whoever opens the page may do all
-  std::string folder;   ///< for what a studio leaves, of all deployments
-  std::string program;  ///< `armature`, for checks and runs
+  std::string file;         ///< the deployment; it need not be there yet
+  std::string listen;       ///< `ws://127.0.0.1:8080`, or with a certificate `wss://0.0.0.0:8443`
+  std::string certificate;  ///< file in PEM form; empty: nothing is encrypted
+  std::string key;          ///< its private key
+  std::string pages;        ///< the folder with the studio's page
+  std::string policy;       ///< of who may do what; empty: whoever opens the page may do all
+  std::string folder;       ///< for what a studio leaves, of all deployments
+  std::string program;      ///< `armature`, for checks and runs
   std::vector<std::string> arguments;             ///< of both, behind the file's name
   std::function<void(const rt::LogRecord&)> log;  ///< called by any thread
 };

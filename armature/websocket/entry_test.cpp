@@ -8,8 +8,10 @@ namespace armature::websocket::internal {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
-const Entry kEntry(8080, "token", "pass");
+const Entry kEntry({.port = 8080}, "token", "pass");
+const Entry kEncrypted({{"robot.lab", "[fe80::1]"}, 8443, true}, "token", "pass");
 
 TEST(Entry, KnowsTheNamesOfThisMachineWithItsPort) {
   for (const char* host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080"}) {
@@ -29,6 +31,37 @@ TEST(Entry, APageIsItsOwnIfItCameFromTheAddressItAsks) {
     EXPECT_FALSE(kEntry.is_own_page({.host = "localhost:8080", .origin = origin})) << origin;
   }
   EXPECT_FALSE(kEntry.is_own_page({.host = "evil.example", .origin = "http://evil.example"}));
+}
+
+TEST(Entry, WithACertificateItHasTheNamesOfThatAndNoOthers) {
+  for (const char* host : {"robot.lab:8443", "[fe80::1]:8443"}) {
+    EXPECT_TRUE(kEncrypted.knows_host({.host = host})) << host;
+  }
+  for (const char* host : {"robot.lab", "localhost:8443", "127.0.0.1:8443", "a.robot.lab:8443"}) {
+    EXPECT_FALSE(kEncrypted.knows_host({.host = host})) << host;
+  }
+  EXPECT_TRUE(
+      kEncrypted.is_own_page({.host = "robot.lab:8443", .origin = "https://robot.lab:8443"}));
+  EXPECT_FALSE(
+      kEncrypted.is_own_page({.host = "robot.lab:8443", .origin = "http://robot.lab:8443"}));
+}
+
+TEST(Entry, BrowsersLeaveOutTheUsualPort) {
+  const Entry usual({{"robot.lab"}, 443, true}, "token", "pass");
+  EXPECT_TRUE(usual.knows_host({.host = "robot.lab"}));
+  EXPECT_FALSE(usual.knows_host({.host = "robot.lab:443"}));
+  EXPECT_EQ(usual.url("0.0.0.0"), "https://robot.lab/#token");
+}
+
+TEST(Entry, IsOpenedByTheNameItListensAtIfThatIsOneOfIts) {
+  EXPECT_EQ(kEntry.url("[::1]"), "http://[::1]:8080/#token");
+  EXPECT_EQ(kEncrypted.url("[fe80::1]"), "https://[fe80::1]:8443/#token");
+  EXPECT_EQ(kEncrypted.url("0.0.0.0"), "https://robot.lab:8443/#token");
+}
+
+TEST(Entry, ACookieFromAnEncryptedAddressGoesToNoOther) {
+  EXPECT_THAT(kEncrypted.cookie(), HasSubstr("; Secure"));
+  EXPECT_THAT(kEntry.cookie(), Not(HasSubstr("Secure")));
 }
 
 TEST(Entry, TheTokenIsWholeAndExact) {

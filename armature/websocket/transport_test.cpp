@@ -72,7 +72,7 @@ TEST_F(WebTransport, IsSafeOnLoopbackOnlyAndListensNowhereElse) {
   EXPECT_FALSE(transport_->safe({"ws", "0.0.0.0", 1}));
   const auto refused = transport_->listen({"ws", "0.0.0.0", 0});
   ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error(), HasSubstr("listen at 127.0.0.1 or ::1"));
+  EXPECT_THAT(refused.error(), HasSubstr("listen at 127.0.0.1 or ::1, or at wss://"));
 }
 
 TEST_F(WebTransport, TellsAnAddressWithATokenOfItsOwn) {

@@ -64,7 +64,7 @@ TEST(RemoteDeployment, WhoServesOthersHoldsUpNobodyHere) {
 
 TEST(RemoteDeployment, UnknownTransportsAreToldWithTheKnownOnes) {
   const Process wrong(
-      R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243", "ws://127.0.0.1:8080"]}
+      R"(network: {listen: ["http://127.0.0.1:80", "tls://127.0.0.1:4243", "ws://127.0.0.1:8080", "wss://0.0.0.0:8443"]}
 components:
   Axis: {model: Axis, activity: {periodic: 2 ms}}
   A: {model: Axis, remote: "https://127.0.0.1:443/Axis"}
@@ -74,11 +74,25 @@ components:
   wrong.network_->check(wrong.deployment.document, diagnostics);
   const std::string text = diagnostics.to_text();
   EXPECT_THAT(text, HasSubstr("'http://127.0.0.1:80' has the unknown transport 'http' (known: "));
-  EXPECT_THAT(text, HasSubstr("tcp, unix, tls, ws"));
+  EXPECT_THAT(text, HasSubstr("tcp, unix, tls, ws, wss"));
   EXPECT_THAT(text, HasSubstr("unknown transport 'https'"));
   EXPECT_THAT(text, HasSubstr("unknown transport 'ws'"));  // nobody is reached by it
   EXPECT_THAT(text, HasSubstr("'tls://127.0.0.1:4243' needs certificates"));
   EXPECT_THAT(text, HasSubstr("'ws://127.0.0.1:8080' has no pages to serve"));
+  EXPECT_THAT(text, HasSubstr("'wss://0.0.0.0:8443' needs a certificate"));
+  EXPECT_THAT(text, HasSubstr("'wss://0.0.0.0:8443' has no pages to serve"));
+}
+
+TEST(RemoteDeployment, PagesNeedNoAuthorityAndProgramsDo) {
+  const Process wrong(
+      R"(network: {listen: ["tls://127.0.0.1:4243"], tls: {certificate: a.pem, key: a.key}}
+components:
+  Axis: {model: Axis, activity: {periodic: 2 ms}}
+)");
+  base::Diagnostics diagnostics = wrong.deployment.diagnostics;
+  ASSERT_TRUE(diagnostics.ok()) << diagnostics.to_text();
+  wrong.network_->check(wrong.deployment.document, diagnostics);
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("'tls://127.0.0.1:4243' needs certificates"));
 }
 
 }  // namespace

@@ -65,6 +65,12 @@ base::Error not_numeric(const std::string& host) {
 }
 
 /// `127.0.0.1:4242`; of a socket file its path is all there is.
+std::string host_of(const SocketAddress& address) {
+  char host[NI_MAXHOST] = "";
+  ::getnameinfo(address.raw(), address.size, host, sizeof host, nullptr, 0, NI_NUMERICHOST);
+  return host;
+}
+
 std::string text_of(const SocketAddress& address) {
   char host[NI_MAXHOST] = "";
   char port[NI_MAXSERV] = "";
@@ -328,6 +334,11 @@ std::unique_ptr<StreamSocket> StreamListener::accept() {
 }
 
 int another_handle(int handle) { return ::fcntl(handle, F_DUPFD_CLOEXEC, 0); }
+
+std::string shortest_address(const std::string& host) {
+  const auto address = numeric_address(host, 0);
+  return address ? host_of(*address) : host;
+}
 
 base::Result<std::string> look_up(const std::string& host) {
   if (numeric_address(host, 0)) return host;

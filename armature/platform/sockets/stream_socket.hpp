@@ -115,6 +115,9 @@ class StreamListener {
 /// none left.
 int another_handle(int handle);
 
+/// A numeric address as it is usually written: `::1` for `0:0:0:0:0:0:0:1`. A name stays.
+std::string shortest_address(const std::string& host);
+
 /// The numeric address of a host; waits for the name service if it is not numeric.
 base::Result<std::string> look_up(const std::string& host);
 

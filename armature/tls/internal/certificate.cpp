@@ -65,13 +65,13 @@ std::string text_of_address(const ASN1_OCTET_STRING* address) {
   return result;
 }
 
+}  // namespace
+
 bool can_be_named(std::string_view name) {
   constexpr std::size_t kMostLetters = 64;
   return !name.empty() && name.size() <= kMostLetters &&
          std::ranges::all_of(name, [](char c) { return c > 0x20 && c < 0x7f; });
 }
-
-}  // namespace
 
 std::string identity_of(const X509& certificate) {
   std::string_view name = common_name_in(X509_get_subject_name(&certificate));
@@ -83,15 +83,22 @@ std::string identity_of(const X509& certificate) {
   return can_be_named(name) ? std::string(name) : std::string();
 }
 
-std::string names_of(const X509& certificate) {
+std::vector<std::string> all_names_of(const X509& certificate) {
   const NamesPointer names = alternative_names(certificate);
-  std::string all;
+  std::vector<std::string> all;
   for (int i = 0; i < sk_GENERAL_NAME_num(names.get()); ++i) {
     const GENERAL_NAME* const name = sk_GENERAL_NAME_value(names.get(), i);
-    const bool is_address = name->type == GEN_IPADD;
-    if (!is_address && name->type != GEN_DNS) continue;
+    if (name->type == GEN_IPADD) all.push_back(text_of_address(name->d.iPAddress));
+    if (name->type == GEN_DNS) all.emplace_back(view_of(name->d.dNSName));
+  }
+  return all;
+}
+
+std::string names_of(const X509& certificate) {
+  std::string all;
+  for (const std::string& name : all_names_of(certificate)) {
     all += all.empty() ? "" : ", ";
-    all += is_address ? text_of_address(name->d.iPAddress) : shown(view_of(name->d.dNSName));
+    all += shown(name);
   }
   return all;
 }

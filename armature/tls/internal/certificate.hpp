@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/tls/internal/openssl.hpp"
@@ -12,7 +13,12 @@ namespace armature::tls::internal {
 /// that a policy could not name: printable ASCII without spaces is expected, at most 64 letters.
 std::string identity_of(const X509& certificate);
 
-/// The names and addresses that it is for: `robot.example, 192.168.1.5`.
+/// Printable ASCII without spaces, at most 64 letters.
+bool can_be_named(std::string_view name);
+
+/// The names and addresses that it is for, whole, in its order.
+std::vector<std::string> all_names_of(const X509& certificate);
+/// The same to be read: `robot.example, 192.168.1.5`.
 std::string names_of(const X509& certificate);
 
 /// How a person knows it: its common name, or its whole subject.

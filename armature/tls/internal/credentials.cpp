@@ -12,7 +12,9 @@
 #include <openssl/x509v3.h>
 
 #include "armature/platform/file.hpp"
+#include "armature/platform/sockets/stream_socket.hpp"
 #include "armature/tls/internal/certificate.hpp"
+#include "armature/tls/server_files.hpp"
 
 namespace armature::tls::internal {
 namespace {
@@ -58,10 +60,10 @@ class Files {
     return key;
   }
 
-  void check_pair(const Options& options, const X509& certificate, const EVP_PKEY& key) {
+  void check_pair(const ServerFiles& files, const X509& certificate, const EVP_PKEY& key) {
     if (X509_check_private_key(&certificate, &key) != 1) {
       ERR_clear_error();
-      wrong(options.key, "the key does not fit the certificate " + options.certificate,
+      wrong(files.key, "the key does not fit the certificate " + files.certificate,
             "each certificate has a key of its own, made with it");
     }
   }
@@ -70,6 +72,20 @@ class Files {
     if (!identity_of(certificate).empty()) return;
     wrong(path, "the certificate has no usable common name or DNS name",
           "a name is printable ASCII without spaces, at most 64 letters: -subj /CN=robot");
+  }
+
+  /// Browsers look at no common name.
+  std::vector<std::string> own_names(const std::string& path, const X509& certificate) {
+    std::vector<std::string> names;
+    for (const std::string& name : all_names_of(certificate)) {
+      if (!can_be_named(name) || name.front() == '*') continue;
+      names.push_back(platform::shortest_address(name));
+    }
+    if (names.empty()) {
+      wrong(path, "the certificate is for no name and no address by which a page could be reached",
+            "-addext subjectAltName=DNS:robot.lab,IP:192.168.1.5");
+    }
+    return names;
   }
 
   void check_authority(const std::string& path, const X509& certificate) {
@@ -156,7 +172,8 @@ ContextPointer make_context(const Options& options, base::Diagnostics& diagnosti
   const KeyPointer key = files.key(options.key);
   const Certificates authorities = files.certificates(options.authority, "the authority");
   if (!chain.empty()) files.check_identity(options.certificate, *chain.front());
-  if (!chain.empty() && key) files.check_pair(options, *chain.front(), *key);
+  if (!chain.empty() && key)
+    files.check_pair({options.certificate, options.key}, *chain.front(), *key);
   for (const auto& authority : authorities) files.check_authority(options.authority, *authority);
   if (diagnostics.error_count() != before) return nullptr;
 
@@ -176,3 +193,18 @@ ContextPointer make_context(const Options& options, base::Diagnostics& diagnosti
 }
 
 }  // namespace armature::tls::internal
+
+namespace armature::tls {
+
+std::vector<std::string> check_server_files(const ServerFiles& given,
+                                            base::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.error_count();
+  internal::Files files(diagnostics);
+  const auto chain = files.certificates(given.certificate, "the certificate");
+  const auto key = files.key(given.key);
+  if (!chain.empty() && key) files.check_pair(given, *chain.front(), *key);
+  if (diagnostics.error_count() != before) return {};
+  return files.own_names(given.certificate, *chain.front());
+}
+
+}  // namespace armature::tls

@@ -8,10 +8,16 @@
 namespace armature::websocket::internal {
 namespace {
 
-constexpr std::string_view kHosts[] = {"127.0.0.1", "localhost", "[::1]"};
-
 /// The cookie's name has the port, since browsers give all ports of a host the same cookies.
-std::string cookie_name(const std::string& port) { return "armature-" + port; }
+std::string cookie_name(std::uint16_t port) { return "armature-" + std::to_string(port); }
+
+/// Browsers leave out the usual one.
+std::string shown_port(const Names& names) {
+  const std::uint16_t usual = names.encrypted ? 443 : 80;
+  return names.port == usual ? std::string() : ":" + std::to_string(names.port);
+}
+
+std::string scheme(const Names& names) { return names.encrypted ? "https://" : "http://"; }
 
 }  // namespace
 
@@ -24,17 +30,16 @@ bool is_same_secret(std::string_view given, std::string_view secret) {
   return difference == 0;
 }
 
-Entry::Entry(std::uint16_t port, std::string token, std::string pass)
-    : port_(std::to_string(port)), token_(std::move(token)), pass_(std::move(pass)) {}
+Entry::Entry(const Names& names, std::string token, std::string pass)
+    : names_(names), port_(shown_port(names)), token_(std::move(token)), pass_(std::move(pass)) {}
 
 bool Entry::knows_host(const Visitor& visitor) const {
-  return std::ranges::any_of(kHosts, [&](std::string_view host) {
-    return visitor.host == std::string(host) + ":" + port_;
-  });
+  return std::ranges::any_of(names_.hosts,
+                             [&](const std::string& host) { return visitor.host == host + port_; });
 }
 
 bool Entry::is_own_page(const Visitor& visitor) const {
-  return knows_host(visitor) && visitor.origin == "http://" + visitor.host;
+  return knows_host(visitor) && visitor.origin == scheme(names_) + visitor.host;
 }
 
 bool Entry::has_token(const Visitor& visitor) const {
@@ -44,7 +49,7 @@ bool Entry::has_token(const Visitor& visitor) const {
 }
 
 bool Entry::has_pass(const Visitor& visitor) const {
-  const std::string begin = cookie_name(port_) + "=";
+  const std::string begin = cookie_name(names_.port) + "=";
   std::string_view left = visitor.cookie;
   while (!left.empty()) {
     const std::size_t end = std::min(left.find(';'), left.size());
@@ -57,12 +62,20 @@ bool Entry::has_pass(const Visitor& visitor) const {
 }
 
 std::string Entry::cookie() const {
-  return cookie_name(port_) + "=" + pass_ + "; HttpOnly; SameSite=Strict; Path=/";
+  return cookie_name(names_.port) + "=" + pass_ + "; HttpOnly; SameSite=Strict; Path=/" +
+         (names_.encrypted ? "; Secure" : "");
+}
+
+std::string Entry::url(const std::string& preferred) const {
+  const bool known = std::ranges::count(names_.hosts, preferred) > 0;
+  return scheme(names_) + (known ? preferred : names_.hosts.front()) + port_ + "/#" + token_;
 }
 
 std::string Entry::content_policy() const {
-  return "default-src 'self'; connect-src 'self' ws://127.0.0.1:" + port_ +
-         " ws://localhost:" + port_ +
+  // Not every browser takes sockets without encryption for those of the page's own address.
+  const std::string sockets =
+      names_.encrypted ? "" : " ws://127.0.0.1" + port_ + " ws://localhost" + port_;
+  return "default-src 'self'; connect-src 'self'" + sockets +
          "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/websocket/internal/server.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 #include "armature/ride/socket_connection.hpp"
@@ -28,17 +30,49 @@ const lws_protocol_vhost_options* headers(const std::string& content_policy,
   return room.data();
 }
 
+bool is_encrypted(const Options& options) { return !options.certificate.empty(); }
+
+/// TLS 1.3 alone, and no session is taken up again. The files have been looked at.
+void encrypt(const Options& options, lws_context_creation_info& info) {
+  info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+  info.alpn = "http/1.1";  // HTTP/2, which browsers prefer, has other headers and other sockets
+  info.ssl_cert_filepath = options.certificate.c_str();
+  info.ssl_private_key_filepath = options.key.c_str();
+  info.ssl_options_set =
+      SSL_OP_NO_SSLv3 | SSL_OP_NO_TLSv1 | SSL_OP_NO_TLSv1_1 | SSL_OP_NO_TLSv1_2 | SSL_OP_NO_TICKET;
+}
+
+/// As addresses of pages have it.
+std::string in_brackets(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
+Names names(const Options& options, const std::vector<std::string>& hosts, std::uint16_t port) {
+  Names names;
+  names.port = port;
+  names.encrypted = is_encrypted(options);
+  if (!names.encrypted) return names;
+  names.hosts.clear();
+  for (std::string host : hosts) {
+    std::ranges::transform(host, host.begin(),
+                           [](unsigned char letter) { return std::tolower(letter); });
+    names.hosts.push_back(in_brackets(host));
+  }
+  return names;
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<Server>> Server::listen(const ride::Address& address,
-                                                     const Options& options, const Pages& pages) {
+                                                     const Options& options, const Pages& pages,
+                                                     const std::vector<std::string>& hosts) {
   auto listener = StreamListener::listen_tcp(address.host, address.port);
   if (!listener) return base::Error{listener.error()};
   ride::Address got = address;
   got.port = listener.value()->port();
   auto server = std::unique_ptr<Server>(
       new Server(std::move(listener).value(), std::move(got), options, pages));
-  if (const auto begun = server->begin(); !begun) {
+  if (const auto begun = server->begin(hosts); !begun) {
     return base::Error{"'" + address.text() + "': " + begun.error()};
   }
   return server;
@@ -58,11 +92,11 @@ Server::~Server() {
   if (context_ != nullptr) lws_context_destroy(context_);
 }
 
-base::Result<void> Server::begin() {
+base::Result<void> Server::begin(const std::vector<std::string>& hosts) {
   auto bell = StreamSocket::make_pair("a page");
   if (!bell) return base::Error{bell.error()};
   std::tie(bell_, ringer_) = std::move(bell).value();
-  if (const auto made = make_context(); !made) return made;
+  if (const auto made = make_context(hosts); !made) return made;
   lws_sock_file_fd_type descriptor{};
   descriptor.filefd = platform::another_handle(listener_->handle());
   listening_ =
@@ -74,7 +108,7 @@ base::Result<void> Server::begin() {
   return {};
 }
 
-base::Result<void> Server::make_context() {
+base::Result<void> Server::make_context(const std::vector<std::string>& hosts) {
   lws_set_log_level(0, nullptr);
   static const lws_protocols kProtocols[] = {{"ride", &Server::told, 0, 16 * 1024, 0, nullptr, 0},
                                              {nullptr, nullptr, 0, 0, 0, nullptr, 0}};
@@ -84,6 +118,7 @@ base::Result<void> Server::make_context() {
   info.user = this;
   info.gid = info.uid = static_cast<decltype(info.uid)>(-1);
   info.options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS;
+  if (is_encrypted(options_)) encrypt(options_, info);
   info.fd_limit_per_thread = static_cast<unsigned>(2 * options_.connections) + kHandlesBeside;
   info.timeout_secs = info.keepalive_timeout = kMostSeconds;
   context_ = lws_create_context(&info);
@@ -91,7 +126,8 @@ base::Result<void> Server::make_context() {
   auto token = secret();
   auto pass = secret();
   if (!token || !pass) return base::Error{token ? pass.error() : token.error()};
-  entry_.emplace(address_.port, std::move(token).value(), std::move(pass).value());
+  entry_.emplace(names(options_, hosts, address_.port), std::move(token).value(),
+                 std::move(pass).value());
   content_policy_ = entry_->content_policy();
   info.headers = headers(content_policy_, header_room_);
   vhost_ = lws_create_vhost(context_, &info);
@@ -113,11 +149,7 @@ base::Result<std::string> Server::secret() const {
   return text;
 }
 
-std::string Server::url() const {
-  const bool version_6 = address_.host.find(':') != std::string::npos;
-  return "http://" + (version_6 ? "[" + address_.host + "]" : address_.host) + ":" +
-         std::to_string(address_.port) + "/#" + entry_->token();
-}
+std::string Server::url() const { return entry_->url(in_brackets(address_.host)); }
 
 void Server::run() {
   while (!ends_ && lws_service(context_, 0) >= 0) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <libwebsockets.h>
 
@@ -29,8 +30,10 @@ namespace armature::websocket::internal {
 /// library runs in a thread of its own; connections are handed to the node's.
 class Server final : public ride::Listener {
  public:
+  /// @param hosts  by which it is reached, if the options have a certificate: those that it is for
   static base::Result<std::unique_ptr<Server>> listen(const ride::Address& address,
-                                                      const Options& options, const Pages& pages);
+                                                      const Options& options, const Pages& pages,
+                                                      const std::vector<std::string>& hosts = {});
   ~Server() override;
 
   int handle() const override { return bell_->handle(); }
@@ -44,8 +47,8 @@ class Server final : public ride::Listener {
  private:
   Server(std::unique_ptr<platform::StreamListener> listener, ride::Address address,
          const Options& options, const Pages& pages);
-  base::Result<void> begin();
-  base::Result<void> make_context();
+  base::Result<void> begin(const std::vector<std::string>& hosts);
+  base::Result<void> make_context(const std::vector<std::string>& hosts);
   base::Result<std::string> secret() const;
   void run();
 

@@ -20,6 +20,6 @@ export { websocket } from "./websocket.ts";
  */
 export async function connectPage(options?: PeerOptions): Promise<Peer> {
   await enter();
-  const address = `ws://${location.host}/`;
+  const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/`;
   return new Peer(address, websocket(address), options).connected();
 }

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+
+namespace armature::tls {
+
+/// Files in PEM form by which a server proves who it is to those that have no certificate
+/// themselves, such as browsers.
+struct ServerFiles {
+  std::string certificate;  ///< those of authorities between it and the root follow it
+  std::string key;          ///< its private key, without a password
+};
+
+/// Looks at files that another library is going to serve with.
+/// @param diagnostics  every mistake in them: missing, no PEM, expired, a key that does not fit, no
+///   name; warned of: a key that others may read
+/// @return the names and addresses that the certificate is for, in its order, without those that
+///   stand for many (`*.lab`); empty after an error
+/// @thread any
+std::vector<std::string> check_server_files(const ServerFiles& files,
+                                            base::Diagnostics& diagnostics);
+
+}  // namespace armature::tls
