@@ -91,9 +91,12 @@ export const bool: Type<boolean> = {
   },
 };
 
+/** Half of a pair of UTF-16, which UTF-8 has no bytes for. */
+const kHalfLetter = /\p{Surrogate}/u;
+
 export const string: Type<string> = {
   put(to, value) {
-    if (typeof value !== "string" || !value.isWellFormed()) throw unfit(value, "a text");
+    if (typeof value !== "string" || kHalfLetter.test(value)) throw unfit(value, "a text");
     to.text(value);
   },
   take: (from) => from.text(),

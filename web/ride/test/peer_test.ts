@@ -6,6 +6,7 @@ import * as ride from "../src/ride.ts";
 import { encode, Kind } from "../src/wire.ts";
 import { encoded } from "./bytes.ts";
 import { kDigest, NodeDouble, settle } from "./node_double.ts";
+import { go_on, stop_time, tick } from "./stopped_time.ts";
 
 const Blink = ride.event<{ count: number }>("Blink", 0xb11, { count: ride.int });
 
@@ -33,7 +34,7 @@ function blink(count: number): Uint8Array {
 
 async function pass(ms: number): Promise<void> {
   for (let at = 0; at < ms; at += 10) {
-    mock.timers.tick(10);
+    tick(10);
     await settle();
   }
 }
@@ -47,8 +48,8 @@ function fails(promise: Promise<unknown>, code: number, text: RegExp): Promise<v
   });
 }
 
-beforeEach(() => mock.timers.enable({ apis: ["setTimeout", "setInterval", "Date"] }));
-afterEach(() => mock.timers.reset());
+beforeEach(stop_time);
+afterEach(go_on);
 
 test("It says who it is, finds its component, asks and gets the answer", async () => {
   const node = new NodeDouble();
