@@ -44,7 +44,7 @@ function(armature_idl)
     list(TRANSFORM generated PREPEND ${folder}/)
     add_custom_command(
       OUTPUT ${generated}
-      COMMAND $<TARGET_FILE:armature::rcidl> ${idl} --out ${folder} --depends
+      COMMAND armature::rcidl ${idl} --out ${folder} --depends
               ${folder}/${stem}.d ${options}
       DEPENDS ${idl} $<TARGET_FILE:armature::rcidl>
       DEPFILE ${folder}/${stem}.d

@@ -13,7 +13,7 @@ namespace {
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool begins_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool continues_word(char c) { return begins_word(c) || is_digit(c); }
-bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (is_control(text.back()) || text.back() == ' ')) text.remove_suffix(1);

@@ -105,22 +105,14 @@ class Maker {
   /// False if the programs of the bundle cannot run here.
   bool add_emulator(std::vector<std::string>& words) {
     const std::string emulator(plan_.architecture->emulator);
-    const std::string libraries = "/usr/" + std::string(plan_.architecture->folder);
-    const bool with_libraries = fs::exists(libraries + "/lib");
-    std::string missing;
-    for (const std::string& library : plan_.missing) {
-      if (!fs::exists(libraries + "/lib/" + library)) missing = library;
-    }
-    if (!fs::exists(emulator)) missing = emulator + " (apt install qemu-user)";
-    if (!missing.empty()) {
+    if (plan_.system.empty()) return false;
+    if (!fs::exists(emulator)) {
       diagnostics_.note(
           {}, "the bundle was not checked by its own program, since this machine has no " +
-                  missing + " for " + std::string(plan_.architecture->name) +
-                  ": run bin/armature check on the target");
+                  emulator + ": apt install qemu-user, or run bin/armature check on the target");
       return false;
     }
-    words.push_back(emulator);
-    if (with_libraries) words.insert(words.end(), {"-L", libraries});
+    words.insert(words.end(), {emulator, "-L", plan_.system});
     return true;
   }
 

@@ -21,8 +21,11 @@ struct BundleRequest {
   bool package = false;      ///< a Debian package in place of a folder
   std::string architecture;  ///< as Debian calls it; empty: this machine's
   std::string installation;  ///< folder of an installed Armature; empty: that of `program`
-  std::string program;       ///< `armature` that runs
-  std::string version;       ///< of it
+  /// Root of a system for the target, such as scripts/sysroot makes, where the bundle checks itself
+  /// in emulation; empty: what cross compilers have brought.
+  std::string system;
+  std::string program;            ///< `armature` that runs
+  std::string version;            ///< of it
   std::function<bool()> stopped;  ///< whether somebody wants it no more
 };
 

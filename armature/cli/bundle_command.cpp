@@ -94,6 +94,11 @@ void add_bundle(const CommandLine& to) {
       ->add_option("--installation", request.installation,
                    "an installed Armature for the target; that of this program unless given")
       ->type_name("FOLDER");
+  command
+      ->add_option(
+          "--system", request.system,
+          "the root of a Debian for the target, where the bundle checks itself in emulation")
+      ->type_name("FOLDER");
 }
 
 }  // namespace armature::cli

@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using document::path_in_quotes;
 
+using namespace std::string_literals;
+
 constexpr std::string_view kProgram = "bin/armature";
 constexpr std::string_view kGuardian = "bin/armature-guardian";
 constexpr std::string_view kOrigin = "$ORIGIN";
@@ -28,15 +30,6 @@ bool is_installed(const std::string& file) {
 }
 
 bool is_of_armature(std::string_view library) { return library.starts_with("libarmature_"); }
-
-/// Where the system's loader finds it without being told.
-std::string system_file(const std::string& library, const Architecture& architecture) {
-  for (const std::string& folder : {"/lib/" + std::string(architecture.folder),
-                                    "/usr/lib/" + std::string(architecture.folder)}) {
-    if (std::string file = folder + "/" + library; is_installed(file)) return file;
-  }
-  return {};
-}
 
 /// Follows what files need, each once.
 class Search {
@@ -107,7 +100,7 @@ class Search {
       if (is_of_armature(library)) {
         add_library(library, file);
       } else {
-        found_.system.emplace(library, system_file(library, architecture_));
+        found_.system.emplace(library, system_file("", library, architecture_));
       }
     }
   }
@@ -133,6 +126,15 @@ class Search {
 };
 
 }  // namespace
+
+std::string system_file(const std::string& root, const std::string& library,
+                        const Architecture& architecture) {
+  for (const std::string& folder : {"/lib/" + std::string(architecture.folder),
+                                    "/usr/lib/" + std::string(architecture.folder), "/lib"s}) {
+    if (std::string file = root + folder + "/" + library; is_installed(file)) return file;
+  }
+  return {};
+}
 
 ProgramFiles Installation::files(const std::vector<document::Reference>& components,
                                  const std::vector<std::string>& folders,

@@ -17,6 +17,11 @@ struct ProgramFiles {
   std::map<std::string, std::string> system;  ///< library -> file, empty if it was not found
 };
 
+/// Where the system's loader finds a library without being told; empty if it does not.
+/// @param root  of the system; empty: of this one
+std::string system_file(const std::string& root, const std::string& library,
+                        const Architecture& architecture);
+
 /// An installed Armature: bin/armature, and beside that lib/ and lib/armature/.
 class Installation {
  public:

@@ -58,10 +58,10 @@ class Planner {
 
   void choose_architecture() {
     const auto own = platform::read_linked_file(request_.program);
-    const Architecture* const here = own ? architecture_of(own.value()) : nullptr;
+    here_ = own ? architecture_of(own.value()) : nullptr;
     plan_.architecture =
-        request_.architecture.empty() ? here : find_architecture(request_.architecture);
-    plan_.foreign = plan_.architecture != here;
+        request_.architecture.empty() ? here_ : find_architecture(request_.architecture);
+    plan_.foreign = plan_.architecture != here_;
     if (plan_.architecture == nullptr) {
       return diagnostics_.error(
           {}, "bundles are made for amd64, arm64 and armhf, found another machine");
@@ -71,7 +71,7 @@ class Planner {
     diagnostics_.error({},
                        "a bundle for " + request_.architecture +
                            " needs an Armature that was built for it; this one was built for " +
-                           (here == nullptr ? "another machine" : std::string(here->name)),
+                           (here_ == nullptr ? "another machine" : std::string(here_->name)),
                        "install Armature on a machine of that kind (cmake --install BUILD --prefix "
                        "FOLDER), copy FOLDER here and name it by --installation");
   }
@@ -122,15 +122,41 @@ class Planner {
 
   void plan_packages(const std::map<std::string, std::string>& libraries) {
     if (!diagnostics_.ok()) return;
-    Packages packages = packages_of(libraries);
+    Packages packages = packages_of(here(libraries));
     plan_.facts.packages = std::move(packages.names);
     plan_.facts.strangers = std::move(packages.strangers);
     for (const std::string& library : plan_.facts.strangers) {
       diagnostics_.note({}, "no Debian package on this machine has " + library +
                                 ": install it on the target by hand");
     }
+    plan_system(libraries);
+  }
+
+  /// Packages are called the same for every machine.
+  std::map<std::string, std::string> here(std::map<std::string, std::string> libraries) const {
+    for (auto& [library, file] : libraries) {
+      if (file.empty() && here_ != nullptr) file = system_file("", library, *here_);
+    }
+    return libraries;
+  }
+
+  /// What the bundle's programs would run with here.
+  void plan_system(const std::map<std::string, std::string>& libraries) {
+    if (!plan_.foreign) return;
+    plan_.system = request_.system.empty() ? "/usr/" + std::string(plan_.architecture->folder)
+                                           : fs::absolute(request_.system).string();
     for (const auto& [library, file] : libraries) {
-      if (file.empty()) plan_.missing.push_back(library);
+      if (!file.empty() || !system_file(plan_.system, library, *plan_.architecture).empty()) {
+        continue;
+      }
+      diagnostics_.note({},
+                        "the bundle was not checked by its own program, since this machine has "
+                        "no " +
+                            library + " for " + std::string(plan_.architecture->name) +
+                            ": run bin/armature check on the target, or name a Debian for it "
+                            "by --system (scripts/sysroot)");
+      plan_.system.clear();
+      return;
     }
   }
 
@@ -179,6 +205,7 @@ class Planner {
   base::Diagnostics& diagnostics_;
   std::string root_;  ///< of the deployment's files
   std::vector<std::string> libraries_in_deployment_;
+  const Architecture* here_ = nullptr;  ///< this machine's; nullptr: none that bundles are for
   Plan plan_;
 };
 

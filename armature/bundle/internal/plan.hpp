@@ -25,10 +25,10 @@ struct Plan {
   Facts facts;
   const Architecture* architecture = nullptr;
   bool foreign = false;                     ///< for another machine than this one
+  std::string system;                       ///< if it is, the root of a system for it
   std::map<std::string, Copy> copies;       ///< by their places in the bundle
   std::map<std::string, std::string> keys;  ///< place -> private key, which is not copied
   std::vector<std::string> check_options;   ///< of `armature check`, as the run has them
-  std::vector<std::string> missing;  ///< libraries of the system that this machine does not have
   std::string target;
 };
 
