@@ -252,11 +252,11 @@ function useReveal(): void {
   const flow = useReactFlow();
   const reveal = selection.use((state) => state.reveal);
   const path = selection.use((state) => state.path);
-  const text = selection.use((state) => state.text);
+  const beside = selection.use((state) => state.beside);
   useEffect(() => {
     if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration: 200, padding: 0.4 });
   }, [flow, reveal]);
-  useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path, text]);
+  useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path, beside]);
 }
 
 /** A box that is new and selected comes into sight, with all others if they are not too many. */

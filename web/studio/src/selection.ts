@@ -3,7 +3,9 @@
 import type { End, Fitting } from "./checked.ts";
 import { Store } from "./store.ts";
 
-export type Tab = "problems" | "log" | "threads" | "plot" | "operate";
+export type Tab = "problems" | "log" | "threads" | "cycle" | "plot" | "operate";
+
+export type Beside = "" | "text" | "robot";
 
 /** Where a wire could lead from a port. */
 export interface Reach {
@@ -31,7 +33,7 @@ export interface Selection {
   port?: { box: string; port: string };
   reach?: Reach;
   menu?: FitMenu;
-  text: boolean;        ///< the text stands beside the canvas
+  beside: Beside;       ///< what stands beside the canvas
   textPlace?: { file: string; line: number; column: number; ask: number };
   tab: Tab;
   reveal?: { box: string; ask: number };  ///< the canvas moves there
@@ -40,7 +42,7 @@ export interface Selection {
 }
 
 export const selection = new Store<Selection>({
-  path: [], boxes: [], wires: [], text: false, tab: "problems", plotted: [], told: "",
+  path: [], boxes: [], wires: [], beside: "", tab: "problems", plotted: [], told: "",
 });
 
 let asks = 0;
@@ -58,7 +60,7 @@ export function select_port(box: string, port: string): void {
 export const open_composite = (path: string[]): void => selection.set({ path, boxes: [], wires: [], port: undefined });
 
 export function show_text(file: string, line = 1, column = 1): void {
-  selection.set({ text: true, textPlace: { file, line, column, ask: ++asks } });
+  selection.set({ beside: "text", textPlace: { file, line, column, ask: ++asks } });
 }
 
 export function reach_of(box: string, port: string, { ends, models }: Fitting): Reach {

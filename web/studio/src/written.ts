@@ -127,6 +127,17 @@ export function entries_of(texts: Texts): WrittenEntry[] {
   return found;
 }
 
+/** The parameters of the files, with what they are if nobody sets them. */
+export function parameters_of(texts: Texts): Map<string, string> {
+  const found = new Map<string, string>();
+  for (const text of texts.values()) {
+    const lines = keys_of(text);
+    const at = top(lines, "parameters");
+    for (const i of at < 0 ? [] : children(lines, at)) found.set(lines[i]!.key, unquoted(lines[i]!.value));
+  }
+  return found;
+}
+
 export function composites_of(texts: Texts): Composite[] {
   const found: Composite[] = [];
   for (const [file, text] of texts) {

@@ -37,6 +37,7 @@ class Check {
   private readonly composites = new Map<string, Composite>();
   private readonly aliases = new Map<string, string>();
   private application = "";
+  private modes: Checked["modes"] = [];
 
   constructor(private readonly file: string, private readonly texts: ReadonlyMap<string, string>, private readonly models: Model[]) {}
 
@@ -50,6 +51,7 @@ class Check {
     return {
       file: this.file, application: this.application, ok: errors === 0, errors, diagnostics: this.diagnostics, components: this.components,
       connections: this.connections, threads: errors === 0 ? this.threads() : [],
+      modes: this.modes,
     };
   }
 
@@ -57,6 +59,8 @@ class Check {
     for (const { file, map } of documents) {
       if (!isMap(map)) continue;
       if (file === this.file) this.application = String(map.get("application") ?? "");
+      const modes = map.get("modes");
+      if (isMap(modes)) this.modes = modes.items.map(({ key }, i) => ({ name: String(key), initial: i === 0 }));
       this.read_composites(file, map.get("composites"));
     }
     for (const { file, map } of [...documents].reverse()) if (isMap(map)) this.read_components(file, map.get("components") as YAMLMap | null);
