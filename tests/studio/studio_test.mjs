@@ -206,3 +206,27 @@ studio_test("a run has the mode and the values that were set for it, and the fil
   assert.equal(content(), text);
   await end("SIGTERM");
 });
+
+const kCommanded = `application: lift
+libraries: [controls]
+components:
+  Go: {model: Button}
+  Height: {model: Slider, activity: {periodic: 50 ms}}
+  Lift: {model: Slider, activity: {periodic: 50 ms}}
+connections:
+  - {on: Go.Pressed, do: Lift.move, name: Travel, with: {value: 0.5}}  # half way up
+`;
+
+studio_test("the parameter of a command is given by a wire to its pin", async () => {
+  const { address, end, content } = await studio("lift.yaml", kCommanded);
+  const page = await user(address);
+  await page.locator("[aria-label='Go.Pressed to Lift.move']").first().focus();
+  await page.keyboard.press("Enter");
+  await page.getByRole("button", { name: "Parameters as pins" }).click();
+  assert.equal(await box(page, "Travel").locator(".outside").textContent(), "0.5");
+  await drag(page, box(page, "Height").locator(".pin.output").first(), box(page, "Travel").locator(".pin.input").first());
+  await page.locator("[aria-label='Height.Out to Travel.value']").first().waitFor({ state: "attached" });
+  await page.keyboard.press("Control+s");
+  await until(() => content().includes("with: {value: Height.Out}}  # half way up"), "it is in the file");
+  await end("SIGTERM");
+});

@@ -34,6 +34,8 @@ export interface Selection {
   reach?: Reach;
   menu?: FitMenu;
   beside: Beside;       ///< what stands beside the canvas
+  opened: string[];     ///< connections from events to commands that are shown with their parameters
+  lanes: boolean;       ///< boxes are in lanes of their threads
   textPlace?: { file: string; line: number; column: number; ask: number };
   tab: Tab;
   reveal?: { box: string; ask: number };  ///< the canvas moves there
@@ -42,7 +44,7 @@ export interface Selection {
 }
 
 export const selection = new Store<Selection>({
-  path: [], boxes: [], wires: [], beside: "", tab: "problems", plotted: [], told: "",
+  path: [], boxes: [], wires: [], beside: "", opened: [], lanes: false, tab: "problems", plotted: [], told: "",
 });
 
 let asks = 0;
@@ -80,4 +82,12 @@ export function toggle_plotted(item: string): void {
   const { plotted } = selection.get();
   const without = plotted.filter((one) => one !== item);
   selection.set({ plotted: without.length < plotted.length ? without : [...plotted, item], tab: "plot" });
+}
+
+/** Shows the parameters of a connection from an event to a command as pins of a box, or no more. */
+export function toggle_opened(between: string): void {
+  const { opened } = selection.get();
+  const without = opened.filter((one) => one !== between);
+  const opens = without.length === opened.length;
+  selection.set({ opened: opens ? [...opened, between] : without, boxes: opens ? [between] : [], wires: [], port: undefined });
 }

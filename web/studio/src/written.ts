@@ -53,8 +53,14 @@ export function settings_at(texts: Texts, file: string, line: number, column: nu
   return split_flow(inside).filter((part) => !/^\s*(from|to|on|do):/.test(part)).map((part) => part.trim()).join(", ");
 }
 
+/** Whether the entry at a place is one of braces. */
+export function is_flow_at(texts: Texts, file: string, line: number, column: number): boolean {
+  const text = texts.get(file);
+  return text !== undefined && /^(-\s*)?\{/.test(text.slice(offset_of(text, line, column)));
+}
+
 /** Parts between commas that are not inside of brackets. */
-function split_flow(text: string): string[] {
+export function split_flow(text: string): string[] {
   const parts = [""];
   let depth = 0;
   for (const c of text) {

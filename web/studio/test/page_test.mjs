@@ -391,6 +391,64 @@ page_test("a deployment without modes offers none", "wave", async (page) => {
   assert.equal(await page.getByLabel("Mode", { exact: true }).count(), 0);
 });
 
+page_test("threads are lanes, and boxes go back to their places", "arm", async (page) => {
+  const places = () => page.locator(".react-flow__node").evaluateAll((nodes) => nodes.map((one) => one.style.transform));
+  const before = await places();
+  await page.getByRole("button", { name: "Threads as lanes" }).click();
+  await page.waitForTimeout(300);
+  assert.deepEqual(await page.locator(".lane").allTextContents(), ["Joint", "Generator", "Driver", "Jog", "Power"]);
+  const lane = await page.locator(".lane", { hasText: "Power" }).boundingBox();
+  const box = await node(page, "Power").boundingBox();
+  assert.ok(box.y > lane.y && box.y + box.height < lane.y + lane.height);
+  await page.getByRole("button", { name: "Threads as lanes" }).click();
+  await page.waitForTimeout(300);
+  assert.deepEqual(await places(), before);
+  assert.equal((await page.evaluate(() => window.mock.workbench.edits)).length, 0, "nothing is moved by it");
+});
+
+page_test("wires that leave an open composite are told at its ports", "arm", async (page) => {
+  await node(page, "Rover").locator("header").dblclick();
+  await node(page, "mixer").locator(".outside", { hasText: "Driver.Forward" }).waitFor();
+  await node(page, "left").locator(".outside", { hasText: "Driver.Left" }).waitFor();
+});
+
+/** The inspector of the connection Power.TurnedOn -> Generator.moveTo. */
+async function select_command(page) {
+  await page.locator("[aria-label='Power.TurnedOn to Generator.moveTo']").first().focus();
+  await page.keyboard.press("Enter");
+}
+
+page_test("the parameters of a command are changed where its event is connected", "arm", async (page) => {
+  await select_command(page);
+  const field = page.getByLabel("time", { exact: true });
+  assert.equal(await field.inputValue(), "2 s");
+  await field.fill("3 s");
+  await field.press("Enter");
+  await page.waitForTimeout(200);
+  assert.deepEqual(await edits(page), ["connection Power.TurnedOn Generator.moveTo name: Move, with: {target: Sensor.sensor, time: 3 s}"]);
+});
+
+page_test("a command opens into pins, to which wires lead and from which they are taken", "arm", async (page) => {
+  await select_command(page);
+  await page.getByRole("button", { name: "Parameters as pins" }).click();
+  await node(page, "Move").waitFor();
+  assert.equal(await node(page, "Move").locator(".outside").textContent(), "2 s");
+  await drag(page, node(page, "Jog").locator(".pin.output"), node(page, "Move").locator(".pin.input").nth(1));
+  await page.waitForTimeout(300);
+  await page.locator("[aria-label='Sensor.sensor to Move.target']").first().focus();
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), [
+    "connection Power.TurnedOn Generator.moveTo name: Move, with: {target: Sensor.sensor, time: Jog.Out}",
+    "connection Power.TurnedOn Generator.moveTo name: Move, with: {time: Jog.Out}",
+  ]);
+  await node(page, "Move").locator("header").click();
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(300);
+  assert.deepEqual((await edits(page)).slice(2), ["disconnect Power.TurnedOn Generator.moveTo"]);
+});
+
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 for (const dark of [false, true]) {

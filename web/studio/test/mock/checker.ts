@@ -157,9 +157,18 @@ class Check {
   private read_map(entry: Record<string, string>, place: Place): void {
     if (entry["from"]) return this.connect(entry["from"], entry["to"] ?? "", place);
     const name = entry["name"] ?? "EventCommand1";
-    const none = { properties: [], inputs: [], outputs: [], port_arrays: [], operations: [], events: [], requirements: [] };
-    this.components.push({ ...none, name, model: "EventCommand", ...place, activity: { kind: "sequential" } });
+    const none = { properties: [], outputs: [], port_arrays: [], operations: [], requirements: [] };
+    const given = Object.entries((entry["with"] ?? {}) as Record<string, unknown>).filter(([, from]) => this.is_port(String(from)));
+    const inputs = given.map(([parameter]) => ({ name: parameter, type: "double", unit: "", doc: "a parameter of the command" }));
+    const events = ["Done", "Failed"].map((one) => ({ name: one, signature: "void()", arguments: [], doc: "" }));
+    this.components.push({ ...none, inputs, events, name, model: "EventCommand", ...place, activity: { kind: "sequential" } });
+    for (const [parameter, from] of given) this.connections.push({ kind: "data", from: String(from), to: `${name}.${parameter}`, ...place });
     this.connections.push({ kind: "event", from: entry["on"]!, to: `${name}.on` }, { kind: "command", from: `${name}.do`, to: entry["do"]! });
+  }
+
+  private is_port(path: string): boolean {
+    const [owner, member] = split_member(path);
+    return this.components.some((one) => one.name === owner && one.outputs.some((port) => port.name === member));
   }
 
   private connect(from: string, to: string, place: Place): void {

@@ -49,6 +49,7 @@ connections:
   - Rover.RightAngle -> Driver.Right
   - Power.On -> Lamp.On
   - {on: Go.Pressed, do: Generator.hold, name: Hold}
+  - {on: Power.TurnedOn, do: Generator.moveTo, name: Move, with: {target: Sensor.sensor, time: 2 s}}
   - Jog.Out -> Height.Value
 `,
     "control.yaml": `# The control of the joints, to be included.

@@ -136,6 +136,7 @@ export class MockWorkbench implements Workbench {
     else if (edit === "set") return set(document, owner, member, b);
     else if (edit === "unset") document.deleteIn(["components", owner, "properties", member]);
     else if (edit === "connect") add_to(document, ["connections"], c ? document.createNode({ from: a, to: b }) : `${a} -> ${b}`);
+    else if (edit === "connection") set_connection(document, a, b, c);
     else if (edit === "disconnect") remove_connection(document, `${a} -> ${b}`);
     else if (edit === "library") add_to(document, ["libraries"], a);
     else if (edit === "peer") add_to(document, ["components", a, "peers"], b);
@@ -263,7 +264,19 @@ function add_to(document: Document, path: string[], item: unknown): void {
   else document.setIn(path, document.createNode([item]));
 }
 
+type Items = { items: { value?: string; get?(key: string): unknown }[] };
+
+const ends_of = (item: Items["items"][number]): string => item.value ?? `${String(item.get?.("on") ?? item.get?.("from"))} -> ${String(item.get?.("do") ?? item.get?.("to"))}`;
+
 function remove_connection(document: Document, written: string): void {
-  const list = document.get("connections") as unknown as { items: { value?: string }[] };
-  list.items = list.items.filter((one) => one.value !== written);
+  const list = document.get("connections") as unknown as Items;
+  list.items = list.items.filter((one) => ends_of(one) !== written);
+}
+
+/** Of a connection from an event to a command. */
+function set_connection(document: Document, on: string, to: string, settings: string): void {
+  const list = document.get("connections") as unknown as Items;
+  const at = list.items.findIndex((one) => ends_of(one) === `${on} -> ${to}`);
+  const text = `{on: ${on}, do: ${to}${settings ? `, ${settings}` : ""}}`;
+  list.items[at] = parseDocument(text).contents as never;
 }
