@@ -17,6 +17,7 @@ namespace armature::component {
 
 class BlackBox;
 class Component;
+class CycleRecord;
 class Timeline;
 
 /// Told by components of what the application must react to.
@@ -63,6 +64,7 @@ struct ExecutionContext {
   Component* measured = nullptr;  ///< the first of those that ran while measuring
   BlackBox* black_box = nullptr;  ///< keeps what happens; nullptr: nobody asked
   Timeline* timeline = nullptr;   ///< gets what is measured as well; nullptr: nobody asked
+  CycleRecord* record = nullptr;  ///< likewise, of this cycle alone
   std::exception_ptr caught;      ///< the last one, kept: to let go of it frees memory
   /// The thread runs cycles: others reach its components by messages.
   std::atomic<bool> live{false};

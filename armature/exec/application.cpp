@@ -8,6 +8,7 @@
 #include "armature/exec/internal/application/before_stop.hpp"
 #include "armature/exec/internal/application/clock.hpp"
 #include "armature/exec/internal/application/connections.hpp"
+#include "armature/exec/internal/application/cycle_records.hpp"
 #include "armature/exec/internal/application/death_notice.hpp"
 #include "armature/exec/internal/application/engines.hpp"
 #include "armature/exec/internal/application/executor.hpp"
@@ -38,6 +39,7 @@ struct Remains {
   std::vector<std::unique_ptr<component::Component>> components;
   std::unique_ptr<internal::Incidents> incidents;
   std::vector<std::shared_ptr<ThreadWatch>> watches;
+  std::vector<std::shared_ptr<component::CycleRecord>> cycles;
 
   static void keep(Remains remains) {
     static auto& all = *new std::vector<Remains>;
@@ -96,6 +98,7 @@ struct Application::Parts {
   internal::Transitions transitions{roster, executor, modes};
   internal::Holders holders{blueprint, plan, roster, executor, health};
   internal::Watches watches{plan, roster, engines, executor};
+  internal::CycleRecords cycle_records{blueprint, plan, engines, executor};
   internal::StopGuard stop_guard{options.before_stop, roster, holders, tools, transitions, outlets};
   internal::RunLoop loop{options, clock, engines, health, outlets, stop_guard};
   internal::BeforeStop before_stop{options, clock,  roster,  tools, tickets,
@@ -118,7 +121,8 @@ Application::~Application() {
   Remains remains{std::move(parts_->engines),
                   {},
                   parts_->health.give_away_incidents(),
-                  parts_->watches.give_away()};
+                  parts_->watches.give_away(),
+                  parts_->cycle_records.give_away()};
   for (ComponentEntry& entry : parts_->blueprint.components) {
     remains.components.push_back(std::move(entry.component));
   }
@@ -205,6 +209,7 @@ void Application::take_down(base::Diagnostics& diagnostics) {
   all.outlets.write_last_black_boxes(all.health.incidents());
   all.life_cycle.clean_up(diagnostics);
   if (!hangs()) all.watches.end_all();
+  if (!hangs()) all.cycle_records.end_all();
   if (!hangs()) all.connections.undo();
   all.outlets.end(diagnostics);
 }
@@ -353,6 +358,11 @@ const WatchSample* Application::watched(std::int32_t handle) {
 }
 
 void Application::end_watch(std::int32_t handle) { parts_->watches.end(handle); }
+
+base::Result<RecordedCycle> Application::cycle(std::string_view thread) {
+  if (!running()) return base::Error{base::quoted(blueprint().name) + " does not run"};
+  return parts_->cycle_records.look(thread);
+}
 
 bool Application::run_in_thread_of(component::Component& component, std::function<void()> work) {
   return parts_->executor.run_in_thread_of(component, std::move(work));

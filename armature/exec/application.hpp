@@ -16,6 +16,7 @@
 #include "armature/exec/application_options.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/plan.hpp"
+#include "armature/exec/recorded_cycle.hpp"
 #include "armature/exec/run_end.hpp"
 #include "armature/exec/verdict.hpp"
 #include "armature/exec/watch.hpp"
@@ -147,6 +148,12 @@ class Application final {
   /// What was copied last; nullptr if there is no such watch. Good until the next call.
   const WatchSample* watched(std::int32_t handle);
   void end_watch(std::int32_t handle);
+
+  /// The cycle of a thread that was recorded last, step by step, and has the thread record its next
+  /// one: who looks again and again sees ever newer ones, and nothing is recorded for nobody.
+  /// @return the error says that it does not run, that there is no such thread, or that it does not
+  ///   answer
+  base::Result<RecordedCycle> cycle(std::string_view thread);
 
   std::vector<ThreadStatistics> thread_statistics() const;
 

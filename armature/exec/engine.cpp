@@ -209,8 +209,20 @@ void Engine::begin_cycle() {
   context_.measuring = --cycles_to_measured_ == 0;
   if (context_.measuring) cycles_to_measured_ = measure_every_;
   if (timeline_ != nullptr && timeline_->affords_steps()) context_.measuring = true;
+  if (wanted_ != nullptr) [[unlikely]]
+    begin_record();
   account_open_ = true;
   if (!context_.next_cycle.empty()) context_.next_cycle.deliver_all();
+}
+
+void Engine::begin_record() noexcept {
+  context_.record = std::exchange(wanted_, nullptr);
+  context_.record->open(context_.cycle, context_.cycle_time, opened_);
+  context_.measuring = true;
+}
+
+void Engine::end_record(std::uint64_t tick) noexcept {
+  std::exchange(context_.record, nullptr)->close(tick);
 }
 
 void Engine::turn_to(base::Time now) {
@@ -237,6 +249,8 @@ void Engine::close(bool cycle) {
   }
   const std::uint64_t closed = rt::ticks();
   busy_ += closed - opened_;
+  if (context_.record != nullptr && cycle) [[unlikely]]
+    end_record(closed);
   if (timeline_ == nullptr) return;
   timeline_->close(closed, context_.cycle, context_.cycle_time, cycle, context_.measuring);
 }

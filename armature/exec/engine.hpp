@@ -12,6 +12,7 @@
 #include "armature/base/time.hpp"
 #include "armature/component/black_box.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/observing/timeline.hpp"
 #include "armature/exec/activity.hpp"
 #include "armature/exec/periodic_schedule.hpp"
@@ -53,6 +54,11 @@ class Engine {
   /// No effect if it was not attached.
   /// @rt nonblocking, no allocation, O(watches)
   void detach(ThreadWatch& watch) noexcept;
+
+  /// Has the next cycle recorded with its steps.
+  /// @rt nonblocking, no allocation
+  /// @thread its own, or any while it does not run
+  void record_next_cycle(component::CycleRecord& record) noexcept { wanted_ = &record; }
 
   /// Whether it sleeps until data becomes too old, beside messages.
   bool sleeps_until_ages() const { return !periodic() && !aging_.empty(); }
@@ -112,6 +118,8 @@ class Engine {
   void open();
   void close(bool cycle);
   void begin_cycle();
+  void begin_record() noexcept;
+  void end_record(std::uint64_t tick) noexcept;
   void settle_ages();
   bool ages_hold(component::Component& component);
   void look_at_ages();
@@ -140,7 +148,8 @@ class Engine {
   std::shared_ptr<rt::Alarms> alarms_;
   std::size_t alarm_ = 0;  ///< its number there
   std::shared_ptr<component::BlackBox> black_box_;
-  ThreadWatch* watches_ = nullptr;  ///< the first of those that are attached
+  ThreadWatch* watches_ = nullptr;            ///< the first of those that are attached
+  component::CycleRecord* wanted_ = nullptr;  ///< to be filled by the next cycle
   std::shared_ptr<component::Timeline> timeline_;
   std::uint16_t number_ = 0;  ///< in the timeline
   std::atomic<bool> ending_{false};

@@ -245,6 +245,16 @@ WatchedValues ApplicationView::watched(std::int32_t handle) {
 
 void ApplicationView::end_watch(std::int32_t handle) { application_.end_watch(handle); }
 
+Cycle ApplicationView::cycle(const std::string& thread, const Which& which) {
+  const exec::RecordedCycle found = answer_of(application_.cycle(thread));
+  Cycle cycle{found.number, found.time, found.length, {}, found.left_out};
+  for (const exec::RecordedCycle::Step& step : found.steps) {
+    const std::string name(step.component->name());
+    cycle.steps.push_back({which(name) ? name : std::string(), step.begin, step.length});
+  }
+  return cycle;
+}
+
 ItemValue ApplicationView::write(const std::string& text, const std::string& value) {
   const Item item = answer_of(find_item(application_, text));
   const Member& member = item.member;

@@ -45,6 +45,8 @@ class ApplicationView final : public View {
   Watch watch(const std::vector<std::string>& items, base::Duration interval) override;
   WatchedValues watched(std::int32_t handle) override;
   void end_watch(std::int32_t handle) override;
+  using View::cycle;
+  Cycle cycle(const std::string& thread, const Which& which) override;
   ItemValue write(const std::string& item, const std::string& value) override;
   CallResult call(const std::string& component, const std::string& operation,
                   const std::vector<std::string>& arguments) override;

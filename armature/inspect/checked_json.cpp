@@ -196,6 +196,17 @@ Json threads(const Checked& checked) {
   return all;
 }
 
+/// The first is the one to start in, unless another is said to be.
+Json modes(const exec::Blueprint& blueprint) {
+  Json all = Json::array();
+  const std::string& initial = blueprint.initial_mode.component;
+  for (const exec::ModeEntry& mode : blueprint.modes) {
+    const bool first = initial.empty() ? all.empty() : mode.name == initial;
+    all.push_back({{"name", mode.name}, {"initial", first}});
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string checked_as_json(const Checked& checked, const CheckedForm& form) {
@@ -209,7 +220,8 @@ std::string checked_as_json(const Checked& checked, const CheckedForm& form) {
       {"diagnostics", findings(checked.diagnostics, form)},
       {"components", components(checked, form)},
       {"connections", ok ? planned_connections(checked.plan) : written_connections(checked)},
-      {"threads", ok ? threads(checked) : Json::array()}};
+      {"threads", ok ? threads(checked) : Json::array()},
+      {"modes", modes(checked.blueprint)}};
   return internal::text_of(json, form.indent);
 }
 

@@ -92,6 +92,15 @@ TEST_F(CheckedJson, HasConnectionsAndTheOrderOfThreads) {
   EXPECT_EQ(all["components"][1]["thread"], all["threads"][0]["name"]);
 }
 
+TEST_F(CheckedJson, HasTheModesAndInWhichItStarts) {
+  blueprint_.modes = {{"hold", {}, {}}, {"move", {}, {}}};
+  EXPECT_EQ(written()["modes"],
+            (json{{{"name", "hold"}, {"initial", true}}, {{"name", "move"}, {"initial", false}}}));
+  blueprint_.initial_mode.component = "move";
+  EXPECT_EQ(written()["modes"][0]["initial"], false);
+  EXPECT_EQ(written()["modes"][1]["initial"], true);
+}
+
 TEST_F(CheckedJson, WithErrorsSaysWhatWasWritten) {
   diagnostics_.error({"wave.yaml", 3, 15}, "unknown unit", "leave it out");
   const json all = written();

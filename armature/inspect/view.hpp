@@ -75,6 +75,26 @@ struct WatchedValues {
   bool operator==(const WatchedValues&) const = default;
 };
 
+/// What a component did in a cycle, without those that it called.
+struct CycleStep {
+  std::string component;   ///< empty: one that is not asked for
+  base::Duration begin{};  ///< since the cycle's
+  base::Duration length{};
+
+  bool operator==(const CycleStep&) const = default;
+};
+
+/// One cycle of a thread, step by step.
+struct Cycle {
+  std::uint64_t number = 0;  ///< the thread's, from 1; 0: none was recorded yet
+  base::Time time{};         ///< that components were told
+  base::Duration length{};
+  std::vector<CycleStep> steps;  ///< in the order of their begin
+  std::uint64_t left_out = 0;    ///< steps that found no room
+
+  bool operator==(const Cycle&) const = default;
+};
+
 /// A step in a component's life.
 enum class LifeCycleChange : std::uint8_t { kStart, kStop, kReset, kRecover, kCleanup };
 ARMATURE_ENUM(LifeCycleChange, kStart, kStop, kReset, kRecover, kCleanup);
@@ -120,6 +140,12 @@ class View {
   virtual Watch watch(const std::vector<std::string>& items, base::Duration interval) = 0;
   virtual WatchedValues watched(std::int32_t handle) = 0;
   virtual void end_watch(std::int32_t handle) = 0;
+
+  /// The cycle of a thread that was recorded last, and has the thread record its next one: who
+  /// looks again and again sees ever newer ones.
+  /// @param which  components whose steps have their names
+  virtual Cycle cycle(const std::string& thread, const Which& which) = 0;
+  Cycle cycle(const std::string& thread) { return cycle(thread, everyone); }
 
   /// Sets a property. A number may have a unit, which is converted to the property's.
   /// @return what it is now

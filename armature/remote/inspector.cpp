@@ -223,6 +223,12 @@ class Inspector::Service final : public InspectorService {
     in_control(reply, [this, handle] { return watches_.end(handle); });
   }
 
+  void cycle(const std::string& thread, ReplyOf<Cycle> reply) override {
+    in_control(reply, [this, thread, readable = readable(reply)] {
+      return to_wire(view_.cycle(thread, readable));
+    });
+  }
+
   void pace(ReplyOf<Pace> reply) override {
     in_control(reply, [this] { return to_wire(view_.pace()); });
   }

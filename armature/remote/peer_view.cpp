@@ -223,6 +223,14 @@ void PeerView::end_watch(std::int32_t handle) {
   taken(client_->inspector.end_watch(handle, kPatient));
 }
 
+inspect::Cycle PeerView::cycle(const std::string& thread, const Which& which) {
+  inspect::Cycle cycle = told_by(client_->inspector.cycle(thread, kPatient));
+  for (inspect::CycleStep& step : cycle.steps) {
+    if (!which(step.component)) step.component.clear();
+  }
+  return cycle;
+}
+
 exec::Pace PeerView::pace() { return told_by(client_->inspector.pace(kPatient)); }
 
 exec::Pace PeerView::set_pace(const exec::Pace& pace) {

@@ -47,6 +47,8 @@ class PeerView final : public inspect::View {
   inspect::Watch watch(const std::vector<std::string>& items, base::Duration interval) override;
   inspect::WatchedValues watched(std::int32_t handle) override;
   void end_watch(std::int32_t handle) override;
+  using View::cycle;
+  inspect::Cycle cycle(const std::string& thread, const Which& which) override;
   exec::Pace pace() override;
   exec::Pace set_pace(const exec::Pace& pace) override;
   exec::Pace step() override;

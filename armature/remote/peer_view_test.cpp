@@ -365,6 +365,26 @@ TEST_F(Views, WatchTheSame) {
   EXPECT_THAT(refusal([&](View& view) { view.watched(its.handle); }), HasSubstr("unknown watch"));
 }
 
+TEST_F(Views, HaveTheSameCycleOfAThread) {
+  const auto look = [](View& view) { return view.cycle("Axis"); };
+  EXPECT_EQ(here(look).number, 0u) << "nobody has asked before";
+  pass(100ms);
+  const inspect::Cycle cycle = here(look);
+  EXPECT_GT(cycle.number, 0u);
+  ASSERT_FALSE(cycle.steps.empty());
+  const inspect::Cycle its = there(look);
+  EXPECT_EQ(its.number, cycle.number);
+  ASSERT_EQ(its.steps.size(), cycle.steps.size());
+  EXPECT_EQ(its.steps.front().component, cycle.steps.front().component);
+  EXPECT_NEAR(static_cast<double>((its.length - cycle.length).count()), 0.0, 2.0);
+  const auto nameless = [](View& view) {
+    return view.cycle("Axis", [](const std::string&) { return false; });
+  };
+  EXPECT_EQ(here(nameless).steps.front().component, "");
+  EXPECT_EQ(there(nameless).steps.front().component, "");
+  EXPECT_THAT(refusal([](View& view) { view.cycle("Axi"); }), HasSubstr("did you mean 'Axis'?"));
+}
+
 TEST_F(Views, SeveralAttendOneApplicationEachWithItsOwnCommands) {
   const CommandStatus mine = here([](View& view) { return view.begin("Axis", "moveTo", {"5"}); });
   EXPECT_THAT(refusal([&](View& view) { view.cancel(mine.handle + 1); }),

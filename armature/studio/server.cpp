@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using namespace internal;
 
-constexpr const char* kWorkbenchName = "workbench";
 constexpr const char* kRunName = "run";
 constexpr base::Duration kRunPeriod = 100ms;
 constexpr base::Duration kDiskPeriod = 1s;
@@ -89,7 +88,8 @@ class StudioServer final : public Server {
   }
 
   bool listen(const std::string& address, base::Diagnostics& diagnostics) {
-    for (const auto& added : {node_.add(kWorkbenchName, workbench_), node_.add(kRunName, relay_)}) {
+    for (const auto& added :
+         {node_.add(Workbench::kName, workbench_), node_.add(kRunName, relay_)}) {
       if (!added) diagnostics.error({}, added.error());
     }
     const auto listens = node_.listen(address);
@@ -155,7 +155,7 @@ std::function<bool(const ride::AccessQuestion&)> allowance(const std::string& po
                                                            base::Diagnostics& diagnostics) {
   if (policy_file.empty()) return [](const ride::AccessQuestion&) { return true; };
   ride::Policy policy = ride::Policy::load(policy_file, diagnostics);
-  policy.check({kWorkbenchName, kRunName}, diagnostics);
+  policy.check({Workbench::kName, kRunName}, diagnostics);
   return [policy](const ride::AccessQuestion& question) { return policy.allows(question); };
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/events/event_tap.hpp"
 #include "armature/component/host.hpp"
 #include "armature/component/observing/tap.hpp"
@@ -284,6 +285,21 @@ TEST(TimelineFunctions, AStretchWithSteps) {
   expect_realtime("Timeline::spend", [&] { timeline.spend(1); });
   expect_realtime("Timeline::pushed", [&] { tick = timeline.pushed(); });
   EXPECT_GT(timeline.dropped(), 0u);
+}
+
+TEST(CycleRecordFunctions, ACycleWithMoreStepsThanThereIsRoomFor) {
+  const Server first("first");
+  const Server second("second");
+  CycleRecord record(50);
+  std::uint64_t tick = 100;
+  expect_realtime("CycleRecord::open", [&] { record.open(1, base::Time(), tick); });
+  expect_realtime("CycleRecord::add_step", [&] {
+    record.add_step(&first, tick, tick + 1);
+    record.add_step(&second, tick + 1, tick + 2);
+    tick += 2;
+  });
+  expect_realtime("CycleRecord::close", [&] { record.close(tick); });
+  EXPECT_GT(record.left_out(), 0u);
 }
 
 TEST_P(ComponentFunctions, AnOperationInTheCallersThread) {

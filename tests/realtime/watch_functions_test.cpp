@@ -68,5 +68,12 @@ TEST_F(WatchFunctions, EnginesTakeThemAndLetThemGo) {
   expect_realtime("Engine::detach", [&] { engine.detach(first); });
 }
 
+TEST_F(WatchFunctions, EnginesTakeARecordForTheirNextCycle) {
+  Engine engine("thread", Activity::triggered(), {&source_}, {});
+  component::CycleRecord record(8);
+  expect_realtime("Engine::record_next_cycle", [&] { engine.record_next_cycle(record); });
+  EXPECT_FALSE(record.full());
+}
+
 }  // namespace
 }  // namespace armature::exec

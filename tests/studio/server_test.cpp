@@ -217,6 +217,48 @@ TEST_F(Opened, WhatIsNotSavedOutlivesAStudioThatIsKilled) {
   EXPECT_FALSE(workbench_->text("/etc/hostname", kPatient));
 }
 
+TEST_F(Opened, OnlyADescriptionThatTheDeploymentNamesIsShown) {
+  const std::string urdf = "<robot name=\"r\"><link name=\"base\"/></robot>\n";
+  const std::string named = (folder_ / "named.urdf").string();
+  const std::string other = (folder_ / "other.urdf").string();
+  for (const std::string& path : {named, other}) std::ofstream(path) << urdf;
+  const auto describe = [&](const std::string& path) {
+    findings();
+    return workbench_->description(path, kPatient);
+  };
+  EXPECT_FALSE(describe(named)) << "nobody names it yet";
+  EXPECT_TRUE(edit("library", {"robot"}).done);
+  EXPECT_TRUE(edit("add", {"Robot", "Robot"}).done);
+  EXPECT_TRUE(edit("set", {"Robot.robot_description", named}).done);
+  EXPECT_EQ(describe(named).value(), urdf);
+  EXPECT_THAT(describe(other).error(), HasSubstr("is no robot's description of this deployment"));
+  EXPECT_TRUE(edit("set", {"Robot.robot_description", file()}).done);
+  EXPECT_THAT(describe(file()).error(), HasSubstr("expected <robot>"));
+  EXPECT_FALSE(describe(named)) << "nobody names it any more";
+}
+
+TEST_F(Opened, ACycleOfARunIsRecordedForWhoAsks) {
+  start();
+  remote::Cycle cycle;
+  until([&] {
+    const auto found = run_->cycle("Source", kPatient);
+    if (found) cycle = found.value();
+    return cycle.number > 0;
+  });
+  ASSERT_FALSE(cycle.steps.empty());
+  EXPECT_EQ(cycle.steps.front().component, "Source");
+  EXPECT_LE(cycle.steps.front().begin + cycle.steps.front().length, cycle.length + 0.01);
+}
+
+TEST_F(Opened, WhatIsSetForARunIsInIt) {
+  const auto started = workbench_->start({true, 1.0, "", {"Source.Frequency=7"}}, kPatient);
+  ASSERT_TRUE(started) << started.error();
+  until([&] { return state() == "running"; });
+  const auto values = run_->read({"Source.Frequency"}, kPatient);
+  ASSERT_TRUE(values) << values.error();
+  EXPECT_EQ(values.value().at(0).value, "7");
+}
+
 TEST_F(Opened, ARunOutlivesTheStudioAndIsFoundAgain) {
   start();
   const int process = server_->running();
@@ -285,6 +327,18 @@ TEST_F(Opened, ARunIsCommandedByThoseOnlyWhoMay) {
   EXPECT_THAT(run_->begin("Source", "anything", {}, kPatient).error(),
               HasSubstr("may not command 'run'"));
   EXPECT_TRUE(run_->read({"Source.Frequency"}, kPatient));
+}
+
+TEST_F(Opened, WhoMayCommandAndNotConfigureSetsNothingForARun) {
+  close();
+  const std::string policy = (folder_ / "studio.policy").string();
+  std::ofstream(policy) << "allow local:* read,command workbench,run\n";
+  open(policy);
+  const auto refused = workbench_->start({true, 1.0, "", {"Source.Frequency=7"}}, kPatient);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error(), HasSubstr("may not configure 'workbench'"));
+  EXPECT_EQ(state(), "none");
+  start();
 }
 
 TEST_F(Opened, OneStudioHasADeployment) {

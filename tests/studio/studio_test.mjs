@@ -5,8 +5,9 @@ import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { launch } from "../../web/studio/test/browser.mjs";
 
 const program = process.env.ARMATURE;
@@ -25,9 +26,9 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** A studio that has `name` open, with `text` in it unless it is new. */
+/** A studio that has `name` open, in the test's folder unless it is a path, with `text` in it unless it is new. */
 async function studio(name, text) {
-  const file = join(folder, name);
+  const file = resolve(folder, name);
   if (text !== undefined) writeFileSync(file, text);
   const server = spawn(program, ["studio", file, "--listen", "ws://127.0.0.1:0", "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
   servers.push(server);
@@ -154,5 +155,78 @@ studio_test("a file full of mistakes opens and is mended by its fixes", async ()
   await page.getByText("Nobody").first().waitFor();
   await page.keyboard.press("Control+s");
   await until(() => content().includes("{model: Source,"), "the fix is saved");
+  await end("SIGTERM");
+});
+
+const kJanus = fileURLToPath(new URL("../../robots/janus/demo/studio.yaml", import.meta.url));
+
+studio_test("Janus in 3D goes where it is sent, and its cycle is drawn", async () => {
+  const { address, end } = await studio(kJanus);
+  const page = await user(address);
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.getByRole("application", { name: /janus in 3D/ }).waitFor();
+  assert.equal(await page.getByLabel("Moved by").locator("option:checked").textContent(), "found: BridgeRef.nAxesSensorPosition");
+  await page.getByLabel("Pace of simulated time").selectOption("10 ×");
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  const positions = () => page.locator(".joints .position").evaluateAll((cells) => cells.map((cell) => Number.parseFloat(cell.textContent)));
+  await until(async () => (await positions()).every(Number.isFinite), "all joints have positions");
+  await box(page, "Arming").locator("header").click();
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByRole("button", { name: "arm", exact: true }).click();
+  await page.getByText("done", { exact: true }).waitFor();
+  await page.getByRole("group", { name: "Left" }).getByRole("button", { name: "Press" }).click();
+  await until(async () => {
+    const [pan, tilt] = await positions();
+    return Math.abs(pan - 2.0) < 0.05 && Math.abs(tilt - 0.8) < 0.05;
+  }, "it is where the button sends it");
+  await page.getByRole("tab", { name: "Cycle" }).click();
+  await page.getByLabel("Thread", { exact: true }).selectOption("Sampler");
+  await page.locator(".bars tbody tr", { hasText: "Controller" }).waitFor();
+  await page.keyboard.press("Shift+Escape");
+  await page.getByText("ended", { exact: true }).waitFor();
+  await end("SIGTERM");
+});
+
+studio_test("a run has the mode and the values that were set for it, and the file stays as it is", async () => {
+  const activity = "activity: {periodic: 10 ms, thread: waves}";
+  const text = `application: wave\nlibraries: [wave]\ncomponents:\n  Source: {model: Source, ${activity}}\n  Other: {model: Source, ${activity}}\nmodes:\n  one: [Source]\n  two: [Other]\n`;
+  const { address, end, content } = await studio("modes.yaml", text);
+  const page = await user(address);
+  await page.getByLabel("Mode", { exact: true }).selectOption("two");
+  await page.getByRole("button", { name: "Set …" }).click();
+  await page.getByLabel("Name 1").fill("Other.Frequency");
+  await page.getByLabel("Value 1").fill("7 Hz");
+  await page.keyboard.press("Enter");
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".box.is-running").first().waitFor();
+  assert.match(await box(page, "Other").textContent(), /Running/);
+  assert.match(await box(page, "Source").textContent(), /Stopped/);
+  await page.keyboard.press("Shift+Escape");
+  await page.getByText("ended", { exact: true }).waitFor();
+  assert.equal(content(), text);
+  await end("SIGTERM");
+});
+
+const kCommanded = `application: lift
+libraries: [controls]
+components:
+  Go: {model: Button}
+  Height: {model: Slider, activity: {periodic: 50 ms}}
+  Lift: {model: Slider, activity: {periodic: 50 ms}}
+connections:
+  - {on: Go.Pressed, do: Lift.move, name: Travel, with: {value: 0.5}}  # half way up
+`;
+
+studio_test("the parameter of a command is given by a wire to its pin", async () => {
+  const { address, end, content } = await studio("lift.yaml", kCommanded);
+  const page = await user(address);
+  await page.locator("[aria-label='Go.Pressed to Lift.move']").first().focus();
+  await page.keyboard.press("Enter");
+  await page.getByRole("button", { name: "Parameters as pins" }).click();
+  assert.equal(await box(page, "Travel").locator(".outside").textContent(), "0.5");
+  await drag(page, box(page, "Height").locator(".pin.output").first(), box(page, "Travel").locator(".pin.input").first());
+  await page.locator("[aria-label='Height.Out to Travel.value']").first().waitFor({ state: "attached" });
+  await page.keyboard.press("Control+s");
+  await until(() => content().includes("with: {value: Height.Out}}  # half way up"), "it is in the file");
   await end("SIGTERM");
 });

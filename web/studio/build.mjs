@@ -27,8 +27,12 @@ await build({
   jsx: "automatic",
   logLevel: "warning",
   legalComments: "linked",
+  loader: { ".urdf": "text" },
   define: { "process.env.NODE_ENV": '"production"' },
   alias: {
+    // Files of meshes are not drawn: their readers, which urdf-loader brings, stay out.
+    "three/examples/jsm/loaders/STLLoader.js": join(here, "src/no_meshes.ts"),
+    "three/examples/jsm/loaders/ColladaLoader.js": join(here, "src/no_meshes.ts"),
     "@armature/ride": join(here, "../ride/src/ride.ts"),
     "@armature/placeholders/inspection": resolve(placeholders, "inspection.ts"),
     "@armature/placeholders/workbench": resolve(placeholders, "workbench.ts"),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "armature/component/black_box.hpp"
+#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/internal/component_rest.hpp"
 #include "armature/component/observing/timeline.hpp"
 #include "armature/component/ports/input_port.hpp"
@@ -128,6 +129,7 @@ void Inside::halt_steps(Component& component, std::string_view why) {
 void Inside::charge(ExecutionContext& where, Component* ran) noexcept {
   const std::uint64_t now = rt::ticks();
   if (where.timeline != nullptr) where.timeline->add_step(ran, where.mark, now);
+  if (where.record != nullptr) where.record->add_step(ran, where.mark, now);
   // What runs here as a guest keeps its measurements in its own thread.
   if (ran != nullptr && ran->context_ == &where) {
     Component::Rest& rest = *ran->rest_;

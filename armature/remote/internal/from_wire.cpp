@@ -207,6 +207,17 @@ inspect::WatchedValues from_wire(const WatchedValues& from) {
   return {from.values, from.ages, from.replaced};
 }
 
+inspect::Cycle from_wire(const Cycle& from) {
+  const auto from_microseconds = [](double time) { return duration_of(time * 1e-6); };
+  return {from.number, base::Time{} + duration_of(from.time), from_microseconds(from.length),
+          each(from.steps,
+               [&](const CycleStep& one) {
+                 return inspect::CycleStep{one.component, from_microseconds(one.begin),
+                                           from_microseconds(one.length)};
+               }),
+          from.left_out};
+}
+
 exec::Pace from_wire(const Pace& from) { return {from.rate, from.paused}; }
 
 }  // namespace armature::remote::internal

@@ -23,6 +23,7 @@ CallResult to_wire(const inspect::CallResult& from);
 CommandStatus to_wire(const inspect::CommandStatus& from);
 Watch to_wire(const inspect::Watch& from);
 WatchedValues to_wire(const inspect::WatchedValues& from);
+Cycle to_wire(const inspect::Cycle& from);
 Pace to_wire(const exec::Pace& from);
 
 inspect::ApplicationStatus from_wire(const ApplicationStatus& from);
@@ -34,6 +35,7 @@ inspect::CallResult from_wire(const CallResult& from);
 inspect::CommandStatus from_wire(const CommandStatus& from);
 inspect::Watch from_wire(const Watch& from);
 inspect::WatchedValues from_wire(const WatchedValues& from);
+inspect::Cycle from_wire(const Cycle& from);
 exec::Pace from_wire(const Pace& from);
 
 /// `all`, each by `convert`.

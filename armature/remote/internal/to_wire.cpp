@@ -162,6 +162,16 @@ WatchedValues to_wire(const inspect::WatchedValues& from) {
   return {from.values, from.ages, from.replaced};
 }
 
+Cycle to_wire(const inspect::Cycle& from) {
+  const auto microseconds = [](base::Duration time) { return base::to_seconds(time) * 1e6; };
+  return {from.number, base::to_seconds(from.time - base::Time{}), microseconds(from.length),
+          each(from.steps,
+               [&](const inspect::CycleStep& one) {
+                 return CycleStep{one.component, microseconds(one.begin), microseconds(one.length)};
+               }),
+          from.left_out};
+}
+
 Pace to_wire(const exec::Pace& from) { return {from.rate, from.paused}; }
 
 }  // namespace armature::remote::internal

@@ -53,7 +53,8 @@ std::string findings_of_failure(const std::string& file, const std::string& why)
                   {"diagnostics", {{{"severity", "error"}, {"message", why}}}},
                   {"components", Json::array()},
                   {"connections", Json::array()},
-                  {"threads", Json::array()}});
+                  {"threads", Json::array()},
+                  {"modes", Json::array()}});
 }
 
 }  // namespace

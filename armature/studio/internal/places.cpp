@@ -2,6 +2,8 @@
 #include "armature/studio/internal/places.hpp"
 
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +23,13 @@ bool is_pair_of_numbers(const Json& json) {
   return json.is_array() && json.size() == 2 && json[0].is_number() && json[1].is_number();
 }
 
+std::string quoted(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The component of `Sensor.Positions`.
+std::string_view owner_of(std::string_view port) { return port.substr(0, port.rfind('.')); }
+
 }  // namespace
 
 base::Result<Places> Places::parse(const std::string& text) {
@@ -36,6 +45,14 @@ base::Result<Places> Places::parse(const std::string& text) {
       return base::Error{"the place of '" + box + "' must be [x, y], in pixels"};
     places.set(box, place[0].get<double>(), place[1].get<double>());
   }
+  const auto robots = json.find("robots");
+  if (robots == json.end()) return places;
+  if (!robots->is_object()) return base::Error{R"(expected "robots": {"NAME": "PORT", ...})"};
+  for (const auto& [component, port] : robots->items()) {
+    if (!port.is_string())
+      return base::Error{"the port of the robot '" + component + "' must be a text"};
+    places.move_by(component, port.get<std::string>());
+  }
   return places;
 }
 
@@ -43,19 +60,47 @@ void Places::set(const std::string& box, double x, double y) {
   boxes_[box] = {on_grid(x), on_grid(y)};
 }
 
+void Places::move_by(const std::string& component, const std::string& port) {
+  if (port.empty()) {
+    robots_.erase(component);
+  } else {
+    robots_[component] = port;
+  }
+}
+
 void Places::rename(const std::string& from, const std::string& to) {
-  auto box = boxes_.extract(from);
-  if (box.empty()) return;
-  box.key() = to;
-  boxes_.insert(std::move(box));
+  if (auto box = boxes_.extract(from)) {
+    box.key() = to;
+    boxes_.insert(std::move(box));
+  }
+  if (auto robot = robots_.extract(from)) {
+    robot.key() = to;
+    robots_.insert(std::move(robot));
+  }
+  for (auto& [component, port] : robots_) {
+    if (owner_of(port) == from) port.replace(0, from.size(), to);
+  }
+}
+
+void Places::remove(const std::string& component) {
+  boxes_.erase(component);
+  robots_.erase(component);
+  std::erase_if(robots_, [&](const auto& robot) { return owner_of(robot.second) == component; });
 }
 
 std::string Places::to_text() const {
   std::string text = "{\"boxes\": {";
   const char* separator = "\n  ";
   for (const auto& [box, place] : boxes_) {
-    text += separator + Json(box).dump(-1, ' ', false, Json::error_handler_t::replace) + ": [" +
-            std::to_string(place.x * kGrid) + ", " + std::to_string(place.y * kGrid) + "]";
+    text += separator + quoted(box) + ": [" + std::to_string(place.x * kGrid) + ", " +
+            std::to_string(place.y * kGrid) + "]";
+    separator = ",\n  ";
+  }
+  if (robots_.empty()) return text + "\n}}\n";
+  text += "\n},\n\"robots\": {";
+  separator = "\n  ";
+  for (const auto& [component, port] : robots_) {
+    text += separator + quoted(component) + ": " + quoted(port);
     separator = ",\n  ";
   }
   return text + "\n}}\n";

@@ -15,25 +15,29 @@ struct BoxPlace {
   std::int32_t y = 0;
 };
 
-/// Where boxes are: the file `FILE.studio.json` beside a deployment, sorted, a line for each box,
-/// so that what two people moved merges.
+/// Where boxes are, and what moves robots in 3D: the file `FILE.studio.json` beside a deployment,
+/// sorted, a line for each, so that what two people moved merges.
 class Places {
  public:
   static constexpr std::int32_t kGrid = 8;
 
-  /// Of the file's text; empty: no box has a place. The error says what is wrong with it.
+  /// Of the file's text; empty: nothing has a place. The error says what is wrong with it.
   static base::Result<Places> parse(const std::string& text);
 
   /// Coordinates in pixels go to the next step of the grid.
   void set(const std::string& box, double x, double y);
+  /// The robot that `component` describes has the joint positions of `port`, `Sensor.Positions`;
+  /// empty: those that are found.
+  void move_by(const std::string& component, const std::string& port);
   void rename(const std::string& from, const std::string& to);
-  void remove(const std::string& box) { boxes_.erase(box); }
+  void remove(const std::string& component);
 
-  bool empty() const { return boxes_.empty(); }
+  bool empty() const { return boxes_.empty() && robots_.empty(); }
   std::string to_text() const;
 
  private:
   std::map<std::string, BoxPlace> boxes_;
+  std::map<std::string, std::string> robots_;  ///< ports, by the component that describes the robot
 };
 
 }  // namespace armature::studio::internal

@@ -26,9 +26,37 @@ TEST(Places, GoWithTheirBox) {
   EXPECT_EQ(places.to_text(), "{\"boxes\": {\n  \"C\": [8, 8]\n}}\n");
 }
 
+TEST(Places, HaveWhatMovesRobotsALineForEach) {
+  Places places;
+  places.move_by("Model", "Sensor.Positions");
+  places.move_by("Arm.Robot", "Arm.Sensor.Positions");
+  const std::string text =
+      "{\"boxes\": {\n},\n\"robots\": {\n  \"Arm.Robot\": \"Arm.Sensor.Positions\",\n"
+      "  \"Model\": \"Sensor.Positions\"\n}}\n";
+  EXPECT_EQ(places.to_text(), text);
+  EXPECT_EQ(Places::parse(text).value().to_text(), text);
+  EXPECT_FALSE(places.empty());
+}
+
+TEST(Places, WhatMovesARobotGoesWithItsComponents) {
+  Places places;
+  places.move_by("Model", "Sensor.Positions");
+  places.move_by("Other", "SensorArray.Positions");
+  places.rename("Sensor", "Encoders");
+  places.rename("Model", "Robot");
+  EXPECT_EQ(places.to_text(),
+            "{\"boxes\": {\n},\n\"robots\": {\n  \"Other\": \"SensorArray.Positions\",\n"
+            "  \"Robot\": \"Encoders.Positions\"\n}}\n");
+  places.remove("Encoders");
+  places.move_by("Other", "");
+  EXPECT_TRUE(places.empty());
+}
+
 TEST(Places, WhatIsNoPlaceIsRefused) {
-  for (const char* text : {"[", "[]", "{}", R"({"boxes": []})", R"({"boxes": {"A": 1}})",
-                           R"({"boxes": {"A": [1]}})", R"({"boxes": {"A": [1, "2"]}})"}) {
+  for (const char* text :
+       {"[", "[]", "{}", R"({"boxes": []})", R"({"boxes": {"A": 1}})", R"({"boxes": {"A": [1]}})",
+        R"({"boxes": {"A": [1, "2"]}})", R"({"boxes": {}, "robots": []})",
+        R"({"boxes": {}, "robots": {"A": 1}})"}) {
     EXPECT_FALSE(Places::parse(text).ok()) << text;
   }
   EXPECT_TRUE(Places::parse("").value().empty());

@@ -18,21 +18,30 @@ std::string joined(std::string list, const std::string& item, const char* separa
   return list.empty() ? item : std::move(list) + separator + item;
 }
 
-bool is_place(const WordedChange& change) { return change.edit == "place"; }
+/// Of places alone, and not of the deployment.
+bool is_place(const WordedChange& change) {
+  return change.edit == "place" || change.edit == "robot";
+}
 
 /// Boxes have the names of entries, so they follow these.
-base::Result<void> move_box(Places& places, const WordedChange& change) {
+base::Result<void> change_places(Places& places, const WordedChange& change) {
   const auto& words = change.words;
   if (change.edit == "rename" && words.size() == 2) places.rename(words[0], words[1]);
   if (change.edit == "remove" && words.size() == 1) places.remove(words[0]);
-  if (!is_place(change)) return {};
-  if (words.size() != 3) return base::Error{"the edit 'place' takes a box, x and y"};
-  places.set(words[0], std::atof(words[1].c_str()), std::atof(words[2].c_str()));
+  if (change.edit == "place") {
+    if (words.size() != 3) return base::Error{"the edit 'place' takes a box, x and y"};
+    places.set(words[0], std::atof(words[1].c_str()), std::atof(words[2].c_str()));
+  }
+  if (change.edit == "robot") {
+    if (words.size() != 2) return base::Error{"the edit 'robot' takes a component and a port"};
+    places.move_by(words[0], words[1]);
+  }
   return {};
 }
 
 std::string text_of(const WordedChange& change) {
-  if (is_place(change)) return "move " + change.words[0];
+  if (change.edit == "place") return "move " + change.words[0];
+  if (change.edit == "robot") return "choose what moves " + change.words[0];
   return edit::to_text(change_of(change.edit, change.words).value());
 }
 
@@ -167,7 +176,7 @@ base::Result<Project::Delta> Project::placed(const std::vector<WordedChange>& ch
   if (!places && !moves) return change_to(places_file(), before);
   base::Result<void> moved = places ? base::Result<void>() : base::Error{places.error()};
   for (const WordedChange& change : changes) {
-    if (moved) moved = move_box(places.value(), change);
+    if (moved) moved = change_places(places.value(), change);
   }
   if (!moved) {
     diagnostics.error(base::Location{places_file(), 0, 0}, moved.error());

@@ -89,6 +89,18 @@ TEST_F(Edited, BoxesAreMovedAsTheSameKindOfStep) {
   EXPECT_EQ(text(project.places_file()), "");
 }
 
+TEST_F(Edited, WhatMovesARobotIsKeptBesidePlaces) {
+  EXPECT_EQ(make("robot", {"Left", "Right.Positions"}), "");
+  EXPECT_THAT(text(project.places_file()), HasSubstr("\"Left\": \"Right.Positions\""));
+  EXPECT_EQ(project.undo_text(), "choose what moves Left");
+  EXPECT_EQ(make("rename", {"Left", "Only"}), "");
+  EXPECT_THAT(text(project.places_file()), HasSubstr("\"Only\": \"Right.Positions\""));
+  EXPECT_THAT(make("robot", {"Only"}), HasSubstr("takes a component and a port"));
+  EXPECT_TRUE(project.undo());
+  EXPECT_TRUE(project.undo());
+  EXPECT_EQ(text(project.places_file()), "");
+}
+
 TEST_F(Edited, PlacesThatAreNoneStopNoEditOfTheDeployment) {
   disk["arm.yaml.studio.json"] = "broken";
   project.reload();

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "armature/base/quoted.hpp"
 #include "armature/platform/file.hpp"
 
 namespace armature::studio::internal {
@@ -26,6 +27,19 @@ std::string part_of(const std::string& path, std::size_t begin) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
+}
+
+/// Whoever may start runs gives words of a command line by it: none of them may become an option.
+base::Result<void> check_words(const RunOrder& order) {
+  if (order.mode.starts_with('-')) {
+    return base::Error{"the mode " + base::quoted(order.mode) + " must not begin with '-'"};
+  }
+  for (const std::string& setting : order.overrides) {
+    const std::size_t name = setting.find('=');
+    if (name != std::string::npos && name > 0 && !setting.starts_with('-')) continue;
+    return base::Error{"expected NAME=VALUE to be set, found " + base::quoted(setting)};
+  }
+  return {};
 }
 
 }  // namespace
@@ -68,6 +82,7 @@ std::vector<std::string> Run::command_of(const RunOrder& order) const {
 
 base::Result<void> Run::start(const RunOrder& order) {
   if (!is_over()) return base::Error{"the application runs already: stop it first"};
+  if (const auto good = check_words(order); !good) return good;
   if (order.simulated && !(order.pace > 0.0)) {
     return base::Error{"a pace is above 0: 1 is real time, 0.1 a tenth of it"};
   }

@@ -75,6 +75,18 @@ TEST_F(Started, AsFastAsPossibleIsNoPaceAndRealTimeNoSimulation) {
   EXPECT_FALSE(run.start({.simulated = true, .pace = 0.0}));
 }
 
+TEST_F(Started, NoWordOfAnOrderBecomesAnOption) {
+  internal::Run run = run_of("echo \"$@\"");
+  for (const char* setting : {"--listen=tcp://0.0.0.0:1", "-L=there", "joints", "=2", ""}) {
+    EXPECT_THAT(run.start({.simulated = true, .pace = 1.0, .overrides = {setting}}).error(),
+                HasSubstr("expected NAME=VALUE"))
+        << setting;
+  }
+  EXPECT_THAT(run.start({.simulated = true, .pace = 1.0, .mode = "--arm"}).error(),
+              HasSubstr("must not begin with '-'"));
+  EXPECT_EQ(run.stage(), RunStage::kNone);
+}
+
 TEST_F(Started, OneRunsAtATimeAndStopsInOrder) {
   internal::Run run =
       run_of("trap 'echo stopping; exit 0' TERM; echo ready; while :; do sleep 0.01; done");

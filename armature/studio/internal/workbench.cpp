@@ -5,6 +5,7 @@
 
 #include "armature/inspect/checked_json.hpp"
 #include "armature/platform/file.hpp"
+#include "armature/studio/internal/description.hpp"
 
 namespace armature::studio::internal {
 namespace {
@@ -153,7 +154,9 @@ void Workbench::places(ride::ReplyOf<std::string> reply) {
   });
 }
 
+/// Whoever sets something for a run configures.
 void Workbench::start(const RunSettings& settings, ride::ReplyOf<RunState> reply) {
+  if (!settings.overrides.empty()) reply.demand(kName, ride::Access::kConfigure);
   later(reply, [this, settings](auto& owed) {
     const auto started =
         desk_.start({settings.simulated, settings.pace, settings.mode, settings.overrides, 0});
@@ -178,6 +181,14 @@ void Workbench::run(ride::ReplyOf<RunState> reply) {
 
 void Workbench::log(std::int32_t from, ride::ReplyOf<std::vector<std::string>> reply) {
   later(reply, [this, from](auto& owed) { owed.put(desk_.run().log(from, kLogLinesAtOnce)); });
+}
+
+void Workbench::description(const std::string& path, ride::ReplyOf<std::string> reply) {
+  later(reply, [this, path](auto& owed) {
+    auto text = read_description(path, desk_.findings());
+    if (!text) throw ride::Failure(text.error());
+    owed.put(std::move(text.value()));
+  });
 }
 
 void Workbench::tell_project() {

@@ -13,6 +13,9 @@ namespace armature::studio::internal {
 /// The desk for pages: requests wait in a queue for the thread that works at the desk.
 class Workbench final : public WorkbenchService {
  public:
+  /// As which pages know it, also in policies.
+  static constexpr const char* kName = "workbench";
+
   /// @param queue  of the desk's thread
   /// @param wake   has it look there
   Workbench(Desk& desk, remote::ControlQueue& queue, std::function<void()> wake)
@@ -42,6 +45,7 @@ class Workbench final : public WorkbenchService {
   void stop(ride::ReplyOf<RunState> reply) override;
   void run(ride::ReplyOf<RunState> reply) override;
   void log(std::int32_t from, ride::ReplyOf<std::vector<std::string>> reply) override;
+  void description(const std::string& path, ride::ReplyOf<std::string> reply) override;
 
   template <typename Result, typename Work>
   void later(ride::ReplyOf<Result>& reply, Work work);

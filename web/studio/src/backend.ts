@@ -4,16 +4,16 @@ import type { InspectorPlaceholder } from "@armature/placeholders/inspection";
 import type { ProjectChanged, RunChanged, WorkbenchPlaceholder } from "@armature/placeholders/workbench";
 
 export type {
-  ApplicationStatus, CommandStatus, ComponentDetails, ComponentStatus, OperationDetails, Pace, ThreadStatus,
+  ApplicationStatus, CommandStatus, Cycle, ComponentDetails, ComponentStatus, OperationDetails, Pace, ThreadStatus,
 } from "@armature/placeholders/inspection";
 export type { Change, Outcome, ProjectState, RunSettings, RunState } from "@armature/placeholders/workbench";
 
 type WorkbenchCalls =
   | "project" | "text" | "edit" | "write" | "undo" | "redo" | "save" | "reload" | "check" | "fitting" | "models" | "places"
-  | "start" | "stop" | "run" | "log";
+  | "start" | "stop" | "run" | "log" | "description";
 type InspectorCalls =
   | "application" | "components" | "faults" | "describe" | "read" | "write" | "call" | "begin" | "follow" | "cancel" | "change"
-  | "watch" | "watched" | "end_watch" | "pace" | "set_pace" | "step";
+  | "watch" | "watched" | "end_watch" | "cycle" | "pace" | "set_pace" | "step";
 
 export interface Workbench extends Pick<WorkbenchPlaceholder, WorkbenchCalls> {
   on_ProjectChanged(handler: (change: ProjectChanged) => void): unknown;

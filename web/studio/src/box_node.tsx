@@ -79,10 +79,13 @@ function PortRow({ box, port, shown }: { box: Box; port: BoxPort; shown: boolean
         style={{ top: y - 11 }} title={reason} onClick={(event) => pick(event, box, port)}>
         <span>{port.name}</span>
         {live && source && <PortValue port={port} />}
+        {port.outside && <span className="outside" title={port.outside.join("\n")}>{outside_text(port.outside)}</span>}
       </div>
     </>
   );
 }
+
+const outside_text = (ends: string[]): string => (ends.length > 1 ? `${ends[0]} +${ends.length - 1}` : ends[0]!);
 
 function pick(event: React.MouseEvent, box: Box, port: BoxPort): void {
   event.stopPropagation();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
   applyNodeChanges, Background, BackgroundVariant, type Connection, ConnectionMode, ControlButton, Controls, type Edge, type EdgeChange, MiniMap, type NodeChange,
-  type OnConnectEnd, type OnConnectStart, ReactFlow, ReactFlowProvider, useReactFlow, useStore,
+  type OnConnectEnd, type OnConnectStart, ReactFlow, ReactFlowProvider, useReactFlow, useStore, ViewportPortal,
 } from "@xyflow/react";
 import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { WireEdge } from "./wire_edge.tsx";
@@ -9,13 +9,14 @@ import { BoxNode, type BoxData, type BoxNodeType } from "./box_node.tsx";
 import { Breadcrumb } from "./breadcrumb.tsx";
 import { port_place, size_of } from "./geometry.ts";
 import type { Box, Graph, Wire } from "./graph.ts";
-import { layout, on_grid, type Point } from "./layout.ts";
+import type { Lane } from "./lanes.ts";
+import { on_grid, type Point } from "./layout.ts";
+import { kMostWithPorts, lanes_of, places_of } from "./placing.ts";
 import { change, edit, project } from "./project.ts";
-import { arrange, arrangements, known_places, remember } from "./remembered.ts";
+import { arrange, arrangements } from "./remembered.ts";
 import { add_model, box_called, connect, is_source, look_for_ends, port_of, remove_selected, useScene, why_not } from "./scene.ts";
-import { open_composite, selection, tell } from "./selection.ts";
+import { open_composite, selection, tell, toggle_opened } from "./selection.ts";
 
-const kMostWithPorts = 300;
 const kFar = 0.3;           ///< zoomed out further, boxes have no ports
 const kManyBoxes = 100;     ///< from here on only what is in sight is drawn
 const kMostWithoutMap = 10;
@@ -23,6 +24,7 @@ const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
 const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.4 };
+const kFitLanes = { ...kFit, padding: 0.12 };
 const node_types = { box: BoxNode };
 const edge_types = { wire: WireEdge };
 
@@ -43,6 +45,7 @@ function Flow() {
   const nodes = useNodes(graph);
   const edges = useEdges(graph);
   const reaching = selection.use((state) => state.reach !== undefined);
+  const in_lanes = selection.use((state) => state.lanes);
   const many = graph.boxes.length > kManyBoxes;
   useReveal();
   useNewInSight(graph);
@@ -56,19 +59,32 @@ function Flow() {
         connectionMode={ConnectionMode.Loose} connectionRadius={16} onNodeDoubleClick={(_, node) => open_box(node.data.box)}
         onPaneClick={() => selection.set({ boxes: [], wires: [], port: undefined, menu: undefined })}
         onBeforeDelete={async () => (void remove_selected(), false)} deleteKeyCode={["Delete", "Backspace"]}
-        onKeyDown={open_with_key} onDrop={drop} onDragOver={(event) => event.preventDefault()} snapToGrid snapGrid={kSnap} minZoom={0.05} maxZoom={2}
+        onKeyDown={open_with_key} onDrop={drop} onDragOver={(event) => event.preventDefault()} nodesDraggable={!in_lanes} snapToGrid snapGrid={kSnap} minZoom={0.05} maxZoom={2}
         fitView fitViewOptions={graph.boxes.length > kManyBoxes ? kFitMany : kFit} onlyRenderVisibleElements={many} zoomOnDoubleClick={false}
         ariaLabelConfig={{ "node.a11yDescription.default": "Arrows move the box, Enter opens a composite, Delete removes it" }}
         proOptions={{ hideAttribution: false }} colorMode="system">
         <Background variant={BackgroundVariant.Dots} gap={24} size={1} />
+        <LaneBands lanes={nodes.lanes} />
         <Controls showInteractive={false}>
           <ControlButton onClick={arrange} title="Lay out anew all boxes that nobody moved" aria-label="Arrange">⇶</ControlButton>
+          <ControlButton onClick={() => selection.set({ lanes: !in_lanes })} title="Threads as lanes: places of boxes stay as they are" aria-label="Threads as lanes" aria-pressed={in_lanes}>☰</ControlButton>
         </Controls>
         {graph.boxes.length > kMostWithoutMap && <MiniMap pannable zoomable ariaLabel="Overview" />}
       </ReactFlow>
       {graph.boxes.length === 0 && <Empty />}
       {stale && <p className="stale-note" role="status">The text has a mistake that hides its components. The canvas shows them as they were; mend the text, or take it back with Undo.</p>}
     </div>
+  );
+}
+
+/** Behind the boxes. */
+function LaneBands({ lanes }: { lanes: Lane[] }) {
+  return (
+    <ViewportPortal>
+      {lanes.map(({ title, number, x, y, width, height }) => (
+        <div key={title} className="lane" data-lane={number} style={{ translate: `${x}px ${y}px`, width, height }}>{title}</div>
+      ))}
+    </ViewportPortal>
   );
 }
 
@@ -92,9 +108,10 @@ function useNodes(graph: Graph) {
   const [moved, set_moved] = useState<ReadonlyMap<string, Point>>(new Map());
   useEffect(() => set_moved(new Map()), [places, graph]);
   const arranged = arrangements.use((state) => state.count);
-  const laid = useMemo(() => places_of(graph, places), [graph, places, arranged]);
+  const in_lanes = selection.use((state) => state.lanes);
+  const laid = useMemo(() => (in_lanes ? lanes_of(graph) : { places: places_of(graph, places), lanes: [] }), [graph, places, arranged, in_lanes]);
   const all = useMemo(
-    () => graph.boxes.map((box) => node_of(box, moved.get(box.id) ?? laid.get(box.id)!, ports, chosen.includes(box.id), lane_of(box), errors_of(box, diagnostics))),
+    () => graph.boxes.map((box) => node_of(box, moved.get(box.id) ?? laid.places.get(box.id)!, ports, chosen.includes(box.id), lane_of(box), errors_of(box, diagnostics))),
     [graph, moved, laid, ports, chosen, diagnostics],
   );
   const changed = useCallback((changes: NodeChange<BoxNodeType>[]) => {
@@ -106,21 +123,12 @@ function useNodes(graph: Graph) {
     const dropped = moves.filter((one) => one.type === "position" && !one.dragging).map((one) => place_in(now, (one as { id: string }).id));
     if (dropped.length > 0) void edit(dropped.map(([id, [x, y]]) => change("place", id, String(x), String(y))));
   }, [all]);
-  return { all, changed };
+  return { all, changed, lanes: laid.lanes };
 }
 
 function place_in(nodes: BoxNodeType[], id: string): [string, Point] {
   const { x, y } = nodes.find((node) => node.id === id)!.position;
   return [id, [on_grid(x), on_grid(y)]];
-}
-
-function places_of(graph: Graph, places: ReadonlyMap<string, Point>): Map<string, Point> {
-  const nodes = graph.boxes.map((box) => ({ id: box.id, ...size_of(box, graph.boxes.length <= kMostWithPorts) }));
-  const edges = graph.wires.filter((wire) => wire.kind === "data").map((wire) => [wire.from.box, wire.to.box] as const);
-  const commands = graph.wires.filter((wire) => wire.kind !== "data").map((wire) => [wire.from.box, wire.to.box] as const);
-  const laid = layout(nodes, [...edges, ...commands], known_places(graph.boxes, places));
-  remember(graph.boxes, laid);
-  return laid;
 }
 
 function node_of(box: Box, [x, y]: Point, ports: boolean, selected: boolean, lane: number, errors: number): BoxNodeType {
@@ -170,8 +178,12 @@ function edge_of(wire: Wire, selected: boolean, boxes: string[]): Edge {
   const classes = [wire.kind, wire.triggers && "triggers", wire.delayed && "delayed", near && "near"];
   return {
     id: wire.id, type: "wire", source: wire.from.box, sourceHandle: wire.from.port, target: wire.to.box, targetHandle: wire.to.port, selected,
-    className: classes.filter(Boolean).join(" "), ariaLabel: `${wire.written[0]} to ${wire.written[1]}`, interactionWidth: 14,
+    className: classes.filter(Boolean).join(" "), ariaLabel: label_of(wire), interactionWidth: 14,
   };
+}
+
+function label_of({ written: [from, to], parameter, between, connections }: Wire): string {
+  return parameter ? `${connections[0]!.from} to ${between}.${parameter}` : `${from} to ${to}`;
 }
 
 function wires_changed(changes: EdgeChange[]): void {
@@ -199,7 +211,7 @@ function may_connect({ source, sourceHandle, target, targetHandle }: Connection 
   const other = reach?.box === source && reach.port === sourceHandle ? [target, targetHandle] : [source, sourceHandle];
   const box = box_called(other[0] ?? "");
   const port = box && port_of(box, other[1] ?? "");
-  return port !== undefined && why_not(port) === "";
+  return port !== undefined && (why_not(port) ?? (port.parameter ? "" : undefined)) === "";
 }
 
 /** Dropped on nothing a wire offers models; on what does not fit, the reason. */
@@ -239,6 +251,7 @@ function useDrop() {
 
 function open_box(box: Box): void {
   if (box.composite) open_composite([...selection.get().path, box.title]);
+  if (box.opened) toggle_opened(box.names[0]!);
 }
 
 function open_with_key(event: React.KeyboardEvent): void {
@@ -252,11 +265,13 @@ function useReveal(): void {
   const flow = useReactFlow();
   const reveal = selection.use((state) => state.reveal);
   const path = selection.use((state) => state.path);
-  const text = selection.use((state) => state.text);
+  const beside = selection.use((state) => state.beside);
+  const in_lanes = selection.use((state) => state.lanes);
   useEffect(() => {
-    if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration: 200, padding: 0.4 });
+    const duration = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 200;
+    if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration, padding: 0.4 });
   }, [flow, reveal]);
-  useEffect(() => void setTimeout(() => void flow.fitView(kFit), 30), [flow, path, text]);
+  useEffect(() => void setTimeout(() => void flow.fitView(in_lanes ? kFitLanes : kFit), 30), [flow, path, beside, in_lanes]);
 }
 
 /** A box that is new and selected comes into sight, with all others if they are not too many. */

@@ -125,6 +125,7 @@ export interface Checked {
   components: Component[];
   connections: Connection[];
   threads: { name: string; activity: Activity; order: string[] }[];
+  modes: { name: string; initial: boolean }[];
 }
 
 export interface Model extends Members {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the canvas shows: a box per entry as written, a wire per written connection.
 import { type Checked, type Component, type Connection, kEventCommand, type Place, split_member } from "./checked.ts";
+import { ports_of_opened } from "./event_command.ts";
 import { ports_of_component, ports_of_parts } from "./ports.ts";
 import {
   type Composite, composites_of, ends_at, entries_of, indexed, is_made_by, key_at, model_of, type Texts, type WrittenEntry,
@@ -20,6 +21,10 @@ export interface BoxPort {
   count: number;   ///< of an array that is shown as one
   ends: string[];  ///< `Component.member` of all that it stands for
   written: string; ///< as an edit names it
+  /** Ends outside of the composite that is open, to which it is connected. */
+  outside?: string[];
+  /** Of a command, that an opened connection from an event gives. */
+  parameter?: string;
 }
 
 export interface Box extends Place {
@@ -33,10 +38,14 @@ export interface Box extends Place {
   inputs: BoxPort[];
   outputs: BoxPort[];
   thread: string;
+  /** Of an opened connection from an event to a command: its ends as written. */
+  opened?: [string, string];
 }
 
 export interface Wire extends Place {
   id: string;
+  between?: string;    ///< the component that stands for a connection from an event to a command
+  parameter?: string;  ///< of the command, that the wire gives a value
   kind: "data" | "command";
   from: { box: string; port: string };
   to: { box: string; port: string };
@@ -63,9 +72,9 @@ interface Located {
   rest: string;   ///< `left`
 }
 
-/** What is below the composites `path`; all if it is empty. */
-export function graph_of(checked: Checked, texts: Texts, path: readonly string[]): Graph {
-  const builder = new Builder(checked, texts);
+/** What is below the composites `path`; all if it is empty. @param opened  connections from events to commands that are boxes */
+export function graph_of(checked: Checked, texts: Texts, path: readonly string[], opened: readonly string[] = []): Graph {
+  const builder = new Builder(checked, texts, opened);
   return builder.graph(path);
 }
 
@@ -73,7 +82,7 @@ class Builder {
   private readonly entries: WrittenEntry[];
   private readonly composites: Composite[];
 
-  constructor(private readonly checked: Checked, private readonly texts: Texts) {
+  constructor(private readonly checked: Checked, private readonly texts: Texts, private readonly opened: readonly string[]) {
     this.entries = entries_of(texts);
     this.composites = composites_of(texts);
   }
@@ -86,12 +95,21 @@ class Builder {
         for (const end of port.ends) ends.set(end, { box, port });
       }
     }
+    if (path.length > 0) this.note_outside(ends);
     return { boxes, wires: this.wires(ends), ends };
+  }
+
+  /** Of wires that leave the composite the inner port tells where they lead. */
+  private note_outside(ends: Graph["ends"]): void {
+    for (const { connection: { from, to } } of this.with_event_commands()) {
+      const port = (ends.get(from) ?? ends.get(to))?.port;
+      if (port && ends.has(from) !== ends.has(to)) port.outside = [...new Set([...(port.outside ?? []), ends.has(from) ? to : from])];
+    }
   }
 
   private below(path: readonly string[]): Located[] {
     let all: Located[] = this.checked.components
-      .filter((component) => component.model !== kEventCommand)
+      .filter((component) => component.model !== kEventCommand || this.opened.includes(component.name))
       .map((component) => ({ component, outer: "", rest: component.name }));
     for (const step of path) all = all.filter((one) => this.instance_key(one) === step).map(descend);
     return all;
@@ -146,10 +164,20 @@ class Builder {
     const first = components[0]!;
     const { file, line, column, model } = first;
     const place = { file, line, column };
+    if (model === kEventCommand) return this.opened_box(id, title, first);
     const ports = ports_of_component(components, indexed(edited), this.checked.connections);
     return {
       id, edited, title, model, composite: false, components, ...place, ...ports,
       names: components.map((one) => one.name), thread: first.thread ?? "",
+    };
+  }
+
+  private opened_box(id: string, title: string, component: Component): Box {
+    const { file, line, column, name, thread } = component;
+    const { from, to } = this.event_command(component) ?? { from: "", to: "" };
+    return {
+      id, edited: id, title, model: kEventCommand, composite: false, components: [component], names: [name], file, line, column, thread: thread ?? "",
+      opened: (file && line && ends_at(this.texts, file, line, column ?? 1)) || [from, to], ...ports_of_opened(component, this.checked, to, this.texts),
     };
   }
 
@@ -179,7 +207,7 @@ class Builder {
   }
 
   private add(
-    connection: Connection, kind: Wire["kind"], from: { box: Box; port: BoxPort }, to: { box: Box; port: BoxPort },
+    connection: Connection & { between?: string }, kind: Wire["kind"], from: { box: Box; port: BoxPort }, to: { box: Box; port: BoxPort },
     wires: Map<string, Wire>,
   ): void {
     const { file, line, column } = connection;
@@ -194,6 +222,7 @@ class Builder {
       id, kind, file, line, column,
       from: { box: from.box.id, port: from.port.id },
       to: { box: to.box.id, port: to.port.id },
+      ...this.in_between(connection),
       triggers: connection.triggers ?? false,
       delayed: connection.delayed ?? false,
       crosses_threads: connection.crosses_threads ?? false,
@@ -202,21 +231,34 @@ class Builder {
     });
   }
 
+  /** The component that stands for a connection from an event to a command, of the wires at it. */
+  private in_between({ kind, from, to, between }: Connection & { between?: string }): Pick<Wire, "between" | "parameter"> {
+    if (between) return { between };
+    const [owner, member] = split_member(to);
+    if (kind === "data" && this.opened.includes(owner)) return { between: owner, parameter: member };
+    const of_event = this.opened.find((one) => owner === one || split_member(from)[0] === one);
+    return of_event ? { between: of_event } : {};
+  }
+
   /** Data connections, and those from an event to a command, which stand as components of their own. */
-  private with_event_commands(): { connection: Connection; kind: Wire["kind"] }[] {
-    const found: { connection: Connection; kind: Wire["kind"] }[] = [];
+  private with_event_commands(): { connection: Connection & { between?: string }; kind: Wire["kind"] }[] {
+    const found: { connection: Connection & { between?: string }; kind: Wire["kind"] }[] = [];
     const between = new Map(this.checked.components.filter((one) => one.model === kEventCommand).map((one) => [one.name, one]));
     for (const connection of this.checked.connections) {
-      if (connection.kind === "data" && !between.has(split_member(connection.to)[0])) found.push({ connection, kind: "data" });
+      const owner = split_member(connection.to)[0];
+      if (connection.kind === "data" && (!between.has(owner) || this.opened.includes(owner))) found.push({ connection, kind: "data" });
     }
     for (const one of between.values()) {
       const connection = this.event_command(one);
-      if (connection) found.push({ connection, kind: "command" });
+      if (!connection) continue;
+      const { from, to } = connection;
+      const ways = this.opened.includes(one.name) ? [{ from, to: `${one.name}.On` }, { from: `${one.name}.Do`, to }] : [{ from, to }];
+      for (const way of ways) found.push({ connection: { ...connection, ...way }, kind: "command" });
     }
     return found;
   }
 
-  private event_command(between: Component): Connection | undefined {
+  private event_command(between: Component): (Connection & { between: string }) | undefined {
     const { name, file, line, column } = between;
     const all = this.checked.connections;
     const event = all.find((one) => one.kind === "event" && split_member(one.to)[0] === name);
@@ -225,7 +267,7 @@ class Builder {
     const from = event?.from ?? written?.[0];
     const to = command?.to ?? written?.[1];
     if (!from || !to) return undefined;
-    return { kind: "command", from, to, file, line, column, crosses_threads: command?.crosses_threads };
+    return { kind: "command", from, to, file, line, column, crosses_threads: command?.crosses_threads, between: name };
   }
 }
 

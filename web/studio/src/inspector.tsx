@@ -5,7 +5,7 @@ import { PortView } from "./port_view.tsx";
 import { project } from "./project.ts";
 import { box_called, port_of, useScene } from "./scene.ts";
 import { selection } from "./selection.ts";
-import { WireView } from "./wire_view.tsx";
+import { OpenedView, WireView } from "./wire_view.tsx";
 
 export function Inspector() {
   return (
@@ -24,6 +24,7 @@ function Selected() {
   const wire = wires.length === 1 && boxes.length === 0 ? graph.wires.find((one) => one.id === wires[0]) : undefined;
   if (wire) return <WireView wire={wire} />;
   const box = boxes.length === 1 ? box_called(boxes[0]!) : undefined;
+  if (box?.opened) return <OpenedView key={box.id} box={box} />;
   if (box) return <BoxView key={box.id} box={box} />;
   if (boxes.length + wires.length > 1) return <p className="hint">{`${boxes.length} boxes and ${wires.length} wires are selected. Delete removes them.`}</p>;
   return <Application />;

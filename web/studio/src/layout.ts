@@ -195,7 +195,7 @@ function keep_fixed(nodes: LayoutNode[], places: Map<string, Point>, fixed: Read
 }
 
 /** The place, or the first below it where the node covers none of the others. */
-function first_free(node: LayoutNode, [x, wanted]: Point, taken: { node: LayoutNode; at: Point }[]): Point {
+export function first_free(node: LayoutNode, [x, wanted]: Point, taken: { node: LayoutNode; at: Point }[]): Point {
   let y = wanted;
   const covered = () => taken.find(({ node: other, at }) =>
     x < at[0] + other.width && at[0] < x + node.width && y < at[1] + other.height && at[1] < y + node.height);

@@ -18,6 +18,7 @@ import { TopBar } from "./top_bar.tsx";
 import { start_values } from "./values.ts";
 
 const TextView = lazy(() => import("./text_view.tsx"));
+const RobotView = lazy(() => import("./robot_view.tsx"));
 
 export function show_page(backend: Backend): void {
   open_project(backend);
@@ -27,10 +28,10 @@ export function show_page(backend: Backend): void {
 }
 
 function Page() {
-  const text = selection.use((state) => state.text);
+  const beside = selection.use((state) => state.beside);
   useEffect(listen_to_keys, []);
   return (
-    <div className={`studio${text ? " with-text" : ""}`}>
+    <div className={`studio${beside ? ` with-beside with-${beside}` : ""}`}>
       <TopBar />
       <Notices />
       <nav className="left" aria-label="Models and outline">
@@ -38,12 +39,21 @@ function Page() {
         <Outline />
       </nav>
       <main aria-label="Canvas"><Guard><Canvas /></Guard></main>
-      {text && <section className="beside" aria-label="Text"><Guard><Suspense fallback={<p className="hint">Opening the text …</p>}><TextView /></Suspense></Guard></section>}
+      {beside && <BesideView what={beside} />}
       <Guard><Inspector /></Guard>
       <Panel />
       <FitMenu />
       <QuestionView />
     </div>
+  );
+}
+
+function BesideView({ what }: { what: "text" | "robot" }) {
+  const label = what === "text" ? "Text" : "Robot";
+  return (
+    <section className="beside" aria-label={label}>
+      <Guard key={what}><Suspense fallback={<p className="hint">{`Opening the ${what} …`}</p>}>{what === "text" ? <TextView /> : <RobotView />}</Suspense></Guard>
+    </section>
   );
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { lazy, type ReactNode, Suspense } from "react";
+import { CycleView } from "./cycle_view.tsx";
 import { Log } from "./log.tsx";
 import { Operate } from "./operate.tsx";
 import { Problems } from "./problems.tsx";
@@ -9,10 +10,10 @@ import { Threads } from "./threads.tsx";
 
 const Plot = lazy(() => import("./plot.tsx"));
 
-const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["plot", "Plot"], ["operate", "Operate"]];
+const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["cycle", "Cycle"], ["plot", "Plot"], ["operate", "Operate"]];
 
 const views: Record<Tab, () => ReactNode> = {
-  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, operate: () => <Operate />,
+  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, cycle: () => <CycleView />, operate: () => <Operate />,
   plot: () => <Suspense fallback={<p className="hint">Opening the plot …</p>}><Plot /></Suspense>,
 };
 

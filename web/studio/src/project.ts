@@ -35,6 +35,7 @@ export interface Project {
   stale: boolean;           ///< `shown` is older than `checked`
   models: Model[];
   places: ReadonlyMap<string, Point>;
+  robots: ReadonlyMap<string, string>;  ///< the port that was chosen for a robot, by the component that describes it
   refusal?: Refusal;
   question?: Question;
 }
@@ -43,7 +44,7 @@ const kNothing: ProjectState = { file: "", version: 0, files: [], undo: "", redo
 
 export const project = new Store<Project>({
   loaded: false, connected: true, trouble: "", state: kNothing, texts: new Map(), textsVersion: 0, shownTexts: new Map(),
-  stale: false, models: [], places: new Map(),
+  stale: false, models: [], places: new Map(), robots: new Map(),
 });
 
 let backend: Backend;
@@ -85,14 +86,15 @@ async function read_all(): Promise<void> {
   const before = project.get();
   const fresh = state.version !== before.textsVersion;
   const texts = fresh ? await read_texts(state) : before.texts;
-  const { boxes } = JSON.parse(await workbench.places(kPatient)) as { boxes?: Record<string, Point> };
+  const { boxes, robots } = JSON.parse(await workbench.places(kPatient)) as { boxes?: Record<string, Point>; robots?: Record<string, string> };
   const checked = state.checked > 0 && (state.checked !== before.state.checked || !before.checked)
     ? (JSON.parse(await workbench.check(kPatient)) as Checked)
     : before.checked;
   const then = await workbench.project(kPatient);
   if (then.version !== state.version) again = true;
   project.set({
-    loaded: true, state, texts, textsVersion: state.version, places: new Map(Object.entries(boxes ?? {})), trouble: "",
+    loaded: true, state, texts, textsVersion: state.version, places: new Map(Object.entries(boxes ?? {})),
+    robots: new Map(Object.entries(robots ?? {})), trouble: "",
     ...what_is_shown(checked, texts, before),
   });
 }
@@ -209,3 +211,9 @@ export const clear_refusal = (): void => project.set({ refusal: undefined });
 export async function fitting(component: string, member: string): Promise<string> {
   return backend.workbench.fitting(component, member, kPatient);
 }
+
+/** The text of a robot's description (URDF). */
+export const describe_robot = (path: string): Promise<string> => backend.workbench.description(path, kPatient);
+
+/** Has the robot that a component describes moved by a port; empty: by the one that is found. */
+export const set_robot_source = (owner: string, port: string): Promise<boolean> => edit([change("robot", owner, port)], { field: "robot" });

@@ -11,6 +11,8 @@ export interface Run {
   state: RunState;
   simulated: boolean;      ///< of the next run
   pace: number;            ///< likewise
+  mode: string;            ///< likewise; empty: the deployment's first
+  settings: Setting[];     ///< likewise
   now?: Pace;
   application?: ApplicationStatus;
   components: ReadonlyMap<string, ComponentStatus>;
@@ -18,12 +20,18 @@ export interface Run {
   logBegin: number;        ///< number of the first line in `log`
 }
 
+/** A parameter or property that a run has otherwise than the file says; without a name it is none yet. */
+export interface Setting {
+  name: string;
+  value: string;
+}
+
 const kNone: RunState = { number: 0, state: "none", simulated: true, version: 0, exit_code: 0, log_begin: 0, log_end: 0 };
 const kMostLines = 5000;
 const kStatusInterval = 250;
 const kComponentsInterval = 1000;
 
-export const run = new Store<Run>({ state: kNone, simulated: true, pace: 1, components: new Map(), log: [], logBegin: 0 });
+export const run = new Store<Run>({ state: kNone, simulated: true, pace: 1, mode: "", settings: [], components: new Map(), log: [], logBegin: 0 });
 
 let backend: Backend;
 
@@ -103,11 +111,20 @@ async function told<Result>(done: Promise<Result>): Promise<Result | undefined> 
   });
 }
 
+export const named_settings = (settings: Setting[]): Setting[] => settings.filter(({ name }) => name.trim() !== "");
+
+/** The mode that was chosen, as long as the deployment has it. */
+export function mode_of_next(): string {
+  const { mode } = run.get();
+  return project.get().shown?.modes.some((one) => one.name === mode) ? mode : "";
+}
+
 export async function start(): Promise<void> {
   await write_typed();
   if (!is_saved(project.get().state) && !(await save())) return;
   const { simulated, pace } = run.get();
-  const state = await told(backend.workbench.start({ simulated, pace, mode: "", overrides: [] }, kPatient));
+  const overrides = named_settings(run.get().settings).map(({ name, value }) => `${name.trim()}=${value.trim()}`);
+  const state = await told(backend.workbench.start({ simulated, pace, mode: mode_of_next(), overrides }, kPatient));
   if (!state) return;
   run.set({ state, log: [], logBegin: state.log_begin });
   if (selection.get().tab === "problems") selection.set({ tab: "log" });

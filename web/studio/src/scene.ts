@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The graph of what is open now, made once for all views.
-import type { Checked, Fitting } from "./checked.ts";
+import type { Change } from "./backend.ts";
+import type { Checked, Fitting, Place } from "./checked.ts";
+import { with_parameter } from "./event_command.ts";
 import { type Box, type BoxPort, type Graph, graph_of, kNoGraph, type Wire } from "./graph.ts";
 import { change, edit, fitting, project } from "./project.ts";
 import { type FitMenu, reach_of, selection, tell } from "./selection.ts";
@@ -8,18 +10,18 @@ import { free_name } from "./free_name.ts";
 import { message_of } from "./backend.ts";
 import { split_member } from "./checked.ts";
 import type { Texts } from "./written.ts";
-import { entries_of } from "./written.ts";
+import { entries_of, settings_at } from "./written.ts";
 import type { Point } from "./layout.ts";
 
-let made: { checked?: Checked; texts?: Texts; path?: string[]; graph: Graph } = { graph: kNoGraph };
+let made: { checked?: Checked; texts?: Texts; path?: string[]; opened?: string[]; graph: Graph } = { graph: kNoGraph };
 
 /** The graph at this moment; the same object while nothing has changed. */
 export function scene(): Graph {
   const { shown, shownTexts } = project.get();
-  const { path } = selection.get();
-  if (made.checked !== shown || made.texts !== shownTexts || made.path !== path) {
-    const graph = shown ? graph_of(shown, shownTexts, path) : kNoGraph;
-    made = { checked: shown, texts: shownTexts, path, graph };
+  const { path, opened } = selection.get();
+  if (made.checked !== shown || made.texts !== shownTexts || made.path !== path || made.opened !== opened) {
+    const graph = shown ? graph_of(shown, shownTexts, path, opened) : kNoGraph;
+    made = { checked: shown, texts: shownTexts, path, opened, graph };
   }
   return made.graph;
 }
@@ -29,6 +31,7 @@ export function useScene(): Graph {
   project.use((state) => state.shown);
   project.use((state) => state.shownTexts);
   selection.use((state) => state.path);
+  selection.use((state) => state.opened);
   return scene();
 }
 
@@ -71,6 +74,7 @@ export async function connect(a: { box: string; port: string }, b: { box: string
   const second = port_in(b);
   if (!first || !second) return false;
   const [from, to] = is_source(first) ? [first, second] : [second, first];
+  if (to.parameter) return give_parameter(is_source(first) ? b.box : a.box, to.parameter, from.written);
   return edit([change("connect", end_words(from, to), end_words(to, from))], { field: "canvas" });
 }
 
@@ -120,7 +124,20 @@ export async function add_and_connect(menu: FitMenu, model: string, member: stri
   await add_model(model, menu.place, (name) => [change("connect", ...ends(name))]);
 }
 
-export const disconnect = (wire: Wire) => change("disconnect", ...wire.written);
+/** Has a parameter of an opened connection from an event given by a port, a member of the event, or a constant; empty: by the event. */
+export async function give_parameter(box: string, parameter: string, value: string): Promise<boolean> {
+  const found = box_called(box);
+  if (!found?.opened) return false;
+  return edit([given(found, found.opened, parameter, value)], { field: `${box} ${parameter}`, file: found.file });
+}
+
+function given({ file = "", line = 0, column = 1 }: Place, [from, to]: [string, string], parameter: string, value: string): Change {
+  const settings = with_parameter(settings_at(project.get().texts, file, line, column), parameter, value);
+  return change("connection", from, to, ...(settings ? [settings] : []));
+}
+
+export const disconnect = (wire: Wire): Change =>
+  (wire.parameter ? given(wire, wire.written, wire.parameter, "") : change("disconnect", ...wire.written));
 
 /** Removes what is selected. */
 export async function remove_selected(): Promise<void> {
@@ -128,7 +145,7 @@ export async function remove_selected(): Promise<void> {
   const graph = scene();
   const gone = graph.boxes.filter((box) => boxes.includes(box.id));
   const cut = graph.wires.filter((wire) => wires.includes(wire.id) && !gone.some((box) => box.id === wire.from.box || box.id === wire.to.box));
-  const changes = [...cut.map(disconnect), ...gone.map((box) => change("remove", box.edited))];
+  const changes = [...cut.map(disconnect), ...gone.map((box) => (box.opened ? change("disconnect", ...box.opened) : change("remove", box.edited)))];
   if (changes.length === 0) return;
   const file = gone.find((box) => box.file)?.file ?? cut.find((wire) => wire.file)?.file;
   if (await edit(changes, { field: "canvas", file })) selection.set({ boxes: [], wires: [], port: undefined });

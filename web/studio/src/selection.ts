@@ -3,7 +3,9 @@
 import type { End, Fitting } from "./checked.ts";
 import { Store } from "./store.ts";
 
-export type Tab = "problems" | "log" | "threads" | "plot" | "operate";
+export type Tab = "problems" | "log" | "threads" | "cycle" | "plot" | "operate";
+
+export type Beside = "" | "text" | "robot";
 
 /** Where a wire could lead from a port. */
 export interface Reach {
@@ -31,7 +33,9 @@ export interface Selection {
   port?: { box: string; port: string };
   reach?: Reach;
   menu?: FitMenu;
-  text: boolean;        ///< the text stands beside the canvas
+  beside: Beside;       ///< what stands beside the canvas
+  opened: string[];     ///< connections from events to commands that are shown with their parameters
+  lanes: boolean;       ///< boxes are in lanes of their threads
   textPlace?: { file: string; line: number; column: number; ask: number };
   tab: Tab;
   reveal?: { box: string; ask: number };  ///< the canvas moves there
@@ -40,7 +44,7 @@ export interface Selection {
 }
 
 export const selection = new Store<Selection>({
-  path: [], boxes: [], wires: [], text: false, tab: "problems", plotted: [], told: "",
+  path: [], boxes: [], wires: [], beside: "", opened: [], lanes: false, tab: "problems", plotted: [], told: "",
 });
 
 let asks = 0;
@@ -58,7 +62,7 @@ export function select_port(box: string, port: string): void {
 export const open_composite = (path: string[]): void => selection.set({ path, boxes: [], wires: [], port: undefined });
 
 export function show_text(file: string, line = 1, column = 1): void {
-  selection.set({ text: true, textPlace: { file, line, column, ask: ++asks } });
+  selection.set({ beside: "text", textPlace: { file, line, column, ask: ++asks } });
 }
 
 export function reach_of(box: string, port: string, { ends, models }: Fitting): Reach {
@@ -78,4 +82,12 @@ export function toggle_plotted(item: string): void {
   const { plotted } = selection.get();
   const without = plotted.filter((one) => one !== item);
   selection.set({ plotted: without.length < plotted.length ? without : [...plotted, item], tab: "plot" });
+}
+
+/** Shows the parameters of a connection from an event to a command as pins of a box, or no more. */
+export function toggle_opened(between: string): void {
+  const { opened } = selection.get();
+  const without = opened.filter((one) => one !== between);
+  const opens = without.length === opened.length;
+  selection.set({ opened: opens ? [...opened, between] : without, boxes: opens ? [between] : [], wires: [], port: undefined });
 }

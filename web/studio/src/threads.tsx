@@ -5,6 +5,7 @@ import { select_box } from "./selection.ts";
 import { scene } from "./scene.ts";
 import { state_class } from "./states.ts";
 import { project } from "./project.ts";
+import { microseconds_text } from "./values.ts";
 
 const kHighLoad = 70;  ///< [%]
 
@@ -34,16 +35,14 @@ function Row({ thread }: { thread: ThreadStatus }) {
       <td>{thread.components}</td>
       <td>{String(thread.cycles)}</td>
       <td className={thread.skipped > 0n ? "bad" : ""}>{String(thread.skipped)}</td>
-      <td>{microseconds(thread.cycle_median)}</td>
-      <td>{microseconds(thread.cycle_high)}</td>
+      <td>{microseconds_text(thread.cycle_median)}</td>
+      <td>{microseconds_text(thread.cycle_high)}</td>
       <td className={thread.load > kHighLoad ? "bad" : ""}>{thread.load > 0 ? `${thread.load.toFixed(1)} %` : "–"}</td>
-      <td>{microseconds(thread.latency_median)}</td>
-      <td>{microseconds(thread.latency_most)}</td>
+      <td>{microseconds_text(thread.latency_median)}</td>
+      <td>{microseconds_text(thread.latency_most)}</td>
     </tr>
   );
 }
-
-const microseconds = (value: number): string => (value >= 1000 ? `${(value / 1000).toFixed(2)} ms` : `${value.toFixed(1)} us`);
 
 function Idle() {
   const components = run.use((all) => all.components);

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
-import { selection } from "./selection.ts";
+import { RunSettings } from "./run_settings.tsx";
+import { type Beside, selection } from "./selection.ts";
 
-const kPaces: [number, string][] = [[0.1, "0.1 ×"], [1, "1 ×"], [10, "10 ×"], [Infinity, "as fast as possible"]];
+const kNone: never[] = [];
+const kPaces: [number, string][] = [[0.1, "0.1 ×"], [1, "1 ×"], [10, "10 ×"], [Infinity, "fastest"]];
 
 export function TopBar() {
   return (
     <header className="top-bar">
       <FileState />
       <EditButtons />
+      <ViewButtons />
       <RunControls />
       <RunTime />
       <StopButton />
@@ -31,14 +34,24 @@ function FileState() {
 
 function EditButtons() {
   const state = project.use((all) => all.state);
-  const text = selection.use((all) => all.text);
   return (
     <div className="group" role="group" aria-label="Edit">
       <button type="button" disabled={!state.undo} title={state.undo ? `Undo ${state.undo} (Ctrl+Z)` : "Nothing to undo"} onClick={() => void undo()}>Undo</button>
       <button type="button" disabled={!state.redo} title={state.redo ? `Redo ${state.redo} (Ctrl+Shift+Z)` : "Nothing to redo"} onClick={() => void redo()}>Redo</button>
       <button type="button" disabled={is_saved(state)} title="Ctrl+S" onClick={() => void save()}>Save</button>
       <button type="button" title="Takes what the disk has, libraries that were built anew among it; Undo takes it back" onClick={() => void reload()}>Reload</button>
-      <button type="button" aria-pressed={text} onClick={() => selection.set({ text: !text })}>Text</button>
+    </div>
+  );
+}
+
+/** What stands beside the canvas. */
+function ViewButtons() {
+  const beside = selection.use((all) => all.beside);
+  const toggle = (what: Beside) => selection.set({ beside: beside === what ? "" : what });
+  return (
+    <div className="group" role="group" aria-label="Beside the canvas">
+      <button type="button" aria-pressed={beside === "text"} onClick={() => toggle("text")}>Text</button>
+      <button type="button" aria-pressed={beside === "robot"} onClick={() => toggle("robot")}>Robot</button>
     </div>
   );
 }
@@ -60,6 +73,8 @@ function RunControls() {
         onChange={(event) => void set_pace(Number(event.target.value))}>
         {kPaces.map(([value, label]) => <option key={label} value={String(value)}>{label}</option>)}
       </select>
+      <ModeChoice going={going} />
+      <RunSettings going={going} />
       <button type="button" className="primary" disabled={going || errors > 0} onClick={() => void start()}
         title={errors > 0 ? "Mend the errors below first" : "Starts the application"}>
         {saved ? "Run" : "Save and run"}
@@ -67,6 +82,21 @@ function RunControls() {
       <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
       <button type="button" disabled={!live_sim || !now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
     </div>
+  );
+}
+
+/** Of the modes that the deployment has. */
+function ModeChoice({ going }: { going: boolean }) {
+  const modes = project.use((all) => all.shown?.modes ?? kNone);
+  const chosen = run.use((all) => all.mode);
+  const now = run.use((all) => all.application?.mode ?? "");
+  if (modes.length === 0) return null;
+  const shown = going ? now : modes.find((one) => one.name === chosen)?.name;
+  return (
+    <select aria-label="Mode" title="The mode in which the application starts" value={shown || modes.find((one) => one.initial)?.name} disabled={going}
+      onChange={(event) => run.set({ mode: event.target.value })}>
+      {modes.map(({ name }) => <option key={name}>{name}</option>)}
+    </select>
   );
 }
 

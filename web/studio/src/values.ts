@@ -133,6 +133,9 @@ export function numbers_text(numbers: number[]): string {
   return `${short(Math.min(...numbers))} … ${short(Math.max(...numbers))}`;
 }
 
+/** `12.3 us`, `1.25 ms`. */
+export const microseconds_text = (value: number): string => (value >= 1000 ? `${(value / 1000).toFixed(2)} ms` : `${value.toFixed(1)} us`);
+
 export function age_text(seconds: number): string {
   if (Number.isNaN(seconds)) return "never written";
   if (seconds < 1) return `${Math.round(seconds * 1000)} ms old`;

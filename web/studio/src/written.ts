@@ -53,8 +53,14 @@ export function settings_at(texts: Texts, file: string, line: number, column: nu
   return split_flow(inside).filter((part) => !/^\s*(from|to|on|do):/.test(part)).map((part) => part.trim()).join(", ");
 }
 
+/** Whether the entry at a place is one of braces. */
+export function is_flow_at(texts: Texts, file: string, line: number, column: number): boolean {
+  const text = texts.get(file);
+  return text !== undefined && /^(-\s*)?\{/.test(text.slice(offset_of(text, line, column)));
+}
+
 /** Parts between commas that are not inside of brackets. */
-function split_flow(text: string): string[] {
+export function split_flow(text: string): string[] {
   const parts = [""];
   let depth = 0;
   for (const c of text) {
@@ -123,6 +129,17 @@ export function entries_of(texts: Texts): WrittenEntry[] {
     const at = top(lines, "components");
     if (at < 0) continue;
     for (const i of children(lines, at)) found.push({ name: lines[i]!.key, file, line: lines[i]!.number });
+  }
+  return found;
+}
+
+/** The parameters of the files, with what they are if nobody sets them. */
+export function parameters_of(texts: Texts): Map<string, string> {
+  const found = new Map<string, string>();
+  for (const text of texts.values()) {
+    const lines = keys_of(text);
+    const at = top(lines, "parameters");
+    for (const i of at < 0 ? [] : children(lines, at)) found.set(lines[i]!.key, unquoted(lines[i]!.value));
   }
   return found;
 }

@@ -49,6 +49,15 @@ test("an open composite shows its parts, which edits name by its definition", ()
   assert.deepEqual(wires(inside), ["mixer.Left -> left.Speed", "mixer.Right -> right.Speed"]);
 });
 
+test("a port of an open composite tells where the wires lead that leave it", () => {
+  const inside = graph(arm, ["Rover"]);
+  const outside = (id: string, port: string) => [...box(inside, id).inputs, ...box(inside, id).outputs].find((one) => one.name === port)!.outside;
+  assert.deepEqual(outside("Rover.mixer", "Forward"), ["Driver.Forward"]);
+  assert.deepEqual(outside("Rover.left", "Angle"), ["Driver.Left"]);
+  assert.equal(outside("Rover.mixer", "Left"), undefined, "its wire is drawn");
+  assert.ok(graph(arm).boxes.every((one) => one.inputs.every((port) => port.outside === undefined)));
+});
+
 test("an event that commands is a wire from the event to the command", () => {
   const all = graph(arm);
   const wire = all.wires.find((one) => one.kind === "command")!;

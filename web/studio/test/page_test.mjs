@@ -268,6 +268,187 @@ page_test("what was typed last is saved, too", "wave", async (page) => {
   assert.equal(await page.locator(".saved").textContent(), "saved");
 });
 
+/** What the robot's view asks for, opened. */
+async function open_robot(page) {
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.getByRole("region", { name: "Joints" }).waitFor();
+}
+
+const joints = (page) => page.locator(".joints tbody tr").evaluateAll((rows) => rows.map((row) => row.textContent));
+
+page_test("a robot is shown in 3D and moved by the run; its view is loaded when it is opened", "arm", async (page) => {
+  const asked = [];
+  page.on("request", (request) => asked.push(request.url()));
+  await open_robot(page);
+  assert.ok(asked.some((url) => /part-.*\.js$/.test(url)), "its code comes now");
+  assert.equal((await joints(page)).length, 7);
+  assert.match((await joints(page))[0], /^joint1no value-2\.6 … 2\.6$/);
+  await page.getByText("All joints are shown at 0.").waitFor();
+  const canvas = page.locator(".stage canvas");
+  const rest = await canvas.screenshot();
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".joints .position", { hasText: "rad" }).first().waitFor();
+  assert.match((await joints(page))[6], /^joint7-?\d\.\d{3} rad-?\d+\.\d°/);
+  assert.ok(!rest.equals(await canvas.screenshot()), "the picture moves");
+  await page.keyboard.press("Shift+Escape");
+  await page.getByText("All joints are shown at 0.").waitFor();
+});
+
+page_test("keys turn the view of a robot, zoom it, and show all of it again", "arm", async (page) => {
+  await open_robot(page);
+  const canvas = page.getByRole("application", { name: /wam7 in 3D/ });
+  await canvas.focus();
+  await page.keyboard.press("Home"); // by which it shows that it has the focus
+  await page.waitForTimeout(300);
+  const seen = [await canvas.screenshot()];
+  for (const key of ["ArrowLeft", "ArrowUp", "+", "Home"]) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(200);
+    seen.push(await canvas.screenshot());
+  }
+  for (let i = 1; i < seen.length; ++i) assert.ok(!seen[i].equals(seen[i - 1]), `picture ${i} is another one`);
+  assert.ok(seen[4].equals(seen[0]), "Home is where it began");
+});
+
+page_test("what moves a robot is the user's choice, and is kept", "arm", async (page) => {
+  await open_robot(page);
+  const choice = page.getByLabel("Moved by");
+  assert.equal(await choice.locator("option:checked").textContent(), "found: Sensor.sensor");
+  await choice.selectOption("Joint{1..7}.Position");
+  await page.waitForTimeout(200);
+  assert.deepEqual(await edits(page), ["robot Robot Joint{1..7}.Position"]);
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await open_robot(page);
+  assert.equal(await choice.inputValue(), "Joint{1..7}.Position");
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".joints .position", { hasText: "rad" }).nth(6).waitFor();
+});
+
+page_test("without WebGL the joints' positions are in the table", "arm", async (page) => {
+  await page.evaluate(() => (HTMLCanvasElement.prototype.getContext = () => null));
+  await open_robot(page);
+  await page.getByText("This browser has no WebGL").waitFor();
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".joints .position", { hasText: "rad" }).first().waitFor();
+});
+
+page_test("a robot whose description cannot be read says why", "arm", async (page) => {
+  await page.evaluate(() => (window.mock.workbench.description = async () => "<sdf/>"));
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.getByText("The robot of Robot is not shown: the description begins with <sdf>, expected <robot>").waitFor();
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.evaluate(() => (window.mock.workbench.description = async (path) => Promise.reject(new Error(`${path} is not there`))));
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.getByText("wam7.urdf is not there").waitFor();
+});
+
+page_test("one cycle of a chosen thread is drawn in microseconds, and held", "arm", async (page) => {
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByRole("tab", { name: "Cycle" }).click();
+  await page.locator(".bars tbody tr").nth(6).waitFor();
+  assert.match(await page.locator(".bars tbody tr").first().textContent(), /^Joint1\d+\.\d us/);
+  await page.getByRole("button", { name: "Hold" }).click();
+  await page.waitForTimeout(600);
+  const held = await page.locator(".cycle .about").textContent();
+  assert.match(held, /^Cycle \d+ at \d+\.\d{3} s: \d+\.\d us of 10 ms, \d+\.\d %$/);
+  await page.waitForTimeout(900);
+  assert.equal(await page.locator(".cycle .about").textContent(), held);
+  await page.getByRole("button", { name: "Hold" }).click();
+  await page.getByLabel("Thread", { exact: true }).selectOption("Generator");
+  await page.locator(".bars tbody tr", { hasText: "Generator" }).waitFor();
+});
+
+page_test("no cycle is asked for while nobody looks", "arm", async (page) => {
+  const asked = () => page.evaluate(() => window.mock.run.cycles);
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.waitForTimeout(900);
+  assert.equal(await asked(), 0);
+  await page.getByRole("tab", { name: "Cycle" }).click();
+  await page.locator(".bars").waitFor();
+  await page.getByRole("tab", { name: "Log" }).click();
+  await page.waitForTimeout(200);
+  const then = await asked();
+  await page.waitForTimeout(900);
+  assert.equal(await asked(), then);
+});
+
+page_test("a run begins in the mode and with the values that were set for it", "arm", async (page) => {
+  await page.getByLabel("Mode", { exact: true }).selectOption("work");
+  await page.getByRole("button", { name: "Set …" }).click();
+  await page.getByLabel("Name 1").fill("Joint1.MaxVelocity");
+  assert.equal(await page.getByLabel("Value 1").getAttribute("placeholder"), "3");
+  await page.getByLabel("Value 1").fill("2 rad/s");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.getByLabel("Name 1").count(), 0, "Enter closes it");
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByText("running").waitFor();
+  const orders = await page.evaluate(() => window.mock.workbench.orders);
+  assert.deepEqual(orders, [{ simulated: true, pace: 1, mode: "work", overrides: ["Joint1.MaxVelocity=2 rad/s"] }]);
+  assert.deepEqual(await edits(page), [], "the file stays as it is");
+});
+
+page_test("a deployment without modes offers none", "wave", async (page) => {
+  assert.equal(await page.getByLabel("Mode", { exact: true }).count(), 0);
+});
+
+page_test("threads are lanes, and boxes go back to their places", "arm", async (page) => {
+  const places = () => page.locator(".react-flow__node").evaluateAll((nodes) => nodes.map((one) => one.style.transform));
+  const before = await places();
+  await page.getByRole("button", { name: "Threads as lanes" }).click();
+  await page.waitForTimeout(300);
+  assert.deepEqual(await page.locator(".lane").allTextContents(), ["Joint", "Generator", "Driver", "Jog", "Power"]);
+  const lane = await page.locator(".lane", { hasText: "Power" }).boundingBox();
+  const box = await node(page, "Power").boundingBox();
+  assert.ok(box.y > lane.y && box.y + box.height < lane.y + lane.height);
+  await page.getByRole("button", { name: "Threads as lanes" }).click();
+  await page.waitForTimeout(300);
+  assert.deepEqual(await places(), before);
+  assert.equal((await page.evaluate(() => window.mock.workbench.edits)).length, 0, "nothing is moved by it");
+});
+
+page_test("wires that leave an open composite are told at its ports", "arm", async (page) => {
+  await node(page, "Rover").locator("header").dblclick();
+  await node(page, "mixer").locator(".outside", { hasText: "Driver.Forward" }).waitFor();
+  await node(page, "left").locator(".outside", { hasText: "Driver.Left" }).waitFor();
+});
+
+/** The inspector of the connection Power.TurnedOn -> Generator.moveTo. */
+async function select_command(page) {
+  await page.locator("[aria-label='Power.TurnedOn to Generator.moveTo']").first().focus();
+  await page.keyboard.press("Enter");
+}
+
+page_test("the parameters of a command are changed where its event is connected", "arm", async (page) => {
+  await select_command(page);
+  const field = page.getByLabel("time", { exact: true });
+  assert.equal(await field.inputValue(), "2 s");
+  await field.fill("3 s");
+  await field.press("Enter");
+  await page.waitForTimeout(200);
+  assert.deepEqual(await edits(page), ["connection Power.TurnedOn Generator.moveTo name: Move, with: {target: Sensor.sensor, time: 3 s}"]);
+});
+
+page_test("a command opens into pins, to which wires lead and from which they are taken", "arm", async (page) => {
+  await select_command(page);
+  await page.getByRole("button", { name: "Parameters as pins" }).click();
+  await node(page, "Move").waitFor();
+  assert.equal(await node(page, "Move").locator(".outside").textContent(), "2 s");
+  await drag(page, node(page, "Jog").locator(".pin.output"), node(page, "Move").locator(".pin.input").nth(1));
+  await page.waitForTimeout(300);
+  await page.locator("[aria-label='Sensor.sensor to Move.target']").first().focus();
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), [
+    "connection Power.TurnedOn Generator.moveTo name: Move, with: {target: Sensor.sensor, time: Jog.Out}",
+    "connection Power.TurnedOn Generator.moveTo name: Move, with: {time: Jog.Out}",
+  ]);
+  await node(page, "Move").locator("header").click();
+  await page.keyboard.press("Delete");
+  await page.waitForTimeout(300);
+  assert.deepEqual((await edits(page)).slice(2), ["disconnect Power.TurnedOn Generator.moveTo"]);
+});
+
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 for (const dark of [false, true]) {
@@ -277,6 +458,18 @@ for (const dark of [false, true]) {
     ["problems and text", "wrong", async (page) => {
       await page.getByRole("button", { name: "Text", exact: true }).click();
       await page.locator(".editor .cm-content").waitFor();
+    }],
+    ["a robot", "arm", async (page) => {
+      await page.getByRole("button", { name: "Run", exact: true }).click();
+      await open_robot(page);
+    }],
+    ["a cycle", "arm", async (page) => {
+      await page.getByRole("button", { name: "Run", exact: true }).click();
+      await page.getByRole("tab", { name: "Cycle" }).click();
+      await page.locator(".bars").waitFor();
+    }],
+    ["what is set for a run", "arm", async (page) => {
+      await page.getByRole("button", { name: "Set …" }).click();
     }],
     ["a run", "arm", async (page) => {
       await page.getByRole("button", { name: "Run", exact: true }).click();

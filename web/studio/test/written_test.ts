@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { composites_of, ends_at, entries_of, is_made_by, key_at, model_of, peers_of, settings_at } from "../src/written.ts";
+import { composites_of, ends_at, entries_of, is_made_by, key_at, model_of, parameters_of, peers_of, settings_at } from "../src/written.ts";
 
 const kText = `libraries: [a]
 components:
@@ -64,4 +64,9 @@ test("composites have their exports, by the path inside", () => {
   const [chassis] = composites_of(texts);
   assert.equal(chassis!.name, "Chassis");
   assert.deepEqual([...chassis!.exports], [["left.Angle", "LeftAngle"], ["left.stop", "stop"]]);
+});
+
+test("parameters are those at the top of a file, with what they are if nobody sets them", () => {
+  const found = parameters_of(new Map([["a.yaml", "parameters:\n  period: 10 ms\n  description: \"${here}/a.urdf\"  # of the robot\ncomponents:\n  A: {model: B}\n"], ["b.yaml", "application: b\n"]]));
+  assert.deepEqual([...found], [["period", "10 ms"], ["description", "${here}/a.urdf"]]);
 });

@@ -37,6 +37,7 @@ class Check {
   private readonly composites = new Map<string, Composite>();
   private readonly aliases = new Map<string, string>();
   private application = "";
+  private modes: Checked["modes"] = [];
 
   constructor(private readonly file: string, private readonly texts: ReadonlyMap<string, string>, private readonly models: Model[]) {}
 
@@ -50,6 +51,7 @@ class Check {
     return {
       file: this.file, application: this.application, ok: errors === 0, errors, diagnostics: this.diagnostics, components: this.components,
       connections: this.connections, threads: errors === 0 ? this.threads() : [],
+      modes: this.modes,
     };
   }
 
@@ -57,6 +59,8 @@ class Check {
     for (const { file, map } of documents) {
       if (!isMap(map)) continue;
       if (file === this.file) this.application = String(map.get("application") ?? "");
+      const modes = map.get("modes");
+      if (isMap(modes)) this.modes = modes.items.map(({ key }, i) => ({ name: String(key), initial: i === 0 }));
       this.read_composites(file, map.get("composites"));
     }
     for (const { file, map } of [...documents].reverse()) if (isMap(map)) this.read_components(file, map.get("components") as YAMLMap | null);
@@ -153,9 +157,18 @@ class Check {
   private read_map(entry: Record<string, string>, place: Place): void {
     if (entry["from"]) return this.connect(entry["from"], entry["to"] ?? "", place);
     const name = entry["name"] ?? "EventCommand1";
-    const none = { properties: [], inputs: [], outputs: [], port_arrays: [], operations: [], events: [], requirements: [] };
-    this.components.push({ ...none, name, model: "EventCommand", ...place, activity: { kind: "sequential" } });
+    const none = { properties: [], outputs: [], port_arrays: [], operations: [], requirements: [] };
+    const given = Object.entries((entry["with"] ?? {}) as Record<string, unknown>).filter(([, from]) => this.is_port(String(from)));
+    const inputs = given.map(([parameter]) => ({ name: parameter, type: "double", unit: "", doc: "a parameter of the command" }));
+    const events = ["Done", "Failed"].map((one) => ({ name: one, signature: "void()", arguments: [], doc: "" }));
+    this.components.push({ ...none, inputs, events, name, model: "EventCommand", ...place, activity: { kind: "sequential" } });
+    for (const [parameter, from] of given) this.connections.push({ kind: "data", from: String(from), to: `${name}.${parameter}`, ...place });
     this.connections.push({ kind: "event", from: entry["on"]!, to: `${name}.on` }, { kind: "command", from: `${name}.do`, to: entry["do"]! });
+  }
+
+  private is_port(path: string): boolean {
+    const [owner, member] = split_member(path);
+    return this.components.some((one) => one.name === owner && one.outputs.some((port) => port.name === member));
   }
 
   private connect(from: string, to: string, place: Place): void {

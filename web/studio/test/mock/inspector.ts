@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stands for the Inspector of a run: numbers that swing.
-import type { ApplicationStatus, CommandStatus, ComponentStatus, Inspector, Pace } from "../../src/backend.ts";
+import type { ApplicationStatus, CommandStatus, ComponentStatus, Cycle, Inspector, Pace } from "../../src/backend.ts";
 import type { MockWorkbench } from "./workbench.ts";
 
 const kNone = { value: "", unit: "", type: "", kind: "", error: "" };
 
 export class MockInspector implements Inspector {
   readonly called: string[] = [];
+  cycles = 0;  ///< how many were asked for
   private readonly items = new Map<number, string[]>();
   private readonly numbers = new Map<string, number>();
   private readonly stopped = new Set<string>();
@@ -91,6 +92,15 @@ export class MockInspector implements Inspector {
     const items = this.items.get(handle) ?? [];
     const values = items.map((item, i) => this.numbers.get(item) ?? (/\.(On|Armed)$/.test(item) ? 1 : Math.sin(this.time * 3 + i) * (0.5 + 0.1 * i)));
     return { values, ages: items.map(() => 0.004), replaced: 0n };
+  }
+
+  /** Each component takes its turn. */
+  async cycle(thread: string): Promise<Cycle> {
+    this.tick();
+    ++this.cycles;
+    const order = this.workbench.checked().threads.find(({ name }) => name === thread)?.order ?? [];
+    const steps = order.map((component, i) => ({ component, begin: 2 + 4.5 * i, length: 1 + (i % 3) * 1.25 }));
+    return { number: BigInt(Math.floor(this.time * 100)), time: this.time, length: 4.5 * order.length + 2, steps, left_out: 0n };
   }
 
   end_watch = async (handle: number) => this.items.delete(handle);

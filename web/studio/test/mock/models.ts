@@ -56,6 +56,9 @@ export const kModels: Model[] = [
     inputs: numbered("Position", 7, "of a joint", "rad"), port_arrays: [{ name: "Position", count: "joints" }],
     outputs: [port("sensor", "all positions", "rad", "vector<double>", { size: 7 })],
   }),
+  model("Robot", "robot", "what a robot weighs", {
+    properties: [property("robot_description", "text", "", "the robot's description (URDF), a file")],
+  }),
   model("Generator", "robot", "moves the axes from point to point", {
     properties: [property("max_vel", "vector<double>", "[1]", "greatest velocity of each axis", { unit: "rad/s" })],
     inputs: [port("sensor", "measured", "rad", "vector<double>", { size: 7 })], outputs: numbered("Ref", 7, "wanted position of an axis", "rad"),

@@ -19,6 +19,10 @@ connections:
 include: control.yaml
 application: arm
 libraries: [robot, controls, chassis]
+parameters: {joints: 7}
+modes:
+  rest: [Lamp]
+  work: [Generator]
 composites:
   Chassis:
     components:
@@ -45,6 +49,7 @@ connections:
   - Rover.RightAngle -> Driver.Right
   - Power.On -> Lamp.On
   - {on: Go.Pressed, do: Generator.hold, name: Hold}
+  - {on: Power.TurnedOn, do: Generator.moveTo, name: Move, with: {target: Sensor.sensor, time: 2 s}}
   - Jog.Out -> Height.Value
 `,
     "control.yaml": `# The control of the joints, to be included.
@@ -55,6 +60,7 @@ components:
     peers: [Sampler]
     properties: {PositionMin: -0.5, PositionMax: 4.5, MaxVelocity: 3}
   Sensor: {model: Sensor, activity: sequential}
+  Robot: {model: Robot, properties: {robot_description: ../robots/wam7.urdf}}
   Generator: {model: Generator, activity: {periodic: 20 ms, priority: 40}}
   PID{1..7}: {model: PID, activity: sequential, properties: {Kp: 400, Ki: 20}}
 connections:

@@ -5,20 +5,29 @@ import type { Change, Outcome, ProjectState, RunSettings, RunState, Workbench } 
 import { type Checked, type End, type Model, split_member } from "../../src/checked.ts";
 import { check } from "./checker.ts";
 import { kModels } from "./models.ts";
+import wam7 from "../../../../robots/wam/wam7.urdf";
 
 type Texts = Map<string, string>;
 type Snapshot = { texts: Texts; what: string };
+
+export interface Captured {
+  check: Checked;
+  models: Model[];
+  descriptions?: Record<string, string>;
+}
 
 const copy = (texts: Texts): Texts => new Map(texts);
 
 export class MockWorkbench implements Workbench {
   readonly edits: Change[] = [];
+  readonly orders: RunSettings[] = [];
   private readonly saved: Texts;
   private texts: Texts;
   private version = 1;
   private past: Snapshot[] = [];
   private future: Snapshot[] = [];
   private readonly boxes: Record<string, [number, number]> = {};
+  private readonly robots: Record<string, string> = {};
   private readonly project_handlers: ((change: { version: number; checked: number }) => void)[] = [];
   private readonly run_handlers: ((change: { number: number; log_end: number }) => void)[] = [];
   private lines: string[] = [];
@@ -27,7 +36,7 @@ export class MockWorkbench implements Workbench {
   on_state: (state: string, simulated: boolean) => void = () => undefined;
 
   /** @param captured  what the real check said of these texts, in place of the mock's */
-  constructor(private readonly file: string, texts: Record<string, string>, private readonly captured?: { check: Checked; models: Model[] }) {
+  constructor(private readonly file: string, texts: Record<string, string>, private readonly captured?: Captured) {
     this.texts = new Map(Object.entries(texts));
     this.saved = copy(this.texts);
   }
@@ -48,9 +57,15 @@ export class MockWorkbench implements Workbench {
   }
 
   text = async (path: string): Promise<string> => this.texts.get(path) ?? "";
-  places = async (): Promise<string> => JSON.stringify({ boxes: this.boxes });
+  places = async (): Promise<string> => JSON.stringify({ boxes: this.boxes, robots: this.robots });
   models = async (): Promise<string> => JSON.stringify(this.captured?.models ?? kModels);
   check = async (): Promise<string> => JSON.stringify(this.checked());
+
+  async description(path: string): Promise<string> {
+    const text = this.captured?.descriptions?.[path] ?? (path.endsWith("wam7.urdf") ? wam7 : undefined);
+    if (text === undefined) throw new Error(`'${path}' is no robot's description of this deployment`);
+    return text;
+  }
 
   checked(): Checked {
     return this.captured?.check ?? check(this.file, this.texts, kModels);
@@ -63,7 +78,7 @@ export class MockWorkbench implements Workbench {
       const refused = this.make(one, texts, files, overrides);
       if (refused) return this.refused(refused);
     }
-    const written = changes.filter((one) => one.edit !== "place");
+    const written = changes.filter((one) => one.edit !== "place" && one.edit !== "robot");
     const what = written.map((one) => `${one.edit} ${one.words.join(" ")}`).join(", ");
     if (written.length > 0) this.become(texts, what);
     else this.tell();
@@ -92,6 +107,11 @@ export class MockWorkbench implements Workbench {
       this.boxes[a] = [Number(b), Number(c)];
       return "";
     }
+    if (edit === "robot") {
+      if (b) this.robots[a] = b;
+      else delete this.robots[a];
+      return "";
+    }
     const path = overrides ? this.file : files[0] ?? this.file_of(a, texts);
     const document = parseDocument(texts.get(path) ?? "");
     if (overrides) document.setIn(["components", a.split(".")[0], "override"], true);
@@ -116,6 +136,7 @@ export class MockWorkbench implements Workbench {
     else if (edit === "set") return set(document, owner, member, b);
     else if (edit === "unset") document.deleteIn(["components", owner, "properties", member]);
     else if (edit === "connect") add_to(document, ["connections"], c ? document.createNode({ from: a, to: b }) : `${a} -> ${b}`);
+    else if (edit === "connection") set_connection(document, a, b, c);
     else if (edit === "disconnect") remove_connection(document, `${a} -> ${b}`);
     else if (edit === "library") add_to(document, ["libraries"], a);
     else if (edit === "peer") add_to(document, ["components", a, "peers"], b);
@@ -194,7 +215,9 @@ export class MockWorkbench implements Workbench {
       : one.events.map(({ name }): End => ({ component: one.name, member: name, kind: "event" })));
   }
 
-  async start({ simulated }: RunSettings): Promise<RunState> {
+  async start(settings: RunSettings): Promise<RunState> {
+    const { simulated } = settings;
+    this.orders.push(settings);
     this.lines = [];
     this.started = Date.now();
     this.runs = { ...this.runs, number: this.runs.number + 1, state: "running", simulated, version: this.version, log_begin: 0, log_end: 0 };
@@ -241,7 +264,19 @@ function add_to(document: Document, path: string[], item: unknown): void {
   else document.setIn(path, document.createNode([item]));
 }
 
+type Items = { items: { value?: string; get?(key: string): unknown }[] };
+
+const ends_of = (item: Items["items"][number]): string => item.value ?? `${String(item.get?.("on") ?? item.get?.("from"))} -> ${String(item.get?.("do") ?? item.get?.("to"))}`;
+
 function remove_connection(document: Document, written: string): void {
-  const list = document.get("connections") as unknown as { items: { value?: string }[] };
-  list.items = list.items.filter((one) => one.value !== written);
+  const list = document.get("connections") as unknown as Items;
+  list.items = list.items.filter((one) => ends_of(one) !== written);
+}
+
+/** Of a connection from an event to a command. */
+function set_connection(document: Document, on: string, to: string, settings: string): void {
+  const list = document.get("connections") as unknown as Items;
+  const at = list.items.findIndex((one) => ends_of(one) === `${on} -> ${to}`);
+  const text = `{on: ${on}, do: ${to}${settings ? `, ${settings}` : ""}}`;
+  list.items[at] = parseDocument(text).contents as never;
 }
