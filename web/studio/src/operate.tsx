@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { project } from "./project.ts";
 import { faces } from "./faces.tsx";
+import { Jog, jogs } from "./jog.tsx";
 import { Operations } from "./operations.tsx";
 import { is_up, run } from "./run.ts";
 import { box_called, useScene } from "./scene.ts";
@@ -13,6 +14,7 @@ export function Operate() {
   const box = useSelectedBox();
   if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
   const controls = (components ?? []).filter((one) => faces[one.model]);
+  const jogged = (components ?? []).filter(jogs);
   return (
     <div className="operate scroll" tabIndex={0} aria-label="Operate">
       <div className="faces">
@@ -20,7 +22,8 @@ export function Operate() {
           const Face = faces[one.model]!;
           return <fieldset key={one.name}><legend>{one.name}</legend><Face component={one} /></fieldset>;
         })}
-        {controls.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}
+        {jogged.map((one) => <Jog key={one.name} component={one} />)}
+        {controls.length + jogged.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}
       </div>
       {box && box.components.slice(0, 1).map((one) => <Operations key={one.name} component={one} />)}
       {!box && <p className="hint">Select a box to call its operations.</p>}
