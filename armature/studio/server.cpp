@@ -135,7 +135,7 @@ class StudioServer final : public Server {
     const bool over = desk_.run().is_over();
     if (over && std::exchange(connected_, false)) relay_.disconnect();
     if (!over && !std::exchange(connected_, true)) relay_.connect(desk_.run().address());
-    relay_.look();
+    relay_.look(platform::monotonic_now());
     if (desk_.run().stage() != RunStage::kStarting || !relay_.ready()) return;
     desk_.run().set_answers();
     run_changed_ = true;

@@ -19,9 +19,9 @@ using ::testing::IsEmpty;
 
 /// What a joint may move while nobody has armed it [rad].
 constexpr double kStands = 0.01;
-constexpr double kPeriod = 0.01;         ///< of the generator [s]
-constexpr double kJogPatience = 0.15;    ///< [s]
-constexpr double kAcceleration = 5.0;    ///< of the generator's axes [rad/s^2]
+constexpr double kPeriod = 0.01;       ///< of the generator [s]
+constexpr double kJogPatience = 0.15;  ///< [s]
+constexpr double kAcceleration = 5.0;  ///< of the generator's axes [rad/s^2]
 constexpr double kEver = 1e9;
 
 TEST_F(OperatedHead, ArmingNeedsTheSeatAndAKeyThatIsHeldForASecondOnceForEachHold) {
@@ -67,17 +67,17 @@ TEST_F(OperatedHead, ArmingNeedsTheDeploymentsGrant) {
 }
 
 TEST_F(OperatedHead, AWordOfTheOperatorIsSaidFromTheSeatOnly) {
-  open("grants: {remote: [Joint1.position_confirmed]}\n");
+  open("grants: {remote: [AIC1.position_confirmed]}\n");
   Browser anna(address());
   Browser bert(address());
   start(anna);
-  EXPECT_THAT(anna.run.write("Joint1.position_confirmed", "true", kPatient).error(),
+  EXPECT_THAT(anna.run.write("AIC1.position_confirmed", "true", kPatient).error(),
               HasSubstr("is an act of the operator"));
   ASSERT_TRUE(bert.workbench.take_seat(kPatient));
-  EXPECT_THAT(anna.run.write("Joint1.position_confirmed", "true", kPatient).error(),
+  EXPECT_THAT(anna.run.write("AIC1.position_confirmed", "true", kPatient).error(),
               HasSubstr("sits at the operator's seat"));
-  EXPECT_EQ(bert.run.write("Joint1.position_confirmed", "true", kPatient).error(), "");
-  EXPECT_THAT(bert.run.write("Joint2.position_confirmed", "true", kPatient).error(),
+  EXPECT_EQ(bert.run.write("AIC1.position_confirmed", "true", kPatient).error(), "");
+  EXPECT_THAT(bert.run.write("AIC2.position_confirmed", "true", kPatient).error(),
               HasSubstr("grants"));
 }
 
@@ -171,6 +171,23 @@ TEST_F(OperatedHead, RenewalsThatAreSlowOrComeInABurstMoveNothing) {
   EXPECT_LT(moved(moments, begun, kEver), most);
 }
 
+TEST_F(OperatedHead, AMotionWhoseBrowserIsLostIsBrakedAndTheRobotHeld) {
+  open();
+  Browser anna(address());
+  auto bert = std::make_unique<Browser>(address());
+  start(anna);
+  arm(anna);
+  ASSERT_EQ(bert->begin("Generator", "moveTo", {"[4, 4]", "20"}), "");
+  pass(anna, 2.0);
+  bert.reset();
+  const double lost = anna.time();
+  pass(anna, 4.0);
+  EXPECT_EQ(anna.run.call("Arming", "isArmed", {}, kPatient).value().value, "true");
+  const auto moments = recorded();
+  EXPECT_GT(last_motion(moments), lost - 0.5);
+  EXPECT_LT(last_motion(moments), lost + 3.0) << "of 20 s";
+}
+
 TEST_F(OperatedHead, AnEmergencyStopOfWhoHasNoSeatEndsAMotion) {
   open();
   Browser anna(address());
@@ -229,9 +246,9 @@ TEST_F(OperatedHead, WhoMayOnlyLookSitsNowhereAndStopsNothing) {
   open();
   Browser anna(address());
   EXPECT_FALSE(anna.workbench.seat(kPatient).value().guests.at(0).may_operate);
-  for (const auto& refused : {anna.workbench.take_seat(kPatient).error(),
-                              anna.workbench.hold_key(true, kPatient).error(),
-                              anna.workbench.emergency_stop(kPatient).error()}) {
+  for (const auto& refused :
+       {anna.workbench.take_seat(kPatient).error(), anna.workbench.hold_key(true, kPatient).error(),
+        anna.workbench.emergency_stop(kPatient).error()}) {
     EXPECT_THAT(refused, HasSubstr("may not command 'workbench'"));
   }
   close();
@@ -253,18 +270,17 @@ TEST_F(OperatedHead, WhatIsNoRequestOfTheInspectorPassesNothing) {
     while (code < 0) std::this_thread::sleep_for(1ms);
     return static_cast<ride::Code>(code.load());
   };
-  constexpr ride::Number kBegin =
-      ride::number_of("struct CommandStatus begin(String,String,Array<String>)");
+  const ride::Number begin = number_named(remote::kInspector, "begin");
   const std::string arming = "Arming";
   const std::string arm = "arm";
   const std::string no_text = "\xff\xfe";
   const std::vector<std::string> none;
   const std::uint32_t long_size = 0xffffffffu;
-  EXPECT_EQ(ask(kBegin), ride::Code::kMalformed);
-  EXPECT_EQ(ask(kBegin, arming), ride::Code::kMalformed);
-  EXPECT_EQ(ask(kBegin, long_size, arm), ride::Code::kMalformed);
-  EXPECT_EQ(ask(kBegin, arming, no_text, none), ride::Code::kMalformed);
-  EXPECT_EQ(ask(kBegin, arming, arm, none), ride::Code::kFailed) << "the key is not held";
+  EXPECT_EQ(ask(begin), ride::Code::kMalformed);
+  EXPECT_EQ(ask(begin, arming), ride::Code::kMalformed);
+  EXPECT_EQ(ask(begin, long_size, arm), ride::Code::kMalformed);
+  EXPECT_EQ(ask(begin, arming, no_text, none), ride::Code::kMalformed);
+  EXPECT_EQ(ask(begin, arming, arm, none), ride::Code::kFailed) << "the key is not held";
   for (const char* name : {"Arming ", "arming", "", "Arming.", "Nobody"}) {
     EXPECT_THAT(anna.begin(name, "arm"), HasSubstr("has not described it"));
   }
@@ -286,12 +302,14 @@ TEST_F(OperatedHead, WhoFloodsTheStudioKeepsNobodyFromStopping) {
     RawPlaceholder run(mallory.peer(), "run", remote::kInspector);
     const auto told = [&](ride::Code, std::string_view, std::span<const std::byte>) { ++answered; };
     const std::string generator = "Generator";
+    const std::tuple<> nothing;
+    const ride::Number models = number_named(kWorkbench, "models");
+    const ride::Number project = number_named(kWorkbench, "project");
+    const ride::Number describe = number_named(remote::kInspector, "describe");
     while (goes_on) {
-      workbench.ask(ride::number_of("String models()"), {}, ride::Fields(std::tuple<>()), told);
-      workbench.ask(ride::number_of("struct ProjectState project()"), {},
-                    ride::Fields(std::tuple<>()), told);
-      run.ask(ride::number_of("struct ComponentDetails describe(String)"), {},
-              ride::Fields(std::tie(generator)), told);
+      workbench.ask(models, {}, ride::Fields(nothing), told);
+      workbench.ask(project, {}, ride::Fields(nothing), told);
+      run.ask(describe, {}, ride::Fields(std::tie(generator)), told);
     }
   });
   until([&] { return answered > 5000; });

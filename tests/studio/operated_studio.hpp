@@ -28,6 +28,16 @@ namespace armature::studio {
 
 inline constexpr ride::CallOptions kPatient{std::chrono::seconds(60), {}};
 
+/// The number of an operation.
+inline ride::Number number_named(const ride::Interface& interface, std::string_view name) {
+  const std::string searched = " " + std::string(name) + "(";
+  for (const ride::Declaration& one : interface.declarations) {
+    if (one.canonical.find(searched) != std::string_view::npos) return one.number();
+  }
+  ADD_FAILURE() << "no operation " << name;
+  return 0;
+}
+
 /// Asks a component of the studio without waiting, and whatever it likes.
 class RawPlaceholder final : public ride::Placeholder {
  public:
@@ -94,8 +104,7 @@ class OperatedHead : public ::testing::Test {
   OperatedHead() {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "page");
-    std::filesystem::copy(JANUS, folder_ / "janus",
-                          std::filesystem::copy_options::recursive);
+    std::filesystem::copy(JANUS, folder_ / "janus", std::filesystem::copy_options::recursive);
     std::ofstream(folder_ / "page/index.html") << "<!doctype html>";
   }
   ~OperatedHead() override {
@@ -106,17 +115,18 @@ class OperatedHead : public ::testing::Test {
 
   /// @param grants  of the deployment: `grants: {remote: [Arming.arm]}`
   void open(const std::string& grants = "grants: {remote: [Arming.arm]}\n") {
-    std::ofstream(file()) << "include: ../deployments/pid.yaml\napplication: head\n"
-                             "libraries: [record]\n"
-                          << grants
-                          << "components:\n"
-                             "  Reporter:\n"
-                             "    model: Reporter\n"
-                             "    activity: {periodic: 50 ms, scheduler: other}\n"
-                             "    properties:\n"
-                             "      what: [BridgeRef.nAxesSensorPosition, Generator.nAxesDesiredVelocity]\n"
-                             "      csv: "
-                          << recording() << "\n";
+    std::ofstream(file())
+        << "include: ../deployments/pid.yaml\napplication: head\n"
+           "libraries: [record]\n"
+        << grants
+        << "components:\n"
+           "  Reporter:\n"
+           "    model: Reporter\n"
+           "    activity: {periodic: 50 ms, scheduler: other}\n"
+           "    properties:\n"
+           "      what: [BridgeRef.nAxesSensorPosition, Generator.nAxesDesiredVelocity]\n"
+           "      csv: "
+        << recording() << "\n";
     ServerOptions options;
     options.file = file();
     options.listen = address();
@@ -175,7 +185,9 @@ class OperatedHead : public ::testing::Test {
     browser.hold_key(1.0);
     ASSERT_EQ(browser.arm(), "");
     browser.let_go();
-    until([&] { return browser.run.call("Arming", "isArmed", {}, kPatient).value().value == "true"; });
+    until([&] {
+      return browser.run.call("Arming", "isArmed", {}, kPatient).value().value == "true";
+    });
   }
   void stop() {
     if (!thread_.joinable()) serve();
@@ -220,7 +232,8 @@ inline double moved(const std::vector<Moment>& moments, double from, double to) 
   for (const Moment& one : moments) {
     if (one.time < from || one.time > to || std::isnan(one.measured[0])) continue;
     if (!there) there = one.measured;
-    for (std::size_t i = 0; i < 2; ++i) most = std::max(most, std::abs(one.measured[i] - (*there)[i]));
+    for (std::size_t i = 0; i < 2; ++i)
+      most = std::max(most, std::abs(one.measured[i] - (*there)[i]));
   }
   return most;
 }

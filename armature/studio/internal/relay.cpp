@@ -50,8 +50,9 @@ ride::Number number_of(std::string_view name) {
   return found->number();
 }
 
-/// The most descriptions that are under way.
-constexpr std::size_t kDescriptions = 8;
+/// So many descriptions, or states of commands, are asked for at once.
+constexpr std::size_t kAtOnce = 8;
+constexpr std::tuple<> kNothing;
 constexpr ride::Priority kUrgent{255};
 
 }  // namespace
@@ -91,25 +92,30 @@ std::optional<std::vector<std::string>> Relay::to_disarm() const {
   return run->learned->acts.disarmed();
 }
 
-void Relay::look() {
+void Relay::look(base::Time now) {
   const auto run = connection();
   if (run == nullptr || !run->inspector.found()) return;
+  ask_what_is_missing(*run, wake_);
+  look_after_commands(*run, now);
+}
+
+void Relay::ask_what_is_missing(Connection& run, const std::function<void()>& wake) {
   std::vector<std::string> missing;
   {
-    const std::scoped_lock lock(run->learned->mutex);
-    if (run->learned->acts.complete() || run->learned->asked > 0) return;
-    missing = run->learned->acts.missing();
+    const std::scoped_lock lock(run.learned->mutex);
+    if (run.learned->acts.complete() || run.learned->asked > 0) return;
+    missing = run.learned->acts.missing();
   }
   if (missing.empty()) {
-    learn(*run, "components", ride::Fields(std::tuple<>()), [](ride::Decoder& from, auto& acts) {
+    learn(run, wake, "components", ride::Fields(kNothing), [](auto& from, auto& acts) {
       std::vector<remote::ComponentStatus> components;
       const bool told = from.take(components);
       if (told) acts.expect(components);
       return told;
     });
   }
-  for (std::size_t i = 0; i < std::min(missing.size(), kDescriptions); ++i) {
-    learn(*run, "describe", ride::Fields(std::tie(missing[i])), [](auto& from, auto& acts) {
+  for (std::size_t i = 0; i < std::min(missing.size(), kAtOnce); ++i) {
+    learn(run, wake, "describe", ride::Fields(std::tie(missing[i])), [](auto& from, auto& acts) {
       remote::ComponentDetails details;
       const bool told = from.take(details);
       if (told) acts.add(details);
@@ -119,13 +125,14 @@ void Relay::look() {
 }
 
 /// What a run does not tell is asked for again.
-void Relay::learn(Connection& run, std::string_view operation, const ride::Fields& parameters,
+void Relay::learn(Connection& run, const std::function<void()>& wake, std::string_view operation,
+                  const ride::Fields& parameters,
                   std::function<bool(ride::Decoder&, OperatorsActs&)> take) {
   {
     const std::scoped_lock lock(run.learned->mutex);
     ++run.learned->asked;
   }
-  const auto told = [learned = run.learned, wake = wake_, take = std::move(take)](
+  const auto told = [learned = run.learned, wake, take = std::move(take)](
                         ride::Code code, std::string_view, std::span<const std::byte> result) {
     const std::scoped_lock lock(learned->mutex);
     --learned->asked;
@@ -133,6 +140,34 @@ void Relay::learn(Connection& run, std::string_view operation, const ride::Field
     if (code == ride::Code::kNone && take(from, learned->acts)) wake();
   };
   run.inspector.ask(number_of(operation), {}, parameters, told);
+}
+
+void Relay::look_after_commands(Connection& run, base::Time now) {
+  const auto asks = [&run](std::string_view operation, std::int32_t handle, auto told) {
+    run.inspector.ask(number_of(operation), kUrgent, ride::Fields(std::tie(handle)), told);
+  };
+  for (const std::int32_t handle : run.learned->begun.take_lost(now)) {
+    asks("cancel", handle, [](ride::Code, std::string_view, std::span<const std::byte>) {});
+  }
+  for (const std::int32_t handle : run.learned->begun.next(kAtOnce)) {
+    asks("follow", handle,
+         [learned = run.learned, handle](ride::Code code, std::string_view,
+                                         std::span<const std::byte> result) {
+           remote::CommandStatus status;
+           const bool told = ride::Decoder(result).take(status);
+           // A run that is too busy to say is asked again.
+           if (code == ride::Code::kNone && told && status.ended) learned->begun.end(handle);
+         });
+  }
+}
+
+/// What a run has answered to `begin`.
+void Relay::take_begun(Learned& learned, std::span<const std::byte> result,
+                       const ride::Origin& origin) {
+  remote::CommandStatus status;
+  if (ride::Decoder(result).take(status) && !status.ended) {
+    learned.begun.add(status.handle, origin);
+  }
 }
 
 void Relay::disarm(const std::string& component, Done done) {
@@ -163,22 +198,25 @@ ride::Executed Relay::execute(ride::Number operation, ride::Decoder& parameters,
   if (!may_pass(*run->learned, name_in(declaration->canonical), asked.body, origin)) {
     return ride::Executed::kMalformed;
   }
+  const bool begins = name_in(declaration->canonical) == "begin";
   const auto owed = std::make_shared<ride::PendingReply>(reply.keep());
-  const auto hand_back = [owed, learned = run->learned, origin](ride::Code code,
-                                                                std::string_view text,
-                                                                std::span<const std::byte> result) {
-    {
-      const std::scoped_lock lock(learned->mutex);
-      learned->waiting.erase(std::ranges::find(learned->waiting, origin));
-    }
-    if (code == ride::Code::kNone) {
-      owed->put(Encoded{result});
-    } else {
-      owed->fail(text);
-    }
+  const auto hand_back = [owed, learned = run->learned, origin, begins](
+                             ride::Code code, std::string_view text,
+                             std::span<const std::byte> result) {
+    leave(*learned, origin);
+    if (code != ride::Code::kNone) return owed->fail(text);
+    if (begins) take_begun(*learned, result, origin);
+    owed->put(Encoded{result});
   };
   run->inspector.ask(operation, {}, ride::Fields(std::tie(asked)), hand_back);
   return ride::Executed::kDone;
+}
+
+/// A request of it waits no more.
+void Relay::leave(Learned& learned, const ride::Origin& origin) {
+  const std::scoped_lock lock(learned.mutex);
+  const auto own = std::ranges::find(learned.waiting, origin);
+  if (own != learned.waiting.end()) learned.waiting.erase(own);
 }
 
 /// Throws if it may not. What passes is counted among what waits.

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "armature/base/result.hpp"
+#include "armature/base/time.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/ride/placeholder.hpp"
 #include "armature/ride/service.hpp"
+#include "armature/studio/internal/begun_commands.hpp"
 #include "armature/studio/internal/operators_acts.hpp"
 #include "armature/studio/internal/seat.hpp"
 
@@ -42,8 +44,9 @@ class Relay final : public ride::Service {
   void disconnect();
   /// There is one; it has been found, and has described its components.
   bool ready() const;
-  /// Asks for descriptions that are missing.
-  void look();
+  /// Asks for descriptions that are missing; cancels what nobody is there for any more. Some ten
+  /// times a second.
+  void look(base::Time now);
 
   /// Told whether an operation was done, and why not.
   using Done = std::function<void(const base::Result<void>&)>;
@@ -67,6 +70,7 @@ class Relay final : public ride::Service {
     OperatorsActs acts;
     std::size_t asked = 0;              ///< descriptions that are under way
     std::vector<ride::Origin> waiting;  ///< who waits for answers, an entry for each request
+    BegunCommands begun;                ///< has a mutex of its own
   };
   /// A run, as long as it can be asked.
   struct Connection {
@@ -82,8 +86,14 @@ class Relay final : public ride::Service {
   bool may_pass(Learned& learned, std::string_view operation, std::span<const std::byte> body,
                 const ride::Origin& origin);
   void let_through(Act act, const std::string& what, bool with_key, const ride::Origin& origin);
-  void learn(Connection& run, std::string_view operation, const ride::Fields& parameters,
-             std::function<bool(ride::Decoder&, OperatorsActs&)> take);
+  static void ask_what_is_missing(Connection& run, const std::function<void()>& wake);
+  static void look_after_commands(Connection& run, base::Time now);
+  static void leave(Learned& learned, const ride::Origin& origin);
+  static void take_begun(Learned& learned, std::span<const std::byte> result,
+                         const ride::Origin& origin);
+  static void learn(Connection& run, const std::function<void()>& wake, std::string_view operation,
+                    const ride::Fields& parameters,
+                    std::function<bool(ride::Decoder&, OperatorsActs&)> take);
 
   const std::string name_;
   Seat& seat_;
