@@ -3,7 +3,7 @@
 // checks and runs are real, too. Skipped without chromium.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -154,5 +154,71 @@ studio_test("a file full of mistakes opens and is mended by its fixes", async ()
   await page.getByText("Nobody").first().waitFor();
   await page.keyboard.press("Control+s");
   await until(() => content().includes("{model: Source,"), "the fix is saved");
+  await end("SIGTERM");
+});
+
+/** In Operate of the simulated head, with the box Arming selected. */
+async function operating(page) {
+  await box(page, "Arming").locator("header").click();
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByText("Generator: jog").waitFor();
+}
+
+async function arm(page) {
+  const button = page.getByRole("button", { name: /^arm: hold/ });
+  await button.hover();
+  await page.mouse.down();
+  await page.locator(".call", { has: button }).locator("output", { hasText: /./ }).waitFor();
+  await page.mouse.up();
+  await page.locator(".call", { has: button }).locator("output", { hasText: "done" }).waitFor();
+}
+
+const position = async (page) => Number.parseFloat(await page.getByRole("group", { name: "Generator axis 1" }).locator("output").textContent());
+
+/** Holds the button until the axis has gone so far. */
+async function jog(page, least) {
+  const from = await position(page);
+  await page.getByRole("button", { name: "axis 1 forth" }).hover();
+  await page.mouse.down();
+  await until(async () => (await position(page)) > from + least, `the axis moves, and does not say ${await page.locator(".jog [role=status]").textContent()}`);
+}
+
+async function rests(page) {
+  await page.waitForTimeout(800);
+  const there = await position(page);
+  await page.waitForTimeout(800);
+  assert.equal(await position(page), there, "the axis rests");
+}
+
+studio_test("a robot is armed from the seat, jogged, stopped by somebody else, and rests when its browser is gone", async () => {
+  cpSync(new URL("../../robots/janus", import.meta.url), join(folder, "janus"), { recursive: true });
+  const { address, end } = await studio("janus/demo/studio.yaml");
+  const one = await user(address);
+  const other = await user(address);
+  await one.getByRole("button", { name: "Run", exact: true }).click();
+  await operating(one);
+  await operating(other);
+  assert.equal(await one.getByRole("button", { name: /^arm: hold/ }).isDisabled(), true, "nobody sits at the seat");
+  await one.getByRole("button", { name: "Take the seat" }).click();
+  await one.getByText("You operate").waitFor();
+  await other.getByText(/^Browser \d+ operates$/).waitFor();
+  await arm(one);
+  await jog(one, 0.1);
+  await one.mouse.up();
+  await rests(one);
+  await jog(one, 0.02);
+  await other.keyboard.press("F8");
+  await other.getByText("E-stop: Arming disarmed").waitFor();
+  await one.mouse.up();
+  await rests(other);
+  await one.getByRole("button", { name: "axis 1 forth" }).click({ delay: 100 });
+  await one.getByText(/arm first/).waitFor();
+  await arm(one);
+  await jog(one, 0.02);
+  await one.context().close();
+  await rests(other);
+  await other.getByRole("button", { name: "Take the seat" }).waitFor();
+  await other.keyboard.press("Shift+Escape");
+  await other.getByText("ended", { exact: true }).waitFor();
   await end("SIGTERM");
 });

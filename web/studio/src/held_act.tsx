@@ -9,6 +9,7 @@ export function HeldAct({ name, act, tell }: { name: string; act: () => void; te
   const [time, set_time] = useState(0);
   const { held, props } = useHeld(() => {
     set_time(0);
+    tell(""); // what the last hold did
     return press_key(act, set_time, tell);
   });
   const share = held ? Math.min(1, time / kHold) : 0;
