@@ -157,9 +157,8 @@ studio_test("a file full of mistakes opens and is mended by its fixes", async ()
   await end("SIGTERM");
 });
 
-/** In Operate of the simulated head, with the box Arming selected. */
+/** In Operate of the simulated head. */
 async function operating(page) {
-  await box(page, "Arming").locator("header").click();
   await page.getByRole("tab", { name: "Operate" }).click();
   await page.getByText("Generator: jog").waitFor();
 }

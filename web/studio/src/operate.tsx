@@ -1,29 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Component } from "./checked.ts";
 import { project } from "./project.ts";
 import { faces } from "./faces.tsx";
 import { Jog, jogs } from "./jog.tsx";
-import { Operations } from "./operations.tsx";
+import { Call, Operations } from "./operations.tsx";
 import { is_up, run } from "./run.ts";
 import { box_called, useScene } from "./scene.ts";
 import { selection } from "./selection.ts";
 
-/** Controls of the application, and the operations of what is selected. */
+/** What an operator arms, and everybody disarms. */
+const arms = ({ operations }: Component): boolean => operations.some((one) => one.name === "arm" && one.by_operator) && operations.some((one) => one.name === "disarm");
+
+/** Arming, jogging, the controls of the application, and the operations of what is selected. */
 export function Operate() {
   const up = run.use((all) => is_up(all.state));
   const components = project.use((state) => state.shown?.components);
   const box = useSelectedBox();
   if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
   const controls = (components ?? []).filter((one) => faces[one.model]);
+  const armed = (components ?? []).filter(arms);
   const jogged = (components ?? []).filter(jogs);
   return (
     <div className="operate scroll" tabIndex={0} aria-label="Operate">
       <div className="faces">
+        {armed.map((one) => (
+          <fieldset key={one.name}>
+            <legend>{one.name}</legend>
+            {one.operations.filter(({ name }) => name === "arm" || name === "disarm").map((operation) => <Call key={operation.name} component={one.name} operation={operation} />)}
+          </fieldset>
+        ))}
+        {jogged.map((one) => <Jog key={one.name} component={one} />)}
         {controls.map((one) => {
           const Face = faces[one.model]!;
           return <fieldset key={one.name}><legend>{one.name}</legend><Face component={one} /></fieldset>;
         })}
-        {jogged.map((one) => <Jog key={one.name} component={one} />)}
-        {controls.length + jogged.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}
+        {controls.length + jogged.length + armed.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}
       </div>
       {box && box.components.slice(0, 1).map((one) => <Operations key={one.name} component={one} />)}
       {!box && <p className="hint">Select a box to call its operations.</p>}

@@ -18,7 +18,8 @@ export function Operations({ component }: { component: Component }) {
   );
 }
 
-function Call({ component, operation }: { component: string; operation: Operation }) {
+/** One operation, with what it needs and what it gave. */
+export function Call({ component, operation }: { component: string; operation: Operation }) {
   const [words, set_words] = useState<string[]>(() => operation.arguments.map(() => ""));
   const [answer, set_answer] = useState("");
   const [handle, set_handle] = useState(-1);

@@ -30,9 +30,10 @@ export function show_page(backend: Backend): void {
 
 function Page() {
   const text = selection.use((state) => state.text);
+  const operating = selection.use((state) => state.tab === "operate");
   useEffect(listen_to_keys, []);
   return (
-    <div className={`studio${text ? " with-text" : ""}`}>
+    <div className={`studio${text ? " with-text" : ""}${operating ? " operating" : ""}`}>
       <TopBar />
       <Notices />
       <nav className="left" aria-label="Models and outline">

@@ -13,16 +13,16 @@ export function SeatView() {
   const title = `${holder ? `${name_of(holder)} operates. ` : ""}Who sits at the operator's seat arms the robot. It is handed over or left, never taken from somebody who is there.`;
   return (
     <div className={`seat ${mine ? "is-mine" : ""}`} role="group" aria-label="Operator's seat" title={title}>
-      <span role="status">{mine ? "You operate" : holder ? `Browser ${holder.number} operates` : "Nobody operates"}</span>
+      <span role="status">{mine ? "You operate" : holder ? `Browser ${holder.number} operates` : "The seat is free"}</span>
       {!mine && !holder && <button type="button" onClick={() => void take_seat()}>Take the seat</button>}
       {mine && others.length > 0 && (
         <select aria-label="Hand the seat over" value="" onChange={(event) => void hand_over(Number(event.target.value))}>
-          <option value="" disabled>Hand over …</option>
+          <option value="" disabled>Hand over</option>
           {others.map((one) => <option key={one.number} value={one.number}>{`to ${name_of(one)}`}</option>)}
         </select>
       )}
       {mine && <button type="button" onClick={() => void leave_seat()}>Leave</button>}
-      {!mine && <small className="you">{state.you > 0 && `you are browser ${state.you}`}</small>}
+      {!mine && holder && <small>{`you are browser ${state.you}`}</small>}
     </div>
   );
 }

@@ -344,7 +344,6 @@ for (const [what, leave] of [
 
 page_test("arming needs the seat and a button that is held for a second; one hold arms once", "operated", async (page) => {
   await operated(page);
-  await node(page, "Arming").locator("header").click();
   const arm = page.getByRole("button", { name: /^arm: hold/ });
   assert.equal(await arm.isDisabled(), true, "nobody sits at the seat");
   await page.getByRole("button", { name: "Take the seat" }).click();

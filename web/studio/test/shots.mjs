@@ -47,7 +47,7 @@ const kViews = {
   operator: ["operated", async (page) => {
     await start(page);
     await page.getByRole("button", { name: "Take the seat" }).click();
-    await page.locator(".react-flow__node", { hasText: "Arming" }).locator("header").click();
+    await page.locator(".react-flow__node", { hasText: "Generator" }).locator("header").click();
     await tab(page, "Operate");
     await page.getByRole("button", { name: /^arm: hold/ }).hover();
     await page.mouse.down();
@@ -56,7 +56,7 @@ const kViews = {
   guest: ["operated", async (page) => {
     await start(page);
     await page.evaluate(() => window.mock.workbench.sit(2));
-    await page.locator(".react-flow__node", { hasText: "Arming" }).locator("header").click();
+    await page.locator(".react-flow__node", { hasText: "Generator" }).locator("header").click();
     await tab(page, "Operate");
     await page.keyboard.press("F8");
   }],
