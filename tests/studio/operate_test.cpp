@@ -70,6 +70,8 @@ TEST_F(OperatedHead, AWordOfTheOperatorIsSaidFromTheSeatOnly) {
   open("grants: {remote: [AIC1.position_confirmed]}\n");
   Browser anna(address());
   Browser bert(address());
+  const RunSettings saying{true, 1.0, "", {"AIC1.position_confirmed=true"}};
+  EXPECT_THAT(anna.workbench.start(saying, kPatient).error(), HasSubstr("nobody sits"));
   start(anna);
   EXPECT_THAT(anna.run.write("AIC1.position_confirmed", "true", kPatient).error(),
               HasSubstr("is an act of the operator"));

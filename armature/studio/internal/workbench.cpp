@@ -155,7 +155,12 @@ void Workbench::places(ride::ReplyOf<std::string> reply) {
   });
 }
 
+/// What a run is told at its start may be a word of the operator.
 void Workbench::start(const RunSettings& settings, ride::ReplyOf<RunState> reply) {
+  if (!settings.overrides.empty()) {
+    const auto sits = seat_.demand(reply.origin());
+    if (!sits) throw ride::Failure("overrides are the operator's: " + sits.error());
+  }
   later(reply, [this, settings](auto& owed) {
     const auto started =
         desk_.start({settings.simulated, settings.pace, settings.mode, settings.overrides, 0});

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Component } from "./checked.ts";
+import { useState } from "react";
+import { message_of } from "./backend.ts";
+import type { Component, Property } from "./checked.ts";
+import { HeldAct } from "./held_act.tsx";
 import { project } from "./project.ts";
 import { faces } from "./faces.tsx";
 import { Jog, jogs } from "./jog.tsx";
 import { Call, Operations } from "./operations.tsx";
-import { is_up, run } from "./run.ts";
+import { inspector, is_up, run } from "./run.ts";
 import { box_called, useScene } from "./scene.ts";
 import { selection } from "./selection.ts";
 
 /** What an operator arms, and everybody disarms. */
 const arms = ({ operations }: Component): boolean => operations.some((one) => one.name === "arm" && one.by_operator) && operations.some((one) => one.name === "disarm");
+
+const words_of = ({ properties }: Component): Property[] => properties.filter((one) => one.by_operator && one.type === "bool");
+
+/** What only the operator can know, to be said once. */
+function Word({ component, word }: { component: string; word: Property }) {
+  const [answer, set_answer] = useState("");
+  const say = () => void inspector().write(`${component}.${word.name}`, "true").then(() => set_answer("said"), (error: unknown) => set_answer(message_of(error)));
+  return (
+    <div className="call" title={word.doc}>
+      <HeldAct name={word.name} act={say} tell={set_answer} />
+      <output>{answer}</output>
+    </div>
+  );
+}
 
 /** Arming, jogging, the controls of the application, and the operations of what is selected. */
 export function Operate() {
@@ -18,7 +35,7 @@ export function Operate() {
   const box = useSelectedBox();
   if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
   const controls = (components ?? []).filter((one) => faces[one.model]);
-  const armed = (components ?? []).filter(arms);
+  const armed = (components ?? []).filter((one) => arms(one) || words_of(one).length > 0);
   const jogged = (components ?? []).filter(jogs);
   return (
     <div className="operate scroll" tabIndex={0} aria-label="Operate">
@@ -26,7 +43,8 @@ export function Operate() {
         {armed.map((one) => (
           <fieldset key={one.name}>
             <legend>{one.name}</legend>
-            {one.operations.filter(({ name }) => name === "arm" || name === "disarm").map((operation) => <Call key={operation.name} component={one.name} operation={operation} />)}
+            {words_of(one).map((word) => <Word key={word.name} component={one.name} word={word} />)}
+            {arms(one) && one.operations.filter(({ name }) => name === "arm" || name === "disarm").map((operation) => <Call key={operation.name} component={one.name} operation={operation} />)}
           </fieldset>
         ))}
         {jogged.map((one) => <Jog key={one.name} component={one} />)}

@@ -365,6 +365,16 @@ page_test("arming needs the seat and a button that is held for a second; one hol
   assert.equal(await page.getByRole("button", { name: "Take the seat" }).count(), 0);
 });
 
+page_test("a word of the operator is said from the seat, by a button that is held", "operated", async (page) => {
+  await operated(page);
+  await page.getByRole("button", { name: "Take the seat" }).click();
+  await page.getByRole("button", { name: /^at_home: hold/ }).hover();
+  await page.mouse.down();
+  await page.getByText("said", { exact: true }).waitFor();
+  await page.mouse.up();
+  assert.deepEqual(await called(page), ["Hardware.at_home = true"]);
+});
+
 page_test("the seat is handed over", "operated", async (page) => {
   await page.getByRole("button", { name: "Take the seat" }).click();
   await page.getByLabel("Hand the seat over").selectOption({ label: "to browser 2 (page@web)" });

@@ -57,7 +57,11 @@ export class MockInspector implements Inspector {
     throw new Error("not in tests");
   };
   read = async () => [];
-  write = async (item: string, value: string) => ({ ...kNone, item, value, written: true, age: 0 });
+
+  async write(item: string, value: string) {
+    this.called.push(`${item} = ${value}`);
+    return { ...kNone, item, value, written: true, age: 0 };
+  }
 
   async call(component: string, operation: string, words: string[]) {
     this.called.push(`${component}.${operation}(${words.join(", ")})`);

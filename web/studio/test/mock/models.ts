@@ -72,6 +72,9 @@ export const kModels: Model[] = [
       operation("keepJogging", "goes on with it", [["int", "axis, from 1"], ["double", "velocity [rad/s]"]]),
     ],
   }),
+  model("Hardware", "robot", "drives the robot", {
+    properties: [property("at_home", "bool", "false", "the operator has put the arm at home", { by_operator: true })],
+  }),
   model("Arming", "robot", "lets the robot move, by its operator", {
     operations: [{ ...operation("arm", "lets the joints move from now on", [], true), by_operator: true }, operation("disarm", "effort 0, brakes applied")],
   }),

@@ -20,6 +20,7 @@ libraries: [robot]
 components:
   Generator: {model: AxesGenerator, activity: {periodic: 10 ms}}
   Arming: {model: Arming, activity: {periodic: 10 ms}}
+  Hardware: {model: Hardware}
 `,
   },
   arm: {
