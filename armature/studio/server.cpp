@@ -110,7 +110,10 @@ class StudioServer final : public Server {
     queue_.run();
     if (answered) desk_.checker().take();
     const base::Time now = platform::monotonic_now();
-    if (look_at_run_.is_due(now)) desk_.look_at_run();
+    if (look_at_run_.is_due(now)) {
+      desk_.look_at_run();
+      relay_.cancel_lost(now);
+    }
     if (look_at_disk_.is_due(now)) desk_.look_at_disk();
     stops_.look(now);
     follow_run();
@@ -135,7 +138,7 @@ class StudioServer final : public Server {
     const bool over = desk_.run().is_over();
     if (over && std::exchange(connected_, false)) relay_.disconnect();
     if (!over && !std::exchange(connected_, true)) relay_.connect(desk_.run().address());
-    relay_.look(platform::monotonic_now());
+    relay_.learn();
     if (desk_.run().stage() != RunStage::kStarting || !relay_.ready()) return;
     desk_.run().set_answers();
     run_changed_ = true;

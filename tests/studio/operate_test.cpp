@@ -317,7 +317,9 @@ TEST_F(OperatedHead, WhoFloodsTheStudioKeepsNobodyFromStopping) {
   until([&] { return answered > 5000; });
   const auto stopped = anna.workbench.emergency_stop(kPatient);
   EXPECT_TRUE(stopped) << stopped.error();
-  if (stopped) EXPECT_THAT(stopped.value().disarmed, ElementsAre("Arming"));
+  if (stopped) {
+    EXPECT_THAT(stopped.value().disarmed, ElementsAre("Arming")) << stopped.value().stopped;
+  }
   const double at = anna.time();
   const int process = server_->running();
   [[maybe_unused]] const auto ends = anna.workbench.stop(kPatient);
@@ -327,6 +329,33 @@ TEST_F(OperatedHead, WhoFloodsTheStudioKeepsNobodyFromStopping) {
   const auto moments = recorded();
   if (!std::isnan(at)) EXPECT_LE(last_motion(moments), at + kPeriod);
   EXPECT_GT(last_motion(moments), 0.0);
+}
+
+TEST_F(OperatedHead, TheRunIsAskedForABoundedNumberOfThingsAtOnce) {
+  constexpr int kAsked = 100;
+  constexpr int kPassedOn = 16;
+  open();
+  Browser anna(address());
+  Browser mallory(address());
+  start(anna);
+  const int process = server_->running();
+  platform::send_signal(process, SIGSTOP);
+  std::atomic<int> refused{0};
+  std::atomic<int> given{0};
+  RawPlaceholder run(mallory.peer(), "run", remote::kInspector);
+  const std::string generator = "Generator";
+  for (int i = 0; i < kAsked; ++i) {
+    run.ask(number_named(remote::kInspector, "describe"), {}, ride::Fields(std::tie(generator)),
+            [&](ride::Code code, std::string_view why, std::span<const std::byte>) {
+              if (code == ride::Code::kNone) ++given;
+              if (why.find("too many requests") != std::string_view::npos) ++refused;
+            });
+  }
+  until([&] { return refused == kAsked - kPassedOn; });
+  EXPECT_EQ(given, 0);
+  platform::send_signal(process, SIGCONT);
+  EXPECT_FALSE(std::isnan(anna.time())) << "others are answered";
+  until([&] { return given == kPassedOn; });
 }
 
 }  // namespace

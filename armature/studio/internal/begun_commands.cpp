@@ -15,15 +15,16 @@ void BegunCommands::end(std::int32_t handle) {
   std::erase_if(begun_, [handle](const Begun& one) { return one.handle == handle; });
 }
 
-std::vector<std::int32_t> BegunCommands::take_lost(base::Time now) {
+std::vector<std::int32_t> BegunCommands::lost(base::Time now) {
   const std::scoped_lock lock(mutex_);
-  std::vector<std::int32_t> lost;
-  std::erase_if(begun_, [&](Begun& one) {
-    const bool gone = one.line.lost(now);
-    if (gone) lost.push_back(one.handle);
-    return gone;
-  });
-  return lost;
+  std::vector<std::int32_t> handles;
+  for (Begun& one : begun_) {
+    if (!one.line.lost(now)) continue;
+    ++one.tries;
+    handles.push_back(one.handle);
+  }
+  std::erase_if(begun_, [](const Begun& one) { return one.tries > kMostTries; });
+  return handles;
 }
 
 std::vector<std::int32_t> BegunCommands::next(std::size_t most) {

@@ -21,9 +21,10 @@ class BegunCommands {
   /// It is so no more.
   void end(std::int32_t handle);
 
-  /// Those whose clients have gone, or are silent. They are nobody's from then on.
+  /// Those whose clients have gone, or are silent: to be cancelled. What cannot be cancelled after
+  /// many tries is not known to the run any more.
   /// @param now  of the monotonic clock
-  std::vector<std::int32_t> take_lost(base::Time now);
+  std::vector<std::int32_t> lost(base::Time now);
   /// The next ones, of all in turn, to be asked whether they have ended.
   std::vector<std::int32_t> next(std::size_t most);
 
@@ -31,7 +32,9 @@ class BegunCommands {
   struct Begun {
     std::int32_t handle;
     ride::Lifeline line;
+    int tries = 0;  ///< to cancel it
   };
+  static constexpr int kMostTries = 100;
 
   std::mutex mutex_;  ///< of the next
   std::vector<Begun> begun_;

@@ -92,22 +92,17 @@ std::optional<std::vector<std::string>> Relay::to_disarm() const {
   return run->learned->acts.disarmed();
 }
 
-void Relay::look(base::Time now) {
+void Relay::learn() {
   const auto run = connection();
   if (run == nullptr || !run->inspector.found()) return;
-  ask_what_is_missing(*run, wake_);
-  look_after_commands(*run, now);
-}
-
-void Relay::ask_what_is_missing(Connection& run, const std::function<void()>& wake) {
   std::vector<std::string> missing;
   {
-    const std::scoped_lock lock(run.learned->mutex);
-    if (run.learned->acts.complete() || run.learned->asked > 0) return;
-    missing = run.learned->acts.missing();
+    const std::scoped_lock lock(run->learned->mutex);
+    if (run->learned->acts.complete() || run->learned->asked > 0) return;
+    missing = run->learned->acts.missing();
   }
   if (missing.empty()) {
-    learn(run, wake, "components", ride::Fields(kNothing), [](auto& from, auto& acts) {
+    ask_for(*run, wake_, "components", ride::Fields(kNothing), [](auto& from, auto& acts) {
       std::vector<remote::ComponentStatus> components;
       const bool told = from.take(components);
       if (told) acts.expect(components);
@@ -115,19 +110,20 @@ void Relay::ask_what_is_missing(Connection& run, const std::function<void()>& wa
     });
   }
   for (std::size_t i = 0; i < std::min(missing.size(), kAtOnce); ++i) {
-    learn(run, wake, "describe", ride::Fields(std::tie(missing[i])), [](auto& from, auto& acts) {
-      remote::ComponentDetails details;
-      const bool told = from.take(details);
-      if (told) acts.add(details);
-      return told;
-    });
+    ask_for(*run, wake_, "describe", ride::Fields(std::tie(missing[i])),
+            [](auto& from, auto& acts) {
+              remote::ComponentDetails details;
+              const bool told = from.take(details);
+              if (told) acts.add(details);
+              return told;
+            });
   }
 }
 
 /// What a run does not tell is asked for again.
-void Relay::learn(Connection& run, const std::function<void()>& wake, std::string_view operation,
-                  const ride::Fields& parameters,
-                  std::function<bool(ride::Decoder&, OperatorsActs&)> take) {
+void Relay::ask_for(Connection& run, const std::function<void()>& wake, std::string_view operation,
+                    const ride::Fields& parameters,
+                    std::function<bool(ride::Decoder&, OperatorsActs&)> take) {
   {
     const std::scoped_lock lock(run.learned->mutex);
     ++run.learned->asked;
@@ -142,23 +138,37 @@ void Relay::learn(Connection& run, const std::function<void()>& wake, std::strin
   run.inspector.ask(number_of(operation), {}, parameters, told);
 }
 
-void Relay::look_after_commands(Connection& run, base::Time now) {
-  const auto asks = [&run](std::string_view operation, std::int32_t handle, auto told) {
-    run.inspector.ask(number_of(operation), kUrgent, ride::Fields(std::tie(handle)), told);
-  };
-  for (const std::int32_t handle : run.learned->begun.take_lost(now)) {
-    asks("cancel", handle, [](ride::Code, std::string_view, std::span<const std::byte>) {});
+void Relay::cancel_lost(base::Time now) {
+  const auto run = connection();
+  if (run == nullptr || !run->inspector.found()) return;
+  const auto learned = run->learned;
+  for (const std::int32_t handle : learned->begun.lost(now)) {
+    ask_about(*run, "cancel", handle, kUrgent, [learned, handle](const auto& status) {
+      if (status) learned->begun.end(handle);
+    });
   }
-  for (const std::int32_t handle : run.learned->begun.next(kAtOnce)) {
-    asks("follow", handle,
-         [learned = run.learned, handle](ride::Code code, std::string_view,
-                                         std::span<const std::byte> result) {
-           remote::CommandStatus status;
-           const bool told = ride::Decoder(result).take(status);
-           // A run that is too busy to say is asked again.
-           if (code == ride::Code::kNone && told && status.ended) learned->begun.end(handle);
-         });
+  if (learned->followed > 0) return;
+  for (const std::int32_t handle : learned->begun.next(kAtOnce)) {
+    ++learned->followed;
+    ask_about(*run, "follow", handle, {}, [learned, handle](const auto& status) {
+      --learned->followed;
+      if (status && status->ended) learned->begun.end(handle);
+    });
   }
+}
+
+/// @param told  what has become of it, unless the run did not say
+void Relay::ask_about(Connection& run, std::string_view operation, std::int32_t handle,
+                      ride::Priority priority,
+                      std::function<void(const std::optional<remote::CommandStatus>&)> told) {
+  run.inspector.ask(number_of(operation), priority, ride::Fields(std::tie(handle)),
+                    [told = std::move(told)](ride::Code code, std::string_view,
+                                             std::span<const std::byte> result) {
+                      remote::CommandStatus status;
+                      const bool known =
+                          code == ride::Code::kNone && ride::Decoder(result).take(status);
+                      told(known ? std::optional(status) : std::nullopt);
+                    });
 }
 
 /// What a run has answered to `begin`.

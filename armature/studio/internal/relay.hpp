@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -44,9 +46,10 @@ class Relay final : public ride::Service {
   void disconnect();
   /// There is one; it has been found, and has described its components.
   bool ready() const;
-  /// Asks for descriptions that are missing; cancels what nobody is there for any more. Some ten
-  /// times a second.
-  void look(base::Time now);
+  /// Asks for descriptions that are missing: after each answer, and now and then.
+  void learn();
+  /// Cancels the commands of those who have gone. Some ten times a second.
+  void cancel_lost(base::Time now);
 
   /// Told whether an operation was done, and why not.
   using Done = std::function<void(const base::Result<void>&)>;
@@ -70,6 +73,7 @@ class Relay final : public ride::Service {
     OperatorsActs acts;
     std::size_t asked = 0;              ///< descriptions that are under way
     std::vector<ride::Origin> waiting;  ///< who waits for answers, an entry for each request
+    std::atomic<int> followed{0};       ///< commands whose states are asked for
     BegunCommands begun;                ///< has a mutex of its own
   };
   /// A run, as long as it can be asked.
@@ -86,14 +90,15 @@ class Relay final : public ride::Service {
   bool may_pass(Learned& learned, std::string_view operation, std::span<const std::byte> body,
                 const ride::Origin& origin);
   void let_through(Act act, const std::string& what, bool with_key, const ride::Origin& origin);
-  static void ask_what_is_missing(Connection& run, const std::function<void()>& wake);
-  static void look_after_commands(Connection& run, base::Time now);
+  static void ask_about(Connection& run, std::string_view operation, std::int32_t handle,
+                        ride::Priority priority,
+                        std::function<void(const std::optional<remote::CommandStatus>&)> told);
   static void leave(Learned& learned, const ride::Origin& origin);
   static void take_begun(Learned& learned, std::span<const std::byte> result,
                          const ride::Origin& origin);
-  static void learn(Connection& run, const std::function<void()>& wake, std::string_view operation,
-                    const ride::Fields& parameters,
-                    std::function<bool(ride::Decoder&, OperatorsActs&)> take);
+  static void ask_for(Connection& run, const std::function<void()>& wake,
+                      std::string_view operation, const ride::Fields& parameters,
+                      std::function<bool(ride::Decoder&, OperatorsActs&)> take);
 
   const std::string name_;
   Seat& seat_;
