@@ -115,9 +115,9 @@ std::uint64_t runtime_layout();
 namespace internal {
 
 /// 64-bit FNV-1a of numbers.
-constexpr std::uint64_t hash_of(std::initializer_list<std::size_t> numbers) {
+constexpr std::uint64_t hash_of(std::initializer_list<std::uint64_t> numbers) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::size_t number : numbers) {
+  for (const std::uint64_t number : numbers) {
     hash ^= number;
     hash *= 0x00000100000001b3u;
   }

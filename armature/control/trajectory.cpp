@@ -37,6 +37,10 @@ std::string_view to_text(Refusal refusal) {
       return "a motion is under way";
     case Refusal::kNoPosition:
       return "the positions of the axes are not known yet: try again in the next cycle";
+    case Refusal::kZeroVelocity:
+      return "the velocity is 0";
+    case Refusal::kAtLimit:
+      return "the axis is at its limit";
   }
   return "unknown";
 }
@@ -104,6 +108,32 @@ Trajectory::Answer Trajectory::move_to(std::span<const double> positions, double
   const double duration_s = std::max(time_s, shortest);
   if (!(duration_s <= kLongest_s)) return {Refusal::kTooLong};
   shape(positions, duration_s);
+  std::swap(motions_, next_);
+  begin(duration_s);
+  return {};
+}
+
+Trajectory::Answer Trajectory::jog(std::size_t axis, double velocity, MotionLimit* limit) {
+  if (!std::isfinite(velocity)) return {Refusal::kNotFinite, axis};
+  if (velocity == 0.0) return {Refusal::kZeroVelocity, axis};
+  const auto& limits = axes_[axis];
+  if (std::abs(velocity) > limits.max_velocity) {
+    return {Refusal::kTooFast, axis, 0.0, limits.max_velocity};
+  }
+  if (!position_known_) return {Refusal::kNoPosition};
+  if (under_way()) return {Refusal::kUnderWay};
+  const double room = room_to_limit(axis, positions_[axis], velocity);
+  if (!(room > 0.0)) return {Refusal::kAtLimit, axis};
+  // Over a short way it does not get as fast.
+  const double speed = std::min(std::abs(velocity), std::sqrt(room * limits.max_acceleration));
+  const double ramp_s = speed / limits.max_acceleration;
+  const double duration_s = room / speed + ramp_s;
+  if (!(duration_s <= kLongest_s)) return {Refusal::kTooLong, axis};
+  for (std::size_t i = 0; i < axes_.size(); ++i) next_[i] = Trapezoid::resting(positions_[i]);
+  const double target = velocity > 0.0 ? limits.upper : limits.lower;
+  next_[axis] = Trapezoid::rest_to_rest(positions_[axis], target, duration_s, ramp_s / duration_s);
+  const double used = limit == nullptr ? 0.0 : most_used(*limit, duration_s);
+  if (used > 1.0) return {Refusal::kTooFast, axis, 0.0, speed / used};
   std::swap(motions_, next_);
   begin(duration_s);
   return {};

@@ -21,10 +21,12 @@ enum class Refusal {
   kNotFinite,      ///< a position, velocity or time is not a finite number
   kOutsideLimits,  ///< a target is outside the position limits of its axis
   kNegativeTime,
-  kTooFast,     ///< the limits allow it in a longer time only, which the answer has
-  kTooLong,     ///< it would take more than `Trajectory::kLongest_s`
-  kUnderWay,    ///< a motion or a stop is not over yet
-  kNoPosition,  ///< where the axes are was never said: hold() comes first
+  kTooFast,       ///< the limits allow it in a longer time, or a slower jog: the answer has which
+  kTooLong,       ///< it would take more than `Trajectory::kLongest_s`
+  kUnderWay,      ///< a motion or a stop is not over yet
+  kNoPosition,    ///< where the axes are was never said: hold() comes first
+  kZeroVelocity,  ///< a jog has no direction
+  kAtLimit,       ///< a jog goes towards the limit at which its axis is
 };
 
 /// A few words for a message, such as "a target is outside the limits of its axis".
@@ -68,7 +70,8 @@ class Trajectory {
   struct [[nodiscard]] Answer {
     Refusal refusal = Refusal::kNone;
     std::size_t axis = kNoAxis;  ///< the first one it is about, if it is about one
-    double shortest_s = 0.0;     ///< of kTooFast: the time that the limits allow
+    double shortest_s = 0.0;     ///< of a motion's kTooFast: the time that the limits allow
+    double fastest = 0.0;        ///< of a jog's kTooFast: the velocity that the limits allow
 
     bool accepted() const { return refusal == Refusal::kNone; }
   };
@@ -94,6 +97,15 @@ class Trajectory {
   /// @return any refusal of the enumeration
   /// @rt nonblocking, no allocation, O(axes)
   Answer move_to(std::span<const double> positions, double time_s, MotionLimit* limit = nullptr);
+
+  /// Begins to move one axis from where all rest to its limit, with its largest acceleration up to
+  /// `velocity`: who lets go of it says stop().
+  /// @param axis      < axes()
+  /// @param velocity  in the axis' unit and seconds, not 0; its sign is the direction
+  /// @param limit     looked at along the motion, or nullptr
+  /// @return kNotFinite, kZeroVelocity, kTooFast, kAtLimit, kUnderWay, kNoPosition, kTooLong
+  /// @rt nonblocking, no allocation, O(axes)
+  Answer jog(std::size_t axis, double velocity, MotionLimit* limit = nullptr);
 
   /// Brakes all axes evenly from where the motion is now, to hold where they come to rest. They end
   /// together, with the slowest; none leaves its limits or passes its target. Nothing happens at

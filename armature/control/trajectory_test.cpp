@@ -312,6 +312,27 @@ bool uses_all_it_has(const Trajectory& trajectory, const std::vector<Trajectory:
   return false;
 }
 
+TEST(Trajectory, AJogGoesToTheLimitOfItsAxisAtItsVelocityAndRefusesTheRest) {
+  Trajectory trajectory = make_two();
+  EXPECT_EQ(trajectory.jog(0, kNan).refusal, Refusal::kNotFinite);
+  EXPECT_EQ(trajectory.jog(0, 0.0).refusal, Refusal::kZeroVelocity);
+  const auto too_fast = trajectory.jog(1, -0.6);
+  EXPECT_EQ(too_fast.refusal, Refusal::kTooFast);
+  EXPECT_DOUBLE_EQ(too_fast.fastest, 0.5);
+  ASSERT_TRUE(trajectory.jog(0, 0.5).accepted());
+  EXPECT_EQ(trajectory.jog(1, 0.1).refusal, Refusal::kUnderWay);
+  EXPECT_DOUBLE_EQ(trajectory.sample(0, 0.25).velocity, 0.5) << "0.25 s of ramp";
+  EXPECT_DOUBLE_EQ(trajectory.duration_s(), 4.5 / 0.5 + 0.25);
+  finish(trajectory);
+  EXPECT_THAT(trajectory.positions(), ElementsAre(4.5, 0.0));
+  EXPECT_EQ(trajectory.jog(0, 0.5).refusal, Refusal::kAtLimit);
+  const Trajectory::Axis endless{.max_velocity = 1.0, .max_acceleration = 2.0};
+  auto without_limits = Trajectory::make({{endless}}).value();
+  EXPECT_EQ(without_limits.jog(0, 1.0).refusal, Refusal::kNoPosition);
+  ASSERT_TRUE(without_limits.hold(std::array{0.0}).accepted());
+  EXPECT_EQ(without_limits.jog(0, 1.0).refusal, Refusal::kTooLong);
+}
+
 TEST(Trajectory, NoMotionLeavesALimitOrJumpsOrTakesLongerThanItMust) {
   RandomMotions random(4711);
   for (int round = 0; round < 300; ++round) {

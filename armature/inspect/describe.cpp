@@ -82,6 +82,7 @@ class Describer {
     to.persistent = from.persistent();
     to.changeable_while_running = from.changeable();
     to.mandatory = from.is_mandatory();
+    to.by_operator = from.is_by_operator();
     to.was_set = from.was_set();
     if (snapshot_ != nullptr && with_values_) to.value = snapshot_->properties[i].whole.text();
     add_fields(from.type(), description_.fields);

@@ -30,6 +30,7 @@ struct PropertyDescription {
   bool persistent = true;  ///< false: an attribute
   bool changeable_while_running = false;
   bool mandatory = false;
+  bool by_operator = false;
   bool was_set = false;  ///< (here)
   std::string value;     ///< only if asked for
 

@@ -96,6 +96,7 @@ TEST_F(InspectorTest, DescribesAComponentWithItsValues) {
   EXPECT_EQ(gain.high, 10.0);
   EXPECT_FALSE(details.properties.at(1).limited || details.properties.at(1).changeable);
   EXPECT_FALSE(details.properties.at(3).persistent) << "an attribute";
+  EXPECT_FALSE(gain.by_operator);
   EXPECT_EQ(details.outputs.at(1).value, "[0, -0]");
   EXPECT_TRUE(details.outputs.at(1).written);
   EXPECT_FALSE(details.outputs.at(2).written);

@@ -20,6 +20,11 @@ std::shared_ptr<internal::Link> Origin::link() const {
 
 bool Origin::lost() const { return from_peer_ && link() == nullptr; }
 
+bool Origin::operator==(const Origin& other) const {
+  const bool same_link = !link_.owner_before(other.link_) && !other.link_.owner_before(link_);
+  return from_peer_ == other.from_peer_ && same_link && connection_ == other.connection_;
+}
+
 bool Lifeline::lost(base::Time now) {
   if (!origin_.from_peer_) return false;
   const std::shared_ptr<internal::Link> link = origin_.link();

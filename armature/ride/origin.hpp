@@ -29,6 +29,10 @@ class Origin {
   bool lost() const;
   const std::string& who() const { return who_; }
 
+  /// Whether both are the same connection, not only the same peer.
+  /// @thread any
+  bool operator==(const Origin& other) const;
+
  private:
   friend class Lifeline;
   std::shared_ptr<internal::Link> link() const;

@@ -126,5 +126,15 @@ TEST_F(OriginTest, AClientThatOnlySaysThatItSendsNoMoreIsLost) {
   EXPECT_TRUE(becomes_lost(origin));
 }
 
+TEST_F(OriginTest, EqualsThoseOfTheSameConnectionOnly) {
+  RawClient one(address_);
+  RawClient other(address_);
+  const Origin first = origin_of(one, Type::kCommand);
+  EXPECT_TRUE(first == origin_of(one, Type::kCommand));
+  EXPECT_FALSE(first == origin_of(other, Type::kCommand));
+  EXPECT_FALSE(first == Origin());
+  EXPECT_TRUE(Origin() == Origin());
+}
+
 }  // namespace
 }  // namespace armature::ride

@@ -27,6 +27,7 @@ using namespace internal;
 
 constexpr const char* kRunName = "run";
 constexpr base::Duration kRunPeriod = 100ms;
+constexpr base::Duration kSeatPeriod = 250ms;
 constexpr base::Duration kDiskPeriod = 1s;
 
 /// A short name for a long path (FNV-1a).
@@ -78,13 +79,16 @@ class StudioServer final : public Server {
         transport_(std::move(transport)),
         desk_({options.file, options.program, options.arguments, std::move(folder)},
               {[this] { project_changed_ = true; }, [this] { run_changed_ = true; }}),
-        workbench_(desk_, queue_, [this] { poller_->wake(); }),
+        relay_(kRunName, seat_, [this] { poller_->wake(); }),
+        stops_(relay_, desk_.run()),
+        workbench_(desk_, seat_, stops_, queue_, [this] { poller_->wake(); }),
         node_(std::move(node)) {}
 
   ~StudioServer() override {
     queue_.close();
     node_.remove(workbench_);
     node_.remove(relay_);
+    relay_.disconnect();  // whose answers the rest is told
   }
 
   bool listen(const std::string& address, base::Diagnostics& diagnostics) {
@@ -101,14 +105,19 @@ class StudioServer final : public Server {
 
   void serve(base::Duration limit) override {
     watch_checker();
-    const base::Duration most = desk_.run().is_over() ? limit : std::min(limit, kRunPeriod);
+    const base::Duration most = std::min(limit, desk_.run().is_over() ? kSeatPeriod : kRunPeriod);
     const bool answered = !poller_->wait(most).empty();
     queue_.run();
     if (answered) desk_.checker().take();
     const base::Time now = platform::monotonic_now();
-    if (look_at_run_.is_due(now)) desk_.look_at_run();
+    if (look_at_run_.is_due(now)) {
+      desk_.look_at_run();
+      relay_.cancel_lost(now);
+    }
     if (look_at_disk_.is_due(now)) desk_.look_at_disk();
+    stops_.look(now);
     follow_run();
+    if (seat_.look(now)) workbench_.tell_seat(seat_.holder());
     if (std::exchange(project_changed_, false)) workbench_.tell_project();
     if (std::exchange(run_changed_, false)) workbench_.tell_run();
   }
@@ -129,7 +138,8 @@ class StudioServer final : public Server {
     const bool over = desk_.run().is_over();
     if (over && std::exchange(connected_, false)) relay_.disconnect();
     if (!over && !std::exchange(connected_, true)) relay_.connect(desk_.run().address());
-    if (desk_.run().stage() != RunStage::kStarting || !relay_.found()) return;
+    relay_.learn();
+    if (desk_.run().stage() != RunStage::kStarting || !relay_.ready()) return;
     desk_.run().set_answers();
     run_changed_ = true;
   }
@@ -145,8 +155,10 @@ class StudioServer final : public Server {
   remote::ControlQueue queue_;
   Desk desk_;
   bool connected_ = false;  ///< the relay, to the run
+  Seat seat_;
+  Relay relay_;
+  EmergencyStops stops_;
   Workbench workbench_;
-  Relay relay_{kRunName};
   ride::Node node_;
 };
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
-#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/events/event_tap.hpp"
 #include "armature/component/host.hpp"
+#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/observing/tap.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/periodic_schedule.hpp"

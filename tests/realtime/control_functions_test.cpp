@@ -101,6 +101,12 @@ TEST(RealtimeFunctions, Trajectory) {
   EXPECT_LT(trajectory.accelerations()[6], 0.0);
   expect_realtime("Trajectory::stop_from",
                   [&] { accepted = accepted && trajectory.stop_from(start, target).accepted(); });
+  const control::Trajectory::Axis limited{1.0, 5.0, -9.0, 9.0};
+  auto jogging = control::Trajectory::make({std::vector(7, limited)}).value();
+  expect_realtime("Trajectory::jog", [&] {
+    accepted = accepted && jogging.hold(start).accepted();
+    accepted = accepted && jogging.jog(6, 0.5).accepted();
+  });
   EXPECT_TRUE(accepted);
 }
 

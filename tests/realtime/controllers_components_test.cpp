@@ -336,6 +336,13 @@ TEST(RealtimeComponents, AxesGeneratorPos) {
   const Vector zero(2, 0.0);
   generator.write("nAxesSensorPosition", zero);
   int motions = 0;
+  int jogs = 0;
+  const auto rest = [&] {
+    for (int i = 0; i < 10; ++i) {
+      generator.write("nAxesSensorPosition", zero);
+      generator.run_cycles(50);
+    }
+  };
   expect_realtime_on_bench("AxesGeneratorPos", [&] {
     generator.write("nAxesSensorPosition", zero);
     generator.run_cycles();
@@ -347,8 +354,18 @@ TEST(RealtimeComponents, AxesGeneratorPos) {
     motion.cancel();
     generator.run_cycles(20);
     EXPECT_TRUE(generator.call("resetPosition"));
+    rest();
+    auto jog = generator.send("jog", 1, 0.1);
+    if (jog.stage() == component::CommandStage::kAccepted) ++jogs;
+    EXPECT_TRUE(generator.call<bool>("keepJogging", 1, 0.1).value());
+    EXPECT_FALSE(generator.call("jog", 3, 0.1));
+    EXPECT_FALSE(generator.call("jog", 1, 5.0));
+    generator.run_cycles(3);
+    jog.cancel();
+    rest();
   });
   EXPECT_EQ(motions, 100);
+  EXPECT_EQ(jogs, 100);
 }
 
 template <typename Model>

@@ -297,6 +297,17 @@ TEST_F(Opened, StopWaitsForNothingThatTheStudioIsAbout) {
   EXPECT_EQ(workbench_->run(kPatient).value().exit_code, 0) << log();
 }
 
+TEST_F(Opened, AnEmergencyStopOfWhatNobodyArmsStopsTheRun) {
+  EXPECT_THAT(workbench_->emergency_stop(kPatient).error(), HasSubstr("nothing runs"));
+  start();
+  const auto stopped = workbench_->emergency_stop(kPatient);
+  ASSERT_TRUE(stopped) << stopped.error();
+  EXPECT_TRUE(stopped.value().disarmed.empty());
+  EXPECT_THAT(stopped.value().stopped, HasSubstr("nothing that runs is armed"));
+  until_over();
+  EXPECT_EQ(workbench_->run(kPatient).value().exit_code, 0) << log();
+}
+
 TEST_F(Opened, WhoMayOnlyLookChangesAndCommandsNothing) {
   start();
   EXPECT_TRUE(workbench_->stop(kPatient));

@@ -3,7 +3,7 @@
 // checks and runs are real, too. Skipped without chromium.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
@@ -158,6 +158,26 @@ studio_test("a file full of mistakes opens and is mended by its fixes", async ()
   await end("SIGTERM");
 });
 
+/** In Operate of the simulated head. */
+async function operating(page) {
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByText("Generator: jog").waitFor();
+}
+
+async function arm(page) {
+  const button = page.getByRole("button", { name: /^arm: hold/ });
+  await button.hover();
+  await page.mouse.down();
+  await page.locator(".call", { has: button }).locator("output", { hasText: /./ }).waitFor();
+  await page.mouse.up();
+  await page.locator(".call", { has: button }).locator("output", { hasText: "done" }).waitFor();
+}
+
+async function sit_down(page) {
+  await page.getByRole("button", { name: "Take the seat" }).click();
+  await page.getByText("You operate").waitFor();
+}
+
 const kJanus = fileURLToPath(new URL("../../robots/janus/demo/studio.yaml", import.meta.url));
 
 studio_test("Janus in 3D goes where it is sent, and its cycle is drawn", async () => {
@@ -170,10 +190,9 @@ studio_test("Janus in 3D goes where it is sent, and its cycle is drawn", async (
   await page.getByRole("button", { name: "Run", exact: true }).click();
   const positions = () => page.locator(".joints .position").evaluateAll((cells) => cells.map((cell) => Number.parseFloat(cell.textContent)));
   await until(async () => (await positions()).every(Number.isFinite), "all joints have positions");
-  await box(page, "Arming").locator("header").click();
-  await page.getByRole("tab", { name: "Operate" }).click();
-  await page.getByRole("button", { name: "arm", exact: true }).click();
-  await page.getByText("done", { exact: true }).waitFor();
+  await operating(page);
+  await sit_down(page);
+  await arm(page);
   await page.getByRole("group", { name: "Left" }).getByRole("button", { name: "Press" }).click();
   await until(async () => {
     const [pan, tilt] = await positions();
@@ -192,6 +211,7 @@ studio_test("a run has the mode and the values that were set for it, and the fil
   const text = `application: wave\nlibraries: [wave]\ncomponents:\n  Source: {model: Source, ${activity}}\n  Other: {model: Source, ${activity}}\nmodes:\n  one: [Source]\n  two: [Other]\n`;
   const { address, end, content } = await studio("modes.yaml", text);
   const page = await user(address);
+  await sit_down(page);
   await page.getByLabel("Mode", { exact: true }).selectOption("two");
   await page.getByRole("button", { name: "Set …" }).click();
   await page.getByLabel("Name 1").fill("Other.Frequency");
@@ -228,5 +248,54 @@ studio_test("the parameter of a command is given by a wire to its pin", async ()
   await page.locator("[aria-label='Height.Out to Travel.value']").first().waitFor({ state: "attached" });
   await page.keyboard.press("Control+s");
   await until(() => content().includes("with: {value: Height.Out}}  # half way up"), "it is in the file");
+  await end("SIGTERM");
+});
+
+const position = async (page) => Number.parseFloat(await page.getByRole("group", { name: "Generator axis 1" }).locator("output").textContent());
+
+/** Holds the button until the axis has gone so far. */
+async function jog(page, least) {
+  const from = await position(page);
+  await page.getByRole("button", { name: "axis 1 forth" }).hover();
+  await page.mouse.down();
+  await until(async () => (await position(page)) > from + least, `the axis moves, and does not say ${await page.locator(".jog [role=status]").textContent()}`);
+}
+
+async function rests(page) {
+  await page.waitForTimeout(800);
+  const there = await position(page);
+  await page.waitForTimeout(800);
+  assert.equal(await position(page), there, "the axis rests");
+}
+
+studio_test("a robot is armed from the seat, jogged, stopped by somebody else, and rests when its browser is gone", async () => {
+  cpSync(new URL("../../robots/janus", import.meta.url), join(folder, "janus"), { recursive: true });
+  const { address, end } = await studio("janus/demo/studio.yaml");
+  const one = await user(address);
+  const other = await user(address);
+  await one.getByRole("button", { name: "Run", exact: true }).click();
+  await operating(one);
+  await operating(other);
+  assert.equal(await one.getByRole("button", { name: /^arm: hold/ }).isDisabled(), true, "nobody sits at the seat");
+  await sit_down(one);
+  await other.getByText(/^Browser \d+ operates$/).waitFor();
+  await arm(one);
+  await jog(one, 0.1);
+  await one.mouse.up();
+  await rests(one);
+  await jog(one, 0.02);
+  await other.keyboard.press("F8");
+  await other.getByText("E-stop: Arming disarmed").waitFor();
+  await one.mouse.up();
+  await rests(other);
+  await one.getByRole("button", { name: "axis 1 forth" }).click({ delay: 100 });
+  await one.getByText(/arm first/).waitFor();
+  await arm(one);
+  await jog(one, 0.02);
+  await one.context().close();
+  await rests(other);
+  await other.getByRole("button", { name: "Take the seat" }).waitFor();
+  await other.keyboard.press("Shift+Escape");
+  await other.getByText("ended", { exact: true }).waitFor();
   await end("SIGTERM");
 });

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "armature/component/black_box.hpp"
-#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/internal/component_rest.hpp"
+#include "armature/component/observing/cycle_record.hpp"
 #include "armature/component/observing/timeline.hpp"
 #include "armature/component/ports/input_port.hpp"
 #include "armature/component/ports/output_port.hpp"

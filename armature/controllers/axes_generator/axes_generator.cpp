@@ -19,6 +19,8 @@ double limit(const std::vector<double>& numbers, std::size_t axis) {
   return numbers.size() == 1 ? numbers.front() : numbers[axis];
 }
 
+constexpr std::string_view kNotArmed = "the robot is not armed: arm first";
+
 }  // namespace
 
 using component::Outcome;
@@ -63,6 +65,7 @@ void AxesGeneratorPos::on_update() {
   if (!knows_position()) return;
   trajectory_->step(time() - stepped_at_);
   stepped_at_ = time();
+  brake_jog_let_go();
   if (move_to_.active() && trajectory_->under_way()) {
     move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
   }
@@ -83,7 +86,8 @@ bool AxesGeneratorPos::knows_position() {
 
 Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, double time_s) {
   if (!knows_position()) return component::refused(control::to_text(Refusal::kNoPosition));
-  if (!may_move()) return component::refused("the robot is not armed: arm first");
+  if (!may_move()) return component::refused(kNotArmed);
+  if (jog_.active()) return component::refused(control::to_text(Refusal::kUnderWay));
   const Trajectory::Answer answer =
       trajectory_->move_to(positions, time_s, limit_used_.bound() ? &peers_limit_ : nullptr);
   if (!answer.accepted()) return component::refused(refusal_of(answer, positions, time_s));
@@ -98,6 +102,38 @@ Outcome AxesGeneratorPos::may_wait(const std::vector<double>& positions, double 
                            : component::refused(refusal_of(answer, positions, time_s));
 }
 
+Outcome AxesGeneratorPos::begin_jog(int axis, double velocity) {
+  if (!knows_position()) return component::refused(control::to_text(Refusal::kNoPosition));
+  if (!may_move()) return component::refused(kNotArmed);
+  if (move_to_.active()) return component::refused(control::to_text(Refusal::kUnderWay));
+  if (axis < 1 || axis > axes_) {
+    Reason why("axis ");
+    append_number(why, axis).append(": expected 1 to ");
+    append_number(why, axes_);
+    return component::refused(why);
+  }
+  const Trajectory::Answer answer = trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity,
+                                                     limit_used_.bound() ? &peers_limit_ : nullptr);
+  if (!answer.accepted()) return component::refused(refusal_of_jog(answer, axis, velocity));
+  stepped_at_ = time();
+  jogging_ = {axis, velocity, time(), false};
+  return component::accepted();
+}
+
+/// The same velocity means the same number: a renewal is for the jog that it was sent for.
+bool AxesGeneratorPos::keep_jogging(int axis, double velocity) {
+  const bool its_own = axis == jogging_.axis && velocity == jogging_.velocity;
+  if (!jog_.active() || jogging_.let_go || !its_own) return false;
+  jogging_.renewed_at = time();
+  return true;
+}
+
+void AxesGeneratorPos::brake_jog_let_go() {
+  if (!jog_.active() || time() - jogging_.renewed_at < kJogPatience) return;
+  jogging_.let_go = true;
+  trajectory_->stop();
+}
+
 void AxesGeneratorPos::reset_position() {
   if (state() != component::State::kRunning || !knows_position()) return;
   begin_anew(trajectory_->stop_from(measured_.read().value, trajectory_->velocities()),
@@ -106,7 +142,11 @@ void AxesGeneratorPos::reset_position() {
 
 void AxesGeneratorPos::settle() {
   constexpr std::string_view kWhy = "the robot was disarmed or armed";
-  if (!knows_position()) return move_to_.fail(kWhy);
+  if (!knows_position()) {
+    move_to_.fail(kWhy);
+    jog_.fail(kWhy);
+    return;
+  }
   begin_anew(trajectory_->hold(measured_.read().value), kWhy);
 }
 
@@ -145,12 +185,14 @@ double AxesGeneratorPos::PeersLimit::used(std::span<const double> positions,
 void AxesGeneratorPos::begin_anew(const Trajectory::Answer& answer, std::string_view why) {
   stepped_at_ = time();
   move_to_.fail(why);
+  jog_.fail(why);
   if (!answer.accepted()) refuse_measured(answer.axis);
 }
 
 void AxesGeneratorPos::stop() {
   trajectory_->stop();
   move_to_.fail("stopped");
+  jog_.fail("stopped");
 }
 
 void AxesGeneratorPos::refuse_measured(std::size_t axis) {
@@ -195,6 +237,23 @@ Reason AxesGeneratorPos::refusal_of(const Trajectory::Answer& answer,
       break;
     default:
       break;
+  }
+  return why;
+}
+
+Reason AxesGeneratorPos::refusal_of_jog(const Trajectory::Answer& answer, int axis,
+                                        double velocity) const {
+  Reason why;
+  if (answer.axis != Trajectory::kNoAxis) {
+    why.append("axis ");
+    append_number(why, axis).append(": ");
+  }
+  why.append(control::to_text(answer.refusal));
+  if (answer.refusal == Refusal::kNotFinite || answer.refusal == Refusal::kTooFast) {
+    append_number(why.append(": "), velocity);
+  }
+  if (answer.refusal == Refusal::kTooFast) {
+    append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
   }
   return why;
 }

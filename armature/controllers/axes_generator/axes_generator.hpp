@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -35,6 +36,13 @@ namespace armature::controllers {
 /// in any other way than done, by cancel, Stop, Settle, Disarm, a stop or a fault, those that wait
 /// end too.
 ///
+/// `jog` moves one axis towards its limit while somebody holds on to it: not renewed by
+/// `keepJogging` for 150 ms of the application's clock it brakes with the largest acceleration, as
+/// it does when it is cancelled. A renewal names the axis and velocity that it is for. It goes on
+/// with a jog that is under way and not braking, and begins none: those that come late move
+/// nothing. Refused as a motion is, and while a motion or another jog is under way; so is a motion
+/// while an axis jogs.
+///
 /// Paper 2, section 4.2.4, has resetPosition set the desired velocity to zero. In motion that is a
 /// step of the reference, which the joints answer with all their voltage. Here the motion is braked
 /// from the measured position with the largest acceleration, and the velocity is zero afterwards.
@@ -52,6 +60,9 @@ class AxesGeneratorPos final : public component::Component {
   bool knows_position();
   component::Outcome begin_move(const std::vector<double>& positions, double time);
   component::Outcome may_wait(const std::vector<double>& positions, double time) const;
+  component::Outcome begin_jog(int axis, double velocity);
+  bool keep_jogging(int axis, double velocity);
+  void brake_jog_let_go();
   bool arrived() { return !trajectory_->under_way(); }
   void brake() { trajectory_->stop(); }
   void reset_position();
@@ -63,11 +74,14 @@ class AxesGeneratorPos final : public component::Component {
   void stop();
   component::Reason refusal_of(const control::Trajectory::Answer& answer,
                                const std::vector<double>& positions, double time) const;
+  component::Reason refusal_of_jog(const control::Trajectory::Answer& answer, int axis,
+                                   double velocity) const;
   void refuse_measured(std::size_t axis);
   void write_desired();
 
   using Vector = std::vector<double>;
   static constexpr std::size_t kMostWaiting = 8;
+  static constexpr base::Duration kJogPatience = std::chrono::milliseconds(150);
 
   /// What a peer says of it.
   class PeersLimit final : public control::MotionLimit {
@@ -113,6 +127,21 @@ class AxesGeneratorPos final : public component::Component {
       component::done_when<&AxesGeneratorPos::arrived>,
       component::cancelled_by<&AxesGeneratorPos::brake>,
       component::may_wait<&AxesGeneratorPos::may_wait>(kMostWaiting)};
+  component::Command<int, double> jog_{
+      this,
+      "jog",
+      component::serve<&AxesGeneratorPos::begin_jog>,
+      "moves an axis towards its limit while keepJogging comes at least each 150 ms",
+      component::args("axis, from 1", "velocity [rad/s]"),
+      component::done_when<&AxesGeneratorPos::arrived>,
+      component::cancelled_by<&AxesGeneratorPos::brake>};
+  component::Operation<bool(int, double)> keep_jogging_{
+      this,
+      "keepJogging",
+      component::serve<&AxesGeneratorPos::keep_jogging>,
+      "goes on with the jog of this axis and velocity; false: none is under way, and none begins",
+      component::args("axis, from 1", "velocity [rad/s]"),
+      component::in_own_thread};
   component::Operation<void()> reset_position_{
       this, "resetPosition", component::serve<&AxesGeneratorPos::reset_position>,
       "desired := measured; a motion is braked smoothly from there, and its moveTo fails",
@@ -153,6 +182,14 @@ class AxesGeneratorPos final : public component::Component {
   PeersLimit peers_limit_{*this};
   base::Time started_{};
   base::Time stepped_at_{};
+  /// What moves while it is renewed.
+  struct Jog {
+    int axis = 0;
+    double velocity = 0.0;
+    base::Time renewed_at{};
+    bool let_go = false;  ///< it brakes, and is renewed no more
+  };
+  Jog jogging_;
   bool position_known_ = false;
   bool armed_ = false;
   Vector numbers_;

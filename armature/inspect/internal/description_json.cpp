@@ -22,6 +22,7 @@ Json json_of(const PropertyDescription& property, const char* value_key) {
   json["persistent"] = property.persistent;
   json["mandatory"] = property.mandatory;
   json["changeable_while_running"] = property.changeable_while_running;
+  if (property.by_operator) json["by_operator"] = true;
   return json;
 }
 

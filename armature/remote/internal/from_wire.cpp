@@ -66,6 +66,7 @@ inspect::PropertyDescription told(const PropertyDetails& from) {
   to.persistent = from.persistent;
   to.changeable_while_running = from.changeable;
   to.mandatory = from.mandatory;
+  to.by_operator = from.by_operator;
   return to;
 }
 

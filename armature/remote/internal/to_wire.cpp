@@ -37,6 +37,7 @@ PropertyDetails wire_of(const inspect::PropertyDescription& from) {
   to.persistent = from.persistent;
   to.changeable = from.changeable_while_running;
   to.mandatory = from.mandatory;
+  to.by_operator = from.by_operator;
   return to;
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "armature/platform/clock.hpp"
 #include "armature/remote/inspector.hpp"
 #include "inspection_types.hpp"
 
@@ -41,12 +42,26 @@ ride::Access access_of(const ride::Declaration& declaration) {
   return declaration.access;
 }
 
+/// The number of an operation of the inspector.
+ride::Number number_of(std::string_view name) {
+  const auto& all = remote::kInspector.declarations;
+  const auto found = std::ranges::find(
+      all, name, [](const ride::Declaration& one) { return name_in(one.canonical); });
+  return found->number();
+}
+
+/// So many descriptions, or states of commands, are asked for at once.
+constexpr std::size_t kAtOnce = 8;
+constexpr std::tuple<> kNothing;
+constexpr ride::Priority kUrgent{255};
+
 }  // namespace
 
 Relay::Connection::Connection(const std::string& address)
     : inspector(node.connect(address), remote::Inspector::kName, remote::kInspector) {}
 
-Relay::Relay(std::string name) : Service(remote::kInspector), name_(std::move(name)) {}
+Relay::Relay(std::string name, Seat& seat, std::function<void()> wake)
+    : Service(remote::kInspector), name_(std::move(name)), seat_(seat), wake_(std::move(wake)) {}
 
 void Relay::connect(const std::string& address) {
   auto made = std::make_shared<Connection>(address);
@@ -65,10 +80,120 @@ std::shared_ptr<Relay::Connection> Relay::connection() const {
   return connection_;
 }
 
-bool Relay::found() const {
+// --- what is known of a run ----------------------------------------------------------------------
+
+bool Relay::ready() const { return to_disarm().has_value(); }
+
+std::optional<std::vector<std::string>> Relay::to_disarm() const {
   const auto run = connection();
-  return run != nullptr && run->inspector.found();
+  if (run == nullptr || !run->inspector.found()) return std::nullopt;
+  const std::scoped_lock lock(run->learned->mutex);
+  if (!run->learned->acts.complete()) return std::nullopt;
+  return run->learned->acts.disarmed();
 }
+
+void Relay::learn() {
+  const auto run = connection();
+  if (run == nullptr || !run->inspector.found()) return;
+  std::vector<std::string> missing;
+  {
+    const std::scoped_lock lock(run->learned->mutex);
+    if (run->learned->acts.complete() || run->learned->asked > 0) return;
+    missing = run->learned->acts.missing();
+  }
+  if (missing.empty()) {
+    ask_for(*run, wake_, "components", ride::Fields(kNothing), [](auto& from, auto& acts) {
+      std::vector<remote::ComponentStatus> components;
+      const bool told = from.take(components);
+      if (told) acts.expect(components);
+      return told;
+    });
+  }
+  for (std::size_t i = 0; i < std::min(missing.size(), kAtOnce); ++i) {
+    ask_for(*run, wake_, "describe", ride::Fields(std::tie(missing[i])),
+            [](auto& from, auto& acts) {
+              remote::ComponentDetails details;
+              const bool told = from.take(details);
+              if (told) acts.add(details);
+              return told;
+            });
+  }
+}
+
+/// What a run does not tell is asked for again.
+void Relay::ask_for(Connection& run, const std::function<void()>& wake, std::string_view operation,
+                    const ride::Fields& parameters,
+                    std::function<bool(ride::Decoder&, OperatorsActs&)> take) {
+  {
+    const std::scoped_lock lock(run.learned->mutex);
+    ++run.learned->asked;
+  }
+  const auto told = [learned = run.learned, wake, take = std::move(take)](
+                        ride::Code code, std::string_view, std::span<const std::byte> result) {
+    const std::scoped_lock lock(learned->mutex);
+    --learned->asked;
+    ride::Decoder from(result);
+    if (code == ride::Code::kNone && take(from, learned->acts)) wake();
+  };
+  run.inspector.ask(number_of(operation), {}, parameters, told);
+}
+
+void Relay::cancel_lost(base::Time now) {
+  const auto run = connection();
+  if (run == nullptr || !run->inspector.found()) return;
+  const auto learned = run->learned;
+  for (const std::int32_t handle : learned->begun.lost(now)) {
+    ask_about(*run, "cancel", handle, kUrgent, [learned, handle](const auto& status) {
+      if (status) learned->begun.end(handle);
+    });
+  }
+  if (learned->followed > 0) return;
+  for (const std::int32_t handle : learned->begun.next(kAtOnce)) {
+    ++learned->followed;
+    ask_about(*run, "follow", handle, {}, [learned, handle](const auto& status) {
+      --learned->followed;
+      if (status && status->ended) learned->begun.end(handle);
+    });
+  }
+}
+
+/// @param told  what has become of it, unless the run did not say
+void Relay::ask_about(Connection& run, std::string_view operation, std::int32_t handle,
+                      ride::Priority priority,
+                      std::function<void(const std::optional<remote::CommandStatus>&)> told) {
+  run.inspector.ask(number_of(operation), priority, ride::Fields(std::tie(handle)),
+                    [told = std::move(told)](ride::Code code, std::string_view,
+                                             std::span<const std::byte> result) {
+                      remote::CommandStatus status;
+                      const bool known =
+                          code == ride::Code::kNone && ride::Decoder(result).take(status);
+                      told(known ? std::optional(status) : std::nullopt);
+                    });
+}
+
+/// What a run has answered to `begin`.
+void Relay::take_begun(Learned& learned, std::span<const std::byte> result,
+                       const ride::Origin& origin) {
+  remote::CommandStatus status;
+  if (ride::Decoder(result).take(status) && !status.ended) {
+    learned.begun.add(status.handle, origin);
+  }
+}
+
+void Relay::disarm(const std::string& component, Done done) {
+  const auto run = connection();
+  if (run == nullptr) return done(base::Error{"nothing runs"});
+  const std::string operation = "disarm";
+  const std::vector<std::string> no_arguments;
+  const auto told = [done = std::move(done)](ride::Code code, std::string_view text,
+                                             std::span<const std::byte>) {
+    done(code == ride::Code::kNone ? base::Result<void>() : base::Error{std::string(text)});
+  };
+  run->inspector.ask(number_of("call"), kUrgent,
+                     ride::Fields(std::tie(component, operation, no_arguments)), told);
+}
+
+// --- what is handed on ---------------------------------------------------------------------------
 
 ride::Executed Relay::execute(ride::Number operation, ride::Decoder& parameters,
                               ride::Reply& reply) {
@@ -79,17 +204,66 @@ ride::Executed Relay::execute(ride::Number operation, ride::Decoder& parameters,
   const auto run = connection();
   if (run == nullptr) throw ride::Failure("nothing runs");
   const Encoded asked{parameters.take_rest()};
+  const ride::Origin origin = reply.origin();
+  if (!may_pass(*run->learned, name_in(declaration->canonical), asked.body, origin)) {
+    return ride::Executed::kMalformed;
+  }
+  const bool begins = name_in(declaration->canonical) == "begin";
   const auto owed = std::make_shared<ride::PendingReply>(reply.keep());
-  const auto hand_back = [owed](ride::Code code, std::string_view text,
-                                std::span<const std::byte> result) {
-    if (code == ride::Code::kNone) {
-      owed->put(Encoded{result});
-    } else {
-      owed->fail(text);
-    }
+  const auto hand_back = [owed, learned = run->learned, origin, begins](
+                             ride::Code code, std::string_view text,
+                             std::span<const std::byte> result) {
+    leave(*learned, origin);
+    if (code != ride::Code::kNone) return owed->fail(text);
+    if (begins) take_begun(*learned, result, origin);
+    owed->put(Encoded{result});
   };
   run->inspector.ask(operation, {}, ride::Fields(std::tie(asked)), hand_back);
   return ride::Executed::kDone;
+}
+
+/// A request of it waits no more.
+void Relay::leave(Learned& learned, const ride::Origin& origin) {
+  const std::scoped_lock lock(learned.mutex);
+  const auto own = std::ranges::find(learned.waiting, origin);
+  if (own != learned.waiting.end()) learned.waiting.erase(own);
+}
+
+/// Throws if it may not. What passes is counted among what waits.
+/// @return false if the body is not the operation's
+bool Relay::may_pass(Learned& learned, std::string_view operation, std::span<const std::byte> body,
+                     const ride::Origin& origin) {
+  const bool called = operation == "call" || operation == "begin";
+  const bool written = operation == "write";
+  ride::Decoder names(body);
+  std::string component_or_item;
+  std::string member;
+  if ((called || written) && !names.take(component_or_item)) return false;
+  if (called && !names.take(member)) return false;
+  const std::scoped_lock lock(learned.mutex);
+  const auto own = static_cast<std::size_t>(std::ranges::count(learned.waiting, origin));
+  if (own >= kMostOfOne || learned.waiting.size() >= kMostOfAll) {
+    throw ride::Failure("the run has too many requests to answer: ask again, and less often");
+  }
+  if (called) {
+    let_through(learned.acts.of_operation(component_or_item, member),
+                component_or_item + "." + member, true, origin);
+  } else if (written) {
+    let_through(learned.acts.of_item(component_or_item), component_or_item, false, origin);
+  }
+  learned.waiting.push_back(origin);
+  return true;
+}
+
+void Relay::let_through(Act act, const std::string& what, bool with_key,
+                        const ride::Origin& origin) {
+  if (act == Act::kAnybodys) return;
+  if (act == Act::kUnknown) {
+    throw ride::Failure("unknown '" + what + "': what runs has not described it");
+  }
+  const auto allowed =
+      with_key ? seat_.use_key(origin, platform::monotonic_now()) : seat_.demand(origin);
+  if (!allowed) throw ride::Failure("'" + what + "' is an act of the operator: " + allowed.error());
 }
 
 }  // namespace armature::studio::internal

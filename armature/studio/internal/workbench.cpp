@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "armature/base/seconds.hpp"
 #include "armature/inspect/checked_json.hpp"
+#include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/studio/internal/description.hpp"
 
@@ -154,9 +156,13 @@ void Workbench::places(ride::ReplyOf<std::string> reply) {
   });
 }
 
-/// Whoever sets something for a run configures.
+/// Whoever sets something for a run configures; and it may be a word of the operator.
 void Workbench::start(const RunSettings& settings, ride::ReplyOf<RunState> reply) {
-  if (!settings.overrides.empty()) reply.demand(kName, ride::Access::kConfigure);
+  if (!settings.overrides.empty()) {
+    reply.demand(kName, ride::Access::kConfigure);
+    const auto sits = seat_.demand(reply.origin());
+    if (!sits) throw ride::Failure("overrides are the operator's: " + sits.error());
+  }
   later(reply, [this, settings](auto& owed) {
     const auto started =
         desk_.start({settings.simulated, settings.pace, settings.mode, settings.overrides, 0});
@@ -190,6 +196,54 @@ void Workbench::description(const std::string& path, ride::ReplyOf<std::string> 
     owed.put(std::move(text.value()));
   });
 }
+
+void Workbench::emergency_stop(ride::ReplyOf<EmergencyStop> reply) {
+  const auto owed = std::make_shared<ride::PendingReplyOf<EmergencyStop>>(reply.keep());
+  stops_.press(platform::monotonic_now(), [owed](const auto& outcome) {
+    if (outcome) {
+      owed->put({outcome.value().disarmed, outcome.value().stopped});
+    } else {
+      owed->fail(outcome.error());
+    }
+  });
+}
+
+void Workbench::seat(ride::ReplyOf<SeatState> reply) { reply.put(seat_state(reply)); }
+
+void Workbench::take_seat(ride::ReplyOf<SeatState> reply) {
+  seat_state(reply);  // from now on who asks is known
+  seated(seat_.take(reply.origin()), reply);
+}
+
+void Workbench::hand_over(std::int32_t guest, ride::ReplyOf<SeatState> reply) {
+  seated(seat_.hand_over(reply.origin(), guest), reply);
+}
+
+void Workbench::leave_seat(ride::ReplyOf<SeatState> reply) {
+  seated(seat_.leave(reply.origin()), reply);
+}
+
+void Workbench::hold_key(bool down, ride::ReplyOf<double> reply) {
+  const auto held = seat_.hold_key(reply.origin(), down, platform::monotonic_now());
+  if (!held) throw ride::Failure(held.error());
+  reply.put(base::to_seconds(held.value()));
+}
+
+SeatState Workbench::seat_state(const ride::ReplyOf<SeatState>& reply) {
+  const bool may_operate = reply.allows(kName, ride::Access::kCommand);
+  const Seat::State state = seat_.state(reply.origin(), may_operate);
+  SeatState told{state.you, state.holder, {}};
+  for (const auto& [number, who, may] : state.guests) told.guests.push_back({number, who, may});
+  return told;
+}
+
+void Workbench::seated(const base::Result<void>& result, ride::ReplyOf<SeatState>& reply) {
+  if (!result) throw ride::Failure(result.error());
+  wake_();
+  reply.put(seat_state(reply));
+}
+
+void Workbench::tell_seat(std::int32_t holder) { publish(SeatChanged{holder}); }
 
 void Workbench::tell_project() {
   publish(ProjectChanged{desk_.project().version(), desk_.checked()});

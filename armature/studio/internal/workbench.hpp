@@ -6,11 +6,14 @@
 
 #include "armature/remote/control_queue.hpp"
 #include "armature/studio/internal/desk.hpp"
+#include "armature/studio/internal/emergency_stop.hpp"
+#include "armature/studio/internal/seat.hpp"
 #include "workbench_service.hpp"
 
 namespace armature::studio::internal {
 
-/// The desk for pages: requests wait in a queue for the thread that works at the desk.
+/// The desk for pages: requests wait in a queue for the thread that works at the desk. What ends a
+/// motion, and who may begin one, waits for nothing there.
 class Workbench final : public WorkbenchService {
  public:
   /// As which pages know it, also in policies.
@@ -18,13 +21,16 @@ class Workbench final : public WorkbenchService {
 
   /// @param queue  of the desk's thread
   /// @param wake   has it look there
-  Workbench(Desk& desk, remote::ControlQueue& queue, std::function<void()> wake)
-      : desk_(desk), queue_(queue), wake_(std::move(wake)) {}
+  Workbench(Desk& desk, Seat& seat, EmergencyStops& stops, remote::ControlQueue& queue,
+            std::function<void()> wake)
+      : desk_(desk), seat_(seat), stops_(stops), queue_(queue), wake_(std::move(wake)) {}
 
   /// Tells pages that something is other than before.
   /// @thread the desk's
   void tell_project();
   void tell_run();
+  /// @thread any
+  void tell_seat(std::int32_t holder);
 
  private:
   void project(ride::ReplyOf<ProjectState> reply) override;
@@ -46,7 +52,15 @@ class Workbench final : public WorkbenchService {
   void run(ride::ReplyOf<RunState> reply) override;
   void log(std::int32_t from, ride::ReplyOf<std::vector<std::string>> reply) override;
   void description(const std::string& path, ride::ReplyOf<std::string> reply) override;
+  void emergency_stop(ride::ReplyOf<EmergencyStop> reply) override;
+  void seat(ride::ReplyOf<SeatState> reply) override;
+  void take_seat(ride::ReplyOf<SeatState> reply) override;
+  void hand_over(std::int32_t guest, ride::ReplyOf<SeatState> reply) override;
+  void leave_seat(ride::ReplyOf<SeatState> reply) override;
+  void hold_key(bool down, ride::ReplyOf<double> reply) override;
 
+  SeatState seat_state(const ride::ReplyOf<SeatState>& reply);
+  void seated(const base::Result<void>& result, ride::ReplyOf<SeatState>& reply);
   template <typename Result, typename Work>
   void later(ride::ReplyOf<Result>& reply, Work work);
   template <typename Work>
@@ -59,6 +73,8 @@ class Workbench final : public WorkbenchService {
   Outcome outcome_of(const base::Result<void>& result) const;
 
   Desk& desk_;
+  Seat& seat_;
+  EmergencyStops& stops_;
   remote::ControlQueue& queue_;
   const std::function<void()> wake_;
 };

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page needs of the other side, so that tests can stand in for it.
 import type { InspectorPlaceholder } from "@armature/placeholders/inspection";
-import type { ProjectChanged, RunChanged, WorkbenchPlaceholder } from "@armature/placeholders/workbench";
+import type { ProjectChanged, RunChanged, SeatChanged, WorkbenchPlaceholder } from "@armature/placeholders/workbench";
 
 export type {
   ApplicationStatus, CommandStatus, Cycle, ComponentDetails, ComponentStatus, OperationDetails, Pace, ThreadStatus,
 } from "@armature/placeholders/inspection";
-export type { Change, Outcome, ProjectState, RunSettings, RunState } from "@armature/placeholders/workbench";
+export type { Change, EmergencyStop, Guest, Outcome, ProjectState, RunSettings, RunState, SeatState } from "@armature/placeholders/workbench";
 
 type WorkbenchCalls =
   | "project" | "text" | "edit" | "write" | "undo" | "redo" | "save" | "reload" | "check" | "fitting" | "models" | "places"
-  | "start" | "stop" | "run" | "log" | "description";
+  | "start" | "stop" | "run" | "log" | "description"
+  | "emergency_stop" | "seat" | "take_seat" | "hand_over" | "leave_seat" | "hold_key";
 type InspectorCalls =
   | "application" | "components" | "faults" | "describe" | "read" | "write" | "call" | "begin" | "follow" | "cancel" | "change"
   | "watch" | "watched" | "end_watch" | "cycle" | "pace" | "set_pace" | "step";
@@ -18,6 +19,7 @@ type InspectorCalls =
 export interface Workbench extends Pick<WorkbenchPlaceholder, WorkbenchCalls> {
   on_ProjectChanged(handler: (change: ProjectChanged) => void): unknown;
   on_RunChanged(handler: (change: RunChanged) => void): unknown;
+  on_SeatChanged(handler: (change: SeatChanged) => void): unknown;
 }
 
 export type Inspector = Pick<InspectorPlaceholder, InspectorCalls>;

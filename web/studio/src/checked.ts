@@ -41,6 +41,7 @@ export interface Property {
   persistent: boolean;
   mandatory: boolean;
   changeable_while_running: boolean;
+  by_operator?: boolean;   ///< a word of the operator
 }
 
 export interface Port {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that work everywhere on the page.
+import { emergency_stop } from "./emergency.ts";
 import { redo, save, undo } from "./project.ts";
 import { stop } from "./run.ts";
 import { selection } from "./selection.ts";
@@ -15,6 +16,7 @@ export function listen_to_keys(): () => void {
 }
 
 function on_key(event: KeyboardEvent): void {
+  if (event.repeat && (event.key === "F8" || event.key === "Escape")) return; // one press is one stop
   const action = action_of(event);
   if (!action) return;
   event.preventDefault();
@@ -23,6 +25,7 @@ function on_key(event: KeyboardEvent): void {
 }
 
 function action_of(event: KeyboardEvent): (() => void) | undefined {
+  if (event.key === "F8") return () => void emergency_stop();
   if (event.key === "Escape") return event.shiftKey ? () => void stop() : close_menu();
   if (!event.ctrlKey && !event.metaKey) return undefined;
   const key = event.key.toLowerCase();

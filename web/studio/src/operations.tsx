@@ -2,6 +2,7 @@
 import { useState } from "react";
 import { message_of } from "./backend.ts";
 import type { Component, Operation } from "./checked.ts";
+import { HeldAct } from "./held_act.tsx";
 import { inspector } from "./run.ts";
 
 const kFollow = 200;  ///< between two looks at a command [ms]
@@ -17,7 +18,8 @@ export function Operations({ component }: { component: Component }) {
   );
 }
 
-function Call({ component, operation }: { component: string; operation: Operation }) {
+/** One operation, with what it needs and what it gave. */
+export function Call({ component, operation }: { component: string; operation: Operation }) {
   const [words, set_words] = useState<string[]>(() => operation.arguments.map(() => ""));
   const [answer, set_answer] = useState("");
   const [handle, set_handle] = useState(-1);
@@ -32,15 +34,15 @@ function Call({ component, operation }: { component: string; operation: Operatio
   };
   const label = ({ name, type }: Operation["arguments"][number]) => name || type;
   return (
-    <form className="call" onSubmit={(event) => (event.preventDefault(), void call())} title={`${operation.signature}\n${operation.doc}`}>
-      <button type="submit">{operation.name}</button>
+    <form className="call" onSubmit={(event) => (event.preventDefault(), operation.by_operator ? undefined : void call())} title={`${operation.signature}\n${operation.doc}`}>
+      {operation.by_operator ? <HeldAct name={operation.name} act={() => void call()} tell={set_answer} /> : <button type="submit">{operation.name}</button>}
       {operation.arguments.map((one, i) => (
         <input key={i} aria-label={`${operation.name}: ${label(one)}`} placeholder={label(one)} title={one.type} size={Math.max(10, label(one).length)} value={words[i]}
           onChange={(event) => set_words(words.with(i, event.target.value))} />
       ))}
       {handle >= 0 && <button type="button" className="small" onClick={() => void inspector().cancel(handle)}>Cancel</button>}
       <output>{answer}</output>
-      <small>{operation.doc}{operation.by_operator && " · needs a grant of the deployment"}</small>
+      <small>{operation.doc}{operation.by_operator && " · needs the operator's seat, and a grant of the deployment"}</small>
     </form>
   );
 }

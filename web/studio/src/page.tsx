@@ -13,6 +13,7 @@ import { Panel } from "./panel.tsx";
 import { open_project } from "./project.ts";
 import { QuestionView } from "./question.tsx";
 import { open_run } from "./run.ts";
+import { open_seat } from "./seat.ts";
 import { selection } from "./selection.ts";
 import { TopBar } from "./top_bar.tsx";
 import { start_values } from "./values.ts";
@@ -23,15 +24,17 @@ const RobotView = lazy(() => import("./robot_view.tsx"));
 export function show_page(backend: Backend): void {
   open_project(backend);
   open_run(backend);
+  open_seat(backend);
   start_values();
   createRoot(document.getElementById("page")!).render(<Page />);
 }
 
 function Page() {
   const beside = selection.use((state) => state.beside);
+  const operating = selection.use((state) => state.tab === "operate");
   useEffect(listen_to_keys, []);
   return (
-    <div className={`studio${beside ? ` with-beside with-${beside}` : ""}`}>
+    <div className={`studio${beside ? ` with-beside with-${beside}` : ""}${operating ? " operating" : ""}`}>
       <TopBar />
       <Notices />
       <nav className="left" aria-label="Models and outline">

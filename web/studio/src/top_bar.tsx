@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
+import { emergency_stop } from "./emergency.ts";
 import { RunSettings } from "./run_settings.tsx";
+import { SeatView } from "./seat_view.tsx";
 import { type Beside, selection } from "./selection.ts";
 
 const kNone: never[] = [];
@@ -15,7 +17,13 @@ export function TopBar() {
       <ViewButtons />
       <RunControls />
       <RunTime />
-      <StopButton />
+      <div className="safety">
+        <div className="stops" role="group" aria-label="Stop">
+          <StopButton />
+          <EmergencyButton />
+        </div>
+        <SeatView />
+      </div>
     </header>
   );
 }
@@ -125,9 +133,19 @@ function state_text(state: string, exit_code: number, paused: boolean): string {
 function StopButton() {
   const stopping = run.use((all) => all.state.state === "stopping");
   return (
-    <button type="button" className="stop" title="Stops the run in order; a second time at once (Shift+Esc). It replaces no emergency switch."
+    <button type="button" className="stop" title="Stops the run in order; a second time at once (Shift+Esc)"
       onClick={() => void stop()}>
       {stopping ? "Stop now" : "Stop"}
+    </button>
+  );
+}
+
+/** Likewise; from every browser, whoever sits at the seat. */
+function EmergencyButton() {
+  return (
+    <button type="button" className="emergency" aria-keyshortcuts="F8" onClick={() => void emergency_stop()}
+      title="Disarms the robot at once; where nothing can be disarmed, stops the run. F8 does it, too, wherever you are. It replaces no emergency switch.">
+      E-stop <small>F8 · replaces no switch</small>
     </button>
   );
 }

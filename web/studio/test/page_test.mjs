@@ -485,3 +485,103 @@ for (const dark of [false, true]) {
     }, { dark });
   }
 }
+
+const called = (page) => page.evaluate(() => window.mock.run.called);
+
+async function operated(page) {
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByText("Generator: jog").waitFor();
+}
+
+page_test("an axis jogs as long as its button is held, by mouse and by keyboard", "operated", async (page) => {
+  await operated(page);
+  await page.getByRole("button", { name: "axis 2 back" }).hover();
+  await page.mouse.down();
+  await page.waitForTimeout(400);
+  await page.mouse.up();
+  await page.waitForTimeout(200);
+  const first = await called(page);
+  assert.equal(first[0], "Generator.jog(2, -0.1)");
+  assert.ok(first.filter((one) => one === "Generator.keepJogging(2, -0.1)").length >= 3, first.join());
+  assert.equal(first.at(-1), "cancel");
+  await page.getByRole("button", { name: "axis 1 forth" }).focus();
+  await page.keyboard.down("Space");
+  await page.waitForTimeout(300);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.waitForTimeout(200);
+  const both = await called(page);
+  assert.equal(both.filter((one) => one.includes(".jog(")).at(-1), "Generator.jog(1, 0.1)");
+  assert.equal(both.at(-1), "cancel", "it ends with the focus");
+  await page.keyboard.up("Space");
+});
+
+for (const [what, leave] of [
+  ["Escape", (page) => page.keyboard.press("Escape")],
+  ["the window's loss of the focus", (page) => page.evaluate(() => window.dispatchEvent(new Event("blur")))],
+  ["a pointer that is cancelled", (page) => page.getByRole("button", { name: "axis 1 forth" }).dispatchEvent("pointercancel")],
+]) {
+  page_test(`a jog ends with ${what}`, "operated", async (page) => {
+    await operated(page);
+    await page.getByRole("button", { name: "axis 1 forth" }).hover();
+    await page.mouse.down();
+    await page.waitForTimeout(200);
+    await leave(page);
+    await page.waitForTimeout(100);
+    const ended = await called(page);
+    assert.equal(ended.at(-1), "cancel");
+    await page.waitForTimeout(200);
+    assert.deepEqual(await called(page), ended, "nothing is renewed any more");
+  });
+}
+
+page_test("arming needs the seat and a button that is held for a second; one hold arms once", "operated", async (page) => {
+  await operated(page);
+  const arm = page.getByRole("button", { name: /^arm: hold/ });
+  assert.equal(await arm.isDisabled(), true, "nobody sits at the seat");
+  await page.getByRole("button", { name: "Take the seat" }).click();
+  await page.getByText("You operate").waitFor();
+  await arm.focus();
+  await page.keyboard.down("Space");
+  await page.waitForTimeout(500);
+  await page.keyboard.up("Space");
+  await page.waitForTimeout(200);
+  assert.deepEqual(await called(page), [], "held too short");
+  await arm.hover();
+  await page.mouse.down();
+  await page.waitForTimeout(2500);
+  await page.mouse.up();
+  assert.deepEqual(await called(page), ["Arming.arm()"]);
+  await page.evaluate(() => window.mock.workbench.sit(2));
+  await page.getByText("Browser 2 operates").waitFor();
+  assert.equal(await arm.isDisabled(), true, "somebody else sits there");
+  assert.equal(await page.getByRole("button", { name: "Take the seat" }).count(), 0);
+});
+
+page_test("a word of the operator is said from the seat, by a button that is held", "operated", async (page) => {
+  await operated(page);
+  await page.getByRole("button", { name: "Take the seat" }).click();
+  await page.getByRole("button", { name: /^at_home: hold/ }).hover();
+  await page.mouse.down();
+  await page.getByText("said", { exact: true }).waitFor();
+  await page.mouse.up();
+  assert.deepEqual(await called(page), ["Hardware.at_home = true"]);
+});
+
+page_test("the seat is handed over", "operated", async (page) => {
+  await page.getByRole("button", { name: "Take the seat" }).click();
+  await page.getByLabel("Hand the seat over").selectOption({ label: "to browser 2 (page@web)" });
+  await page.getByText("Browser 2 operates").waitFor();
+});
+
+page_test("E-stop is always there, by mouse and by F8, also while somebody types", "operated", async (page) => {
+  const presses = () => page.evaluate(() => window.mock.workbench.emergencies);
+  await page.getByRole("button", { name: /^E-stop/ }).click();
+  assert.equal(await presses(), 1);
+  await page.getByText("Arming disarmed").waitFor();
+  await page.getByLabel("Find a model").fill("arm");
+  await page.keyboard.press("F8");
+  await page.waitForTimeout(100);
+  assert.equal(await presses(), 2);
+  assert.match(await page.getByRole("button", { name: /^E-stop/ }).textContent(), /replaces no switch/);
+});

@@ -44,6 +44,22 @@ const kViews = {
     await tab(page, "Operate");
     await page.waitForTimeout(500);
   }],
+  operator: ["operated", async (page) => {
+    await start(page);
+    await page.getByRole("button", { name: "Take the seat" }).click();
+    await page.locator(".react-flow__node", { hasText: "Generator" }).locator("header").click();
+    await tab(page, "Operate");
+    await page.getByRole("button", { name: /^arm: hold/ }).hover();
+    await page.mouse.down();
+    await page.waitForTimeout(600);
+  }],
+  guest: ["operated", async (page) => {
+    await start(page);
+    await page.evaluate(() => window.mock.workbench.sit(2));
+    await page.locator(".react-flow__node", { hasText: "Generator" }).locator("header").click();
+    await tab(page, "Operate");
+    await page.keyboard.press("F8");
+  }],
   fitting: ["wave", async (page) => {
     const pin = page.locator(".react-flow__node", { hasText: "Filter" }).locator(".pin.output");
     await pin.hover();

@@ -12,6 +12,7 @@ export class MockInspector implements Inspector {
   private readonly numbers = new Map<string, number>();
   private readonly stopped = new Set<string>();
   private handles = 0;
+  jogs = false;
   private time = 0;
   private last = Date.now();
   private now: Pace = { rate: 1, paused: false };
@@ -57,22 +58,36 @@ export class MockInspector implements Inspector {
     throw new Error("not in tests");
   };
   read = async () => [];
-  write = async (item: string, value: string) => ({ ...kNone, item, value, written: true, age: 0 });
+
+  async write(item: string, value: string) {
+    this.called.push(`${item} = ${value}`);
+    return { ...kNone, item, value, written: true, age: 0 };
+  }
 
   async call(component: string, operation: string, words: string[]) {
     this.called.push(`${component}.${operation}(${words.join(", ")})`);
+    if (operation === "keepJogging") return { given: true, type: "bool", value: String(this.jogs) };
     if (operation === "turn") this.numbers.set(`${component}.On`, words[0] === "true" ? 1 : 0);
     return { given: false, type: "", value: "" };
   }
 
   async begin(component: string, command: string, words: string[]): Promise<CommandStatus> {
     this.called.push(`${component}.${command}(${words.join(", ")})`);
+    if (command === "jog") {
+      this.jogs = true;
+      return { handle: ++this.handles, command: `${component}.jog`, stage: "under way", ended: false, progress: 0, reason: "" };
+    }
     if (command === "move") this.numbers.set(`${component}.Out`, Number(words[0]));
     return { handle: ++this.handles, command: `${component}.${command}`, stage: "done", ended: true, progress: 1, reason: "" };
   }
 
   follow = async (handle: number): Promise<CommandStatus> => ({ handle, command: "", stage: "done", ended: true, progress: 1, reason: "" });
-  cancel = this.follow;
+
+  async cancel(handle: number): Promise<CommandStatus> {
+    this.called.push("cancel");
+    this.jogs = false;
+    return this.follow(handle);
+  }
 
   async change(component: string, change: string): Promise<ComponentStatus> {
     if (change === "stop") this.stopped.add(component);
@@ -82,7 +97,7 @@ export class MockInspector implements Inspector {
 
   async watch(items: string[]) {
     this.tick();
-    const all = items.flatMap((item) => (/\.sensor$/.test(item) ? [1, 2, 3, 4, 5, 6, 7].map((i) => `${item}[${i}]`) : [item]));
+    const all = items.flatMap((item) => (/\.(sensor|nAxesDesiredPosition)$/.test(item) ? [1, 2, 3, 4, 5, 6, 7].map((i) => `${item}[${i}]`) : [item]));
     this.items.set(++this.handles, all);
     return { handle: this.handles, items: all.map((item) => ({ item, unit: "rad" })) };
   }

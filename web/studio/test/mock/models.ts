@@ -66,6 +66,21 @@ export const kModels: Model[] = [
     operations: [operation("moveTo", "goes to a position", [["vector<double>", "target [rad]"], ["double", "time [s]"]], true), operation("hold", "stays", [], true)],
     events: [event("Arrived", "the last motion has ended")],
   }),
+  model("AxesGenerator", "robot", "moves axes from point to point, and one at a time", {
+    properties: [property("num_axes", "int", "2", "how many axes there are"), property("max_vel", "vector<double>", "[1, 2]", "greatest velocity of each axis", { unit: "rad/s" })],
+    outputs: [port("nAxesDesiredPosition", "desired", "rad", "vector<double>", { size: 2 })],
+    operations: [
+      operation("moveTo", "goes to a position", [["vector<double>", "target [rad]"], ["double", "time [s]"]], true),
+      operation("jog", "moves an axis while it is held", [["int", "axis, from 1"], ["double", "velocity [rad/s]"]], true),
+      operation("keepJogging", "goes on with it", [["int", "axis, from 1"], ["double", "velocity [rad/s]"]]),
+    ],
+  }),
+  model("Hardware", "robot", "drives the robot", {
+    properties: [property("at_home", "bool", "false", "the operator has put the arm at home", { by_operator: true })],
+  }),
+  model("Arming", "robot", "lets the robot move, by its operator", {
+    operations: [{ ...operation("arm", "lets the joints move from now on", [], true), by_operator: true }, operation("disarm", "effort 0, brakes applied")],
+  }),
   model("Button", "controls", "something to press", { operations: [operation("press", "as a finger does")], events: [event("Pressed", "somebody pressed it")] }),
   model("Switch", "controls", "something to turn on and off", {
     properties: [property("Initially", "bool", "false", "whether it is on at the start")], outputs: [port("On", "whether it is on", "", "bool")],

@@ -14,6 +14,15 @@ connections:
   - Filter.Filtered -> Watcher.Value
 `,
   },
+  operated: {
+    "operated.yaml": `application: operated
+libraries: [robot]
+components:
+  Generator: {model: AxesGenerator, activity: {periodic: 10 ms}}
+  Arming: {model: Arming, activity: {periodic: 10 ms}}
+  Hardware: {model: Hardware}
+`,
+  },
   arm: {
     "arm.yaml": `# An arm of seven joints on a rover.
 include: control.yaml

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stands for `armature studio` in tests: texts in memory, edits by the package yaml.
 import { Document, parseDocument } from "yaml";
-import type { Change, Outcome, ProjectState, RunSettings, RunState, Workbench } from "../../src/backend.ts";
+import type { Change, EmergencyStop, Outcome, ProjectState, RunSettings, RunState, SeatState, Workbench } from "../../src/backend.ts";
 import { type Checked, type End, type Model, split_member } from "../../src/checked.ts";
 import { check } from "./checker.ts";
 import { kModels } from "./models.ts";
@@ -32,7 +32,11 @@ export class MockWorkbench implements Workbench {
   private readonly run_handlers: ((change: { number: number; log_end: number }) => void)[] = [];
   private lines: string[] = [];
   private runs: RunState = { number: 0, state: "none", simulated: true, version: 0, exit_code: 0, log_begin: 0, log_end: 0 };
+  private readonly seat_handlers: ((change: { holder: number }) => void)[] = [];
+  private seated: SeatState = { you: 1, holder: 0, guests: [1, 2].map((number) => ({ number, who: "page@web", may_operate: true })) };
+  private pressed = 0;  ///< when; 0: the key is up
   started = 0;
+  emergencies = 0;
   on_state: (state: string, simulated: boolean) => void = () => undefined;
 
   /** @param captured  what the real check said of these texts, in place of the mock's */
@@ -47,6 +51,32 @@ export class MockWorkbench implements Workbench {
 
   on_RunChanged(handler: (change: { number: number; log_end: number }) => void): void {
     this.run_handlers.push(handler);
+  }
+
+  on_SeatChanged(handler: (change: { holder: number }) => void): void {
+    this.seat_handlers.push(handler);
+  }
+
+  async emergency_stop(): Promise<EmergencyStop> {
+    ++this.emergencies;
+    return { disarmed: ["Arming"], stopped: "" };
+  }
+
+  seat = async (): Promise<SeatState> => this.seated;
+  take_seat = async (): Promise<SeatState> => this.sit(this.seated.you);
+  leave_seat = async (): Promise<SeatState> => this.sit(0);
+  hand_over = async (guest: number): Promise<SeatState> => this.sit(guest);
+
+  sit(holder: number): SeatState {
+    this.seated = { ...this.seated, holder };
+    for (const handler of this.seat_handlers) handler({ holder });
+    return this.seated;
+  }
+
+  async hold_key(down: boolean): Promise<number> {
+    if (!down) this.pressed = 0;
+    else if (this.pressed === 0) this.pressed = Date.now();
+    return down ? (Date.now() - this.pressed) / 1000 : 0;
   }
 
   async project(): Promise<ProjectState> {
