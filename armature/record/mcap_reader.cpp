@@ -76,12 +76,14 @@ class Reader {
       return fail(whole_.substr(footer_begin), "the footer");
     }
     Cursor fields(content);
-    fields.take(summary_begin_);
+    std::uint64_t summary_begin = 0;
+    fields.take(summary_begin);
     fields.take(offsets_begin);
     fields.take(summary_crc_);
-    const bool in_order = summary_begin_ >= kMagic.size() && summary_begin_ <= offsets_begin &&
+    const bool in_order = summary_begin >= kMagic.size() && summary_begin <= offsets_begin &&
                           offsets_begin <= footer_begin;
     if (!in_order) return fail(whole_.substr(footer_begin), "a footer with places in the file");
+    summary_begin_ = static_cast<std::size_t>(summary_begin);
     summary_ = whole_.substr(summary_begin_, footer_begin - summary_begin_);
     return true;
   }
@@ -254,7 +256,7 @@ class Reader {
 
   std::string_view whole_;
   std::string_view summary_;
-  std::uint64_t summary_begin_ = 0;
+  std::size_t summary_begin_ = 0;
   std::uint32_t summary_crc_ = 0;
   McapRecording recording_;
   std::unordered_map<std::uint16_t, ChannelId> indexes_;  // by the file's number

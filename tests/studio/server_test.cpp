@@ -251,6 +251,10 @@ TEST_F(Opened, ACycleOfARunIsRecordedForWhoAsks) {
 }
 
 TEST_F(Opened, WhatIsSetForARunIsInIt) {
+  const auto standing = workbench_->start({true, 1.0, "", {"Source.Frequency=7"}}, kPatient);
+  ASSERT_FALSE(standing);
+  EXPECT_THAT(standing.error(), ::testing::HasSubstr("overrides are the operator's"));
+  ASSERT_TRUE(workbench_->take_seat(kPatient));
   const auto started = workbench_->start({true, 1.0, "", {"Source.Frequency=7"}}, kPatient);
   ASSERT_TRUE(started) << started.error();
   until([&] { return state() == "running"; });

@@ -90,8 +90,9 @@ class Cursor {
 
   bool take_bytes(std::uint64_t count, std::string_view& bytes) {
     if (count > rest_.size()) return false;
-    bytes = rest_.substr(0, count);
-    rest_.remove_prefix(count);
+    const auto size = static_cast<std::size_t>(count);
+    bytes = rest_.substr(0, size);
+    rest_.remove_prefix(size);
     return true;
   }
 
