@@ -25,8 +25,7 @@ generate::Generate* find_generate(base::Diagnostics& diagnostics) {
   void* const found = library ? library.value().symbol(generate::kGenerateSymbol) : nullptr;
   if (!library) diagnostics.error({}, library.error());
   if (library && found == nullptr) {
-    diagnostics.error({},
-                      "libarmature_generate.so is of another version: install all of it anew");
+    diagnostics.error({}, "libarmature_generate.so is of another version: install all of it anew");
   }
   return found == nullptr ? nullptr : *static_cast<generate::Generate**>(found);
 }

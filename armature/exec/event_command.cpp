@@ -173,8 +173,8 @@ void EventCommand::fail(std::string_view reason) {
 
 ComponentEntry event_command_entry(std::string name, const component::EventBase& event,
                                    const component::CommandBase& command,
-                                   std::vector<CommandParameter> parameters,
-                                   base::Duration max_age, const base::Location& event_where,
+                                   std::vector<CommandParameter> parameters, base::Duration max_age,
+                                   const base::Location& event_where,
                                    const base::Location& command_where) {
   const std::string raiser = event.owner().name();
   const std::string server = command.owner().name();

@@ -126,8 +126,8 @@ class EventCommand final : public component::Component {
 /// @param event_where, command_where  where the user named them
 ComponentEntry event_command_entry(std::string name, const component::EventBase& event,
                                    const component::CommandBase& command,
-                                   std::vector<CommandParameter> parameters,
-                                   base::Duration max_age, const base::Location& event_where = {},
+                                   std::vector<CommandParameter> parameters, base::Duration max_age,
+                                   const base::Location& event_where = {},
                                    const base::Location& command_where = {});
 
 }  // namespace armature::exec

@@ -54,8 +54,7 @@ std::unique_ptr<component::Component> make(const component::Registry::Model& mod
 Part& Part::set_text(std::string_view property, std::string_view text) {
   exec::ComponentEntry* const entry = assembly_.entry(index_);
   if (entry == nullptr) return *this;
-  auto* const found =
-      find_member(component::interface_of(*entry->component).properties, property);
+  auto* const found = find_member(component::interface_of(*entry->component).properties, property);
   if (found == nullptr) return give(property, types::Value::of(false));  // which tells it
   types::Value value(found->type());
   const auto read = types::from_text(found->type(), text, value.data());
@@ -69,8 +68,7 @@ Part& Part::give(std::string_view property, const types::Value& value) {
   exec::ComponentEntry* const entry = assembly_.entry(index_);
   if (entry == nullptr) return *this;
   const std::string item = base::quoted(entry->component->name() + "." + std::string(property));
-  auto* const found =
-      find_member(component::interface_of(*entry->component).properties, property);
+  auto* const found = find_member(component::interface_of(*entry->component).properties, property);
   if (found == nullptr) {
     assembly_.mistake("unknown property " + item + " (" + entry->model + ")");
   } else if (!types::same_type(found->type(), value.type())) {
@@ -174,8 +172,7 @@ void Assembly::command(const CommandGiven& given, std::vector<ParameterGiven> pa
   const component::Component* const server = find(give.component);
   if (raiser == nullptr || server == nullptr) return;
   const auto* const event = find_member(component::interface_of(*raiser).events, on.member);
-  const auto* const found =
-      find_member(component::interface_of(*server).operations, give.member);
+  const auto* const found = find_member(component::interface_of(*server).operations, give.member);
   if (event == nullptr) return mistake("unknown event " + base::quoted(given.on));
   if (found == nullptr || !found->is_command() || found->is_by_operator()) {
     return mistake(base::quoted(given.give) + " is no command that an event may give");
@@ -204,9 +201,9 @@ Part Assembly::component(std::string name, const std::string& model) {
   auto made = known == nullptr ? nullptr : make(*known, name, problem);
   if (made == nullptr) {
     mistake(base::quoted(name) + (known == nullptr
-                                ? " has the unknown model " + base::quoted(model) +
-                                      base::suggestion_in_brackets(model, models_.names())
-                                : ": the model " + base::quoted(model) + " " + problem));
+                                      ? " has the unknown model " + base::quoted(model) +
+                                            base::suggestion_in_brackets(model, models_.names())
+                                      : ": the model " + base::quoted(model) + " " + problem));
     return {*this, blueprint_.components.max_size()};
   }
   blueprint_.components.push_back({std::move(made), model, {}, {}, {}, {}});

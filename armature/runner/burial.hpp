@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "armature/runner/console.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/platform/death_watch.hpp"
+#include "armature/runner/console.hpp"
 
 namespace armature::runner {
 

@@ -10,10 +10,10 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/base/severity_name.hpp"
-#include "armature/runner/exit_code.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/terminal.hpp"
+#include "armature/runner/exit_code.hpp"
 
 namespace armature::runner {
 namespace {

@@ -31,12 +31,11 @@ std::string value_text(const component::PropertyBase& property) {
 }
 
 std::string activity_text(const exec::Activity& activity) {
-  std::string text = std::string(name_of(activity.kind)) + ' ' + base::to_text(activity.period) +
-                     ' ' + std::string(name_of(activity.scheduler)) + ' ' +
-                     std::to_string(activity.priority) + ' ' +
-                     std::string(name_of(activity.overrun)) + ' ' +
-                     std::to_string(activity.late_cycles_to_fault) + ' ' +
-                     base::to_text(activity.budget) + " thread '" + activity.thread + "' cpus";
+  std::string text =
+      std::string(name_of(activity.kind)) + ' ' + base::to_text(activity.period) + ' ' +
+      std::string(name_of(activity.scheduler)) + ' ' + std::to_string(activity.priority) + ' ' +
+      std::string(name_of(activity.overrun)) + ' ' + std::to_string(activity.late_cycles_to_fault) +
+      ' ' + base::to_text(activity.budget) + " thread '" + activity.thread + "' cpus";
   for (const int cpu : activity.cpus) text += ' ' + std::to_string(cpu);
   return text;
 }
@@ -79,8 +78,9 @@ void add(const exec::ConnectionEntry& entry, std::string& to) {
   const bool latest = policy.kind == component::ConnectionPolicy::Kind::kLatest;
   to += "connect " + entry.from_component + '.' + entry.from_port + " to " + entry.to_component +
         '.' + entry.to_port + (latest ? " latest" : " fifo ") +
-        (latest ? "" : std::to_string(policy.capacity) + ' ' +
-                           std::string(types::name_of(policy.when_full))) +
+        (latest ? ""
+                : std::to_string(policy.capacity) + ' ' +
+                      std::string(types::name_of(policy.when_full))) +
         (policy.one_cycle_delay ? " delayed" : "");
   if (entry.max_age) {
     to += " max_age " + base::to_text(entry.max_age->age) + ' ' +

@@ -27,8 +27,7 @@ constexpr std::string_view kNeverRealTime[] = {"liburdfdom_model.so", "libtinyxm
 bool add_models(const Program& program, component::Registry& models, const Console& console) {
   bool good = true;
   for (const LinkedLibrary& library : program.libraries) {
-    const auto added =
-        component::add_library(library.entry(), base::quoted(library.name), models);
+    const auto added = component::add_library(library.entry(), base::quoted(library.name), models);
     if (!added) console.say(LogLevel::kError, added.error());
     good &= added.ok();
   }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "armature/runner/console.hpp"
 #include "armature/exec/application.hpp"
+#include "armature/runner/console.hpp"
 
 namespace armature::runner {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/generate/internal/literal.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "armature/generate/internal/code.hpp"
 #include "armature/types/enum.hpp"
@@ -42,7 +42,8 @@ TEST(Literal, IsOfExactlyItsType) {
             "std::uint64_t{18446744073709551615u}");
   EXPECT_EQ(literal_of(std::string("a \"b\"\\\n\x01")), R"("a \"b\"\\\n\001")");
   EXPECT_EQ(literal_of(std::vector<double>{1.0, 2.5}), "std::vector<double>{1.0, 2.5}");
-  EXPECT_EQ(literal_of(std::vector<std::string>{"x", "y"}), R"(std::vector<std::string>{"x", "y"})");
+  EXPECT_EQ(literal_of(std::vector<std::string>{"x", "y"}),
+            R"(std::vector<std::string>{"x", "y"})");
   EXPECT_EQ(literal_of(std::array<int, 2>{4, 5}), "std::array<int, 2>{4, 5}");
   EXPECT_EQ(literal_of(std::vector<double>{}), "std::vector<double>{}");
 }
@@ -56,7 +57,10 @@ TEST(Literal, OfAValueThatNoLiteralHasIsNothing) {
 }
 
 TEST(Literal, OfATextKeepsItsNulCharacters) {
-  EXPECT_EQ(text_literal(std::string_view("a\0" "1", 3)), R"(std::string("a\0001", 3))");
+  EXPECT_EQ(text_literal(std::string_view("a\0"
+                                          "1",
+                                          3)),
+            R"(std::string("a\0001", 3))");
 }
 
 TEST(Literal, OfADurationIsExact) {
@@ -70,8 +74,8 @@ TEST(Code, BreaksLongLinesBehindItemsAndNeverWithinATextInQuotes) {
   Code code;
   const std::string item = '"' + std::string(40, 'a') + ", {b\"";
   code.chain({"to.f()", ".set({" + item + ", " + item + ", " + item + "})"});
-  EXPECT_EQ(code.text(), "  to.f()\n      .set({" + item + ",\n          " + item + ",\n          " +
-                             item + "});\n");
+  EXPECT_EQ(code.text(), "  to.f()\n      .set({" + item + ",\n          " + item +
+                             ",\n          " + item + "});\n");
 }
 
 }  // namespace

@@ -107,8 +107,7 @@ std::string property_text(const component::PropertyBase& property, const DataFil
   if (const auto value = literal(property.type(), property.data())) {
     return call(".set", {name, *value});
   }
-  return call(".set_text",
-              {name, text_literal(types::to_text(property.type(), property.data()))});
+  return call(".set_text", {name, text_literal(types::to_text(property.type(), property.data()))});
 }
 
 bool is_given(const document::Component* written, std::string_view name) {
@@ -133,8 +132,7 @@ std::vector<const component::PropertyBase*> set_properties(const component::Comp
   return found;
 }
 
-const document::Component* find_written(const document::Document& document,
-                                        std::string_view name) {
+const document::Component* find_written(const document::Document& document, std::string_view name) {
   for (const document::Component& component : document.components) {
     if (component.name == name) return &component;
   }

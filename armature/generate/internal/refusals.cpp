@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/generate/internal/refusals.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -15,22 +16,6 @@ namespace {
 using document::in_quotes;
 
 constexpr const char* kRunInstead = "run this deployment with armature run, or make a bundle of it";
-
-const component::PropertyBase* find_property(const component::Component& component,
-                                             std::string_view name) {
-  for (const component::PropertyBase* property : component::interface_of(component).properties) {
-    if (property->name() == name) return property;
-  }
-  return nullptr;
-}
-
-const component::Component* find_component(const exec::Blueprint& blueprint,
-                                           std::string_view name) {
-  for (const exec::ComponentEntry& entry : blueprint.components) {
-    if (entry.component->name() == name) return entry.component.get();
-  }
-  return nullptr;
-}
 
 void refuse_component(const document::Component& written, base::Diagnostics& diagnostics) {
   if (!written.remote.name.empty()) {
@@ -54,15 +39,20 @@ void refuse_component(const document::Component& written, base::Diagnostics& dia
   }
 }
 
-/// It counts once; compiled in it would count for ever.
-void refuse_operators_words(const document::Component& written,
-                            const component::Component& component,
+/// It counts once; compiled in it would count for ever. Its default says nothing.
+void refuse_operators_words(const deploy::Deployment& deployment, const exec::ComponentEntry& entry,
                             base::Diagnostics& diagnostics) {
-  for (const document::Property& given : written.properties) {
-    const component::PropertyBase* const property = find_property(component, given.name);
-    if (property == nullptr || !property->is_by_operator()) continue;
-    diagnostics.error(given.where,
-                      in_quotes(written.name + "." + given.name) +
+  const auto* const model = deployment.models.find(entry.model);
+  if (model == nullptr) return;
+  const auto fresh = model->make(entry.component->name());
+  const auto& usual = component::interface_of(*fresh).properties;
+  const auto& given = component::interface_of(*entry.component).properties;
+  for (std::size_t i = 0; i < given.size() && i < usual.size(); ++i) {
+    if (!given[i]->is_by_operator()) continue;
+    const types::Type& type = given[i]->type();
+    if (types::to_text(type, given[i]->data()) == types::to_text(type, usual[i]->data())) continue;
+    diagnostics.error(entry.where,
+                      in_quotes(entry.component->name() + "." + std::string(given[i]->name())) +
                           " is the operator's word, which counts for one run: a generated program "
                           "would say it in each",
                       "leave it out");
@@ -115,13 +105,13 @@ void tell_operators_acts(const exec::Blueprint& blueprint, base::Diagnostics& di
 
 }  // namespace
 
-void refuse_what_needs_tools(const deploy::Deployment& deployment,
-                             base::Diagnostics& diagnostics) {
+void refuse_what_needs_tools(const deploy::Deployment& deployment, base::Diagnostics& diagnostics) {
   const document::Document& document = deployment.document;
   for (const document::Component& written : document.components) {
     refuse_component(written, diagnostics);
-    const component::Component* const made = find_component(deployment.blueprint, written.name);
-    if (made != nullptr) refuse_operators_words(written, *made, diagnostics);
+  }
+  for (const exec::ComponentEntry& entry : deployment.blueprint.components) {
+    refuse_operators_words(deployment, entry, diagnostics);
   }
   refuse_network(document, diagnostics);
   tell_grants(document.script_grants, "scripts", diagnostics);

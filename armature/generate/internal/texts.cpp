@@ -95,8 +95,9 @@ std::string build_text(const Facts& facts) {
 std::string readme_text(const Facts& facts, bool on_hardware) {
   std::string files = facts.data.names.empty() ? "" : ", and the folder data beside it";
   if (on_hardware) {
-    files += ", and armature-guardian beside Armature's libraries or in ../bin from there, which "
-             "switches the drives off if the program dies";
+    files +=
+        ", and armature-guardian beside Armature's libraries or in ../bin from there, which "
+        "switches the drives off if the program dies";
   }
   return filled(kReadme, {{"@name@", facts.name},
                           {"@deployment@", facts.deployment},

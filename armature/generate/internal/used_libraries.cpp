@@ -49,8 +49,8 @@ std::vector<UsedLibrary> used_libraries(const deploy::Deployment& deployment,
     const auto file = deploy::find_library(library.name, folders);
     const auto loaded = platform::SharedObject::load(file ? file.value() : library.name);
     if (!file || !loaded) continue;  // which the check has told
-    const auto describe = reinterpret_cast<component::LibraryEntry>(
-        loaded.value().symbol(component::kLibraryEntry));
+    const auto describe =
+        reinterpret_cast<component::LibraryEntry>(loaded.value().symbol(component::kLibraryEntry));
     if (describe == nullptr || wanted.erase(describe()->name) == 0) continue;
     const std::string name = name_of_file(file.value());
     const std::string entry = entry_of(name);
