@@ -6,7 +6,7 @@ set(ARMATURE_COMPONENT_LIBRARY_EXPORTS ${CMAKE_CURRENT_LIST_DIR}/component_libra
 # armature_component_library(NAME motion SOURCES pid.cpp axes_generator.cpp LINK ...)
 #
 # A library of components that the deployment loads: lib/armature/lib<NAME>.so. It exports
-# nothing of its own but its one extern "C" function, and shares the runtime with its host.
+# nothing of its own but its one extern "C" function, by two names, and shares the runtime with its host.
 function(armature_component_library)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "NAME" "SOURCES;LINK")
   if(NOT arg_NAME OR NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)
@@ -19,6 +19,10 @@ function(armature_component_library)
   # Templates of the standard library run from here, also if another library has them too.
   target_link_options(${arg_NAME} PRIVATE LINKER:-Bsymbolic-functions
                                           LINKER:--version-script=${ARMATURE_COMPONENT_LIBRARY_EXPORTS})
+  # By this name a program that is linked with several libraries finds each of them.
+  string(MAKE_C_IDENTIFIER ${arg_NAME} identifier)
+  target_link_options(${arg_NAME} PRIVATE
+                      LINKER:--defsym=armature_component_library_${identifier}=armature_component_library)
   set_target_properties(
     ${arg_NAME}
     PROPERTIES PREFIX lib
@@ -30,4 +34,25 @@ function(armature_component_library)
     armature_warnings(${arg_NAME})
     armature_unity(${arg_NAME})
   endif()
+endfunction()
+
+# armature_link_components(wave LIBRARIES wave controls)
+#
+# Links a program, as `armature generate` writes it, with component libraries. They are looked for in the
+# folders of the variable ARMATURE_LIBRARY_PATH, then among those that are installed with Armature.
+function(armature_link_components target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES")
+  foreach(library IN LISTS arg_LIBRARIES)
+    find_library(
+      ARMATURE_COMPONENTS_${library}
+      NAMES lib${library}.so
+      PATHS ${ARMATURE_LIBRARY_PATH} ${ARMATURE_COMPONENT_FOLDER}
+      NO_DEFAULT_PATH)
+    if(NOT ARMATURE_COMPONENTS_${library})
+      message(FATAL_ERROR "component library '${library}' was not found: no lib${library}.so in "
+                          "'${ARMATURE_LIBRARY_PATH}' and '${ARMATURE_COMPONENT_FOLDER}'; "
+                          "name its folder by -DARMATURE_LIBRARY_PATH=FOLDER")
+    endif()
+    target_link_libraries(${target} PRIVATE ${ARMATURE_COMPONENTS_${library}})
+  endforeach()
 endfunction()

@@ -18,6 +18,7 @@ set(ARMATURE_LAYERS
     "websocket: base platform ride tls"
     "exec: base component rt types platform"
     "record: base exec types platform"
+    "runner: base component rt types platform exec record"
     "document: base exec component types"
     "orocos: base document"
     "analysis: base document exec component platform"
@@ -25,6 +26,7 @@ set(ARMATURE_LAYERS
     "deploy: base document orocos analysis inspect exec component platform"
     "edit: base deploy document platform"
     "bundle: base platform document orocos deploy idl"
+    "generate: base component types runner exec document deploy platform"
     "report: base platform control component exec record"
     "remote: base idl ride document inspect exec component rt types platform"
     "studio: base platform rt ride websocket remote document deploy inspect edit"
@@ -34,5 +36,5 @@ set(ARMATURE_LAYERS
     "general: base component record rt"
     "sim: base control"
     "robots: base platform rt types controllers component can control guardian sim"
-    "cli: base platform types rt control component can ride tls websocket exec record document orocos analysis inspect deploy edit bundle studio report lua remote browser controllers general sim"
-    "testing: base platform types rt guard control component can guardian ride tls websocket exec record document orocos analysis inspect deploy edit bundle studio report lua remote browser controllers general sim")
+    "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim"
+    "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim")

@@ -13,31 +13,27 @@
 #include <utility>
 
 #include "armature/analysis/schedule.hpp"
-#include "armature/cli/burial.hpp"
 #include "armature/cli/companions.hpp"
 #include "armature/cli/load.hpp"
 #include "armature/cli/network.hpp"
 #include "armature/cli/release_code.hpp"
 #include "armature/cli/report.hpp"
-#include "armature/cli/run_texts.hpp"
 #include "armature/deploy/deployment.hpp"
 #include "armature/deploy/saved_properties.hpp"
 #include "armature/platform/clock.hpp"
-#include "armature/platform/death_watch.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/process.hpp"
 #include "armature/platform/stop_priority.hpp"
 #include "armature/platform/stop_signal.hpp"
-#include "armature/record/black_box_file.hpp"
+#include "armature/runner/burial.hpp"
+#include "armature/runner/run_texts.hpp"
+#include "armature/runner/stages.hpp"
 
 namespace armature::cli {
 namespace {
 
 using rt::LogLevel;
-
-/// Long enough to be "until stopped", short enough to be added to any time.
-constexpr base::Duration kUntilStopped = std::chrono::hours(24 * 365 * 100);
 
 bool write_times_file(const std::string& path, const exec::Application& application,
                       const Console& console) {
@@ -74,24 +70,10 @@ bool passed_guard(const RunArguments& arguments, const Console& console) {
 
 /// The summary of a run before this one would be taken for this one's if it does not get to its
 /// end.
-bool make_output_folder(const std::string& folder, platform::FolderLock& lock,
-                        const Console& console) {
-  if (folder.empty()) return true;
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) {
-    console.say(LogLevel::kError, "cannot make the folder '" + folder + "': " + failure.message());
-    return false;
-  }
-  auto locked = platform::FolderLock::take(folder);
-  if (!locked) {
-    console.say(LogLevel::kError, locked.error() + "; give --out another folder");
-    return false;
-  }
-  lock = std::move(locked).value();
+void remove_old_summary(const std::string& folder) {
+  if (folder.empty()) return;
   std::error_code ignored;  // to write it will fail, too, and be told
   std::filesystem::remove(folder + '/' + report::kSummaryFile, ignored);
-  return true;
 }
 
 /// What is written at the end only would be missed when it is too late.
@@ -114,36 +96,6 @@ bool complete(record::TimelineWriter* timeline, const Console& console) {
   return closed.ok();
 }
 
-int exit_code(exec::RunEnd end, const exec::Application& application) {
-  if (end == exec::RunEnd::kFaulted || application.faults() > 0) return kFailed;
-  const bool by_reaction = end == exec::RunEnd::kStoppedByReaction || application.reactions() > 0;
-  return by_reaction ? kStoppedByReaction : kDone;
-}
-
-/// What a start says that loading did not: it checks the plan again.
-base::Diagnostics news_in(const base::Diagnostics& all, const base::Diagnostics& told) {
-  base::Diagnostics news;
-  for (const base::Diagnostic& each : all.all()) {
-    const bool known = std::ranges::any_of(told.all(), [&](const base::Diagnostic& other) {
-      return base::to_text(other) == base::to_text(each);
-    });
-    if (!known) news.add(each);
-  }
-  return news;
-}
-
-/// @param told  of the same deployment, already
-int start(exec::Application& application, const RunArguments& arguments,
-          const base::Diagnostics& told, const Console& console) {
-  const base::Diagnostics diagnostics = application.start();
-  tell_verdict(application, console);
-  console.show(news_in(diagnostics, told));
-  if (diagnostics.ok()) return kDone;
-  const bool refused = arguments.realtime == exec::RealtimeMode::kRequire && !arguments.simulated &&
-                       !application.verdict().complete();
-  return refused ? kNoRealtime : kFailed;
-}
-
 report::RunFacts facts_of(const RunArguments& arguments) {
   report::RunFacts facts;
   facts.deployment = arguments.load.file;
@@ -157,17 +109,11 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
                                     const Companions& companions, NetworkOnDemand& network,
                                     const Console& console, report::RunFacts& facts) {
   exec::ApplicationOptions options = std::move(deployment.options);
-  options.simulated = arguments.simulated;
-  options.pace.rate = arguments.rate;
-  options.realtime = arguments.simulated ? exec::RealtimeMode::kOff : arguments.realtime;
-  options.output_folder = arguments.output_folder;
+  runner::apply(arguments, options);
   options.log = [&](const rt::LogRecord& record) {
     note_for_summary(facts, record);
     if (!companions.browser) return console.log(record);
     companions.browser->beside([&] { console.log(record); });
-  };
-  options.black_box.write = [&arguments](const exec::BlackBoxReport& report) {
-    return record::say_written(report, arguments.output_folder);
   };
   if (companions.timeline) {
     options.timeline.sink = [&](const exec::TimelineSlice& slice) {
@@ -182,21 +128,12 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
   return options;
 }
 
-/// A thread that hangs or is dead still uses everything: leaves without taking it down.
-[[noreturn]] void leave_now(int code, std::optional<platform::Printer>& printer) {
-  printer.reset();
-  if (const platform::Death* const death = platform::DeathWatch::death()) {
-    platform::DeathWatch::conclude(*death);
-  }
-  platform::exit_now(code);
-}
-
 void let_run(exec::Application& application, const Companions& companions,
              const RunArguments& arguments, const platform::StopSignal& stop,
              base::Diagnostics& mistakes, report::RunFacts& facts) {
   const std::unique_ptr<lua::Script>& script = companions.script;
   const std::unique_ptr<browser::Browser>& browser = companions.browser;
-  const base::Duration duration = arguments.duration.value_or(kUntilStopped);
+  const base::Duration duration = arguments.longest();
   const base::Time begin = application.now();
   const base::Time wall_begin = platform::monotonic_now();
   facts.end = script    ? script->run(application, duration, &stop, mistakes)
@@ -246,13 +183,13 @@ int conclude(exec::Application& application, const document::Document& document,
              const Aboard& aboard, const base::Diagnostics& left, report::RunFacts& facts) {
   const auto& [arguments, companions, network, mistakes, console] = aboard;
   console.show(mistakes);
-  tell_casualties(application, console);
+  runner::tell_casualties(application, console);
   base::Diagnostics ended = application.stop();
   deploy::save_properties(document, application.blueprint(), ended);
   console.show(ended);
-  tell_statistics(application, arguments.statistics, console);
-  tell_lost_lines(console);
-  int code = exit_code(facts.end, application);
+  runner::tell_statistics(application, arguments.statistics, console);
+  runner::tell_lost_lines(console);
+  int code = runner::exit_code(facts.end, application);
   if (companions.browser && companions.browser->mistakes() > 0) code = kFailed;
   if (!mistakes.ok() || !left.ok() || !ended.ok() || !passed_guard(arguments, console))
     code = kFailed;
@@ -278,7 +215,7 @@ int start_keeping(exec::Application& application, const document::Document& docu
                   const Console& console) {
   base::Diagnostics kept;
   deploy::begin_kept(document, application.blueprint(), kept);
-  const int started = kept.ok() ? start(application, arguments, told, console) : kFailed;
+  const int started = kept.ok() ? runner::start(application, arguments, told, console) : kFailed;
   if (started != kDone) deploy::give_back_kept(document, application.blueprint(), kept);
   console.show(kept);
   return started;
@@ -290,35 +227,28 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   // In simulated time nothing moves while somebody is waited for.
   std::optional<platform::Printer> printer;
   if (!arguments.simulated) printer.emplace();
-  tell_grants(deployment.document, console);
+  runner::tell_grants(deployment.options.grants, console);
   report::RunFacts facts = facts_of(arguments);
   if (!arguments.simulated) console.set_begin(facts.begin);
   const platform::StopSignal stop;
   exec::Application application(
       std::move(deployment.blueprint),
       options_of(deployment, arguments, companions, network, console, facts));
-  const Burial burial(application, console);
-  const bool urges = !arguments.simulated && arguments.realtime != exec::RealtimeMode::kOff;
+  const runner::Burial burial(application, console);
   {
     // What peers ask for may be an E-stop.
     std::optional<platform::Promptness> of_its_threads;
-    if (urges) of_its_threads.emplace();
+    if (arguments.urges()) of_its_threads.emplace();
     if (!network.open(deployment.document, arguments, application)) return kFailed;
   }
   if (const int failed = start_keeping(application, deployment.document, arguments,
                                        deployment.diagnostics, console);
       failed != kDone) {
     network.leave();
-    if (application.hangs()) leave_now(failed, printer);
+    if (application.hangs()) runner::leave_now(failed, printer);
     return failed;
   }
-  std::optional<platform::StopPriority> stop_priority;
-  std::optional<platform::Promptness> promptness;  // for what is typed
-  if (urges) {
-    promptness.emplace();
-    const base::Duration duration = arguments.duration.value_or(kUntilStopped);
-    stop_priority.emplace(stop, base::later(platform::monotonic_now(), duration));
-  }
+  const runner::Urgency urgency(arguments, stop);
   let_run(application, companions, arguments, stop, mistakes, facts);
   const bool mistaken =
       !mistakes.ok() || (companions.browser && companions.browser->mistakes() > 0);
@@ -326,7 +256,7 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   console.show(left);
   network.leave();
   const int code = conclude(application, deployment.document, aboard, left, facts);
-  if (application.hangs()) leave_now(code, printer);
+  if (application.hangs()) runner::leave_now(code, printer);
   return code;
 }
 
@@ -347,7 +277,8 @@ int run(const RunArguments& arguments, Console& console) {
 
   if (!can_write_at_the_end(arguments, console)) return kFailed;
   platform::FolderLock lock;
-  if (!make_output_folder(arguments.output_folder, lock, console)) return kFailed;
+  if (!runner::make_output_folder(arguments.output_folder, lock, console)) return kFailed;
+  remove_old_summary(arguments.output_folder);
 
   base::Diagnostics mistakes;
   const Companions companions = make_companions(arguments, has_prompt(deployment), mistakes);

@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 
-#include "armature/base/unit.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/cli/run.hpp"
 
 namespace armature::cli {
 namespace {
-
-/// `10s`, `250 ms`: a time above 0, or nothing.
-std::optional<base::Duration> parse_duration(std::string_view text) {
-  const auto quantity = base::parse_quantity(text);
-  if (!quantity) return std::nullopt;
-  const std::string unit = quantity.value().unit.empty() ? "s" : quantity.value().unit;
-  const auto ns = base::convert(quantity.value().value, unit, "ns");
-  constexpr double kLongest = 9.0e18;
-  if (!ns || !(ns.value() >= 1.0 && ns.value() < kLongest)) return std::nullopt;
-  return base::Duration(static_cast<std::int64_t>(ns.value()));
-}
 
 /// With what is told by words.
 struct RunOptions {
@@ -60,7 +45,7 @@ void add_run(const CommandLine& to) {
       ->add_option_function<std::string>(
           "--for",
           [options](const std::string& text) {
-            options->run.duration = parse_duration(text);
+            options->run.duration = runner::parse_duration(text);
             if (!options->run.duration) {
               throw CLI::ValidationError(
                   "--for", "'" + text + "' must be a duration above 0, for example 10s");

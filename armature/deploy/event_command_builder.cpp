@@ -352,19 +352,10 @@ bool EventCommandBuilder::make(Wire&& wire) {
                                       on_lost,
                                       connection.where});
   }
-  exec::ComponentEntry entry;
-  entry.component = std::make_unique<exec::EventCommand>(
-      name, wire.event, wire.command, std::move(wire.parameters),
-      connection.policy.max_age.value_or(base::Duration::zero()));
-  entry.model = "EventCommand";
-  entry.peers = {{connection.from.component, connection.from.where}};
-  if (connection.to.component != connection.from.component) {
-    entry.peers.push_back({connection.to.component, connection.to.where});
-  }
-  entry.bindings = {{std::string(exec::EventCommand::kOn), connection.from.component,
-                     connection.from.port, connection.from.where},
-                    {std::string(exec::EventCommand::kDo), connection.to.component,
-                     connection.to.port, connection.to.where}};
+  exec::ComponentEntry entry =
+      exec::event_command_entry(name, wire.event, wire.command, std::move(wire.parameters),
+                                connection.policy.max_age.value_or(base::Duration::zero()),
+                                connection.from.where, connection.to.where);
   entry.where = connection.where;
   blueprint_.components.push_back(std::move(entry));
   const component::Component& made = *blueprint_.components.back().component;

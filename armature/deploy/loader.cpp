@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <set>
 #include <string_view>
 #include <system_error>
 
 #include "armature/base/near_name.hpp"
+#include "armature/component/library.hpp"
 #include "armature/document/value_tree.hpp"
 #include "armature/platform/elf/shared_object.hpp"
 
@@ -100,38 +100,17 @@ base::Error not_loaded(const std::string& reason) {
                            : "")};
 }
 
-/// The description that a library exports, if it is one and of our ABI.
-base::Result<const component::LibraryDescription*> describe(const std::string& file) {
+/// What a library exports, if it is one.
+base::Result<component::LibraryEntry> entry_of(const std::string& file) {
   if (auto runtime = load_runtime_for(file); !runtime) return base::Error{runtime.error()};
   const base::Result<platform::SharedObject> loaded = platform::SharedObject::load(file);
   if (!loaded) return not_loaded(loaded.error());
-  using Entry = const component::LibraryDescription* (*)();
-  const auto entry = reinterpret_cast<Entry>(loaded.value().symbol(component::kLibraryEntry));
-  if (entry == nullptr) {
-    return base::Error{path_in_quotes(file) + " is not a component library: it does not export " +
-                       component::kLibraryEntry +
-                       "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
-  }
-  const component::LibraryDescription* const description = entry();
-  const base::Error undescribed{
-      path_in_quotes(file) +
-      " has an empty library description: rebuild it with this program's headers and compiler"};
-  if (description == nullptr || description->abi == nullptr) return undescribed;
-  const std::string_view theirs = description->abi;
-  const std::string_view ours = component::abi_tag();
-  if (theirs != ours) {
-    return base::Error{path_in_quotes(file) + " was built for " + std::string(theirs) +
-                       ", but this program is " + std::string(ours) +
-                       ": rebuild the library with this program's headers and compiler"};
-  }
-  if (description->layout != component::runtime_layout()) {
-    return base::Error{path_in_quotes(file) + " was built with other headers of " +
-                       std::string(ours.substr(0, ours.find('/'))) +
-                       " than this program, so they disagree about the layout of components: "
-                       "rebuild the library with the headers of this program"};
-  }
-  if (description->name == nullptr || description->fill == nullptr) return undescribed;
-  return description;
+  const auto entry =
+      reinterpret_cast<component::LibraryEntry>(loaded.value().symbol(component::kLibraryEntry));
+  if (entry != nullptr) return entry;
+  return base::Error{path_in_quotes(file) + " is not a component library: it does not export " +
+                     component::kLibraryEntry +
+                     "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
 }
 
 }  // namespace
@@ -183,22 +162,9 @@ base::Result<std::string> find_library(std::string_view name,
 }
 
 base::Result<void> load_library(const std::string& file, component::Registry& registry) {
-  const base::Result<const component::LibraryDescription*> description = describe(file);
-  if (!description) return base::Error{description.error()};
-  registry.begin_library(description.value()->name);
-  std::string thrown;
-  try {
-    description.value()->fill(registry);
-  } catch (const std::exception& exception) {
-    thrown = exception.what();
-  } catch (...) {
-    thrown = "an object that is not a std::exception";
-  }
-  const std::string problems = registry.end_library();
-  if (!thrown.empty())
-    return base::Error{path_in_quotes(file) + " threw while it was loaded: " + thrown};
-  if (!problems.empty()) return base::Error{path_in_quotes(file) + ": " + problems};
-  return {};
+  const base::Result<component::LibraryEntry> entry = entry_of(file);
+  if (!entry) return base::Error{entry.error()};
+  return component::add_library(entry.value()(), path_in_quotes(file), registry);
 }
 
 bool load_libraries(const std::vector<Reference>& libraries,

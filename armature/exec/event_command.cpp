@@ -171,4 +171,23 @@ void EventCommand::fail(std::string_view reason) {
   failed_.raise(why);
 }
 
+ComponentEntry event_command_entry(std::string name, const component::EventBase& event,
+                                   const component::CommandBase& command,
+                                   std::vector<CommandParameter> parameters, base::Duration max_age,
+                                   const base::Location& event_where,
+                                   const base::Location& command_where) {
+  const std::string raiser = event.owner().name();
+  const std::string server = command.owner().name();
+  ComponentEntry entry;
+  entry.component = std::make_unique<EventCommand>(std::move(name), event, command,
+                                                   std::move(parameters), max_age);
+  entry.model = "EventCommand";
+  entry.peers = {{raiser, event_where}};
+  if (server != raiser) entry.peers.push_back({server, command_where});
+  entry.bindings = {
+      {std::string(EventCommand::kOn), raiser, std::string(event.name()), event_where},
+      {std::string(EventCommand::kDo), server, std::string(command.name()), command_where}};
+  return entry;
+}
+
 }  // namespace armature::exec

@@ -12,6 +12,7 @@
 #include "armature/base/time.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/untyped.hpp"
+#include "armature/exec/blueprint.hpp"
 #include "armature/rt/inbox.hpp"
 #include "armature/types/type.hpp"
 
@@ -58,6 +59,9 @@ class EventCommand final : public component::Component {
   /// True if a value of type `offered` can be a parameter: of the same type, or a number for a
   /// floating one.
   static bool takes(const types::Type& parameter, const types::Type& offered);
+
+  const std::vector<CommandParameter>& parameters() const { return parameters_; }
+  base::Duration max_age() const { return max_age_; }
 
   /// What it gave is cancelled, and it gives nothing until it is started again.
   /// @thread any
@@ -116,5 +120,14 @@ class EventCommand final : public component::Component {
   Refusal refusal_{*this};
   Why last_why_;
 };
+
+/// Of a blueprint: what gives `command` whenever `event` is raised, with its peers and bindings.
+/// @param name, parameters, max_age  as the constructor of EventCommand takes them
+/// @param event_where, command_where  where the user named them
+ComponentEntry event_command_entry(std::string name, const component::EventBase& event,
+                                   const component::CommandBase& command,
+                                   std::vector<CommandParameter> parameters, base::Duration max_age,
+                                   const base::Location& event_where = {},
+                                   const base::Location& command_where = {});
 
 }  // namespace armature::exec

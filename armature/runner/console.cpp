@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/cli/console.hpp"
+#include "armature/runner/console.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -10,12 +10,12 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/base/severity_name.hpp"
-#include "armature/cli/arguments.hpp"
 #include "armature/platform/clock.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/terminal.hpp"
+#include "armature/runner/exit_code.hpp"
 
-namespace armature::cli {
+namespace armature::runner {
 namespace {
 
 void print_error_line(std::string_view text) {
@@ -91,4 +91,4 @@ void Console::line(rt::LogLevel level, double seconds, std::string_view componen
   print_error_line(head + std::string(component) + ": " + std::string(text));
 }
 
-}  // namespace armature::cli
+}  // namespace armature::runner

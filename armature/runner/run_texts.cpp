@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/cli/run_texts.hpp"
+#include "armature/runner/run_texts.hpp"
 
 #include <cstdint>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include "armature/platform/clock.hpp"
 #include "armature/platform/printer.hpp"
 
-namespace armature::cli {
+namespace armature::runner {
 
 using rt::LogLevel;
 
@@ -34,16 +34,17 @@ void tell_verdict(const exec::Application& application, const Console& console) 
   }
 }
 
-void tell_grants(const document::Document& document, const Console& console) {
-  const auto tell = [&](const char* who, const std::vector<document::OperationOf>& grants) {
+void tell_grants(const std::vector<exec::Grant>& grants, const Console& console) {
+  const auto tell = [&](const char* who, exec::Caller caller) {
     std::string all;
-    for (const document::OperationOf& grant : grants) {
+    for (const exec::Grant& grant : grants) {
+      if (grant.caller != caller) continue;
       all += (all.empty() ? "" : ", ") + grant.component + "." + grant.operation;
     }
     if (!all.empty()) console.say(LogLevel::kInfo, std::string(who) + " may do " + all);
   };
-  tell("scripts", document.script_grants);
-  tell("other processes", document.remote_grants);
+  tell("scripts", exec::Caller::kScript);
+  tell("other processes", exec::Caller::kRemote);
 }
 
 void tell_statistics(const exec::Application& application, bool all, const Console& console) {
@@ -87,4 +88,4 @@ void tell_casualties(const exec::Application& application, const Console& consol
   }
 }
 
-}  // namespace armature::cli
+}  // namespace armature::runner

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/cli/burial.hpp"
+#include "armature/runner/burial.hpp"
 
 #include "armature/exec/death.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/terminal.hpp"
 
-namespace armature::cli {
+namespace armature::runner {
 
 Burial::Burial(exec::Application& application, const Console& console)
     : application_(application),
@@ -24,4 +24,4 @@ void Burial::bury(const platform::Death& death) {
   platform::DeathWatch::conclude(death);
 }
 
-}  // namespace armature::cli
+}  // namespace armature::runner

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "armature/cli/console.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/platform/death_watch.hpp"
+#include "armature/runner/console.hpp"
 
-namespace armature::cli {
+namespace armature::runner {
 
 /// While it exists, what ends the process from within a component (a crash, `exit`) is named, with
 /// its call stack, and everything else stops in order before the process ends. Made by the
@@ -27,4 +27,4 @@ class Burial {
   const platform::DeathWatch watch_;
 };
 
-}  // namespace armature::cli
+}  // namespace armature::runner
