@@ -74,5 +74,36 @@ TEST(WamMotions, HomeIsReachedFromNearbyToo) {
   EXPECT_NEAR(arm.desired()[0], 0.0, 1e-6);
 }
 
+TEST(WamMotions, AJogMovesOneJointAsLongAsItIsRenewed) {
+  Arm arm("npid4.yaml");
+  arm.start_active();
+  const auto asked = [&arm](const char* operation) {
+    return arm.call("Generator", operation, {types::Value::of(2), types::Value::of(0.5)});
+  };
+  EXPECT_THAT(asked("jog"), HasSubstr("the robot is not armed: arm first"));
+  arm.arm();
+  arm.run_for(1s);
+  const Vector before = arm.desired();
+  ASSERT_EQ(asked("jog"), "");
+  for (int i = 0; i < 20; ++i) {
+    arm.run_for(50ms);
+    ASSERT_EQ(asked("keepJogging"), "");
+  }
+  const Vector let_go = arm.desired();
+  EXPECT_NEAR(let_go[1] - before[1], 0.5, 0.1);
+  arm.run_for(150ms);
+  EXPECT_NEAR(arm.desired()[1] - let_go[1], 0.5 * 0.15, 0.01);
+  arm.run_for(1s);
+  const Vector rest = arm.desired();
+  EXPECT_LT(rest[1] - let_go[1], 0.5 * 0.15 + 0.1);
+  EXPECT_EQ(arm.value<Vector>("Generator", "nAxesDesiredVelocity"), Vector(4, 0.0));
+  for (int i = 0; i < 20; ++i) asked("keepJogging");
+  arm.run_for(1s);
+  EXPECT_EQ(arm.desired(), rest) << "renewals that come late move nothing";
+  for (const std::size_t other : {0u, 2u, 3u}) EXPECT_EQ(rest[other], before[other]);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(arm.positions()[i], rest[i], 0.02);
+  EXPECT_TRUE(arm.armed()) << arm.reason("WAM");
+}
+
 }  // namespace
 }  // namespace armature::wam

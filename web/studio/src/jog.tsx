@@ -26,34 +26,31 @@ export function Jog({ component }: { component: Component }) {
   const [why, set_why] = useState("");
   const positions = usePositions(component);
   const axes = Math.max(1, Number(property(component, "num_axes")) || 1);
-  const velocity = Number(speed);
+  const wanted = Number(speed);
   return (
     <fieldset className="jog">
       <legend>{`${component.name}: jog`}</legend>
       <label className="row">Speed
-        <input inputMode="decimal" size={6} value={speed} aria-invalid={!(velocity > 0)} onChange={(event) => set_speed(event.target.value)} /> rad/s
+        <input inputMode="decimal" size={6} value={speed} aria-invalid={!(wanted > 0)} onChange={(event) => set_speed(event.target.value)} /> rad/s
       </label>
-      <ul>
-        {Array.from({ length: axes }, (_, i) => (
-          <li key={i} className="row" role="group" aria-label={`${component.name} axis ${i + 1}`}>
-            <span>{`Axis ${i + 1}`}</span>
-            <JogButton component={component.name} axis={i + 1} velocity={-velocity} tell={set_why} />
-            <JogButton component={component.name} axis={i + 1} velocity={velocity} tell={set_why} />
-            <output>{positions[i] === undefined ? "" : `${number_text(positions[i])} rad`}</output>
-          </li>
-        ))}
-      </ul>
+      {Array.from({ length: axes }, (_, i) => (
+        <div key={i} className="row" role="group" aria-label={`${component.name} axis ${i + 1}`}>
+          <span>{`Axis ${i + 1}`}</span>
+          <JogButton component={component.name} axis={i + 1} sign={-1} speed={wanted} tell={set_why} />
+          <JogButton component={component.name} axis={i + 1} sign={1} speed={wanted} tell={set_why} />
+          <output>{positions[i] === undefined ? "" : `${number_text(positions[i])} rad`}</output>
+        </div>
+      ))}
       <small role="status">{why || "moves while it is held"}</small>
     </fieldset>
   );
 }
 
-function JogButton({ component, axis, velocity, tell }: { component: string; axis: number; velocity: number; tell: (why: string) => void }) {
-  const { held, props } = useHeld(() => press_jog(component, axis, velocity, tell));
-  const back = velocity < 0;
+function JogButton({ component, axis, sign, speed, tell }: { component: string; axis: number; sign: 1 | -1; speed: number; tell: (why: string) => void }) {
+  const { held, props } = useHeld(() => press_jog(component, axis, sign * speed, tell));
   return (
-    <button type="button" className={`hold ${held ? "held" : ""}`} disabled={!(Math.abs(velocity) > 0)} aria-label={`axis ${axis} ${back ? "back" : "forth"}`}
-      title="Hold it: mouse, finger, Space or Enter" {...props}>{back ? "−" : "+"}</button>
+    <button type="button" className={`hold ${held ? "held" : ""}`} disabled={!(speed > 0)} aria-label={`axis ${axis} ${sign < 0 ? "back" : "forth"}`}
+      title="Hold it: mouse, finger, Space or Enter" {...props}>{sign < 0 ? "−" : "+"}</button>
   );
 }
 

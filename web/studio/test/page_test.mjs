@@ -476,6 +476,17 @@ for (const dark of [false, true]) {
       await page.locator(".box.is-running").first().waitFor();
       await page.getByRole("tab", { name: "Operate" }).click();
     }],
+    ["an operator's page", "operated", async (page) => {
+      await operated(page);
+      await page.getByRole("button", { name: "Take the seat" }).click();
+      await page.getByText("You operate").waitFor();
+    }],
+    ["a guest's page", "operated", async (page) => {
+      await operated(page);
+      await page.evaluate(() => window.mock.workbench.sit(2));
+      await page.keyboard.press("F8");
+      await page.getByText("Arming disarmed").waitFor();
+    }],
   ]) {
     page_test(`axe finds nothing at ${view}, ${dark ? "dark" : "light"}`, query, async (page) => {
       await act(page);
