@@ -10,9 +10,10 @@
 #include "armature/platform/file.hpp"
 
 namespace armature::studio::internal {
-namespace {
 
 using Json = nlohmann::json;
+
+namespace {
 
 /// As controllers::RobotDescription calls it.
 constexpr const char* kProperty = "robot_description";

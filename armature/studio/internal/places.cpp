@@ -23,7 +23,7 @@ bool is_pair_of_numbers(const Json& json) {
   return json.is_array() && json.size() == 2 && json[0].is_number() && json[1].is_number();
 }
 
-std::string quoted(const std::string& text) {
+std::string as_json(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -92,7 +92,7 @@ std::string Places::to_text() const {
   std::string text = "{\"boxes\": {";
   const char* separator = "\n  ";
   for (const auto& [box, place] : boxes_) {
-    text += separator + quoted(box) + ": [" + std::to_string(place.x * kGrid) + ", " +
+    text += separator + as_json(box) + ": [" + std::to_string(place.x * kGrid) + ", " +
             std::to_string(place.y * kGrid) + "]";
     separator = ",\n  ";
   }
@@ -100,7 +100,7 @@ std::string Places::to_text() const {
   text += "\n},\n\"robots\": {";
   separator = "\n  ";
   for (const auto& [component, port] : robots_) {
-    text += separator + quoted(component) + ": " + quoted(port);
+    text += separator + as_json(component) + ": " + as_json(port);
     separator = ",\n  ";
   }
   return text + "\n}}\n";

@@ -35,4 +35,6 @@ export interface Backend {
 /** For calls that read files or load libraries [ms]. */
 export const kPatient = { deadline: 30_000 };
 
-export const message_of = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+/** What went wrong, without whom it was asked of. */
+export const message_of = (error: unknown): string =>
+  (error instanceof Error ? error.message : String(error)).replace(/^'[^']*' at ws\S*, \w+: /, "");

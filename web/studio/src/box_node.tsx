@@ -40,6 +40,7 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
 });
 
 function subtitle(box: Box): string {
+  if (box.opened) return "an event that commands";
   if (box.composite) return `${box.model} · ${box.components.length} parts`;
   return `${box.model} · ${activity_text(box.components[0]!.activity)}`;
 }

@@ -24,6 +24,7 @@ const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
 const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.4 };
+const kFitInside = { ...kFit, padding: { x: "64px", y: "24px" } as const };  ///< ports tell what they are connected with outside
 const kFitLanes = { ...kFit, padding: 0.12 };
 const node_types = { box: BoxNode };
 const edge_types = { wire: WireEdge };
@@ -271,7 +272,7 @@ function useReveal(): void {
     const duration = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 200;
     if (reveal) void flow.fitView({ nodes: [{ id: reveal.box }], maxZoom: 1, minZoom: 0.6, duration, padding: 0.4 });
   }, [flow, reveal]);
-  useEffect(() => void setTimeout(() => void flow.fitView(in_lanes ? kFitLanes : kFit), 30), [flow, path, beside, in_lanes]);
+  useEffect(() => void setTimeout(() => void flow.fitView(path.length > 0 ? kFitInside : in_lanes ? kFitLanes : kFit), 30), [flow, path, beside, in_lanes]);
 }
 
 /** A box that is new and selected comes into sight, with all others if they are not too many. */

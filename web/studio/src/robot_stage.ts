@@ -9,7 +9,7 @@ const kTurn = Math.PI / 24;       ///< of a key
 const kZoom = 0.88;               ///< likewise
 const kAngle = 35;                ///< of the camera [deg]
 const kFrom = new Vector3(1.1, -1.3, 0.75);
-const kRoom = 1.25;               ///< around the robot
+const kRoom = 1.45;               ///< around the robot
 const kMostPixels = 2;            ///< for one of the page
 
 export class Stage {

@@ -125,7 +125,7 @@ function RunTime() {
 function state_text(state: string, exit_code: number, paused: boolean): string {
   if (state === "none") return "not run yet";
   // -1: a run that an earlier studio has started; nobody knows how it ended.
-  if (state === "ended") return exit_code <= 0 ? "ended" : `ended with code ${exit_code}, see the log`;
+  if (state === "ended") return exit_code <= 0 ? "ended" : `ended with code ${exit_code}`;
   return paused ? "paused" : state;
 }
 

@@ -14,6 +14,11 @@ const start = async (page) => {
 };
 const tab = (page, name) => page.getByRole("tab", { name }).click();
 
+const robot = async (page) => {
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.waitForTimeout(2000);
+};
+
 const kViews = {
   wave: ["wave"],
   arm: ["arm"],
@@ -59,6 +64,21 @@ const kViews = {
     await page.locator(".react-flow__node", { hasText: "Generator" }).locator("header").click();
     await tab(page, "Operate");
     await page.keyboard.press("F8");
+  }],
+  robot: ["arm", robot],
+  robot_run: ["arm", async (page) => (await start(page), await robot(page))],
+  cycle: ["arm", async (page) => (await start(page), await tab(page, "Cycle"), await page.waitForTimeout(1200))],
+  settings: ["arm", async (page) => {
+    await page.getByRole("button", { name: "Set …" }).click();
+    await page.getByLabel("Name 1").fill("Joint1.MaxVelocity");
+    await page.waitForTimeout(300);
+  }],
+  lanes: ["arm", async (page) => (await page.getByRole("button", { name: "Threads as lanes" }).click(), await page.waitForTimeout(500))],
+  opened: ["arm", async (page) => {
+    await page.locator("[aria-label='Power.TurnedOn to Generator.moveTo']").first().focus();
+    await page.keyboard.press("Enter");
+    await page.getByRole("button", { name: "Parameters as pins" }).click();
+    await page.waitForTimeout(600);
   }],
   fitting: ["wave", async (page) => {
     const pin = page.locator(".react-flow__node", { hasText: "Filter" }).locator(".pin.output");
