@@ -170,6 +170,11 @@ void add_component_options(EditOptions options) {
                [](std::string from, std::string to) -> Change {
                  return Rename{std::move(from), std::move(to)};
                });
+  options.two("--split", "NAME PART",
+              "gives a part of a range an entry of its own: 'Joint{1..7}' 3, or 3..5",
+              [](std::string name, std::string part) -> Change {
+                return Split{std::move(name), std::move(part)};
+              });
   options.pair("--peer", "NAME=PEER", "gives a component a peer",
                [](std::string component, std::string peer) -> Change {
                  return AddPeer{std::move(component), std::move(peer)};

@@ -9,6 +9,7 @@ std::string text_of(const Unset& one) { return "unset " + one.path; }
 std::string text_of(const AddComponent& one) { return "add " + one.name; }
 std::string text_of(const RemoveComponent& one) { return "remove " + one.name; }
 std::string text_of(const Rename& one) { return "rename " + one.from + " to " + one.to; }
+std::string text_of(const Split& one) { return "split " + one.name + " at " + one.part; }
 std::string text_of(const Connect& one) { return "connect " + one.from + " -> " + one.to; }
 std::string text_of(const Disconnect& one) {
   return "disconnect " + one.from + (one.to.empty() ? "" : " -> " + one.to);

@@ -44,6 +44,13 @@ struct Rename {
   std::string to;
 };
 
+/// An entry that speaks for several, `Joint{1..7}`, becomes up to three: those before `part`, the
+/// part, `3` or `3..5`, and those behind it. The application stays as it is.
+struct Split {
+  std::string name;
+  std::string part;
+};
+
 /// Two ports, or an event and a command.
 struct Connect {
   std::string from;
@@ -106,9 +113,9 @@ struct RemoveLibrary {
   std::string name;
 };
 
-using Change = std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Connect, Disconnect,
-                            SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddParameter,
-                            AddLibrary, RemoveLibrary>;
+using Change = std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Split, Connect,
+                            Disconnect, SetConnection, Bind, Unbind, AddPeer, RemovePeer,
+                            AddParameter, AddLibrary, RemoveLibrary>;
 
 /// For messages: `set Filter.Weight`.
 std::string to_text(const Change& change);

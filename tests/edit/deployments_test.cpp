@@ -228,6 +228,24 @@ TEST_F(EveryDeployment, RenamesAComponentAndBack) {
   EXPECT_LT(refused(), made() / 10) << reasons();
 }
 
+TEST_F(EveryDeployment, SplitsARangeAndChangesNothing) {
+  each([&](const Document&, const SourceMap& map) {
+    for (const Entry& entry : entries_to_try(map)) {
+      if (entry.key->text.find("..") == std::string::npos || entry.names.size() < 2) continue;
+      for (const char* part : {"1", "2", "2..3"}) {
+        try_edit(Split{written(entry), part}, [&](auto& before, auto& after, Tree tree) {
+          EXPECT_EQ(yaml(before), yaml(after));
+          base::Diagnostics ignored;
+          const SourceMap anew(deployment(), tree.reader(), after, ignored);
+          EXPECT_GT(anew.entries().size(), map.entries().size());
+        });
+      }
+    }
+  });
+  EXPECT_GT(made(), 20u);
+  EXPECT_LT(refused(), made()) << reasons();
+}
+
 TEST_F(EveryDeployment, ConnectsAndDisconnects) {
   each([&](const Document& document, const SourceMap&) {
     const auto is_part = [](const auto& one) { return one.name.find('.') != std::string::npos; };

@@ -41,6 +41,11 @@ class Layout {
   /// override others.
   void remove(const Node& node);
 
+  /// In place of an entry of a map or an item of a list stand others, as texts of their own; its
+  /// comments stay.
+  /// @param first  the item, or the key
+  void replace_element(const Node& first, const std::vector<std::string>& texts);
+
   /// All of it, in the order of the text.
   std::vector<Replacement> take();
 
@@ -53,6 +58,7 @@ class Layout {
     bool removed;
   };
 
+  std::string separator_behind(const Node& container) const;
   std::vector<Element> elements_of(const Node& container) const;
   void add_in_flow(const Node& container, const std::string& text);
   void add_in_empty_flow(const Node& container, const std::string& text);

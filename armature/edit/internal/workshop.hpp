@@ -96,6 +96,7 @@ void draft(const Unset& unset, Workshop& shop);
 void draft(const AddComponent& add, Workshop& shop);
 void draft(const RemoveComponent& remove, Workshop& shop);
 void draft(const Rename& rename, Workshop& shop);
+void draft(const Split& split, Workshop& shop);
 void draft(const Connect& connect, Workshop& shop);
 void draft(const Disconnect& disconnect, Workshop& shop);
 void draft(const SetConnection& set, Workshop& shop);
