@@ -12,16 +12,13 @@
 namespace armature::edit::internal {
 namespace {
 
-constexpr std::string_view kLiteral = "!literal";
-
 /// Collects what is different in a copy.
 class CopyWriter {
  public:
   CopyWriter(const SourceText& file, const CopyChanges& changes) : file_(file), changes_(changes) {}
 
   void visit(const Node& node) {
-    const std::string_view text(file_.text());
-    if (text.substr(node.begin).starts_with(kLiteral)) return;
+    if (is_literal(file_, node)) return;
     if (!node.anchor.empty() && !changes_.anchors) drop_anchor(node);
     if (node.kind == Node::Kind::kScalar && changes_.new_text) rewrite(node);
     for (const Node* child : node.children) visit(*child);
@@ -64,6 +61,10 @@ bool is_comment_at(const SourceText& file, std::size_t line, std::size_t column)
 
 }  // namespace
 
+bool is_literal(const SourceText& file, const Node& node) {
+  return std::string_view(file.text()).substr(node.begin).starts_with("!literal");
+}
+
 const Node& value_of_element(const Node& first) {
   const Node& container = *first.parent;
   if (container.kind != Node::Kind::kMap) return first;
@@ -82,12 +83,24 @@ std::size_t begin_with_comments(const SourceText& file, const Node& first) {
   return begin == file.line_begin(first.begin) ? first.begin : begin + column;
 }
 
+std::vector<std::string> comments_above(const SourceText& file, const Node& first) {
+  std::vector<std::string> comments;
+  if (first.parent->flow) return comments;
+  const std::size_t own = file.line_begin(first.begin);
+  std::size_t at = file.line_begin(begin_with_comments(file, first));
+  for (; at < own; at = file.text().find('\n', at) + 1) {
+    const std::string line = file.text().substr(at, file.line_end(at) - at);
+    comments.push_back(line.substr(line.find('#')));
+  }
+  return comments;
+}
+
 std::string copied_element(const SourceText& file, const Node& first, const CopyChanges& changes) {
-  const bool comments = changes.comments && !first.parent->flow;
+  const bool comment = changes.comment_behind && !first.parent->flow;
   const Node& value = value_of_element(first);
-  const std::size_t begin = comments ? begin_with_comments(file, first) : first.begin;
+  const std::size_t begin = first.begin;
   const std::size_t last = std::max(first.end, value.end);
-  const std::size_t end = comments ? file.line_end(last) : last;
+  const std::size_t end = comment ? file.line_end(last) : last;
   CopyWriter writer(file, changes);
   writer.visit(first);
   if (&value != &first) writer.visit(value);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "armature/document/value_tree.hpp"
-#include "armature/edit/internal/element_text.hpp"
 #include "armature/edit/internal/scalar_text.hpp"
 
 namespace armature::edit::internal {
@@ -66,7 +65,6 @@ void Layout::put(std::size_t begin, std::size_t end, std::string text) {
   replacements_.push_back({begin, end, std::move(text)});
 }
 
-/// How far the entries of a map stand behind what it belongs to.
 std::size_t Layout::step() const {
   for (const Node& node : file_.nodes()) {
     const bool nested = node.kind == Node::Kind::kMap && !node.flow && node.parent == file_.root();
@@ -75,7 +73,6 @@ std::size_t Layout::step() const {
   return kUsualStep;
 }
 
-/// Likewise the items of a list.
 std::size_t Layout::list_step() const {
   for (const Node& node : file_.nodes()) {
     const bool nested = node.kind == Node::Kind::kList && !node.flow && node.parent == file_.root();
@@ -220,31 +217,6 @@ void Layout::replace(const Node& node, const Value& value) {
   }
   const bool behind_colon = node.is_empty() && !is_blank(file_.text()[node.begin - 1]);
   put(node.begin, node.end, (behind_colon ? " " : "") + text);
-}
-
-/// What stands between two elements that are written one after the other.
-std::string Layout::separator_behind(const Node& container) const {
-  const std::vector<Element> elements = elements_of(container);
-  const std::string margin =
-      std::string(file_.end_of_line()) + spaces(file_.column(container.begin));
-  if (!container.flow)
-    return is_spaced(elements) ? std::string(file_.end_of_line()) + margin : margin;
-  const bool lines = elements.size() > 1 &&
-                     file_.line_begin(elements[0].begin) != file_.line_begin(elements[1].begin);
-  if (!lines) return ", ";
-  return "," + std::string(file_.end_of_line()) + spaces(file_.column(elements[1].begin));
-}
-
-void Layout::replace_element(const Node& first, const std::vector<std::string>& texts) {
-  const Node& container = *first.parent;
-  const std::size_t end = std::max(first.end, value_of_element(first).end);
-  put(first.begin, end, texts.front());
-  if (texts.size() == 1) return;
-  const std::string separator = separator_behind(container);
-  std::string others;
-  for (std::size_t i = 1; i < texts.size(); ++i) others += separator + texts[i];
-  const std::size_t behind = container.flow ? end : file_.line_end(end);
-  put(behind, behind, others);
 }
 
 void Layout::remove(const Node& node) { removed_.insert(first_of_element(node)); }

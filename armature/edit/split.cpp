@@ -32,23 +32,6 @@ bool is_number(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
 }
 
-/// The entry that makes exactly the components that are named.
-const Entry* find_whole_entry(const Split& split, Workshop& shop) {
-  const std::optional<Targets> targets = find_targets(split.name, shop);
-  if (!targets) return nullptr;
-  const std::vector<const Entry*> entries = shop.map().entries_of(targets->names.front());
-  if (entries.empty() || entries.front()->changes) {
-    shop.refuse("'" + split.name + "' is in an OROCOS file, which is not edited");
-    return nullptr;
-  }
-  const Entry& entry = *entries.front();
-  if (targets->has_all_of(entry) && entry.names.size() == targets->names.size()) return &entry;
-  shop.refuse(entry.file->place_of(*entry.key),
-              "'" + split.name + "' is not all of an entry: it stands in '" + entry.key->text + "'",
-              "name the entry as the file has it");
-  return nullptr;
-}
-
 std::optional<WrittenRange> range_in(const Entry& entry, Workshop& shop) {
   const std::string braces = WrittenName::of(entry.key->text).braces;
   const std::optional<Range> numbers = range_of(entry);
@@ -165,7 +148,7 @@ void write_connections(const Entry& entry, const WrittenRange& range, const Rang
 }  // namespace
 
 void draft(const Split& split, Workshop& shop) {
-  const Entry* entry = find_whole_entry(split, shop);
+  const Entry* entry = find_whole_entry(split.name, shop);
   if (entry == nullptr) return;
   const std::optional<WrittenRange> range = range_in(*entry, shop);
   if (!range) return;
