@@ -50,6 +50,16 @@ void Places::rename(const std::string& from, const std::string& to) {
   boxes_.insert(std::move(box));
 }
 
+void Places::dissolve(const std::string& box) {
+  const std::string inside = box + ".";
+  remove(box);
+  for (auto at = boxes_.lower_bound(inside); at != boxes_.end() && at->first.starts_with(inside);) {
+    auto part = boxes_.extract(at++);
+    part.key().erase(0, inside.size());
+    boxes_.insert(std::move(part));
+  }
+}
+
 std::string Places::to_text() const {
   std::string text = "{\"boxes\": {";
   const char* separator = "\n  ";

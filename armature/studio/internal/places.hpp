@@ -27,6 +27,8 @@ class Places {
   /// Coordinates in pixels go to the next step of the grid.
   void set(const std::string& box, double x, double y);
   void rename(const std::string& from, const std::string& to);
+  /// What is inside of a box stands beside it, and the box goes.
+  void dissolve(const std::string& box);
   void remove(const std::string& box) { boxes_.erase(box); }
 
   bool empty() const { return boxes_.empty(); }

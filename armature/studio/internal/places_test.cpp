@@ -26,6 +26,15 @@ TEST(Places, GoWithTheirBox) {
   EXPECT_EQ(places.to_text(), "{\"boxes\": {\n  \"C\": [8, 8]\n}}\n");
 }
 
+TEST(Places, OfPartsOutliveTheirComposite) {
+  Places places =
+      Places::parse(R"({"boxes": {"G": [8, 8], "G.A": [16, 16], "G.B.C": [24, 24], "GA": [0, 0]}})")
+          .value();
+  places.dissolve("G");
+  EXPECT_EQ(places.to_text(),
+            "{\"boxes\": {\n  \"A\": [16, 16],\n  \"B.C\": [24, 24],\n  \"GA\": [0, 0]\n}}\n");
+}
+
 TEST(Places, WhatIsNoPlaceIsRefused) {
   for (const char* text : {"[", "[]", "{}", R"({"boxes": []})", R"({"boxes": {"A": 1}})",
                            R"({"boxes": {"A": [1]}})", R"({"boxes": {"A": [1, "2"]}})"}) {
