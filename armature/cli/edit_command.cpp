@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -180,6 +182,50 @@ void add_component_options(EditOptions options) {
                });
 }
 
+/// `A,B,C` as its parts.
+std::vector<std::string> split_list(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    parts.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+  return parts;
+}
+
+void add_composite_options(EditOptions options) {
+  using namespace edit;
+  options.two("--split", "NAME PART",
+              "gives a part of a range an entry of its own: 'Joint{1..7}' 3, or 3..5",
+              [](std::string name, std::string part) -> Change {
+                return Split{std::move(name), std::move(part)};
+              });
+  options.pair("--group", "NAME=A,B,C", "makes components the parts of a composite",
+               [](std::string name, const std::string& parts) -> Change {
+                 return Group{std::move(name), split_list(parts)};
+               });
+  options.one("--dissolve", "NAME", "makes the parts of a composite components beside it",
+              [](const std::string& name) -> Change { return Dissolve{name}; });
+}
+
+void add_mode_options(EditOptions options) {
+  using namespace edit;
+  options.pair("--mode", "MODE=NAME", "adds a component to a mode; the mode is made if need be",
+               [](std::string mode, std::string component) -> Change {
+                 return AddToMode{std::move(mode), std::move(component)};
+               });
+  options.one("--no-mode", "MODE[=NAME]", "removes a mode, or a component from it",
+              [](const std::string& word) -> Change {
+                auto [mode, component] = split(word);
+                if (component.empty()) return RemoveMode{mode};
+                return RemoveFromMode{mode, component};
+              });
+  options.pair("--rename-mode", "OLD=NEW", "renames a mode",
+               [](std::string from, std::string to) -> Change {
+                 return RenameMode{std::move(from), std::move(to)};
+               });
+}
+
 /// `Component.name` as its two parts; the name has no dot.
 std::pair<std::string, std::string> split_requirement(const std::string& path) {
   const std::size_t dot = path.rfind('.');
@@ -239,7 +285,9 @@ void add_edit(const CommandLine& to) {
   arguments->command = command;
   command->add_option("file", arguments->file, "the deployment, YAML")->required();
   add_component_options(EditOptions(*arguments));
+  add_composite_options(EditOptions(*arguments));
   add_binding_options(EditOptions(*arguments));
+  add_mode_options(EditOptions(*arguments));
   add_other_options(EditOptions(*arguments));
   arguments->settings =
       command->add_option("--policy")

@@ -9,6 +9,9 @@ std::string text_of(const Unset& one) { return "unset " + one.path; }
 std::string text_of(const AddComponent& one) { return "add " + one.name; }
 std::string text_of(const RemoveComponent& one) { return "remove " + one.name; }
 std::string text_of(const Rename& one) { return "rename " + one.from + " to " + one.to; }
+std::string text_of(const Split& one) { return "split " + one.name + " at " + one.part; }
+std::string text_of(const Group& one) { return "group " + one.name; }
+std::string text_of(const Dissolve& one) { return "dissolve " + one.name; }
 std::string text_of(const Connect& one) { return "connect " + one.from + " -> " + one.to; }
 std::string text_of(const Disconnect& one) {
   return "disconnect " + one.from + (one.to.empty() ? "" : " -> " + one.to);
@@ -25,6 +28,12 @@ std::string text_of(const RemovePeer& one) {
 std::string text_of(const AddParameter& one) { return "add parameter " + one.name; }
 std::string text_of(const AddLibrary& one) { return "add library " + one.name; }
 std::string text_of(const RemoveLibrary& one) { return "remove library " + one.name; }
+std::string text_of(const AddToMode& one) { return "mode " + one.mode + " of " + one.component; }
+std::string text_of(const RemoveFromMode& one) {
+  return "remove " + one.component + " from mode " + one.mode;
+}
+std::string text_of(const RemoveMode& one) { return "remove mode " + one.name; }
+std::string text_of(const RenameMode& one) { return "rename mode " + one.from + " to " + one.to; }
 
 }  // namespace
 

@@ -23,26 +23,14 @@ namespace {
 /// An end without the blanks that the file may have around it.
 std::string trimmed_text(const std::string& text) { return std::string(document::trimmed(text)); }
 
-/// The ends of an item as written, or its name; empty if it has none.
-struct WrittenEnds {
-  std::string from;
-  std::string to;
-  std::string name;
-};
-
-std::string text_at(const Node* item, const char* key, const char* other) {
-  const Node* value = find_value(item, key);
-  if (value == nullptr) value = find_value(item, other);
-  return value == nullptr ? "" : trimmed_text(value->text);
+const Node* end_at(const Node& item, const char* key, const char* other) {
+  const Node* value = find_value(&item, key);
+  return value == nullptr ? find_value(&item, other) : value;
 }
 
-WrittenEnds ends_of(const Node& item) {
-  if (item.kind == Node::Kind::kMap) {
-    return {text_at(&item, "from", "on"), text_at(&item, "to", "do"), text_at(&item, "name", "")};
-  }
-  const std::size_t arrow = item.text.find("->");
-  if (arrow == item.text.npos) return {};
-  return {trimmed_text(item.text.substr(0, arrow)), trimmed_text(item.text.substr(arrow + 2)), {}};
+std::string text_at(const Node& item, const char* key, const char* other) {
+  const Node* value = end_at(item, key, other);
+  return value == nullptr ? "" : trimmed_text(value->text);
 }
 
 bool is_meant(const WantedConnection& wanted, const WrittenEnds& ends) {
@@ -61,6 +49,28 @@ bool is_command(const Value& settings) {
 }
 
 }  // namespace
+
+WrittenEnds ends_of(const Node& item) {
+  if (item.kind == Node::Kind::kMap) {
+    return {text_at(item, "from", "on"), text_at(item, "to", "do"), text_at(item, "name", "")};
+  }
+  const std::size_t arrow = item.text.find("->");
+  if (arrow == item.text.npos) return {};
+  return {trimmed_text(item.text.substr(0, arrow)), trimmed_text(item.text.substr(arrow + 2)), {}};
+}
+
+void write_ends(const ConnectionEntry& entry, const std::string& from, const std::string& to,
+                Workshop& shop) {
+  Layout& layout = shop.layout(*entry.file);
+  const Node& item = *entry.item;
+  if (item.kind != Node::Kind::kMap) return layout.replace(item, make_text(from + " -> " + to));
+  const auto write = [&](const char* key, const char* other, const std::string& text) {
+    const Node* end = end_at(item, key, other);
+    if (end != nullptr && trimmed_text(end->text) != text) layout.replace(*end, make_text(text));
+  };
+  write("from", "on", from);
+  write("to", "do", to);
+}
 
 std::vector<const ConnectionEntry*> find_items(const WantedConnection& wanted,
                                                const Workshop& shop) {

@@ -44,6 +44,26 @@ struct Rename {
   std::string to;
 };
 
+/// An entry that speaks for several, `Joint{1..7}`, becomes up to three: those before `part`, the
+/// part, `3` or `3..5`, and those behind it. The application stays as it is.
+struct Split {
+  std::string name;
+  std::string part;
+};
+
+/// Components of a file, as it has them, become the parts of a composite of which there is one
+/// instance. Definition and instance have that name; the plan stays the same up to names.
+struct Group {
+  std::string name;
+  std::vector<std::string> parts;
+};
+
+/// The parts of a composite's instance become components beside it. Its definition goes with its
+/// last instance.
+struct Dissolve {
+  std::string name;
+};
+
 /// Two ports, or an event and a command.
 struct Connect {
   std::string from;
@@ -106,9 +126,33 @@ struct RemoveLibrary {
   std::string name;
 };
 
-using Change = std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Connect, Disconnect,
-                            SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddParameter,
-                            AddLibrary, RemoveLibrary>;
+/// A component, or a range of them, runs in that mode; the mode is made if there is none.
+struct AddToMode {
+  std::string mode;
+  std::string component;
+};
+
+/// It stands in the mode no longer. What stands in no mode then runs in all: a warning says so.
+struct RemoveFromMode {
+  std::string mode;
+  std::string component;
+};
+
+/// Its components stay.
+struct RemoveMode {
+  std::string name;
+};
+
+/// Also where the file says in which mode the application starts.
+struct RenameMode {
+  std::string from;
+  std::string to;
+};
+
+using Change =
+    std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Split, Group, Dissolve, Connect,
+                 Disconnect, SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddParameter,
+                 AddLibrary, RemoveLibrary, AddToMode, RemoveFromMode, RemoveMode, RenameMode>;
 
 /// For messages: `set Filter.Weight`.
 std::string to_text(const Change& change);

@@ -65,7 +65,6 @@ void Layout::put(std::size_t begin, std::size_t end, std::string text) {
   replacements_.push_back({begin, end, std::move(text)});
 }
 
-/// How far the entries of a map stand behind what it belongs to.
 std::size_t Layout::step() const {
   for (const Node& node : file_.nodes()) {
     const bool nested = node.kind == Node::Kind::kMap && !node.flow && node.parent == file_.root();
@@ -74,7 +73,6 @@ std::size_t Layout::step() const {
   return kUsualStep;
 }
 
-/// Likewise the items of a list.
 std::size_t Layout::list_step() const {
   for (const Node& node : file_.nodes()) {
     const bool nested = node.kind == Node::Kind::kList && !node.flow && node.parent == file_.root();

@@ -9,17 +9,6 @@ namespace {
 
 using Form = Mention::Form;
 
-/// The last dot that is not in braces.
-std::size_t last_dot(std::string_view text) {
-  int depth = 0;
-  for (std::size_t i = text.size(); i-- > 0;) {
-    if (text[i] == '}') ++depth;
-    if (text[i] == '{') --depth;
-    if (text[i] == '.' && depth == 0) return i;
-  }
-  return text.npos;
-}
-
 /// Goes through the sections of a file in which components are named.
 class Finder {
  public:
@@ -108,6 +97,16 @@ class Finder {
 };
 
 }  // namespace
+
+std::size_t last_dot(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = text.size(); i-- > 0;) {
+    if (text[i] == '}') ++depth;
+    if (text[i] == '{') --depth;
+    if (text[i] == '.' && depth == 0) return i;
+  }
+  return text.npos;
+}
 
 std::vector<Mention::Part> Mention::parts() const {
   constexpr std::string_view kBlanks = " \t";

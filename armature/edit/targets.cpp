@@ -192,6 +192,22 @@ void refuse_site(const Site& site, const Targets& targets, Workshop& shop) {
       "name '" + key_of(entry) + "', or change '" + targets.written + "' alone with --override");
 }
 
+const Entry* find_whole_entry(const std::string& written, Workshop& shop) {
+  const std::optional<Targets> targets = find_targets(written, shop);
+  if (!targets) return nullptr;
+  const std::vector<const Entry*> entries = shop.map().entries_of(targets->names.front());
+  if (entries.empty() || entries.front()->changes) {
+    shop.refuse("'" + written + "' is in an OROCOS file, which is not edited");
+    return nullptr;
+  }
+  const Entry& entry = *entries.front();
+  if (targets->has_all_of(entry) && entry.names.size() == targets->names.size()) return &entry;
+  shop.refuse(entry.file->place_of(*entry.key),
+              "'" + written + "' is not all of an entry: it stands in '" + entry.key->text + "'",
+              "name the entry as the file has it");
+  return nullptr;
+}
+
 namespace {
 
 /// Says why nothing new of that component may be written.

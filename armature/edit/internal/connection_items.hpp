@@ -18,6 +18,19 @@ struct WantedConnection {
   std::string text() const { return from + (to.empty() ? "" : " -> " + to); }
 };
 
+/// The ends of an item as written, or its name; empty if it has none.
+struct WrittenEnds {
+  std::string from;
+  std::string to;
+  std::string name;
+};
+
+WrittenEnds ends_of(const Node& item);
+
+/// Other ends in place of those of the item.
+void write_ends(const ConnectionEntry& entry, const std::string& from, const std::string& to,
+                Workshop& shop);
+
 /// The items of the files that have it as it is named, or make it; each once.
 std::vector<const ConnectionEntry*> find_items(const WantedConnection& wanted,
                                                const Workshop& shop);

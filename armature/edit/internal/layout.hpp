@@ -41,6 +41,32 @@ class Layout {
   /// override others.
   void remove(const Node& node);
 
+  /// In place of an entry of a map or an item of a list stand others, as texts of their own; its
+  /// comments stay.
+  /// @param first  the item, or the key
+  void replace_element(const Node& first, const std::vector<std::string>& texts);
+
+  /// Likewise one, with the comments above it and behind it on its last line.
+  void replace_with_comments(const Node& first, const std::string& text);
+  /// Takes it out with the comments above it, too. Others stay beside it.
+  void remove_with_comments(const Node& first);
+
+  /// Behind the last entry of a map in block style, or behind that of the key `after`: a text of
+  /// its own, as it stands at the map's column.
+  void add_entry_text(const Node& map, const std::string& text, std::string_view after = {});
+  /// Behind the last item of a list: texts of their own.
+  void add_item_texts(const Node& list, const std::vector<std::string>& texts);
+  /// Above an entry of the file's own map, and below the comments at the head of the file.
+  void add_section_text(const Node& key, const std::string& text);
+
+  /// Takes out a section of the file, and an empty line where two would meet.
+  void remove_section(const Node& key);
+
+  /// How far the entries of a map stand behind what it belongs to.
+  std::size_t step() const;
+  /// Likewise the items of a list.
+  std::size_t list_step() const;
+
   /// All of it, in the order of the text.
   std::vector<Replacement> take();
 
@@ -53,6 +79,7 @@ class Layout {
     bool removed;
   };
 
+  std::string separator_behind(const Node& container) const;
   std::vector<Element> elements_of(const Node& container) const;
   void add_in_flow(const Node& container, const std::string& text);
   void add_in_empty_flow(const Node& container, const std::string& text);
@@ -62,8 +89,6 @@ class Layout {
                        std::size_t indent, int levels) const;
   std::string aligned_key(const Node& map, const std::string& key) const;
   bool is_spaced(const std::vector<Element>& elements) const;
-  std::size_t step() const;
-  std::size_t list_step() const;
   void let_empty_ones_go();
   void empty(const Node& container);
   void remove_in_flow(const std::vector<Element>& elements);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/edit/source_map.hpp"
@@ -36,6 +37,9 @@ struct Mention {
   };
   std::vector<Part> parts() const;
 };
+
+/// The last dot that is not in braces, npos if there is none.
+std::size_t last_dot(std::string_view text);
 
 /// All of them in files that can be edited. Names that components are declared by are not among
 /// them.

@@ -29,6 +29,10 @@ std::optional<Targets> find_targets(const std::string& written, Workshop& shop);
 /// Of a path `Component.rest`; the component's name is as long as possible.
 std::optional<Targets> find_targets_of_path(const std::string& path, Workshop& shop);
 
+/// The entry that makes exactly the components that are named. An error and nullptr if there is
+/// none, or not in a file that is edited.
+const Entry* find_whole_entry(const std::string& written, Workshop& shop);
+
 /// The first dot that is not in braces.
 std::size_t find_dot(const std::string& path);
 

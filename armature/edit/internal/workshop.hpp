@@ -96,6 +96,9 @@ void draft(const Unset& unset, Workshop& shop);
 void draft(const AddComponent& add, Workshop& shop);
 void draft(const RemoveComponent& remove, Workshop& shop);
 void draft(const Rename& rename, Workshop& shop);
+void draft(const Split& split, Workshop& shop);
+void draft(const Group& group, Workshop& shop);
+void draft(const Dissolve& dissolve, Workshop& shop);
 void draft(const Connect& connect, Workshop& shop);
 void draft(const Disconnect& disconnect, Workshop& shop);
 void draft(const SetConnection& set, Workshop& shop);
@@ -106,6 +109,10 @@ void draft(const RemovePeer& remove, Workshop& shop);
 void draft(const AddParameter& add, Workshop& shop);
 void draft(const AddLibrary& add, Workshop& shop);
 void draft(const RemoveLibrary& remove, Workshop& shop);
+void draft(const AddToMode& add, Workshop& shop);
+void draft(const RemoveFromMode& remove, Workshop& shop);
+void draft(const RemoveMode& remove, Workshop& shop);
+void draft(const RenameMode& rename, Workshop& shop);
 
 /// What differs between two documents, places aside: `component 'Joint1'`. Components that only one
 /// of them has may be anywhere; the order of the others counts.

@@ -30,6 +30,16 @@ std::string as_json(const std::string& text) {
 /// The component of `Sensor.Positions`.
 std::string_view owner_of(std::string_view port) { return port.substr(0, port.rfind('.')); }
 
+/// What has a name inside of a composite gets the name without it.
+template <typename Value>
+void bring_out(std::map<std::string, Value>& named, const std::string& inside) {
+  for (auto at = named.lower_bound(inside); at != named.end() && at->first.starts_with(inside);) {
+    auto part = named.extract(at++);
+    part.key().erase(0, inside.size());
+    named.insert(std::move(part));
+  }
+}
+
 }  // namespace
 
 base::Result<Places> Places::parse(const std::string& text) {
@@ -86,6 +96,16 @@ void Places::remove(const std::string& component) {
   boxes_.erase(component);
   robots_.erase(component);
   std::erase_if(robots_, [&](const auto& robot) { return owner_of(robot.second) == component; });
+}
+
+void Places::dissolve(const std::string& box) {
+  boxes_.erase(box);
+  const std::string inside = box + ".";
+  bring_out(boxes_, inside);
+  bring_out(robots_, inside);
+  for (auto& [component, port] : robots_) {
+    if (port.starts_with(inside)) port.erase(0, inside.size());
+  }
 }
 
 std::string Places::to_text() const {

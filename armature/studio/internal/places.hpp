@@ -30,6 +30,8 @@ class Places {
   /// empty: those that are found.
   void move_by(const std::string& component, const std::string& port);
   void rename(const std::string& from, const std::string& to);
+  /// What is inside of a box stands beside it, and the box goes.
+  void dissolve(const std::string& box);
   void remove(const std::string& component);
 
   bool empty() const { return boxes_.empty() && robots_.empty(); }

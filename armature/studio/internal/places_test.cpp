@@ -52,6 +52,23 @@ TEST(Places, WhatMovesARobotGoesWithItsComponents) {
   EXPECT_TRUE(places.empty());
 }
 
+TEST(Places, OfPartsOutliveTheirComposite) {
+  Places places =
+      Places::parse(R"({"boxes": {"G": [8, 8], "G.A": [16, 16], "G.B.C": [24, 24], "GA": [0, 0]}})")
+          .value();
+  places.dissolve("G");
+  EXPECT_EQ(places.to_text(),
+            "{\"boxes\": {\n  \"A\": [16, 16],\n  \"B.C\": [24, 24],\n  \"GA\": [0, 0]\n}}\n");
+}
+
+TEST(Places, WhatMovesARobotOutlivesItsComposite) {
+  Places places;
+  places.move_by("Arm.Model", "Arm.Sensor.Positions");
+  places.dissolve("Arm");
+  EXPECT_EQ(places.to_text(),
+            "{\"boxes\": {\n},\n\"robots\": {\n  \"Model\": \"Sensor.Positions\"\n}}\n");
+}
+
 TEST(Places, WhatIsNoPlaceIsRefused) {
   for (const char* text :
        {"[", "[]", "{}", R"({"boxes": []})", R"({"boxes": {"A": 1}})", R"({"boxes": {"A": [1]}})",

@@ -28,6 +28,11 @@ base::Result<void> change_places(Places& places, const WordedChange& change) {
   const auto& words = change.words;
   if (change.edit == "rename" && words.size() == 2) places.rename(words[0], words[1]);
   if (change.edit == "remove" && words.size() == 1) places.remove(words[0]);
+  if (change.edit == "dissolve" && words.size() == 1) places.dissolve(words[0]);
+  if (change.edit == "group") {
+    for (std::size_t i = 1; i < words.size(); ++i)
+      places.rename(words[i], words[0] + "." + words[i]);
+  }
   if (change.edit == "place") {
     if (words.size() != 3) return base::Error{"the edit 'place' takes a box, x and y"};
     places.set(words[0], std::atof(words[1].c_str()), std::atof(words[2].c_str()));

@@ -35,12 +35,23 @@ constexpr Form form(const char* name) {
           }};
 }
 
+/// A name, and the components that become its parts.
+constexpr Form group() {
+  constexpr std::size_t kMostParts = 1000;
+  return {"group", 2, 1 + kMostParts, [](const Words& words) -> edit::Change {
+            return edit::Group{words.front(), {words.begin() + 1, words.end()}};
+          }};
+}
+
 constexpr Form kForms[] = {
     form<edit::Set, 2>("set"),
     form<edit::Unset, 1>("unset"),
     form<edit::AddComponent, 2>("add"),
     form<edit::RemoveComponent, 1>("remove"),
     form<edit::Rename, 2>("rename"),
+    form<edit::Split, 2>("split"),
+    group(),
+    form<edit::Dissolve, 1>("dissolve"),
     form<edit::Connect, 3, 1>("connect"),
     form<edit::Disconnect, 2, 1>("disconnect"),
     form<edit::SetConnection, 3, 1>("connection"),
@@ -51,7 +62,17 @@ constexpr Form kForms[] = {
     form<edit::AddParameter, 2>("parameter"),
     form<edit::AddLibrary, 1>("library"),
     form<edit::RemoveLibrary, 1>("no_library"),
+    form<edit::AddToMode, 2>("to_mode"),
+    form<edit::RemoveFromMode, 2>("from_mode"),
+    form<edit::RemoveMode, 1>("no_mode"),
+    form<edit::RenameMode, 2>("rename_mode"),
 };
+
+/// ` or 3`, ` to 1001`; empty if it is no other number than the least.
+std::string most_of(const Form& form) {
+  if (form.most == form.least) return {};
+  return (form.most == form.least + 1 ? " or " : " to ") + std::to_string(form.most);
+}
 
 base::Error unknown(std::string_view name) {
   std::vector<std::string> names;
@@ -67,9 +88,8 @@ base::Result<edit::Change> change_of(std::string_view name, const Words& words) 
   if (form == std::end(kForms)) return unknown(name);
   if (words.size() < form->least || words.size() > form->most) {
     return base::Error{"the edit " + base::quoted(std::string(name)) + " takes " +
-                       std::to_string(form->least) +
-                       (form->least == form->most ? "" : " or " + std::to_string(form->most)) +
-                       " words, not " + std::to_string(words.size())};
+                       std::to_string(form->least) + most_of(*form) + " words, not " +
+                       std::to_string(words.size())};
   }
   return form->make(words);
 }

@@ -2,6 +2,7 @@
 import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
 import { Field } from "./field.tsx";
 import type { Box } from "./graph.ts";
+import { dissolve, may_dissolve, split } from "./grouping.ts";
 import { change, edit, project } from "./project.ts";
 import { PropertyField } from "./property_field.tsx";
 import { Requirements } from "./requirements.tsx";
@@ -18,11 +19,13 @@ export function BoxView({ box }: { box: Box }) {
       <p className="lead"><b>{box.model}</b>{model?.doc && ` ${model.doc}`}</p>
       <Live box={box} />
       <Name box={box} />
+      {is_range(box) && <SplitField box={box} />}
       {!box.composite && <ActivityField box={box} />}
       {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
       {!box.composite && <Requirements box={box} />}
       <p className="actions">
         {box.file && <button type="button" onClick={() => show_text(box.file!, box.line, box.column)}>Show in the text</button>}
+        {may_dissolve(box) && <button type="button" title="Ctrl+Shift+G: its parts become boxes beside it" onClick={() => void dissolve(box)}>Dissolve</button>}
         <button type="button" className="danger" onClick={() => void remove_selected()}>Remove</button>
       </p>
     </>
@@ -36,6 +39,14 @@ function Name({ box }: { box: Box }) {
     return done;
   };
   return <Field label="Name" about={`${box.id} name`} value={box.title} take={rename} />;
+}
+
+/** A box of a range as the file has it, not of all instances of a composite. */
+const is_range = (box: Box): boolean => box.names.length > 1 && box.title.includes("..");
+
+function SplitField({ box }: { box: Box }) {
+  const about = `${box.id} split`;
+  return <Field label="Split off" about={about} value="" hint="3, or 3..5, gets a box of its own" take={(part) => split(box, part, about)} />;
 }
 
 /** How the run has it, with what can be done about that. */

@@ -3,7 +3,8 @@
 import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
 import { project } from "./project.ts";
-import { box_called, port_of, useScene } from "./scene.ts";
+import { group_selected, may_group } from "./grouping.ts";
+import { box_called, port_of, remove_selected, useScene } from "./scene.ts";
 import { selection } from "./selection.ts";
 import { OpenedView, WireView } from "./wire_view.tsx";
 
@@ -26,8 +27,21 @@ function Selected() {
   const box = boxes.length === 1 ? box_called(boxes[0]!) : undefined;
   if (box?.opened) return <OpenedView key={box.id} box={box} />;
   if (box) return <BoxView key={box.id} box={box} />;
-  if (boxes.length + wires.length > 1) return <p className="hint">{`${boxes.length} boxes and ${wires.length} wires are selected. Delete removes them.`}</p>;
+  if (boxes.length + wires.length > 1) return <Several boxes={boxes.length} wires={wires.length} />;
   return <Application />;
+}
+
+function Several({ boxes, wires }: { boxes: number; wires: number }) {
+  return (
+    <>
+      <h2>{`${counted(boxes, "box", "boxes")} and ${counted(wires, "wire")}`}</h2>
+      {boxes > 1 && <p className="hint">{may_group() ? "A group is a composite: a box with these boxes as its parts, and the ports that others use." : "Boxes inside of a composite are not grouped."}</p>}
+      <p className="actions">
+        {may_group() && <button type="button" title="Ctrl+G" onClick={() => void group_selected()}>Group</button>}
+        <button type="button" className="danger" onClick={() => void remove_selected()}>Remove</button>
+      </p>
+    </>
+  );
 }
 
 /** With nothing selected: the application, and what its colours mean. */
@@ -47,4 +61,4 @@ function Application() {
   );
 }
 
-const counted = (count: number, noun: string): string => `${count} ${noun}${count === 1 ? "" : "s"}`;
+const counted = (count: number, noun: string, plural = `${noun}s`): string => `${count} ${count === 1 ? noun : plural}`;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that work everywhere on the page.
 import { emergency_stop } from "./emergency.ts";
+import { dissolve_selected, group_selected } from "./grouping.ts";
 import { redo, save, undo } from "./project.ts";
 import { stop } from "./run.ts";
 import { selection } from "./selection.ts";
@@ -30,8 +31,8 @@ function action_of(event: KeyboardEvent): (() => void) | undefined {
   if (!event.ctrlKey && !event.metaKey) return undefined;
   const key = event.key.toLowerCase();
   if (key === "s") return () => void save();
-  if (key !== "z" && key !== "y") return undefined;
-  if (is_typing(event.target)) return undefined;
+  if (!["g", "y", "z"].includes(key) || is_typing(event.target)) return undefined;
+  if (key === "g") return () => void (event.shiftKey ? dissolve_selected() : group_selected());
   return key === "y" || event.shiftKey ? () => void redo() : () => void undo();
 }
 

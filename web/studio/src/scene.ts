@@ -84,7 +84,7 @@ function port_in({ box, port }: { box: string; port: string }): BoxPort | undefi
 }
 
 /** Names that something new must not have. */
-function taken_names(): string[] {
+export function taken_names(): string[] {
   const { shown, texts } = project.get();
   return [...(shown?.components ?? []).map((one) => one.name.split(".")[0]!), ...entries_of(texts).map((entry) => entry.name)];
 }

@@ -131,6 +131,42 @@ page_test("Delete removes what is selected, and Undo brings it back", "wave", as
   assert.equal(await node(page, "Watcher").count(), 1);
 });
 
+page_test("Ctrl+G groups the selected boxes, and the new box stands in their middle", "wave", async (page) => {
+  const [first, second] = [await middle(node(page, "Source")), await middle(node(page, "Filter"))];
+  await node(page, "Source").locator("header").click();
+  await node(page, "Filter").locator("header").click({ modifiers: ["Control"] });
+  assert.equal(await page.getByRole("button", { name: "Group", exact: true }).count(), 1);
+  await page.keyboard.press("Control+g");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["group Group Source Filter"]);
+  const placed = await page.evaluate(() => window.mock.workbench.edits.filter((one) => one.edit === "place").map((one) => one.words));
+  assert.equal(placed.length, 1);
+  assert.equal(placed[0][0], "Group");
+  const [{ x: from }, { x: to }] = [first, second];
+  assert.ok(from < to && Number(placed[0][1]) % 8 === 0);
+});
+
+page_test("a composite is dissolved by its button", "chassis", async (page) => {
+  await node(page, "Rover").locator("header").click();
+  await page.getByRole("button", { name: "Dissolve" }).click();
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["dissolve Rover"]);
+});
+
+page_test("one of a stacked box gets a box of its own", "arm", async (page) => {
+  await node(page, "PID\\{1..7\\}").locator("header").click();
+  const field = page.getByLabel("Split off", { exact: true });
+  await field.fill("9");
+  await field.press("Enter");
+  await page.waitForTimeout(200);
+  assert.match(await page.getByRole("alert").textContent(), /no part of \{1\.\.7\}/);
+  await field.fill("7");
+  await field.press("Enter");
+  await page.waitForTimeout(300);
+  assert.deepEqual(await edits(page), ["split PID{1..7} 9", "split PID{1..7} 7"]);
+  assert.equal(await node(page, "PID7").count(), 1);
+});
+
 page_test("Delete in the outline removes once", "wave", async (page) => {
   await page.getByRole("treeitem").filter({ hasText: "Watcher" }).focus();
   await page.keyboard.press("Delete");

@@ -145,7 +145,7 @@ export class MockWorkbench implements Workbench {
     const path = overrides ? this.file : files[0] ?? this.file_of(a, texts);
     const document = parseDocument(texts.get(path) ?? "");
     if (overrides) document.setIn(["components", a.split(".")[0], "override"], true);
-    const refused = this.change_document(document, edit, a, b, c);
+    const refused = this.change_document(document, edit, a, b, c, words.slice(2));
     if (!refused) texts.set(path, document.toString({ lineWidth: 0, flowCollectionPadding: false }));
     return refused;
   }
@@ -156,7 +156,7 @@ export class MockWorkbench implements Workbench {
     return found?.[0] ?? this.file;
   }
 
-  private change_document(document: Document, edit: string, a: string, b: string, c: string): string {
+  private change_document(document: Document, edit: string, a: string, b: string, c: string, rest: string[]): string {
     const [owner, member] = split_member(a);
     if (edit === "add") {
       if (document.hasIn(["components", a])) return `'${a}' is there already`;
@@ -169,7 +169,29 @@ export class MockWorkbench implements Workbench {
     else if (edit === "connection") set_connection(document, a, b, c);
     else if (edit === "disconnect") remove_connection(document, `${a} -> ${b}`);
     else if (edit === "library") add_to(document, ["libraries"], a);
+    else if (edit === "group") return this.group(document, a, [b, ...rest]);
+    else if (edit === "dissolve") document.deleteIn(["components", a]);
+    else if (edit === "split") return this.split(document, a, b);
     else if (edit === "peer") add_to(document, ["components", a, "peers"], b);
+    return "";
+  }
+
+  /** The parts go, and a composite of none stands for them. */
+  private group(document: Document, name: string, parts: string[]): string {
+    document.setIn(["composites", name], document.createNode({ components: {} }));
+    document.setIn(["components", name], document.createNode({ model: name }, { flow: true }));
+    for (const part of parts) document.deleteIn(["components", part]);
+    return "";
+  }
+
+  /** The last of a range. */
+  private split(document: Document, name: string, part: string): string {
+    const [, stem, first, last] = /^(.*)\{(\d+)\.\.(\d+)\}$/.exec(name)!;
+    if (part !== last) return `'${part}' is no number and no part of {${first}..${last}}`;
+    const body = document.getIn(["components", name]);
+    document.deleteIn(["components", name]);
+    document.setIn(["components", `${stem}{${first}..${Number(last) - 1}}`], body);
+    document.setIn(["components", `${stem}${last}`], body);
     return "";
   }
 
