@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
+import { ConnectByName } from "./connect_by_name.tsx";
 import { Field } from "./field.tsx";
 import type { Box } from "./graph.ts";
 import { change, edit, project } from "./project.ts";
@@ -22,6 +23,7 @@ export function BoxView({ box }: { box: Box }) {
       {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
       {!box.composite && <Requirements box={box} />}
       <p className="actions">
+        <ConnectByName boxes={[box.id]} />
         {box.file && <button type="button" onClick={() => show_text(box.file!, box.line, box.column)}>Show in the text</button>}
         <button type="button" className="danger" onClick={() => void remove_selected()}>Remove</button>
       </p>

@@ -2,8 +2,9 @@
 // What is selected, to be read and changed.
 import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
+import { ConnectByName } from "./connect_by_name.tsx";
 import { project } from "./project.ts";
-import { box_called, port_of, useScene } from "./scene.ts";
+import { box_called, counted, port_of, useScene } from "./scene.ts";
 import { selection } from "./selection.ts";
 import { WireView } from "./wire_view.tsx";
 
@@ -25,8 +26,17 @@ function Selected() {
   if (wire) return <WireView wire={wire} />;
   const box = boxes.length === 1 ? box_called(boxes[0]!) : undefined;
   if (box) return <BoxView key={box.id} box={box} />;
-  if (boxes.length + wires.length > 1) return <p className="hint">{`${boxes.length} boxes and ${wires.length} wires are selected. Delete removes them.`}</p>;
+  if (boxes.length + wires.length > 1) return <Several boxes={boxes} wires={wires.length} />;
   return <Application />;
+}
+
+function Several({ boxes, wires }: { boxes: string[]; wires: number }) {
+  return (
+    <>
+      <p className="hint">{`${boxes.length} box${boxes.length === 1 ? "" : "es"} and ${counted(wires, "wire")} are selected. Delete removes them.`}</p>
+      {boxes.length > 0 && <ConnectByName boxes={boxes} />}
+    </>
+  );
 }
 
 /** With nothing selected: the application, and what its colours mean. */
@@ -41,9 +51,8 @@ function Application() {
       <ul className="lanes">
         {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
       </ul>
+      {shown.components.length > 1 && <p className="actions"><ConnectByName /></p>}
       <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>
     </>
   );
 }
-
-const counted = (count: number, noun: string): string => `${count} ${noun}${count === 1 ? "" : "s"}`;
