@@ -75,7 +75,8 @@ export async function drag(page, from, to, before_it_is_let_go = async () => {})
   await page.mouse.move(end.x - 30, end.y, { steps: 8 });
   await page.locator(".canvas.reaching").waitFor();
   await before_it_is_let_go();
-  await page.mouse.move(end.x, end.y, { steps: 4 });
+  const now = await middle(to); // the canvas may have moved
+  await page.mouse.move(now.x, now.y, { steps: 4 });
   await page.mouse.up();
 }
 

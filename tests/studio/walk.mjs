@@ -24,7 +24,7 @@ export const kProperties = {
   nAxesGeneratorPos: { num_axes: "2", max_vel: "[2.0]", max_acc: "[5.0]", lower: "[-0.5]", upper: "[4.5]" },
 };
 export const kActivity = "{periodic: 10 ms, priority: 40}";
-export const kCommand = "with: {positions: [2.0, 0.8], time: 2 s}";
+export const kParameters = { positions: "[2.0, 0.8]", time: "2 s" };
 
 const port = (page, name, kind, member) => box(page, name).locator(`.pin.${kind}[title^="${kind} ${member}:"]`);
 const nothing_selected = (page) => page.locator(".react-flow__pane").click({ position: { x: 8, y: 8 } });
@@ -67,7 +67,7 @@ export async function add_the_control(page) {
 /** One wire by hand, the others by their names. @param held  done while the wire is held */
 export async function connect_the_control(page, held) {
   await arrange(page);
-  await drag(page, port(page, "Sensor", "output", "sensor"), port(page, "ControllerNPID", "input", "sensor"), held);
+  await drag(page, port(page, "Sensor", "output", "sensor"), port(page, "BridgeRef", "input", "sensor"), held);
   await page.getByRole("button", { name: "Undo", exact: true }).and(page.locator('[title*="connect"]')).waitFor();
   await nothing_selected(page);
   await page.getByRole("button", { name: "Connect what fits" }).click();
@@ -81,16 +81,17 @@ async function arrange(page) {
   await page.getByRole("button", { name: "Fit View" }).click();
 }
 
-export async function make_the_button_command(page) {
+/** @param show  called once the parameters are typed */
+export async function make_the_button_command(page, show) {
   await drag(page, port(page, "Button", "event", "Pressed"), port(page, "nAxesGeneratorPos", "command", "moveTo"));
-  await wire(page, "Button.Pressed", "nAxesGeneratorPos.moveTo").waitFor({ state: "attached" });
-  await wire(page, "Button.Pressed", "nAxesGeneratorPos.moveTo").focus();
-  await page.keyboard.press("Enter");
-  await set(page, "Settings", kCommand);
+  const form = page.getByRole("form", { name: "Parameters of the command" });
+  for (const [parameter, value] of Object.entries(kParameters)) await form.getByLabel(parameter).fill(value);
+  await show();
+  await form.getByRole("button", { name: "Connect" }).click();
+  await form.waitFor({ state: "detached" });
+  await page.locator('.react-flow__edge[aria-label="Button.Pressed to nAxesGeneratorPos.moveTo"]').waitFor({ state: "attached" });
   await page.getByText("No problems").waitFor();
 }
-
-const wire = (page, from, to) => page.locator(`.react-flow__edge[aria-label="${from} to ${to}"]`);
 
 export async function save_and_run(page) {
   await page.getByRole("button", { name: "Save and run" }).click();
@@ -119,7 +120,7 @@ export async function is_at_the_target(page) {
 
 export async function press_the_button(page) {
   await page.getByRole("tab", { name: "Operate" }).click();
-  await page.getByRole("button", { name: "Press" }).click();
+  await page.getByRole("button", { name: "Press", exact: true }).click();
 }
 
 export async function plot_the_joints(page) {
@@ -131,4 +132,26 @@ export async function plot_the_joints(page) {
 export async function stop(page) {
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   await page.getByText("ended", { exact: true }).waitFor();
+}
+
+/** From the empty canvas to the head that has moved. @param show  called with each picture's name while there is to be seen what it shows */
+export async function walk(page, show = async () => {}) {
+  await show("begin");
+  await include_the_head(page);
+  await show("head");
+  await page.getByRole("button", { name: "Text", exact: true }).click();
+  await add_the_control(page);
+  await show("control");
+  await connect_the_control(page, () => show("wire"));
+  await show("connected");
+  await make_the_button_command(page, () => show("command"));
+  await save_and_run(page);
+  await arm(page);
+  await show("armed");
+  await plot_the_joints(page);
+  await press_the_button(page);
+  await page.getByRole("tab", { name: "Plot" }).click();
+  await until(() => is_at_the_target(page), "the head is at the target");
+  await show("moved");
+  await stop(page);
 }

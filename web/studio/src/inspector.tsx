@@ -2,6 +2,7 @@
 // What is selected, to be read and changed.
 import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
+import { CommandView } from "./command_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
 import { project } from "./project.ts";
 import { box_called, counted, port_of, useScene } from "./scene.ts";
@@ -18,7 +19,9 @@ export function Inspector() {
 
 function Selected() {
   const graph = useScene();
+  const commanding = selection.use((state) => state.commanding);
   const { boxes, wires, port } = selection.use((state) => state);
+  if (commanding) return <CommandView key={`${commanding.from} ${commanding.to}`} commanding={commanding} />;
   const port_box = port && box_called(port.box);
   const chosen_port = port_box && port_of(port_box, port.port);
   if (port_box && chosen_port) return <PortView box={port_box} port={chosen_port} />;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The graph of what is open now, made once for all views.
-import type { Checked, Fitting } from "./checked.ts";
+import type { Argument, Checked, Fitting } from "./checked.ts";
 import { array_of, in_array, peers_by_name, wires_by_name } from "./by_name.ts";
 import { type Box, type BoxPort, type Graph, graph_of, kNoGraph, type Wire } from "./graph.ts";
 import { array_members } from "./ports.ts";
 import { change, edit, fitting, own_file, project } from "./project.ts";
-import { type FitMenu, reach_of, selection, tell } from "./selection.ts";
+import { type Commanding, type FitMenu, reach_of, selection, tell } from "./selection.ts";
 import { free_name } from "./free_name.ts";
 import { message_of } from "./backend.ts";
 import { split_member } from "./checked.ts";
@@ -77,7 +77,29 @@ export async function connect(a: { box: string; port: string }, b: { box: string
   const second = port_in(b);
   if (!first || !second) return false;
   const words = [end_words(box_called(a.box)!, first, second), end_words(box_called(b.box)!, second, first)];
-  return edit([change("connect", ...(is_source(first) ? words : words.toReversed()))], { field: "canvas" });
+  const [from, to] = is_source(first) ? words : words.toReversed();
+  const parameters = is_source(first) ? parameters_left(first, box_called(b.box)!, second) : parameters_left(second, box_called(a.box)!, first);
+  if (parameters.length > 0) return selection.set({ commanding: { from: from!, to: to!, parameters } }), true;
+  return edit([change("connect", from!, to!)], { field: "canvas" });
+}
+
+/** Of a command, those that no member of the event gives. */
+function parameters_left(event: BoxPort, box: Box, command: BoxPort): Argument[] {
+  if (event.kind !== "event" || command.kind !== "command") return [];
+  const members = box_with(event)?.components[0]!.events.find((one) => one.name === event.name)?.arguments ?? [];
+  const parameters = box.components[0]?.operations.find((one) => one.name === command.name)?.arguments ?? [];
+  return parameters.filter((one) => !members.some(({ name }) => without_unit(name) === without_unit(one.name)));
+}
+
+/** Names in signatures have their unit: `time [s]`. */
+const without_unit = (name: string): string => name.replace(/ \[.*$/, "");
+
+const box_with = (port: BoxPort): Box | undefined => scene().boxes.find((box) => box.outputs.includes(port));
+
+/** Makes a wire to a command with a value for each of its parameters. */
+export async function make_commanding({ from, to, parameters }: Commanding, values: string[]): Promise<void> {
+  const given = parameters.map(({ name }, i) => `${without_unit(name)}: ${values[i]}`).join(", ");
+  if (await edit([change("connect", from, to, `with: {${given}}`)], { field: "canvas" })) selection.set({ commanding: undefined });
 }
 
 function port_in({ box, port }: { box: string; port: string }): BoxPort | undefined {
