@@ -2,89 +2,15 @@
 // node --test studio_test.mjs, with ARMATURE=the program: the page in chromium at a real studio, whose
 // checks and runs are real, too. Skipped without chromium.
 import assert from "node:assert/strict";
-import { spawn, spawnSync } from "node:child_process";
-import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { spawnSync } from "node:child_process";
+import { cpSync, existsSync } from "node:fs";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { launch } from "../../web/studio/test/browser.mjs";
+import { add, begin, box, drag, finish, folder, program, skip, studio, until, user } from "./session.mjs";
 
-const program = process.env.ARMATURE;
-const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
-const folder = mkdtempSync(join(tmpdir(), "studio_test_"));
-const environment = { ...process.env, XDG_STATE_HOME: folder };
-const servers = [];
-let browser;
-
-before(async () => {
-  if (!skip) browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  for (const server of servers) server.kill("SIGKILL"); // those that a failed test left, which would keep this process
-  rmSync(folder, { recursive: true, force: true });
-});
-
-/** A studio that has `name` open, in the test's folder unless it is a path, with `text` in it unless it is new. */
-async function studio(name, text) {
-  const file = resolve(folder, name);
-  if (text !== undefined) writeFileSync(file, text);
-  const server = spawn(program, ["studio", file, "--listen", "ws://127.0.0.1:0", "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
-  servers.push(server);
-  let told = "";
-  const address = await new Promise((resolve, reject) => {
-    server.stderr.on("data", (data) => {
-      told += data;
-      const found = /open (http\S+) in/.exec(told);
-      if (found) resolve(found[1]);
-    });
-    server.once("exit", () => reject(new Error(told)));
-  });
-  const end = (signal) => new Promise((ended) => server.once("exit", ended) && server.kill(signal));
-  return { file, address, end, content: () => readFileSync(file, "utf8") };
-}
-
-/** A user of it, with a browser of their own. */
-async function user(address) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
-  const page = await context.newPage();
-  page.setDefaultTimeout(30_000);
-  await page.goto(address);
-  await page.locator(".react-flow__node, .empty").first().waitFor();
-  return page;
-}
-
-const box = (page, name) => page.locator(".react-flow__node", { has: page.locator("header strong", { hasText: new RegExp(`^${name}$`) }) });
-
-async function until(condition, what) {
-  for (let tries = 0; !(await condition()); ++tries) {
-    assert.ok(tries < 300, what);
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-}
-
-async function middle(locator) {
-  const { x, y, width, height } = await locator.boundingBox();
-  return { x: x + width / 2, y: y + height / 2 };
-}
-
-async function drag(page, from, to) {
-  await from.hover();
-  await page.mouse.down();
-  const end = await middle(to);
-  await page.mouse.move(end.x - 30, end.y, { steps: 8 });
-  await page.waitForTimeout(300); // what fits comes from the check
-  await page.mouse.move(end.x, end.y, { steps: 4 });
-  await page.mouse.up();
-}
-
-async function add(page, model, name) {
-  await page.getByLabel("Find a model").fill(model);
-  await page.locator(".palette li", { hasText: new RegExp(`^${name}`) }).waitFor(); // the libraries have been read
-  await page.getByLabel("Find a model").press("Enter");
-  await box(page, name).waitFor();
-}
+before(begin);
+after(finish);
 
 const studio_test = (name, body) => test(name, { skip, timeout: 240_000 }, body);
 

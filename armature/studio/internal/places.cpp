@@ -2,6 +2,7 @@
 #include "armature/studio/internal/places.hpp"
 
 #include <cmath>
+#include <map>
 #include <string_view>
 #include <utility>
 

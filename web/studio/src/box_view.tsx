@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
+import { ConnectByName } from "./connect_by_name.tsx";
 import { Field } from "./field.tsx";
 import type { Box } from "./graph.ts";
 import { dissolve, may_dissolve, split } from "./grouping.ts";
@@ -24,6 +25,7 @@ export function BoxView({ box }: { box: Box }) {
       {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
       {!box.composite && <Requirements box={box} />}
       <p className="actions">
+        <ConnectByName boxes={[box.id]} />
         {box.file && <button type="button" onClick={() => show_text(box.file!, box.line, box.column)}>Show in the text</button>}
         {may_dissolve(box) && <button type="button" title="Ctrl+Shift+G: its parts become boxes beside it" onClick={() => void dissolve(box)}>Dissolve</button>}
         <button type="button" className="danger" onClick={() => void remove_selected()}>Remove</button>

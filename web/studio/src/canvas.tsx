@@ -58,7 +58,7 @@ function Flow() {
         nodes={nodes.all} edges={edges} nodeTypes={node_types} edgeTypes={edge_types} onNodesChange={nodes.changed} onEdgesChange={wires_changed}
         onConnect={wire_made} onConnectStart={wire_begun} onConnectEnd={wire_end} isValidConnection={may_connect}
         connectionMode={ConnectionMode.Loose} connectionRadius={16} onNodeDoubleClick={(_, node) => open_box(node.data.box)}
-        onPaneClick={() => selection.set({ boxes: [], wires: [], port: undefined, menu: undefined })}
+        onPaneClick={() => selection.set({ boxes: [], wires: [], port: undefined, menu: undefined, commanding: undefined })}
         onBeforeDelete={async () => (void remove_selected(), false)} deleteKeyCode={["Delete", "Backspace"]}
         onKeyDown={open_with_key} onDrop={drop} onDragOver={(event) => event.preventDefault()} nodesDraggable={!in_lanes} snapToGrid snapGrid={kSnap} minZoom={0.05} maxZoom={2}
         fitView fitViewOptions={graph.boxes.length > kManyBoxes ? kFitMany : kFit} onlyRenderVisibleElements={many} zoomOnDoubleClick={false}
@@ -95,6 +95,7 @@ function Empty() {
     <div className="empty">
       <p><strong>{loaded ? "This deployment has no components yet." : "Reading the deployment …"}</strong></p>
       {loaded && <p>Choose a model on the left and press Enter, or drag it here. Then drag a wire from an output to an input.</p>}
+      {loaded && <p>To begin with what another file has, such as a robot, press Text and write <code>include: robot.yaml</code>.</p>}
     </div>
   );
 }
@@ -165,7 +166,8 @@ function select_nodes(changes: NodeChange<BoxNodeType>[]): void {
     if (one.selected) chosen.add(one.id);
     else chosen.delete(one.id);
   }
-  selection.set({ boxes: [...chosen], port: undefined });
+  const another = selects.some((one) => one.selected) ? { commanding: undefined } : {};
+  selection.set({ boxes: [...chosen], port: undefined, ...another });
 }
 
 function useEdges(graph: Graph): Edge[] {

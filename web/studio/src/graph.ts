@@ -18,6 +18,7 @@ export interface BoxPort {
   size?: number;
   doc: string;
   triggers: boolean;
+  may_stay_open: boolean;
   count: number;   ///< of an array that is shown as one
   ends: string[];  ///< `Component.member` of all that it stands for
   written: string; ///< as an edit names it

@@ -2,9 +2,11 @@
 // What is selected, to be read and changed.
 import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
+import { CommandView } from "./command_view.tsx";
+import { ConnectByName } from "./connect_by_name.tsx";
 import { project } from "./project.ts";
 import { group_selected, may_group } from "./grouping.ts";
-import { box_called, port_of, remove_selected, useScene } from "./scene.ts";
+import { box_called, counted, port_of, remove_selected, useScene } from "./scene.ts";
 import { selection } from "./selection.ts";
 import { OpenedView, WireView } from "./wire_view.tsx";
 
@@ -18,7 +20,9 @@ export function Inspector() {
 
 function Selected() {
   const graph = useScene();
+  const commanding = selection.use((state) => state.commanding);
   const { boxes, wires, port } = selection.use((state) => state);
+  if (commanding) return <CommandView key={`${commanding.from} ${commanding.to}`} commanding={commanding} />;
   const port_box = port && box_called(port.box);
   const chosen_port = port_box && port_of(port_box, port.port);
   if (port_box && chosen_port) return <PortView box={port_box} port={chosen_port} />;
@@ -27,19 +31,20 @@ function Selected() {
   const box = boxes.length === 1 ? box_called(boxes[0]!) : undefined;
   if (box?.opened) return <OpenedView key={box.id} box={box} />;
   if (box) return <BoxView key={box.id} box={box} />;
-  if (boxes.length + wires.length > 1) return <Several boxes={boxes.length} wires={wires.length} />;
+  if (boxes.length + wires.length > 1) return <Several boxes={boxes} wires={wires.length} />;
   return <Application />;
 }
 
-function Several({ boxes, wires }: { boxes: number; wires: number }) {
+function Several({ boxes, wires }: { boxes: string[]; wires: number }) {
   return (
     <>
-      <h2>{`${counted(boxes, "box", "boxes")} and ${counted(wires, "wire")}`}</h2>
-      {boxes > 1 && <p className="hint">{may_group() ? "A group is a composite: a box with these boxes as its parts, and the ports that others use." : "Boxes inside of a composite are not grouped."}</p>}
+      <h2>{`${counted(boxes.length, "box", "boxes")} and ${counted(wires, "wire")}`}</h2>
+      {boxes.length > 1 && <p className="hint">{may_group() ? "A group is a composite: a box with these boxes as its parts, and the ports that others use." : "Boxes inside of a composite are not grouped."}</p>}
       <p className="actions">
         {may_group() && <button type="button" title="Ctrl+G" onClick={() => void group_selected()}>Group</button>}
         <button type="button" className="danger" onClick={() => void remove_selected()}>Remove</button>
       </p>
+      {boxes.length > 0 && <ConnectByName boxes={boxes} />}
     </>
   );
 }
@@ -56,9 +61,8 @@ function Application() {
       <ul className="lanes">
         {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
       </ul>
+      {shown.components.length > 1 && <p className="actions"><ConnectByName /></p>}
       <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>
     </>
   );
 }
-
-const counted = (count: number, noun: string, plural = `${noun}s`): string => `${count} ${count === 1 ? noun : plural}`;

@@ -3,7 +3,7 @@
 import { useMemo, useRef, useState } from "react";
 import type { Box, BoxPort, Graph } from "./graph.ts";
 import { change, edit } from "./project.ts";
-import { look_for_ends, remove_selected, useScene } from "./scene.ts";
+import { connect_by_name, look_for_ends, remove_selected, useScene } from "./scene.ts";
 import { open_composite, select_box, select_port, selection, toggle_plotted } from "./selection.ts";
 
 interface Row {
@@ -63,7 +63,7 @@ export function Outline() {
                 on_key={(event) => on_key(event, row, index)} on_focus={() => set_at(row.key)} unfold={unfold} />
         ))}
       </ul>
-      {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects a port <kbd>Del</kbd> removes</p>}
+      {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes</p>}
     </section>
   );
 }
@@ -92,7 +92,7 @@ function action_of(event: React.KeyboardEvent, row: Row, moves: Moves): (() => v
     case " ": return () => choose(row);
     case "F2": return moves.rename;
     case "Delete": return () => remove(row);
-    case "c": case "C": return port ? () => void open_menu(event.currentTarget, box, port) : undefined;
+    case "c": case "C": return () => void (port ? open_menu(event.currentTarget, box, port) : connect_by_name([box.id]));
     case "p": case "P": return port ? () => toggle_plotted(port.ends[0]!) : undefined;
     default: return undefined;
   }

@@ -16,17 +16,19 @@ interface Member {
   size?: number;
   doc: string;
   triggers: boolean;
+  may_stay_open: boolean;
 }
 
 const of_port = (kind: EndKind) => (port: Port): Member => ({
   name: port.name, kind, type: port.type, unit: port.unit, size: port.size, doc: port.doc, triggers: port.triggers ?? false,
+  may_stay_open: port.may_stay_open ?? false,
 });
 
 function members_of(component: Component): { inputs: Member[]; outputs: Member[] } {
   const commands = (component.operations ?? []).filter((one) => one.command);
   const events = component.events ?? [];
   const plain = (kind: EndKind) => (one: { name: string; signature: string; doc: string }): Member => ({
-    name: one.name, kind, type: one.signature, unit: "", doc: one.doc, triggers: false,
+    name: one.name, kind, type: one.signature, unit: "", doc: one.doc, triggers: false, may_stay_open: true,
   });
   return {
     inputs: [...(component.inputs ?? []).map(of_port("input")), ...commands.map(plain("command"))],
@@ -75,10 +77,15 @@ function as_one(first: BoxPort, array: PortArray, components: Component[], writt
   };
 }
 
-function arrays_shown_as_one(component: Component, connections: Connection[]): PortArray[] {
+/** `Ref1`, `Ref2` of the array `Ref`. */
+export function array_members(component: Component, array: string): string[] {
   const names = [...(component.inputs ?? []), ...(component.outputs ?? [])].map((port) => port.name);
+  return names.filter((one) => one.startsWith(array) && /^\d+$/.test(one.slice(array.length)));
+}
+
+function arrays_shown_as_one(component: Component, connections: Connection[]): PortArray[] {
   return (component.port_arrays ?? [])
-    .map(({ name }) => ({ name, members: names.filter((one) => one.startsWith(name) && /^\d+$/.test(one.slice(name.length))) }))
+    .map(({ name }) => ({ name, members: array_members(component, name) }))
     .filter((array) => array.members.length > 1 && is_used_as_one(component.name, array, connections));
 }
 

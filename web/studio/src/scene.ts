@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The graph of what is open now, made once for all views.
 import type { Change } from "./backend.ts";
-import type { Checked, Fitting, Place } from "./checked.ts";
+import type { Argument, Checked, Fitting, Place } from "./checked.ts";
+import { array_of, in_array, peers_by_name, wires_by_name } from "./by_name.ts";
 import { with_parameter } from "./event_command.ts";
 import { type Box, type BoxPort, type Graph, graph_of, kNoGraph, type Wire } from "./graph.ts";
-import { change, edit, fitting, project } from "./project.ts";
-import { type FitMenu, reach_of, selection, tell } from "./selection.ts";
+import { array_members } from "./ports.ts";
+import { change, edit, fitting, own_file, project } from "./project.ts";
+import { type Commanding, type FitMenu, reach_of, selection, tell } from "./selection.ts";
 import { free_name } from "./free_name.ts";
 import { message_of } from "./backend.ts";
 import { split_member } from "./checked.ts";
@@ -61,9 +63,13 @@ export function why_not(port: BoxPort): string | undefined {
   return answers.length === 0 ? undefined : answers.includes("") ? "" : answers[0];
 }
 
-/** The port as a connection names it; of an array that is one port, the first that fits, unless a range meets it. */
-function end_words(port: BoxPort, other: BoxPort): string {
-  if (port.count === 1 || other.written.includes("{i}")) return port.written;
+/** The port as a connection names it: a range meets the whole array, another port the first of it that fits. */
+function end_words(box: Box, port: BoxPort, other: BoxPort): string {
+  if (other.written.includes("{i}")) {
+    const array = port.count === 1 ? array_of(box, port) : undefined;
+    return array && array_members(box.components[0]!, array).length === other.ends.length ? in_array(port, array) : port.written;
+  }
+  if (port.count === 1) return port.written;
   const { reach } = selection.get();
   const free = port.ends.find((end) => reach?.ends.get(end) === "") ?? port.ends[0]!;
   return port.written.replace(/[^.]*$/, split_member(free)[1]);
@@ -73,9 +79,32 @@ export async function connect(a: { box: string; port: string }, b: { box: string
   const first = port_in(a);
   const second = port_in(b);
   if (!first || !second) return false;
-  const [from, to] = is_source(first) ? [first, second] : [second, first];
-  if (to.parameter) return give_parameter(is_source(first) ? b.box : a.box, to.parameter, from.written);
-  return edit([change("connect", end_words(from, to), end_words(to, from))], { field: "canvas" });
+  const [source, target] = is_source(first) ? [first, second] : [second, first];
+  if (target.parameter) return give_parameter(is_source(first) ? b.box : a.box, target.parameter, source.written);
+  const words = [end_words(box_called(a.box)!, first, second), end_words(box_called(b.box)!, second, first)];
+  const [from, to] = is_source(first) ? words : words.toReversed();
+  const parameters = is_source(first) ? parameters_left(first, box_called(b.box)!, second) : parameters_left(second, box_called(a.box)!, first);
+  if (parameters.length > 0) return selection.set({ commanding: { from: from!, to: to!, parameters } }), true;
+  return edit([change("connect", from!, to!)], { field: "canvas" });
+}
+
+/** Of a command, those that no member of the event gives. */
+function parameters_left(event: BoxPort, box: Box, command: BoxPort): Argument[] {
+  if (event.kind !== "event" || command.kind !== "command") return [];
+  const members = box_with(event)?.components[0]!.events.find((one) => one.name === event.name)?.arguments ?? [];
+  const parameters = box.components[0]?.operations.find((one) => one.name === command.name)?.arguments ?? [];
+  return parameters.filter((one) => !members.some(({ name }) => without_unit(name) === without_unit(one.name)));
+}
+
+/** Names in signatures have their unit: `time [s]`. */
+const without_unit = (name: string): string => name.replace(/ \[.*$/, "");
+
+const box_with = (port: BoxPort): Box | undefined => scene().boxes.find((box) => box.outputs.includes(port));
+
+/** Makes a wire to a command with a value for each of its parameters. */
+export async function make_commanding({ from, to, parameters }: Commanding, values: string[]): Promise<void> {
+  const given = parameters.map(({ name }, i) => `${without_unit(name)}: ${values[i]}`).join(", ");
+  if (await edit([change("connect", from, to, `with: {${given}}`)], { field: "canvas" })) selection.set({ commanding: undefined });
 }
 
 function port_in({ box, port }: { box: string; port: string }): BoxPort | undefined {
@@ -83,21 +112,42 @@ function port_in({ box, port }: { box: string; port: string }): BoxPort | undefi
   return found && port_of(found, port);
 }
 
+/** Connects open inputs, and adds peers, where only one fits by its name; of the boxes `wanted`, or of all. */
+export async function connect_by_name(wanted: readonly string[] = []): Promise<void> {
+  const graph = scene();
+  const services = project.get().shown?.connections.filter((one) => one.kind !== "data") ?? [];
+  const served = new Set(services.flatMap((one) => [one.from, one.to]));
+  const wires = wires_by_name(graph, wanted);
+  const peers = peers_by_name(graph, served, own_file(), wanted);
+  if (wires.length + peers.length === 0) return tell("Nothing to connect: no input that needs a writer has exactly one output of its name, type, unit and size.");
+  const changes = [...wires.map((pair) => change("connect", ...pair)), ...peers.map((pair) => change("peer", ...pair))];
+  if (await edit(changes, { field: "canvas" })) tell(`Connected ${counted(wires.length, "wire")}, and added ${counted(peers.length, "peer")}. Undo takes all of it back.`);
+}
+
+export const counted = (count: number, noun: string, plural = `${noun}s`): string => `${count} ${count === 1 ? noun : plural}`;
+
 /** Names that something new must not have. */
 export function taken_names(): string[] {
   const { shown, texts } = project.get();
-  return [...(shown?.components ?? []).map((one) => one.name.split(".")[0]!), ...entries_of(texts).map((entry) => entry.name)];
+  return [...(shown?.components ?? []).map((one) => one.name.split(".")[0]!), ...entries_of(texts).map((entry) => without_range(entry.name).model)];
 }
 
-/** Adds a component of a model; @return its name, or undefined if that was refused. */
-export async function add_model(model: string, place?: Point, then: (name: string) => ReturnType<typeof change>[] = () => []): Promise<string | undefined> {
-  const name = free_name(model, taken_names());
+/** Adds a component of a model, or with `PID{1..2}` several as one box; @return its name, or undefined if that was refused. */
+export async function add_model(asked: string, place?: Point, then: (name: string) => ReturnType<typeof change>[] = () => []): Promise<string | undefined> {
+  const { model, range } = without_range(asked);
+  const name = free_name(model, taken_names()) + range;
   const placed = place ? [change("place", name, String(place[0]), String(place[1]))] : [];
   const library = library_to_load(model);
   const loaded = library ? [change("library", library)] : [];
   if (!(await edit([...loaded, change("add", name, model), ...then(name), ...placed], { field: "canvas" }))) return undefined;
   selection.set({ path: [], boxes: [name], wires: [], port: undefined });
   return name;
+}
+
+/** `PID{1..2}` as the model and its range. */
+export function without_range(asked: string): { model: string; range: string } {
+  const [, model = asked, range = ""] = /^(.*?)\s*(\{\d+\.\.\d+\})$/.exec(asked) ?? [];
+  return { model, range };
 }
 
 /** The library of a model that the deployment does not load yet. */

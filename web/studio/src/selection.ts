@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the user looks at: the open composite, what is selected, the panels that are open.
-import type { End, Fitting } from "./checked.ts";
+import type { Argument, End, Fitting } from "./checked.ts";
 import { Store } from "./store.ts";
 
 export type Tab = "problems" | "log" | "threads" | "cycle" | "plot" | "operate";
@@ -26,6 +26,13 @@ export interface FitMenu {
   place?: [number, number];
 }
 
+/** A wire from an event to a command, as it is to be written once its parameters are given. */
+export interface Commanding {
+  from: string;
+  to: string;
+  parameters: Argument[];
+}
+
 export interface Selection {
   path: string[];       ///< composites that are open
   boxes: string[];
@@ -36,6 +43,7 @@ export interface Selection {
   beside: Beside;       ///< what stands beside the canvas
   opened: string[];     ///< connections from events to commands that are shown with their parameters
   lanes: boolean;       ///< boxes are in lanes of their threads
+  commanding?: Commanding;
   textPlace?: { file: string; line: number; column: number; ask: number };
   tab: Tab;
   reveal?: { box: string; ask: number };  ///< the canvas moves there
@@ -50,13 +58,13 @@ export const selection = new Store<Selection>({
 let asks = 0;
 
 export function select_box(box: string, reveal = false): void {
-  selection.set({ boxes: [box], wires: [], port: undefined, ...(reveal ? { reveal: { box, ask: ++asks } } : {}) });
+  selection.set({ boxes: [box], wires: [], port: undefined, commanding: undefined, ...(reveal ? { reveal: { box, ask: ++asks } } : {}) });
 }
 
-export const select_wire = (wire: string): void => selection.set({ boxes: [], wires: [wire], port: undefined });
+export const select_wire = (wire: string): void => selection.set({ boxes: [], wires: [wire], port: undefined, commanding: undefined });
 
 export function select_port(box: string, port: string): void {
-  selection.set({ boxes: [box], wires: [], port: { box, port } });
+  selection.set({ boxes: [box], wires: [], port: { box, port }, commanding: undefined });
 }
 
 export const open_composite = (path: string[]): void => selection.set({ path, boxes: [], wires: [], port: undefined });

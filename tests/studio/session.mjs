@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real studio, and users of its page in chromium. ARMATURE=the program.
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { resolve as path_of } from "node:path";
+import { launch } from "../../web/studio/test/browser.mjs";
+
+export const program = process.env.ARMATURE;
+export const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
+export const folder = mkdtempSync(path_of(tmpdir(), "studio_test_"));
+const environment = { ...process.env, XDG_STATE_HOME: folder };
+const servers = [];
+let browser;
+
+export async function begin() {
+  if (!skip) browser = await launch();
+}
+
+export async function finish() {
+  await browser?.close();
+  for (const server of servers) server.kill("SIGKILL"); // those that a failed test left, which would keep this process
+  spawnSync("pkill", ["-KILL", "-f", folder]); // and their runs, which outlive studios
+  rmSync(folder, { recursive: true, force: true });
+}
+
+/** A studio that has `name` open, in the folder of the test unless it is a path, with `text` in it unless it is new; at any free port unless one is named. */
+export async function studio(name, text, port = 0) {
+  const file = path_of(folder, name);
+  if (text !== undefined) writeFileSync(file, text);
+  const server = spawn(program, ["studio", file, "--listen", `ws://127.0.0.1:${port}`, "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
+  servers.push(server);
+  let told = "";
+  const address = await new Promise((resolve, reject) => {
+    server.stderr.on("data", (data) => {
+      told += data;
+      const found = /open (http\S+) in/.exec(told);
+      if (found) resolve(found[1]);
+    });
+    server.once("exit", () => reject(new Error(told)));
+  });
+  const end = (signal) => new Promise((ended) => server.once("exit", ended) && server.kill(signal));
+  return { file, address, end, content: () => readFileSync(file, "utf8") };
+}
+
+/** A user of it, with a browser of their own. */
+export async function user(address) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const page = await context.newPage();
+  page.setDefaultTimeout(30_000);
+  await page.goto(address);
+  await page.locator(".react-flow__node, .empty").first().waitFor();
+  return page;
+}
+
+export const box = (page, name) => page.locator(".react-flow__node", { has: page.locator("header strong", { hasText: new RegExp(`^${name.replace(/[{}.]/g, "\\$&")}$`) }) });
+
+export async function until(condition, what) {
+  for (let tries = 0; !(await condition()); ++tries) {
+    assert.ok(tries < 300, what);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
+
+async function middle(locator) {
+  const { x, y, width, height } = await locator.boundingBox();
+  return { x: x + width / 2, y: y + height / 2 };
+}
+
+/** A wire drawn by mouse; it is let go once the page knows what fits. */
+export async function drag(page, from, to, before_it_is_let_go = async () => {}) {
+  await from.hover();
+  await page.mouse.down();
+  const end = await middle(to);
+  await page.mouse.move(end.x - 30, end.y, { steps: 8 });
+  await page.locator(".canvas.reaching").waitFor();
+  await before_it_is_let_go();
+  const now = await middle(to); // the canvas may have moved
+  await page.mouse.move(now.x, now.y, { steps: 4 });
+  await page.mouse.up();
+}
+
+/** Adds the first model that is found by the word; by mouse or keyboard that is the same. */
+export async function add(page, word, model, name = model) {
+  await page.getByLabel("Find a model").fill(word);
+  await page.locator(".palette li", { hasText: new RegExp(`^${model}`) }).first().waitFor(); // the libraries have been read
+  await page.getByLabel("Find a model").press("Enter");
+  await box(page, name).waitFor();
+}

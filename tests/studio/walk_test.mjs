@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// node --test walk_test.mjs, with ARMATURE=the program: docs/studio_walk.md, by mouse. Skipped without chromium.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { begin, finish, folder, program, skip, studio, user } from "./session.mjs";
+import { lay_out, walk } from "./walk.mjs";
+
+before(begin);
+after(finish);
+
+/** The application as the check has it, without the places where a file says it. */
+function application(file) {
+  const { ok, components, connections, threads } = JSON.parse(execFileSync(program, ["check", "--json", file], { encoding: "utf8" }));
+  const sorted = (lines) => lines.map((line) => JSON.stringify(line)).sort();
+  return {
+    ok,
+    components: sorted(components.map(({ name, model, activity, thread, properties }) => [name, model, activity, thread, properties.map((one) => [one.name, one.value])])),
+    connections: sorted(connections.map(({ kind, from, to, triggers, delayed, crosses_threads }) => [kind, from, to, triggers, delayed, crosses_threads])),
+    threads: sorted(threads.map(({ name, activity, order }) => [name, activity, [...order].sort()])),
+  };
+}
+
+test("the walk ends with the head at its target, and with the application of the reference", { skip, timeout: 240_000 }, async () => {
+  lay_out();
+  const { file, address, end } = await studio("demo/mine.yaml");
+  await walk(await user(address));
+  const made = application(file);
+  assert.equal(made.ok, true);
+  assert.deepEqual(made, application(join(folder, "demo/assembled.yaml")));
+  await end("SIGTERM");
+});
