@@ -36,7 +36,7 @@ class Relay final : public ride::Service {
   static constexpr std::size_t kMostOfAll = 40;
 
   /// @param name  as which pages know it, also in policies
-  /// @param wake  called by any thread when `look` has something to do
+  /// @param wake  called by any thread when `learn` has something to do
   Relay(std::string name, Seat& seat, std::function<void()> wake);
 
   /// From now on it is the one at this address.
