@@ -100,14 +100,14 @@ base::Error not_loaded(const std::string& reason) {
                            : "")};
 }
 
-/// What a library exports, if it is one.
-base::Result<component::LibraryEntry> entry_of(const std::string& file) {
+/// The description that a library exports, if it is one.
+base::Result<const component::LibraryDescription*> describe(const std::string& file) {
   if (auto runtime = load_runtime_for(file); !runtime) return base::Error{runtime.error()};
   const base::Result<platform::SharedObject> loaded = platform::SharedObject::load(file);
   if (!loaded) return not_loaded(loaded.error());
   const auto entry =
       reinterpret_cast<component::LibraryEntry>(loaded.value().symbol(component::kLibraryEntry));
-  if (entry != nullptr) return entry;
+  if (entry != nullptr) return entry();
   return base::Error{path_in_quotes(file) + " is not a component library: it does not export " +
                      component::kLibraryEntry +
                      "; write ARMATURE_COMPONENT_LIBRARY in one of its sources"};
@@ -162,9 +162,9 @@ base::Result<std::string> find_library(std::string_view name,
 }
 
 base::Result<void> load_library(const std::string& file, component::Registry& registry) {
-  const base::Result<component::LibraryEntry> entry = entry_of(file);
-  if (!entry) return base::Error{entry.error()};
-  return component::add_library(entry.value()(), path_in_quotes(file), registry);
+  const base::Result<const component::LibraryDescription*> description = describe(file);
+  if (!description) return base::Error{description.error()};
+  return component::add_library(description.value(), path_in_quotes(file), registry);
 }
 
 bool load_libraries(const std::vector<Reference>& libraries,

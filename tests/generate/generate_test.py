@@ -213,23 +213,31 @@ components:
         self.assertEqual(done.returncode, 1)
         self.assertIn("'Weight' lets go, since no answer came: it held a weight", done.stderr)
 
-    def test_a_reaction_ends_it_with_its_exit_code_and_a_black_box(self):
-        made = self.made(self.write("""
+    def late(self, reaction):
+        """How a run and a program end whose data is too old."""
+        deployment = self.write(f"""
 application: late
-on_fault: stop_all
 libraries: [controls]
 components:
-  Slow: {model: Constant, activity: {periodic: 1 s}}
-  Sum: {model: Adder, activity: {periodic: 10 ms}, properties: {Inputs: 1}}
-connections: [{from: Slow.Out, to: Sum.In1, max_age: 100 ms, on_old: stop}]
-"""))
-        expected = self.run_deployment(self.folder / "deployment" / "robot.yaml", "--sim", "--for", "3s", "--out",
-                                       self.folder / "run")
-        done = run(made, "--sim", "--for", "3s", "--out", self.folder / "gen")
-        self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertEqual(expected.returncode, 4, expected.stderr)
-        self.assertEqual(len(list((self.folder / "gen").glob("blackbox-Sum-*.mcap"))), 1)
-        self.assertEqual(re.findall("Sum: .*stop.*", expected.stderr)[:1], re.findall("Sum: .*stop.*", done.stderr)[:1])
+  Slow: {{model: Constant, activity: {{periodic: 1 s}}}}
+  Sum: {{model: Adder, activity: {{periodic: 10 ms}}, properties: {{Inputs: 1}}}}
+connections: [{{from: Slow.Out, to: Sum.In1, max_age: 100 ms, on_old: {reaction}}}]
+""")
+        made = self.made(deployment)
+        arguments = ["--sim", "--for", "3s", "--out"]
+        ends = [self.run_deployment(deployment, *arguments, self.folder / "run"),
+                run(made, *arguments, self.folder / "gen")]
+        why = [re.findall("Sum: .*older than declared", end.stderr) for end in ends]
+        self.assertTrue(why[0])
+        self.assertEqual(why[0], why[1])
+        boxes = [len(list((self.folder / folder).glob("blackbox-Sum-*.mcap"))) for folder in ("run", "gen")]
+        return [end.returncode for end in ends], boxes
+
+    def test_a_reaction_ends_it_with_its_exit_code(self):
+        self.assertEqual(self.late("stop"), ([4, 4], [0, 0]))
+
+    def test_a_fault_ends_it_with_its_exit_code_and_a_black_box(self):
+        self.assertEqual(self.late("fault"), ([1, 1], [1, 1]))
 
     def test_a_crash_is_named_as_by_a_run(self):
         deployment = self.write("""
