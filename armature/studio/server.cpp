@@ -49,8 +49,13 @@ std::string folder_of(const ServerOptions& options, base::Diagnostics& diagnosti
     diagnostics.error({}, "cannot make the folder '" + folder.string() + "': " + failure.message());
     return {};
   }
-  // Logs of runs, and a socket by which they are commanded: for nobody else.
+  // What lets pages in, logs of runs, and a socket by which they are commanded: for nobody else.
   fs::permissions(folder, fs::perms::owner_all, failure);
+  if (failure) {
+    diagnostics.error({}, "cannot keep the folder '" + folder.string() +
+                              "' for this account alone: " + failure.message());
+    return {};
+  }
   return folder.string();
 }
 
@@ -181,9 +186,11 @@ std::unique_ptr<Server> Server::make(const ServerOptions& options, base::Diagnos
     diagnostics.error({}, "another studio has '" + options.file + "' open: " + lock.error());
   auto poller = platform::Poller::make();
   if (!poller) diagnostics.error({}, poller.error());
-  auto transport = websocket::make_transport(
-      {.pages = options.pages, .certificate = options.certificate, .key = options.key},
-      diagnostics);
+  auto transport = websocket::make_transport({.pages = options.pages,
+                                              .certificate = options.certificate,
+                                              .key = options.key,
+                                              .secrets = (fs::path(folder) / "entry").string()},
+                                             diagnostics);
   ride::NodeOptions node;
   node.name = "studio";
   node.log = options.log;

@@ -21,6 +21,9 @@ struct Options {
   /// Files in PEM form, with which the way to pages is encrypted: both, or none.
   std::string certificate = {};
   std::string key = {};
+  /// A file that only this account can read: what lets in stays the same at the next start, so that
+  /// pages that are open come back. Empty, or with a certificate: it is new at each start.
+  std::string secrets = {};
   std::size_t connections = 32;  ///< at an address, those that only fetch files, too
   std::size_t frame_bytes =
       64 * 1024;  ///< of a frame from a page; a larger one ends the connection

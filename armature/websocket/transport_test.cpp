@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/websocket/transport.hpp"
 
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/platform/file.hpp"
 #include "armature/testing/transport_conformance.hpp"
 #include "armature/websocket/internal/pages.hpp"
 #include "armature/websocket/internal/server.hpp"
@@ -73,6 +76,32 @@ TEST_F(WebTransport, IsSafeOnLoopbackOnlyAndListensNowhereElse) {
   const auto refused = transport_->listen({"ws", "0.0.0.0", 0});
   ASSERT_FALSE(refused.ok());
   EXPECT_THAT(refused.error(), HasSubstr("listen at 127.0.0.1 or ::1, or at wss://"));
+}
+
+/// The address of a page when one starts that keeps what lets in at `path`.
+std::string page_of_a_start(const std::string& pages, const std::string& path) {
+  base::Diagnostics diagnostics;
+  const auto transport = websocket::make_transport({.pages = pages, .secrets = path}, diagnostics);
+  const auto listener = transport->listen({"ws", "127.0.0.1", 0});
+  EXPECT_TRUE(listener);
+  const std::string page = transport->pages().front();
+  return page.substr(page.find('#'));
+}
+
+TEST_F(WebTransport, KeepsItsTokenForTheNextStartIfItHasAFileForIt) {
+  const std::string path = site_.folder() + "_entry";
+  const std::string first = page_of_a_start(site_.folder(), path);
+  EXPECT_EQ(page_of_a_start(site_.folder(), path), first);
+  EXPECT_NE(page_of_a_start(site_.folder(), ""), first);
+  for (const std::string& damaged : {std::string("x"), std::string(66, '\n'),
+                                     std::string(32, 'a') + "\n" + std::string(32, 'a') + "\n"}) {
+    ASSERT_TRUE(platform::write_file(path, damaged));
+    const std::string anew = page_of_a_start(site_.folder(), path);
+    EXPECT_EQ(anew.size(), first.size()) << damaged;
+    EXPECT_EQ(anew.find(std::string(32, 'a')), std::string::npos);
+    EXPECT_EQ(page_of_a_start(site_.folder(), path), anew);
+  }
+  std::filesystem::remove(path);
 }
 
 TEST_F(WebTransport, TellsAnAddressWithATokenOfItsOwn) {

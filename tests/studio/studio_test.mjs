@@ -73,6 +73,18 @@ studio_test("a studio that is killed loses no run and no edit", async () => {
   await second.end("SIGTERM");
 });
 
+studio_test("a studio that is started again has the pages back that are open, unasked", async () => {
+  const first = await studio("again.yaml", kWave);
+  const page = await user(first.address);
+  await first.end("SIGKILL");
+  await page.getByText("The connection to the studio is lost").waitFor();
+  const second = await studio("again.yaml", undefined, new URL(first.address).port);
+  assert.equal(second.address, first.address);
+  await page.getByText("The connection to the studio is lost").waitFor({ state: "detached" });
+  await add(page, "watcher", "Watcher");
+  await second.end("SIGTERM");
+});
+
 studio_test("a file full of mistakes opens and is mended by its fixes", async () => {
   const { address, end, content } = await studio("wrong.yaml", kWave.replace("{model: Source", "{model: Sourc") + "connections:\n  - Source.Position -> Nobody.In\n");
   const page = await user(address);

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "armature/platform/file.hpp"
 #include "armature/ride/socket_connection.hpp"
 #include "armature/websocket/internal/request.hpp"
 
@@ -28,6 +31,23 @@ const lws_protocol_vhost_options* headers(const std::string& content_policy,
            {&room[3], nullptr, "referrer-policy:", "no-referrer"},
            {nullptr, nullptr, "cross-origin-resource-policy:", "same-origin"}}};
   return room.data();
+}
+
+bool is_secret(const std::string& text) {
+  return text.size() == 2 * kSecretBytes &&
+         text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+/// Token and pass of an earlier start. A file that is damaged is as good as none.
+std::optional<std::pair<std::string, std::string>> secrets_in(const std::string& path) {
+  constexpr std::size_t kLine = 2 * kSecretBytes + 1;
+  const auto text = platform::read_file(path, 2 * kLine);
+  if (!text || text.value().size() != 2 * kLine) return std::nullopt;
+  std::pair found{text.value().substr(0, kLine - 1), text.value().substr(kLine, kLine - 1)};
+  if (!is_secret(found.first) || !is_secret(found.second) || found.first == found.second) {
+    return std::nullopt;
+  }
+  return found;
 }
 
 bool is_encrypted(const Options& options) { return !options.certificate.empty(); }
@@ -123,16 +143,31 @@ base::Result<void> Server::make_context(const std::vector<std::string>& hosts) {
   info.timeout_secs = info.keepalive_timeout = kMostSeconds;
   context_ = lws_create_context(&info);
   if (context_ == nullptr) return base::Error{"the server of pages cannot be made"};
-  auto token = secret();
-  auto pass = secret();
-  if (!token || !pass) return base::Error{token ? pass.error() : token.error()};
-  entry_.emplace(names(options_, hosts, address_.port), std::move(token).value(),
-                 std::move(pass).value());
+  auto secrets = kept_or_new_secrets();
+  if (!secrets) return base::Error{secrets.error()};
+  auto& [token, pass] = secrets.value();
+  entry_.emplace(names(options_, hosts, address_.port), std::move(token), std::move(pass));
   content_policy_ = entry_->content_policy();
   info.headers = headers(content_policy_, header_room_);
   vhost_ = lws_create_vhost(context_, &info);
   if (vhost_ == nullptr) return base::Error{"the server of pages cannot be made"};
   return {};
+}
+
+base::Result<Server::Secrets> Server::kept_or_new_secrets() const {
+  const bool keeps = !options_.secrets.empty() && !is_encrypted(options_);
+  if (keeps) {
+    if (auto kept = secrets_in(options_.secrets)) return *std::move(kept);
+  }
+  auto token = secret();
+  auto pass = secret();
+  if (!token || !pass) return base::Error{token ? pass.error() : token.error()};
+  Secrets made{std::move(token).value(), std::move(pass).value()};
+  if (!keeps) return made;
+  const auto written =
+      platform::write_file(options_.secrets, made.first + "\n" + made.second + "\n");
+  if (!written) return base::Error{written.error()};
+  return made;
 }
 
 base::Result<std::string> Server::secret() const {

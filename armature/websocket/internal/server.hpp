@@ -49,6 +49,8 @@ class Server final : public ride::Listener {
          const Options& options, const Pages& pages);
   base::Result<void> begin(const std::vector<std::string>& hosts);
   base::Result<void> make_context(const std::vector<std::string>& hosts);
+  using Secrets = std::pair<std::string, std::string>;  ///< token, pass
+  base::Result<Secrets> kept_or_new_secrets() const;
   base::Result<std::string> secret() const;
   void run();
 
