@@ -70,7 +70,7 @@ exec::Blueprint speech(By by) {
   }
   exec::ComponentEntry wire;
   wire.component = std::make_unique<exec::EventCommand>("Wire", speaker.said, listener.add_up,
-                                                        std::vector<exec::CommandParameter>(1),
+                                                        std::vector<component::CallParameter>(1),
                                                         base::Duration::zero());
   wire.bindings = {{std::string(exec::EventCommand::kOn), "Speaker", "Said", {}},
                    {std::string(exec::EventCommand::kDo), "Listener", "addUp", {}}};

@@ -49,7 +49,7 @@ class UntypedCommandCaller final : public CommandCallerBase {
   /// @thread the component's own
   using Ended = void (*)(void* self, CommandStage stage, std::string_view reason);
 
-  /// @param name  a literal
+  /// @param name  lives as long as this
   /// @param most  so many may be under way
   UntypedCommandCaller(Component& owner, std::string_view name, std::string_view doc,
                        const CommandBase& like, std::size_t most, Ended ended, void* self) noexcept;
@@ -87,6 +87,47 @@ class UntypedCommandCaller final : public CommandCallerBase {
   Ended ended_;
   void* self_;
   std::vector<std::unique_ptr<Order, LetGo>> orders_;
+};
+
+/// The declared use of an operation of any signature, which is never waited for.
+class UntypedOperationCaller final : public OperationCallerBase {
+ public:
+  /// Told of the end of each call that was sent.
+  /// @param result  what it returned, of a call that is done; nullptr if nothing
+  /// @thread the component's own
+  using Ended = void (*)(void* self, CallStatus status, const void* result);
+
+  /// @param name  lives as long as this
+  /// @param most  so many may be under way
+  UntypedOperationCaller(Component& owner, std::string_view name, std::string_view doc,
+                         const OperationBase& like, std::size_t most, Ended ended,
+                         void* self) noexcept;
+  ~UntypedOperationCaller() override;
+
+  /// Gives all that is sent the shape of these arguments, so that sending them never allocates.
+  /// @thread configuration only, after it was connected
+  void prepare(const void* const* sample);
+  /// Sends the call to the operation's own thread and returns at once.
+  /// @param arguments  where they are, as the operation's signature has them
+  /// @return kPending, kNotConnected, or kQueueFull if too many are under way
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  CallStatus send(const void* const* arguments);
+  /// Nobody is told of the end of those that are under way now, and what has not begun does not.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  void forget();
+
+ private:
+  class Question;
+  struct LetGo {
+    void operator()(Question* question) const;
+  };
+
+  std::size_t most_;
+  Ended ended_;
+  void* self_;
+  std::vector<std::unique_ptr<Question, LetGo>> questions_;
 };
 
 /// An input of the type and unit of an output.

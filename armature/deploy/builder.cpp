@@ -12,6 +12,7 @@
 #include "armature/component/interface.hpp"
 #include "armature/component/operations/operation.hpp"
 #include "armature/component/properties/property.hpp"
+#include "armature/deploy/internal/call_builder.hpp"
 #include "armature/deploy/internal/component_builder.hpp"
 #include "armature/deploy/internal/connection_builder.hpp"
 #include "armature/deploy/internal/once_per_place.hpp"
@@ -248,6 +249,7 @@ exec::Blueprint build_blueprint(const Document& document, const component::Regis
   add_inlets(document, options, blueprint, diagnostics);
   add_operator_inputs(document, blueprint, diagnostics);
   add_modes(document, blueprint);
+  internal::CallBuilder(document, blueprint, diagnostics).build();
   internal::ConnectionBuilder(document, blueprint, diagnostics).build();
   check_exports(document, blueprint, diagnostics);
   check_operations(document.script_grants, blueprint, kCanBeGranted, diagnostics);

@@ -57,6 +57,11 @@ class Resolver {
       resolve_member(scope, {ExportKind::kOperation, ExportKind::kEvent},
                      {binding.component, binding.member, binding.where});
     }
+    for (Call& call : component.calls) {
+      resolve_member(scope, {ExportKind::kOperation},
+                     {call.to.component, call.to.port, call.to.where});
+      for (Property& parameter : call.with) resolve_parameter(parameter.value, scope);
+    }
     std::vector<Reference> delays;
     for (const Reference& delay : component.delays) resolve_delay(delay, scope, delays);
     component.delays = std::move(delays);

@@ -79,6 +79,20 @@ struct PropertyFile {
   base::Location where;
 };
 
+/// One end of a connection, or what is called.
+struct Endpoint {
+  std::string component;
+  std::string port;
+  base::Location where;
+};
+
+/// An operation or a command of another component that this one calls.
+struct Call {
+  Endpoint to;
+  std::vector<Property> with{};  ///< its parameters: constants, `Component.Port`
+  base::Location where;
+};
+
 /// A component of the application.
 struct Component {
   std::string name;  ///< parts of composites: `instance.part`
@@ -89,6 +103,7 @@ struct Component {
   std::vector<Property> properties;
   std::vector<Peer> peers;
   std::vector<Binding> bindings;
+  std::vector<Call> calls;        ///< of a component that calls what it is told, in this order
   std::vector<Reference> delays;  ///< components whose results of the previous cycle it uses
   std::vector<PropertyFile> property_files;
   bool autoconf = true;
@@ -104,13 +119,6 @@ struct ConnectionPolicy : component::ConnectionPolicy {
   std::optional<Reaction> on_old;         ///< when a sample is older than `max_age`
   std::optional<Reaction> on_lost;        ///< when the writer has stopped or is gone
   bool fan_in = false;                    ///< the input has several writers on purpose
-};
-
-/// One end of a connection.
-struct Endpoint {
-  std::string component;
-  std::string port;
-  base::Location where;
 };
 
 /// `Component.Port`.

@@ -191,6 +191,33 @@ void read_bindings(const Value& value, const ValueReader& reader, Component& com
   }
 }
 
+/// `Component.operation`, or a map with its parameters.
+void read_call(const Value& value, const ValueReader& reader, std::vector<Call>& calls) {
+  constexpr const char* kHint = "for example {call: Vision.setThreshold, with: {low: 10}}";
+  Call call;
+  call.where = value.where;
+  const Value* to = &value;
+  if (value.kind == Value::Kind::kMap) {
+    Fields fields(value, reader);
+    to = fields.take("call");
+    const Value* with = fields.take("with");
+    fields.refuse_others();
+    const bool map = with == nullptr || with->kind == Value::Kind::kMap;
+    if (!map) reader.error(with->where, "with must be a map", kHint);
+    if (map && with != nullptr) call.with = with->entries;
+  }
+  if (to == nullptr) return reader.error(value.where, "an entry of calls has no 'call'", kHint);
+  const auto name = reader.dotted_name(*to, "calls");
+  if (!name) return;
+  auto [component, operation] = split_last_dot(*name);
+  if (component.empty()) {
+    return reader.error(to->where,
+                        "calls has " + in_quotes(*name) + ", expected Component.operation", kHint);
+  }
+  call.to = {std::move(component), std::move(operation), to->where};
+  calls.push_back(std::move(call));
+}
+
 void read_property_file(const Value& value, const ValueReader& reader, Component& component) {
   PropertyFile file{{}, false, value.where};
   if (value.kind == Value::Kind::kMap) {
@@ -343,6 +370,9 @@ Component read_component(const std::string& name, const base::Location& where, c
   }
   check_peers(component.peers, reader);
   if (const Value* bind = fields.take("bind")) read_bindings(*bind, reader, component);
+  for (const Value* call : items_of(fields.take("calls"))) {
+    read_call(*call, reader, component.calls);
+  }
   for (const Value* delay : items_of(fields.take("delays"))) {
     if (auto other = reader.dotted_name(*delay, "delays")) {
       component.delays.push_back({*other, delay->where});

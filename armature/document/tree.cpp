@@ -89,6 +89,14 @@ std::vector<Value> converted(const List& list, Convert convert) {
 
 Value reference_tree(const Reference& reference) { return make_text(reference.name); }
 
+Value call_tree(const Call& call) {
+  if (call.with.empty()) return make_text(to_text(call.to));
+  Value map = make_map();
+  add(map, "call", to_text(call.to));
+  add(map, "with", map_of(call.with));
+  return map;
+}
+
 Value component_tree(const Component& component) {
   Value map = make_map();
   if (!component.model.empty()) add(map, "model", component.model);
@@ -102,6 +110,7 @@ Value component_tree(const Component& component) {
       add(bind, one.name, one.component + "." + one.member);
     add(map, "bind", std::move(bind));
   }
+  add_items(map, "calls", converted(component.calls, call_tree));
   add_items(map, "delays", converted(component.delays, reference_tree));
   add_items(map, "property_file", converted(component.property_files, property_file_tree));
   if (!component.properties.empty()) add(map, "properties", map_of(component.properties));

@@ -54,6 +54,13 @@ class Finder {
         const bool named = last_dot(member->text) == member->text.npos;
         add(member, named ? Form::kName : Form::kMember, composite);
       });
+      for (const Node* call : items_of(find_value(component, "calls"))) {
+        add(call, Form::kMember, composite);
+        add(find_value(call, "call"), Form::kMember, composite, call);
+        each_value(find_value(call, "with"), [&](const std::string&, const Node* value) {
+          add(value, Form::kParameter, composite, call);
+        });
+      }
     });
     in_connections_ = true;
     for (const Node* item : items_of(find_value(body, "connections"))) connection(item, composite);

@@ -22,11 +22,8 @@ void rename_peer(document::Peer& peer, const NewName& new_name) {
   peer.name = peer.component.substr(old.size() - peer.name.size());
 }
 
-void rename_connection(Connection& connection, const NewName& new_name) {
-  connection.from.component = new_name(connection.from.component);
-  connection.to.component = new_name(connection.to.component);
-  if (!connection.name.empty()) connection.name = new_name(connection.name);
-  for (document::Property& parameter : connection.with) {
+void rename_parameters(std::vector<document::Property>& with, const NewName& new_name) {
+  for (document::Property& parameter : with) {
     document::Value& value = parameter.value;
     if (value.kind != document::Value::Kind::kText || value.literal) continue;
     auto [component, port] = document::split_last_dot(value.text);
@@ -34,16 +31,31 @@ void rename_connection(Connection& connection, const NewName& new_name) {
   }
 }
 
+void rename_connection(Connection& connection, const NewName& new_name) {
+  connection.from.component = new_name(connection.from.component);
+  connection.to.component = new_name(connection.to.component);
+  if (!connection.name.empty()) connection.name = new_name(connection.name);
+  rename_parameters(connection.with, new_name);
+}
+
+void rename_call(document::Call& call, const NewName& new_name) {
+  call.to.component = new_name(call.to.component);
+  rename_parameters(call.with, new_name);
+}
+
 void rename_operations(std::vector<document::OperationOf>& operations, const NewName& new_name) {
   for (auto& one : operations) one.component = new_name(one.component);
 }
 
+bool uses_gone(const std::vector<document::Property>& with, const IsGone& is_gone) {
+  return std::any_of(with.begin(), with.end(), [&](const document::Property& parameter) {
+    return is_gone(document::split_last_dot(parameter.value.text).first);
+  });
+}
+
 bool refers_to(const Connection& connection, const IsGone& is_gone) {
-  const auto& with = connection.with;
   return is_gone(connection.from.component) || is_gone(connection.to.component) ||
-         std::any_of(with.begin(), with.end(), [&](const document::Property& parameter) {
-           return is_gone(document::split_last_dot(parameter.value.text).first);
-         });
+         uses_gone(connection.with, is_gone);
 }
 
 template <typename List>
@@ -62,6 +74,7 @@ Document renamed(Document document, const NewName& new_name) {
     component.name = new_name(component.name);
     for (auto& peer : component.peers) rename_peer(peer, new_name);
     for (auto& binding : component.bindings) binding.component = new_name(binding.component);
+    for (auto& call : component.calls) rename_call(call, new_name);
     for (auto& delay : component.delays) delay.name = new_name(delay.name);
   }
   for (auto& connection : document.connections) rename_connection(connection, new_name);
@@ -91,6 +104,9 @@ Document without(Document document, const IsGone& is_gone) {
   for (auto& component : document.components) {
     erase_gone(component.peers, is_gone);
     erase_gone(component.bindings, is_gone);
+    std::erase_if(component.calls, [&](const document::Call& call) {
+      return is_gone(call.to.component) || uses_gone(call.with, is_gone);
+    });
     erase_gone(component.delays, is_gone);
   }
   for (auto& composite : document.composites) erase_gone(composite.exports, is_gone);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "armature/component/host.hpp"
-#include "armature/types/elements.hpp"
 
 namespace armature::exec {
 
@@ -12,21 +11,9 @@ using component::CommandStage;
 using component::Outcome;
 using component::Reason;
 
-namespace {
-
-/// nullptr: a constant, which was made as the parameter takes it.
-const types::Type* offered_type(const CommandParameter& parameter,
-                                const component::EventBase& event) {
-  if (parameter.from == CommandParameter::From::kPort) return &parameter.port->type();
-  if (parameter.from == CommandParameter::From::kConstant) return nullptr;
-  return event.signature().arguments[parameter.member].type;
-}
-
-}  // namespace
-
 EventCommand::EventCommand(std::string name, const component::EventBase& event,
                            const component::CommandBase& command,
-                           std::vector<CommandParameter> parameters, base::Duration max_age)
+                           std::vector<component::CallParameter> parameters, base::Duration max_age)
     : Component(std::move(name)),
       on_(
           *this, kOn, "what commands", event,
@@ -40,22 +27,8 @@ EventCommand::EventCommand(std::string name, const component::EventBase& event,
             static_cast<EventCommand*>(self)->ended(stage, reason);
           },
           this),
-      parameters_(std::move(parameters)),
-      max_age_(max_age),
-      places_(parameters_.size()) {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const types::Type& wanted = *command.signature().arguments[i].type;
-    const types::Type* const offered = offered_type(parameters_[i], event);
-    const bool same = offered == nullptr || types::same_type(*offered, wanted);
-    conversions_.push_back({same ? nullptr : offered, types::Value(wanted)});
-  }
-  for (const CommandParameter& parameter : parameters_) {
-    auto& input = inputs_.emplace_back();
-    if (parameter.from != CommandParameter::From::kPort) continue;
-    input = std::make_unique<component::UntypedInputPort>(
-        *this, parameter.input, "a parameter of the command", *parameter.port);
-  }
-}
+      parameters_(*this, command.signature(), &on_.signature(), std::move(parameters)),
+      max_age_(max_age) {}
 
 Outcome EventCommand::on_start() {
   do_.resume();
@@ -63,38 +36,9 @@ Outcome EventCommand::on_start() {
   return component::accepted();
 }
 
-bool EventCommand::takes(const types::Type& parameter, const types::Type& offered) {
-  const bool floating =
-      parameter.kind == types::Kind::kFloat || parameter.kind == types::Kind::kDouble;
-  return types::same_type(parameter, offered) || (floating && types::is_number(offered));
-}
-
-const void* EventCommand::as_taken(std::size_t index, const void* from) {
-  auto& [type, value] = conversions_[index];
-  if (type == nullptr) return from;
-  types::convert_number(*type, from, value.type(), value.data());
-  return value.data();
-}
-
 /// Vectors have their sizes by now.
 Outcome EventCommand::on_activate() {
-  std::vector<types::Value> members;
-  for (const auto& argument : on_.signature().arguments) members.emplace_back(*argument.type);
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const CommandParameter& parameter = parameters_[i];
-    switch (parameter.from) {
-      case CommandParameter::From::kMember:
-        places_[i] = as_taken(i, members[parameter.member].data());
-        break;
-      case CommandParameter::From::kPort:
-        places_[i] = as_taken(i, inputs_[i]->current());
-        break;
-      case CommandParameter::From::kConstant:
-        places_[i] = parameter.constant->data();
-        break;
-    }
-  }
-  do_.prepare(places_.data());
+  parameters_.with_sample([this](const void* const* sample) { do_.prepare(sample); });
   return component::accepted();
 }
 
@@ -109,9 +53,9 @@ bool EventCommand::runs_in_circles() {
 void EventCommand::give(const void* const* members) {
   if (runs_in_circles()) return fault("its event and its command set each other off without end");
   if (do_.rests()) return refuse("the application is about to stop");
-  const Reason missing = collect(members);
+  const Reason missing = parameters_.collect(members, time(), max_age_);
   if (!missing.empty()) return refuse(missing);
-  if (do_.send(places_.data()) != component::CallStatus::kPending) {
+  if (do_.send(parameters_.places()) != component::CallStatus::kPending) {
     return refuse("too many of its commands are under way");
   }
   given_.assign(given_ + 1);
@@ -131,24 +75,6 @@ void EventCommand::Refusal::deliver(rt::Message& message) {
   if (owner.state() != component::State::kRunning) return;
   component::Host::run_handler(owner, component::Host::context(owner),
                                [&] { owner.fail(refusal.why); });
-}
-
-Reason EventCommand::collect(const void* const* members) {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const CommandParameter& parameter = parameters_[i];
-    if (parameter.from == CommandParameter::From::kMember) {
-      places_[i] = as_taken(i, members[parameter.member]);
-    }
-    if (parameter.from != CommandParameter::From::kPort) continue;
-    const auto read = inputs_[i]->read();
-    Reason why(parameter.input);
-    if (read.status < component::ReadStatus::kOld) return why.append(" was never written");
-    if (max_age_ > base::Duration::zero() && time() - read.time > max_age_) {
-      return why.append(" is too old");
-    }
-    places_[i] = as_taken(i, read.value);
-  }
-  return {};
 }
 
 void EventCommand::ended(CommandStage stage, std::string_view reason) {
@@ -173,8 +99,8 @@ void EventCommand::fail(std::string_view reason) {
 
 ComponentEntry event_command_entry(std::string name, const component::EventBase& event,
                                    const component::CommandBase& command,
-                                   std::vector<CommandParameter> parameters, base::Duration max_age,
-                                   const base::Location& event_where,
+                                   std::vector<component::CallParameter> parameters,
+                                   base::Duration max_age, const base::Location& event_where,
                                    const base::Location& command_where) {
   const std::string raiser = event.owner().name();
   const std::string server = command.owner().name();

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,23 +10,12 @@
 #include "armature/base/fixed_text.hpp"
 #include "armature/base/time.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/call_parameters.hpp"
 #include "armature/component/untyped.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/rt/inbox.hpp"
-#include "armature/types/type.hpp"
 
 namespace armature::exec {
-
-/// Where one parameter of a command comes from.
-struct CommandParameter {
-  /// Which of the members below counts.
-  enum class From { kMember, kPort, kConstant };
-  From from = From::kMember;
-  std::size_t member = 0;                           ///< of the event
-  std::string input;                                ///< its name, for a port
-  const component::OutputPortBase* port = nullptr;  ///< whose latest value it is
-  std::shared_ptr<const types::Value> constant;     ///< of the parameter's type
-};
 
 /// An event that commands: each time that `On` is raised, `Do` is given, with parameters from the
 /// event, from ports and from the deployment (paper 4, section II.B: signals and slots). It runs in
@@ -53,14 +41,10 @@ class EventCommand final : public component::Component {
 
   /// @param max_age  of the values of ports; 0: any
   EventCommand(std::string name, const component::EventBase& event,
-               const component::CommandBase& command, std::vector<CommandParameter> parameters,
-               base::Duration max_age);
+               const component::CommandBase& command,
+               std::vector<component::CallParameter> parameters, base::Duration max_age);
 
-  /// True if a value of type `offered` can be a parameter: of the same type, or a number for a
-  /// floating one.
-  static bool takes(const types::Type& parameter, const types::Type& offered);
-
-  const std::vector<CommandParameter>& parameters() const { return parameters_; }
+  const std::vector<component::CallParameter>& parameters() const { return parameters_.all(); }
   base::Duration max_age() const { return max_age_; }
 
   /// What it gave is cancelled, and it gives nothing until it is started again.
@@ -74,10 +58,6 @@ class EventCommand final : public component::Component {
   void on_cleanup() override { do_.forget(); }
   bool runs_in_circles();
   void give(const void* const* members);
-  /// The value at `from` as the parameter takes it.
-  const void* as_taken(std::size_t index, const void* from);
-  /// Empty if all parameters are there.
-  component::Reason collect(const void* const* members);
   void refuse(std::string_view reason);
   void ended(component::CommandStage stage, std::string_view reason);
   void fail(std::string_view reason);
@@ -105,16 +85,8 @@ class EventCommand final : public component::Component {
   component::Attribute<std::int64_t> failures_{this, "Failures", 0,
                                                "commands that failed or were cancelled"};
 
-  std::vector<CommandParameter> parameters_;
-  std::vector<std::unique_ptr<component::UntypedInputPort>> inputs_;  ///< of each; nullptr: no port
+  component::CallParameters parameters_;
   base::Duration max_age_;
-  std::vector<const void*> places_;
-  /// A number of another type than the parameter's, which it becomes.
-  struct Conversion {
-    const types::Type* from = nullptr;  ///< nullptr: they are the same
-    types::Value value;
-  };
-  std::vector<Conversion> conversions_;  ///< of each
   base::Time given_at_{};
   std::size_t given_then_ = 0;  ///< so many at that time
   Refusal refusal_{*this};
@@ -126,8 +98,8 @@ class EventCommand final : public component::Component {
 /// @param event_where, command_where  where the user named them
 ComponentEntry event_command_entry(std::string name, const component::EventBase& event,
                                    const component::CommandBase& command,
-                                   std::vector<CommandParameter> parameters, base::Duration max_age,
-                                   const base::Location& event_where = {},
+                                   std::vector<component::CallParameter> parameters,
+                                   base::Duration max_age, const base::Location& event_where = {},
                                    const base::Location& command_where = {});
 
 }  // namespace armature::exec

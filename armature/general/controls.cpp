@@ -11,7 +11,9 @@
 #include "armature/general/controls/limit.hpp"
 #include "armature/general/controls/logic.hpp"
 #include "armature/general/controls/multiplier.hpp"
+#include "armature/general/controls/request.hpp"
 #include "armature/general/controls/selector.hpp"
+#include "armature/general/controls/sequence.hpp"
 #include "armature/general/controls/slider.hpp"
 #include "armature/general/controls/switch.hpp"
 #include "armature/general/controls/timer.hpp"
@@ -28,10 +30,13 @@ ARMATURE_COMPONENT_LIBRARY(controls, registry) {
   registry.add<Limit>("Limit", "keeps a value between two bounds");
   registry.add<Logic>("Logic", "combines truth values");
   registry.add<Integrator>("Integrator", "sums a value up over time");
+  registry.add<Sequence>("Sequence", "does calls one after the other");
+  registry.add<Request>("Request", "asks an operation and writes its result");
   registry.add<Button>("Button", "something to press");
   registry.add<Switch>("Switch", "something to turn on and off");
   registry.add<Slider>("Slider", "a number that somebody moves");
   registry.add<Light>("Light", "shows whether something holds");
   registry.add<Number>("Number", "shows a number");
+  registry.add<Text>("Text", "shows a text");
   registry.add<Plot>("Plot", "shows how numbers went");
 }

@@ -182,7 +182,8 @@ class DeployerWriter {
 
   void write_component(const Component& component, const Value& tree) {
     Attributes attributes = {{"name", component.name}, {"type", component.model}};
-    for (const char* key : {"remote", "interface", "bind", "delays"}) extend(attributes, tree, key);
+    for (const char* key : {"remote", "interface", "bind", "calls", "delays"})
+      extend(attributes, tree, key);
     writer_.open("struct", attributes);
     write_activity(component.activity, find(tree.entries, "activity")->value);
     write_flag("AutoConf", component.autoconf);

@@ -130,11 +130,11 @@ ParameterGiven port(std::string input, std::string output) {
 
 ParameterGiven text_constant(std::string text) { return {.text = std::move(text)}; }
 
-std::optional<exec::CommandParameter> Assembly::resolve(const ParameterGiven& given,
-                                                        const types::Type& wanted,
-                                                        const component::Signature& event) {
-  using From = exec::CommandParameter::From;
-  exec::CommandParameter made;
+std::optional<component::CallParameter> Assembly::resolve(const ParameterGiven& given,
+                                                          const types::Type& wanted,
+                                                          const component::Signature& event) {
+  using From = component::CallParameter::From;
+  component::CallParameter made;
   if (given.member) {
     made.member = *given.member;
     const auto& members = event.arguments;
@@ -182,7 +182,7 @@ void Assembly::command(const CommandGiven& given, std::vector<ParameterGiven> pa
     return mistake(base::quoted(given.give) + " takes " + std::to_string(wanted.size()) +
                    " parameters, found " + std::to_string(parameters.size()));
   }
-  std::vector<exec::CommandParameter> all;
+  std::vector<component::CallParameter> all;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     auto one = resolve(parameters[i], *wanted[i].type, event->signature());
     if (!one) return;

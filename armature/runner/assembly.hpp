@@ -124,9 +124,9 @@ class Assembly {
 
   exec::ComponentEntry* entry(std::size_t index);
   component::Component* find(std::string_view name);
-  std::optional<exec::CommandParameter> resolve(const ParameterGiven& given,
-                                                const types::Type& wanted,
-                                                const component::Signature& event);
+  std::optional<component::CallParameter> resolve(const ParameterGiven& given,
+                                                  const types::Type& wanted,
+                                                  const component::Signature& event);
   void mistake(std::string text) { mistakes_.error({}, std::move(text)); }
 
   const component::Registry& models_;

@@ -40,8 +40,8 @@ std::string activity_text(const exec::Activity& activity) {
   return text;
 }
 
-std::string parameter_text(const exec::CommandParameter& parameter) {
-  using From = exec::CommandParameter::From;
+std::string parameter_text(const component::CallParameter& parameter) {
+  using From = component::CallParameter::From;
   switch (parameter.from) {
     case From::kMember:
       return "member " + std::to_string(parameter.member);

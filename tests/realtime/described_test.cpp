@@ -70,7 +70,7 @@ TEST(Described, EventsCommandsAndPortsCarryMadeValues) {
   const auto where = prototype.where.twin(one);
   const auto go = prototype.go.twin(other);
   const auto wish = prototype.wish.twin(other);
-  std::vector<exec::CommandParameter> parameters(2);
+  std::vector<component::CallParameter> parameters(2);
   parameters[1].member = 1;
   exec::EventCommand wire("wire", *seen, static_cast<CommandBase&>(*go), parameters,
                           base::Duration::zero());

@@ -46,8 +46,8 @@ class Server final : public component::Component {
 class EventCommandFunctions : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
-    std::vector<CommandParameter> parameters(2);
-    parameters[1].from = CommandParameter::From::kPort;
+    std::vector<component::CallParameter> parameters(2);
+    parameters[1].from = component::CallParameter::From::kPort;
     parameters[1].input = "places";
     parameters[1].port = &raiser_.vector;
     wire_ = std::make_unique<EventCommand>("wire", raiser_.raised, server_.move,

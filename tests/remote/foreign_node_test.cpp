@@ -12,6 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/general/controls/request.hpp"
+#include "armature/general/controls/sequence.hpp"
 #include "armature/remote/placeholder.hpp"
 #include "armature/ride/node.hpp"
 #include "lift_service.hpp"
@@ -143,6 +145,8 @@ struct ByInterfaceFile : testing::Test {
     models.add<Cabin>("Cabin", "");
     models.add<Caller>("Caller", "");
     models.add<Other>("Other", "");
+    models.add<general::Request>("Request", "");
+    models.add<general::Sequence>("Sequence", "");
   }
   static std::string components(const std::string& address, const std::string& interface = kFile) {
     return "components:\n  Lift: {remote: '" + address + "/Lift', interface: '" + interface +
@@ -254,6 +258,55 @@ TEST_F(ByInterfaceFile, ToolsCallIt) {
   ASSERT_TRUE(text) << text.error();
   EXPECT_EQ(text.value()->text(), "moving from 1 to 9, floors: 3");
   EXPECT_FALSE(call("travel", {}));
+}
+
+const std::string kAsk = R"(
+  Ask:
+    model: Request
+    activity: {periodic: 2 ms}
+    calls: {call: Lift.add, with: {a: 3, b: 4}}
+connections:
+  - Cabin.Pressed -> Ask.ask
+)";
+
+TEST_F(ByInterfaceFile, ARequestAsksItAndWritesWhatItAnswers) {
+  foreign = std::make_unique<Foreign>();
+  application = std::make_unique<Process>(components(foreign->at) + kAsk, add_models);
+  application->start();
+  cabin = &application->find<Cabin>("Cabin");
+  EXPECT_TRUE(until([&] { return text_of("Lift", "PeerConnected") == "true"; }));
+  cabin->press = 1;
+  EXPECT_TRUE(until([&] { return text_of("Ask", "Result") == "7"; }));
+}
+
+TEST_F(ByInterfaceFile, ASequenceCallsItInOrder) {
+  foreign = std::make_unique<Foreign>();
+  const std::string calls = R"(
+  Sequence:
+    model: Sequence
+    activity: {periodic: 2 ms}
+    calls:
+      - {call: Lift.add, with: {a: 3, b: 4}}
+      - {call: Lift.travel, with: {height: 250 cm, quickly: false}}
+      - Lift.stop
+connections:
+  - Cabin.Pressed -> Sequence.run
+)";
+  application = std::make_unique<Process>(components(foreign->at) + calls, add_models);
+  application->start();
+  cabin = &application->find<Cabin>("Cabin");
+  EXPECT_TRUE(until([&] { return text_of("Lift", "PeerConnected") == "true"; }));
+  cabin->press = 1;
+  EXPECT_TRUE(until([&] { return foreign->lift.stops_ == 1; }));
+  EXPECT_EQ(foreign->lift.height_, 2.5);
+}
+
+TEST_F(ByInterfaceFile, NoRequestAsksItFromARealTimeThread) {
+  std::string urgent = kAsk;
+  urgent.replace(urgent.find("2 ms}"), 5, "2 ms, priority: 40}");
+  EXPECT_THAT(mistakes(components("tcp://127.0.0.1:1") + urgent),
+              testing::HasSubstr(
+                  "'Ask' asks 'Lift.add' of another process from the real-time thread 'Ask'"));
 }
 
 TEST_F(ByInterfaceFile, ATextThatIsTooLongIsLeftOutAndCounted) {

@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
-#include <unordered_map>
+#include <vector>
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/events/event.hpp"
 #include "armature/component/operations/command.hpp"
-#include "armature/document/document.hpp"
-#include "armature/document/value_tree.hpp"
+#include "armature/deploy/internal/parameter_builder.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/exec/event_command.hpp"
 
 namespace armature::deploy::internal {
 
-using namespace document;
-
-/// How messages name an end.
-inline std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
-
 /// Makes the components that give a command when an event is raised.
 class EventCommandBuilder {
  public:
-  using Components = std::unordered_map<std::string_view, const component::Component*>;
-
   /// @param components     all of the blueprint; what is made is added
   /// @param keeps_running  also without who writes a parameter's port
   EventCommandBuilder(exec::Blueprint& blueprint, Components& components, bool keeps_running,
@@ -41,7 +31,7 @@ class EventCommandBuilder {
   void add(const Connection& connection);
 
  private:
-  using Parameter = exec::CommandParameter;
+  using Parameter = component::CallParameter;
   struct Wire {
     const Connection& connection;
     const component::EventBase& event;
@@ -49,31 +39,14 @@ class EventCommandBuilder {
     std::vector<Parameter> parameters;
   };
 
-  /// What is given for a parameter, as messages name it, and what to do if it does not fit.
-  struct Offer {
-    std::string what;
-    const types::Type& type;
-    std::string unit;
-    base::Location where;
-    const char* hint;
-  };
-
   const component::Component* component_of(const std::string& name) const;
   const component::EventBase* event_of(const Endpoint& end) const;
   const component::CommandBase* command_of(const Connection& connection);
   void refuse_target(const Connection& connection, const component::Component& target);
   bool check_policy(const Connection& connection);
-  bool check_names(const Wire& wire);
   /// False if a mistake was told.
   bool try_add(const Connection& connection);
-  static bool are_named(const Wire& wire);
   bool check_max_age(const Wire& wire);
-  std::optional<Parameter> parameter(const Wire& wire, std::size_t index);
-  std::optional<Parameter> given(const Wire& wire, std::size_t index, const Property& written);
-  std::optional<Parameter> from_member(const Wire& wire, std::size_t index, std::size_t member,
-                                       const base::Location& where);
-  std::optional<Parameter> from_port(const Wire& wire, std::size_t index, const Value& written);
-  bool fits(const Wire& wire, std::size_t index, const Offer& offer);
   bool make(Wire&& wire);
 
   exec::Blueprint& blueprint_;

@@ -182,8 +182,8 @@ void add_components(const deploy::Deployment& deployment, const DataFiles& data,
 
 // ---- Commands that events give, and connections
 
-std::string parameter_text(const exec::CommandParameter& parameter) {
-  using From = exec::CommandParameter::From;
+std::string parameter_text(const component::CallParameter& parameter) {
+  using From = component::CallParameter::From;
   switch (parameter.from) {
     case From::kMember:
       return call("member", {std::to_string(parameter.member)});
@@ -219,7 +219,7 @@ std::string command_text(const exec::ComponentEntry& entry, const exec::EventCom
   }
   Calls arguments = {in_braces(said)};
   Calls parameters;
-  for (const exec::CommandParameter& one : command.parameters()) {
+  for (const component::CallParameter& one : command.parameters()) {
     parameters.push_back(parameter_text(one));
   }
   if (!parameters.empty()) arguments.push_back(in_braces(parameters));
