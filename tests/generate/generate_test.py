@@ -386,6 +386,11 @@ class Refusals(Test):
 network: {inputs: [{to: Sum.In1, max_age: 1 s}]}
 """, "'Sum.In1' is written by other processes, and a generated program serves none")
 
+    def test_calls_that_a_deployment_names_are_refused(self):
+        self.refuse(HELLO + """  Go: {model: Button}
+  Series: {model: Sequence, calls: [Go.press]}
+""", "'Series' calls what the deployment names (calls), and a generated program names nothing by text")
+
     def test_what_the_operator_does_is_refused_or_told(self):
         self.refuse(HELLO + """  Sum: {model: Adder, activity: {periodic: 10 ms}, properties: {Inputs: 1}}
 operator_inputs: [Sum.In1]

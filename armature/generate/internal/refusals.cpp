@@ -24,6 +24,13 @@ void refuse_component(const document::Component& written, base::Diagnostics& dia
                           " lives in another process, and a generated program connects to none",
                       kRunInstead);
   }
+  if (!written.calls.empty()) {
+    diagnostics.error(written.calls.front().where,
+                      in_quotes(written.name) +
+                          " calls what the deployment names (calls), and a generated program names "
+                          "nothing by text",
+                      kRunInstead);
+  }
   if (written.autosave) {
     diagnostics.error(written.where,
                       in_quotes(written.name) +
