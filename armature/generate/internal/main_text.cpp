@@ -234,9 +234,8 @@ void add_commands(const exec::Blueprint& blueprint, Code& code) {
 }
 
 std::string policy_text(const component::ConnectionPolicy& policy) {
-  using Kind = component::ConnectionPolicy::Kind;
   Calls said;
-  if (policy.kind == Kind::kFifo) {
+  if (policy.kind == component::ConnectionPolicy::Kind::kFifo) {
     said = {".kind = ConnectionPolicy::Kind::kFifo",
             ".capacity = " + std::to_string(policy.capacity),
             ".when_full = WhenFull::" + enumerator(policy.when_full)};
