@@ -27,7 +27,7 @@ def plan(armature: str, libraries: str, deployment: pathlib.Path) -> str:
     return "\n".join(line for line in done.stdout.splitlines() if not line.startswith("armature: "))
 
 
-def check_case(source: pathlib.Path, armature: str, libraries: str, case: tuple) -> str:
+def test_threads_and_orders_stay_up_to_names(source: pathlib.Path, armature: str, libraries: str, case: tuple) -> str:
     name, edits, prefix = case
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree((source / name).parent, folder, dirs_exist_ok=True)
@@ -44,7 +44,8 @@ def check_case(source: pathlib.Path, armature: str, libraries: str, case: tuple)
 
 def main() -> int:
     source, armature, libraries = sys.argv[1:]
-    mistakes = [mistake for case in CASES if (mistake := check_case(pathlib.Path(source), armature, libraries, case))]
+    found = [test_threads_and_orders_stay_up_to_names(pathlib.Path(source), armature, libraries, case) for case in CASES]
+    mistakes = [mistake for mistake in found if mistake]
     print("\n".join(mistakes) or f"{len(CASES)} plans stay as they are up to names")
     return 1 if mistakes else 0
 

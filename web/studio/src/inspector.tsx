@@ -33,7 +33,7 @@ function Selected() {
 function Several({ boxes, wires }: { boxes: number; wires: number }) {
   return (
     <>
-      <h2>{`${counted(boxes, "box", "boxes")} and ${counted(wires, "wire")}`}</h2>
+      <h2>{[boxes && counted(boxes, "box", "boxes"), wires && counted(wires, "wire")].filter(Boolean).join(" and ")}</h2>
       {boxes > 1 && <p className="hint">{may_group() ? "A group is a composite: a box with these boxes as its parts, and the ports that others use." : "Boxes inside of a composite are not grouped."}</p>}
       <p className="actions">
         {may_group() && <button type="button" title="Ctrl+G" onClick={() => void group_selected()}>Group</button>}
