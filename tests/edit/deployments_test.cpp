@@ -1,104 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "armature/document/fields.hpp"
-#include "tests/edit/tree.hpp"
+#include "tests/edit/every_deployment.hpp"
 
 namespace armature::edit::tests {
 namespace {
 
 using document::Document;
-
-/// Makes edits on each deployment, and counts which of them are made and which are refused.
-class EveryDeployment : public testing::Test {
- protected:
-  using Edits = std::vector<Change>;
-  using Check =
-      std::function<void(const Document& before, const Document& after, const Tree& tree)>;
-
-  /// @param visit  called with the document and its places
-  void each(const std::function<void(const Document&, const SourceMap&)>& visit) {
-    for (const std::string& deployment : Tree::deployments()) {
-      deployment_ = deployment;
-      files_ = files_of(deployment);
-      Tree tree;
-      base::Diagnostics diagnostics;
-      const Document document = tree.load(deployment);
-      const SourceMap map(deployment, tree.reader(), document, diagnostics);
-      ASSERT_TRUE(diagnostics.ok());
-      visit(document, map);
-    }
-  }
-
-  /// Makes one edit where it stands. If it is made, looks at what has become of the document.
-  void try_edit(const Change& change, const Check& check) {
-    SCOPED_TRACE(deployment_ + ": " + to_text(change));
-    Tree tree;
-    const Outcome outcome = apply_edits(deployment_, {{change, files_}}, tree.reader());
-    if (!outcome.ok()) {
-      EXPECT_TRUE(outcome.files.empty());
-      const std::string why = outcome.diagnostics.to_text();
-      EXPECT_NE(why.find(" is refused: "), why.npos) << why;
-      reasons_.insert(why);
-      ++refused_;
-      return;
-    }
-    ++made_;
-    const Document before = tree.load(deployment_);
-    check_replacements(outcome, tree);
-    tree.apply(outcome);
-    check(before, tree.load(deployment_), tree);
-    tree.undo(outcome);
-    for (const FileChange& file : outcome.files) EXPECT_EQ(tree.text(file.file), file.before);
-  }
-
-  /// Of a file that several deployments include, the entries are tried in the first of them.
-  std::vector<Entry> entries_to_try(const SourceMap& map) {
-    std::vector<Entry> entries = entries_of(map);
-    std::erase_if(entries, [&](const Entry& entry) {
-      return entry.file != &map.main() &&
-             !tried_.emplace(entry.file->path(), entry.key->begin).second;
-    });
-    return entries;
-  }
-
-  const std::string& deployment() const { return deployment_; }
-  std::size_t made() const { return made_; }
-  std::size_t refused() const { return refused_; }
-  std::string reasons() const {
-    std::string all;
-    for (const std::string& reason : reasons_) all += reason + "\n";
-    return all;
-  }
-
- private:
-  void TearDown() override {
-    RecordProperty("made", static_cast<int>(made_));
-    RecordProperty("refused", static_cast<int>(refused_));
-  }
-  std::string deployment_;
-  std::vector<std::string> files_;
-  std::size_t made_ = 0;
-  std::size_t refused_ = 0;
-  std::set<std::string> reasons_;
-  std::set<std::pair<std::string, std::size_t>> tried_;
-};
-
-const document::Component* find(const Document& document, const std::string& name) {
-  for (const auto& component : document.components) {
-    if (component.name == name) return &component;
-  }
-  return nullptr;
-}
-
-std::string written(const Entry& entry) {
-  return (entry.composite.empty() ? "" : entry.composite + ".") + entry.key->text;
-}
 
 /// As the command line would set it, independently of the edit.
 std::vector<std::string> settings(const Entry& entry, const std::string& rest) {
@@ -226,100 +139,6 @@ TEST_F(EveryDeployment, RenamesAComponentAndBack) {
   });
   EXPECT_GT(made(), 300u);
   EXPECT_LT(refused(), made() / 10) << reasons();
-}
-
-TEST_F(EveryDeployment, SplitsARangeAndChangesNothing) {
-  each([&](const Document&, const SourceMap& map) {
-    for (const Entry& entry : entries_to_try(map)) {
-      if (entry.key->text.find("..") == std::string::npos || entry.names.size() < 2) continue;
-      for (const char* part : {"1", "2", "2..3"}) {
-        try_edit(Split{written(entry), part}, [&](auto& before, auto& after, Tree tree) {
-          EXPECT_EQ(yaml(before), yaml(after));
-          base::Diagnostics ignored;
-          const SourceMap anew(deployment(), tree.reader(), after, ignored);
-          EXPECT_GT(anew.entries().size(), map.entries().size());
-        });
-      }
-    }
-  });
-  EXPECT_GT(made(), 20u);
-  EXPECT_LT(refused(), made()) << reasons();
-}
-
-/// With its connections in one order: those inside of composites come first in a document.
-std::string sorted_yaml(Document document) {
-  std::ranges::sort(document.connections, std::less<>(), [](const document::Connection& one) {
-    return document::to_text(one.from) + document::to_text(one.to);
-  });
-  return yaml(document);
-}
-
-/// With the names that its components had before they were grouped, independently of the edit.
-Document ungrouped(Document document) {
-  const auto strip = [](std::string& name) {
-    if (name.starts_with("Grouped.")) name.erase(0, std::string("Grouped.").size());
-  };
-  std::erase_if(document.composites, [](const auto& one) { return one.name == "Grouped"; });
-  for (auto& one : document.components) {
-    strip(one.name);
-    for (auto& peer : one.peers) strip(peer.component);
-    for (auto& peer : one.peers) strip(peer.name);
-    for (auto& bound : one.bindings) strip(bound.component);
-    for (auto& delay : one.delays) strip(delay.name);
-  }
-  for (auto* all : {&document.connections, &document.operator_inputs, &document.network.inputs}) {
-    for (auto& one : *all) {
-      strip(one.from.component);
-      strip(one.to.component);
-      for (auto& parameter : one.with) strip(parameter.value.text);
-    }
-  }
-  for (auto& one : document.named_connections) {
-    for (auto& port : one.ports) strip(port.component);
-  }
-  for (auto& one : document.composites) {
-    strip(one.name);
-    for (auto& shown : one.exports) strip(shown.component);
-  }
-  for (auto* all : {&document.script_grants, &document.remote_grants, &document.before_stop}) {
-    for (auto& one : *all) strip(one.component);
-  }
-  for (auto& mode : document.modes) {
-    for (auto& one : mode.components) strip(one.name);
-  }
-  return document;
-}
-
-TEST_F(EveryDeployment, GroupsComponentsAndDissolvesThem) {
-  each([&](const Document&, const SourceMap& map) {
-    const std::vector<Entry> entries = entries_to_try(map);
-    for (std::size_t i = 0; i + 1 < entries.size(); ++i) {
-      const Group group{"Grouped", {written(entries[i]), written(entries[i + 1])}};
-      try_edit(group, [&](const Document& before, const Document& after, Tree tree) {
-        const Outcome back = apply_edits(
-            deployment(), {{Dissolve{"Grouped"}, files_of(deployment())}}, tree.reader());
-        ASSERT_TRUE(back.ok()) << back.diagnostics.to_text();
-        tree.apply(back);
-        EXPECT_EQ(sorted_yaml(tree.load(deployment())), sorted_yaml(before));
-        EXPECT_EQ(sorted_yaml(ungrouped(after)), sorted_yaml(before));
-      });
-    }
-  });
-  EXPECT_GT(made(), 50u) << reasons();
-}
-
-TEST_F(EveryDeployment, DissolvesWhatIsAComposite) {
-  each([&](const Document& document, const SourceMap&) {
-    for (const document::Composite& composite : document.composites) {
-      if (composite.name.find('.') != std::string::npos) continue;
-      try_edit(Dissolve{composite.name}, [&](auto& before, const Document& after, const Tree&) {
-        EXPECT_EQ(after.components.size(), before.components.size());
-        EXPECT_EQ(after.connections.size(), before.connections.size());
-        EXPECT_EQ(after.composites.size() + 1, before.composites.size());
-      });
-    }
-  });
-  EXPECT_GT(made(), 2u) << reasons();
 }
 
 TEST_F(EveryDeployment, ConnectsAndDisconnects) {

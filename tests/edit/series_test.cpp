@@ -38,7 +38,7 @@ class Chooser {
 
   Change change(const Document& document, const SourceMap& map) {
     const std::string number = std::to_string(below(1000));
-    switch (below(10)) {
+    switch (below(14)) {
       case 0:
         return Set{written(map) + ".P" + number, "[1, 2]"};
       case 1:
@@ -60,6 +60,15 @@ class Chooser {
         return AddPeer{written(map), component(document)};
       case 7:
         return AddParameter{"parameter" + number, "text with spaces"};
+      case 8:
+        return Split{written(map), std::to_string(1 + below(3))};
+      case 9:
+        return Group{"G" + number, {written(map)}};
+      case 10:
+        return AddToMode{"mode" + std::to_string(below(2)), written(map)};
+      case 11:
+        if (document.composites.empty()) return RemoveMode{"mode1"};
+        return Dissolve{document.composites[below(document.composites.size())].name};
       default:
         return removal(document, map);
     }

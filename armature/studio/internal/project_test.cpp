@@ -101,6 +101,17 @@ TEST_F(Edited, WhatMovesARobotIsKeptBesidePlaces) {
   EXPECT_EQ(text(project.places_file()), "");
 }
 
+TEST_F(Edited, PartsOfAGroupKeepTheirPlaces) {
+  EXPECT_EQ(make("place", {"Left", "100", "50"}), "");
+  EXPECT_EQ(make("group", {"Whole", "Left"}), "");
+  EXPECT_THAT(text(), HasSubstr("Whole: {model: Whole"));
+  EXPECT_THAT(text(project.places_file()), HasSubstr("\"Whole.Left\": [104, 48]"));
+  EXPECT_EQ(make("dissolve", {"Whole"}), "");
+  EXPECT_THAT(text(project.places_file()), HasSubstr("\"Left\": [104, 48]"));
+  EXPECT_THAT(make("group", {"Whole"}), HasSubstr("takes 2 to 1001 words, not 1"));
+  EXPECT_THAT(make("split", {"Left", "1"}), HasSubstr("'Left' is no range"));
+}
+
 TEST_F(Edited, PlacesThatAreNoneStopNoEditOfTheDeployment) {
   disk["arm.yaml.studio.json"] = "broken";
   project.reload();

@@ -38,7 +38,7 @@ function Selected() {
 function Several({ boxes, wires }: { boxes: string[]; wires: number }) {
   return (
     <>
-      <h2>{`${counted(boxes.length, "box", "boxes")} and ${counted(wires, "wire")}`}</h2>
+      <h2>{[boxes.length > 0 && counted(boxes.length, "box", "boxes"), wires > 0 && counted(wires, "wire")].filter(Boolean).join(" and ")}</h2>
       {boxes.length > 1 && <p className="hint">{may_group() ? "A group is a composite: a box with these boxes as its parts, and the ports that others use." : "Boxes inside of a composite are not grouped."}</p>}
       <p className="actions">
         {may_group() && <button type="button" title="Ctrl+G" onClick={() => void group_selected()}>Group</button>}

@@ -63,7 +63,7 @@ export function Outline() {
                 on_key={(event) => on_key(event, row, index)} on_focus={() => set_at(row.key)} unfold={unfold} />
         ))}
       </ul>
-      {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes</p>}
+      {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes <kbd>Ctrl+G</kbd> groups</p>}
     </section>
   );
 }

@@ -97,7 +97,7 @@ page_test("Ctrl+G groups the selected boxes, and the new box stands in their mid
   assert.ok(from < to && Number(placed[0][1]) % 8 === 0);
 });
 
-page_test("a composite is dissolved by its button", "chassis", async (page) => {
+page_test("a composite is dissolved by its button", "arm", async (page) => {
   await node(page, "Rover").locator("header").click();
   await page.getByRole("button", { name: "Dissolve" }).click();
   await page.waitForTimeout(300);
@@ -109,6 +109,7 @@ page_test("one of a stacked box gets a box of its own", "arm", async (page) => {
   const field = page.getByLabel("Split off", { exact: true });
   await field.fill("9");
   await field.press("Enter");
+  await page.getByRole("button", { name: "Change control.yaml" }).click();
   await page.waitForTimeout(200);
   assert.match(await page.getByRole("alert").textContent(), /no part of \{1\.\.7\}/);
   await field.fill("7");

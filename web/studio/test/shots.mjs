@@ -26,6 +26,10 @@ const kViews = {
   wrong: ["wrong"],
   box: ["wave", async (page) => page.locator(".react-flow__node", { hasText: "Source" }).locator("header").click()],
   range: ["arm", async (page) => page.locator(".react-flow__node", { hasText: "Joint{1..7}" }).locator("header").click()],
+  several: ["wave", async (page) => {
+    for (const name of ["Source", "Filter"]) await page.locator(".react-flow__node", { hasText: name }).locator("header").first().click({ modifiers: ["Control"] });
+  }],
+  composite: ["arm", async (page) => page.locator(".react-flow__node", { hasText: "Rover" }).locator("header").click()],
   inside: ["arm", async (page) => {
     await page.locator(".react-flow__node", { hasText: "Rover" }).locator("header").dblclick();
     await page.waitForTimeout(500);

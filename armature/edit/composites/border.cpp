@@ -51,7 +51,7 @@ std::string long_name(const EndText& end) {
   return name;
 }
 
-const char* section_of(ExportKind kind) {
+const char* section_for(ExportKind kind) {
   switch (kind) {
     case ExportKind::kOperation:
       return "operations";
@@ -157,7 +157,7 @@ Value Border::exports() const {
       names.entries.push_back(
           {name, document::make_text(one.end.component + "." + one.end.member), {}, {}});
     }
-    if (!names.entries.empty()) sections.entries.push_back({section_of(kind), names, {}, {}});
+    if (!names.entries.empty()) sections.entries.push_back({section_for(kind), names, {}, {}});
   }
   return sections;
 }

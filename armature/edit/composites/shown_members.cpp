@@ -7,7 +7,7 @@
 namespace armature::edit::internal {
 namespace {
 
-constexpr std::string_view kNumber = "{i}";
+constexpr std::string_view kRunning = "{i}";
 
 /// What `member` writes for the range of `key`: `2`, `{i}`, `{1..3}`; nothing if it is another
 /// name.
@@ -24,16 +24,16 @@ std::optional<std::string> number_in(const std::string& member, const WrittenNam
 
 /// `Joint{i}.Position` with what stands for the number.
 std::optional<std::string> with_number(std::string target, const std::string& number) {
-  if (number == kNumber) return target;
+  if (number == kRunning) return target;
   if (number.front() != '{') {
     constexpr std::size_t kMostDigits = 9;
     if (number.size() > kMostDigits) return std::nullopt;
     base::Diagnostics ignored;  // the new text is read with the same reader
     return document::replace_number(target, std::stoi(number), {}, ignored);
   }
-  const std::size_t at = target.find(kNumber);
+  const std::size_t at = target.find(kRunning);
   if (at == target.npos) return std::nullopt;
-  return target.replace(at, kNumber.size(), number);
+  return target.replace(at, kRunning.size(), number);
 }
 
 }  // namespace
