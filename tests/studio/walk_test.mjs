@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// node --test walk_test.mjs, with ARMATURE=the program: docs/studio_walk.md, by mouse. Skipped without chromium.
+// node --test walk_test.mjs, with ARMATURE=the program: docs/studio_walk.md, by mouse and by keyboard alone. Skipped without chromium.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { begin, finish, folder, program, skip, studio, user } from "./session.mjs";
+import { assemble_by_keys } from "./keys.mjs";
 import { lay_out, walk } from "./walk.mjs";
 
-before(begin);
+before(async () => {
+  await begin();
+  lay_out();
+});
 after(finish);
 
 /** The application as the check has it, without the places where a file says it. */
@@ -22,12 +26,22 @@ function application(file) {
   };
 }
 
-test("the walk ends with the head at its target, and with the application of the reference", { skip, timeout: 240_000 }, async () => {
-  lay_out();
-  const { file, address, end } = await studio("demo/mine.yaml");
-  await walk(await user(address));
+function expect_the_reference(file) {
   const made = application(file);
   assert.equal(made.ok, true);
   assert.deepEqual(made, application(join(folder, "demo/assembled.yaml")));
+}
+
+test("the walk ends with the head at its target, and with the application of the reference", { skip, timeout: 240_000 }, async () => {
+  const { file, address, end } = await studio("demo/mine.yaml");
+  await walk(await user(address));
+  expect_the_reference(file);
+  await end("SIGTERM");
+});
+
+test("by keyboard alone the same application is assembled", { skip, timeout: 240_000 }, async () => {
+  const { file, address, end } = await studio("demo/keys.yaml");
+  await assemble_by_keys(await user(address));
+  expect_the_reference(file);
   await end("SIGTERM");
 });
