@@ -55,7 +55,7 @@ export class MockInspector implements Inspector {
   describe = async (): Promise<never> => {
     throw new Error("not in tests");
   };
-  read = async () => [];
+  read = async (items: string[]) => items.map((item) => ({ ...kNone, item, value: `${item} is read`, written: true, age: 0 }));
   write = async (item: string, value: string) => ({ ...kNone, item, value, written: true, age: 0 });
 
   async call(component: string, operation: string, words: string[]) {
