@@ -10,6 +10,7 @@ import { number_text, watch } from "./values.ts";
 type Face = (props: { component: Component }) => ReactNode;
 
 const kRenewal = 50;  ///< of what is held [ms]
+const kTextInterval = 250;  ///< between two looks at a text [ms]
 
 const property = (component: Component, name: string): string => component.properties.find((one) => one.name === name)?.value ?? "";
 
@@ -89,10 +90,23 @@ const NumberFace: Face = ({ component }) => {
   return <output className="number">{`${number_text(value)} `}<small>{property(component, "Unit")}</small></output>;
 };
 
+const TextFace: Face = ({ component }) => <output className="says">{useText(`${component.name}.Text`)}</output>;
+
+/** A text of the run; watches carry numbers only. */
+function useText(item: string): string {
+  const [text, set_text] = useState("");
+  useEffect(() => {
+    const look = () => inspector().read([item]).then(([found]) => set_text(found?.written ? found.value : ""), () => undefined);
+    const timer = setInterval(() => void look(), kTextInterval);
+    return () => clearInterval(timer);
+  }, [item]);
+  return text;
+}
+
 const PlotFace: Face = ({ component }) => (
   <button type="button" onClick={() => component.inputs.forEach((port) => toggle_plotted(`${component.name}.${port.name}`))}>Plot its inputs</button>
 );
 
 export const faces: Record<string, Face | undefined> = {
-  Button: ButtonFace, Switch: SwitchFace, Slider: SliderFace, Light: LightFace, Number: NumberFace, Plot: PlotFace,
+  Button: ButtonFace, Switch: SwitchFace, Slider: SliderFace, Light: LightFace, Number: NumberFace, Text: TextFace, Plot: PlotFace,
 };

@@ -209,6 +209,7 @@ page_test("controls are operated; what holds is moved again while it is held", "
   await page.getByRole("tab", { name: "Operate" }).click();
   await page.getByRole("button", { name: "Press", exact: true }).click();
   await page.getByRole("switch", { name: "Power" }).click();
+  await page.getByText("Says.Text is read").first().waitFor();
   const slider = page.getByRole("slider", { name: "Jog" });
   await slider.hover();
   const { x, y } = await middle(slider);

@@ -57,7 +57,7 @@ export class MockInspector implements Inspector {
   describe = async (): Promise<never> => {
     throw new Error("not in tests");
   };
-  read = async () => [];
+  read = async (items: string[]) => items.map((item) => ({ ...kNone, item, value: `${item} is read`, written: true, age: 0 }));
 
   async write(item: string, value: string) {
     this.called.push(`${item} = ${value}`);

@@ -95,6 +95,7 @@ export const kModels: Model[] = [
   }),
   model("Light", "controls", "shines while it reads true", { inputs: [port("On", "whether it shines", "", "bool")] }),
   model("Number", "controls", "shows a number", { properties: [unit], inputs: [port("Value", "what is shown")] }),
+  model("Text", "controls", "shows a text", { inputs: [port("Text", "what is shown", "", "text<127>")] }),
   model("Mixer", "chassis", "wheel speeds of a motion", {
     properties: [property("Track", "double", "0.3", "from wheel to wheel", { unit: "m" })],
     inputs: [port("Forward", "speed", "m/s"), port("Turn", "rate", "rad/s")], outputs: [port("Left", "speed", "m/s"), port("Right", "speed", "m/s")],

@@ -51,6 +51,7 @@ components:
   Lamp: {model: Light}
   Power: {model: Switch, activity: {periodic: 50 ms}}
   Height: {model: Number, properties: {Unit: rad}}
+  Says: {model: Text}
 connections:
   - Driver.Forward -> Rover.Forward
   - Driver.Turn -> Rover.Turn
