@@ -3,14 +3,13 @@
 // another machine has it. Skipped without chromium.
 import assert from "node:assert/strict";
 import { execFileSync, spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { launch } from "../../web/studio/test/browser.mjs";
+import { launch, missing } from "../../web/studio/test/browser.mjs";
 
 const program = process.env.ARMATURE;
-const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
 const folder = mkdtempSync(join(tmpdir(), "encrypted_test_"));
 const [certificate, key, policy, file] = ["robot.pem", "robot.key", "studio.policy", "wave.yaml"].map((name) => join(folder, name));
 const command = (...more) => ["studio", file, "--listen", "wss://127.0.0.1:0", "--no-open", ...more];
@@ -39,7 +38,7 @@ async function address_of(server) {
   });
 }
 
-test("a browser of another machine runs and stops, and edits nothing that the policy does not allow", { skip, timeout: 120_000 }, async () => {
+test("a browser of another machine runs and stops, and edits nothing that the policy does not allow", { skip: missing, timeout: 120_000 }, async () => {
   const server = spawn(program, command("--certificate", certificate, "--key", key, "--policy", policy), { env: environment, stdio: ["ignore", "ignore", "pipe"] });
   left.push(() => server.kill("SIGTERM"));
   const address = await address_of(server);

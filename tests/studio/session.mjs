@@ -2,13 +2,13 @@
 // A real studio, and users of its page in chromium. ARMATURE=the program.
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { resolve as path_of } from "node:path";
-import { launch } from "../../web/studio/test/browser.mjs";
+import { launch, missing } from "../../web/studio/test/browser.mjs";
 
 export const program = process.env.ARMATURE;
-export const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
+export const skip = missing;
 export const folder = mkdtempSync(path_of(tmpdir(), "studio_test_"));
 const environment = { ...process.env, XDG_STATE_HOME: folder };
 const servers = [];
@@ -87,4 +87,20 @@ export async function add(page, word, model, name = model) {
   await page.locator(".palette li", { hasText: new RegExp(`^${model}`) }).first().waitFor(); // the libraries have been read
   await page.getByLabel("Find a model").press("Enter");
   await box(page, name).waitFor();
+}
+
+export async function sit_down(page) {
+  await page.getByRole("button", { name: "Take the seat" }).click();
+  await page.getByText("You operate").waitFor();
+}
+
+/** Of who sits there, in Operate: holds the button until the act has passed. */
+export async function arm(page) {
+  const button = page.getByRole("button", { name: /^arm: hold/ });
+  const answer = page.locator(".call", { has: button }).locator("output");
+  await button.hover();
+  await page.mouse.down();
+  await answer.filter({ hasText: /./ }).waitFor();
+  await page.mouse.up();
+  await answer.filter({ hasText: "done" }).waitFor();
 }

@@ -7,7 +7,7 @@ import { cpSync, existsSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { add, begin, box, drag, finish, folder, program, skip, studio, until, user } from "./session.mjs";
+import { add, arm, begin, box, drag, finish, folder, program, sit_down, skip, studio, until, user } from "./session.mjs";
 
 before(begin);
 after(finish);
@@ -100,20 +100,6 @@ studio_test("a file full of mistakes opens and is mended by its fixes", async ()
 async function operating(page) {
   await page.getByRole("tab", { name: "Operate" }).click();
   await page.getByText("Generator: jog").waitFor();
-}
-
-async function arm(page) {
-  const button = page.getByRole("button", { name: /^arm: hold/ });
-  await button.hover();
-  await page.mouse.down();
-  await page.locator(".call", { has: button }).locator("output", { hasText: /./ }).waitFor();
-  await page.mouse.up();
-  await page.locator(".call", { has: button }).locator("output", { hasText: "done" }).waitFor();
-}
-
-async function sit_down(page) {
-  await page.getByRole("button", { name: "Take the seat" }).click();
-  await page.getByText("You operate").waitFor();
 }
 
 const kJanus = fileURLToPath(new URL("../../robots/janus/demo/studio.yaml", import.meta.url));

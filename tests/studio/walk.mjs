@@ -4,7 +4,7 @@
 import { cpSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { add, box, drag, folder, until } from "./session.mjs";
+import { add, arm, box, drag, folder, sit_down, until } from "./session.mjs";
 
 const janus = join(dirname(fileURLToPath(import.meta.url)), "../../robots/janus");
 
@@ -99,12 +99,10 @@ export async function save_and_run(page) {
   await page.locator(".port .value:not(:empty)").first().waitFor();
 }
 
-export async function arm(page) {
-  await box(page, "Arming").locator("header").click();
+export async function arm_the_head(page) {
+  await sit_down(page);
   await page.getByRole("tab", { name: "Operate" }).click();
-  const call = page.locator(".call", { has: page.getByRole("button", { name: "arm", exact: true }) });
-  await call.getByRole("button", { name: "arm", exact: true }).click();
-  await call.getByText(/^succeeded|^done/).waitFor();
+  await arm(page);
 }
 
 /** What the port of the joints has now [rad]. */
@@ -146,7 +144,7 @@ export async function walk(page, show = async () => {}) {
   await show("connected");
   await make_the_button_command(page, () => show("command"));
   await save_and_run(page);
-  await arm(page);
+  await arm_the_head(page);
   await show("armed");
   await plot_the_joints(page);
   await press_the_button(page);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A browser at the page over the mock, served as the studio serves it.
+import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
-import { chromium } from "playwright-core";
 
 const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json", ".svg": "image/svg+xml" };
 
@@ -23,8 +23,17 @@ export async function serve(folder) {
   return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
 }
 
-export const launch = () =>
-  chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
+
+/** Why no page can be opened here; false if one can. */
+export const missing = existsSync(kChromium)
+  ? Number.parseInt(process.versions.node) < 20 && `playwright needs Node.js 20, found ${process.versions.node}`
+  : "there is no chromium";
+
+export async function launch() {
+  const { chromium } = await import("playwright-core"); // which ends the process where it cannot run
+  return chromium.launch({ executablePath: kChromium, args: ["--no-sandbox", "--disable-gpu"] });
+}
 
 /** A page whose errors are collected; it is open once the canvas has boxes, or says that it has none. */
 export async function open(browser, address, { width = 1280, height = 800, dark = false } = {}) {

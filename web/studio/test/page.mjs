@@ -2,17 +2,16 @@
 // What tests of the page over the mock have in common: PAGE=FOLDER has it. They are skipped without a
 // browser.
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { isDeepStrictEqual } from "node:util";
-import { launch, open, serve } from "./browser.mjs";
+import { launch, missing, open, serve } from "./browser.mjs";
 
-const skip = !existsSync(process.env.CHROMIUM ?? "/usr/bin/chromium") && "there is no chromium";
+
 let browser;
 let server;
 
 before(async () => {
-  if (skip) return;
+  if (missing) return;
   server = await serve(process.env.PAGE);
   browser = await launch();
 });
@@ -23,7 +22,7 @@ after(async () => {
 
 /** Runs a test at the page of a deployment; no error may have come by then. */
 export function page_test(name, query, body, options) {
-  test(name, { skip, timeout: 60_000 }, async () => {
+  test(name, { skip: missing, timeout: 60_000 }, async () => {
     const { page, errors, close } = await open(browser, `${server.address}?${query}`, options);
     try {
       await body(page);
