@@ -57,7 +57,7 @@ export const box = (page, name) => page.locator(".react-flow__node", { has: page
 
 export async function until(condition, what) {
   for (let tries = 0; !(await condition()); ++tries) {
-    assert.ok(tries < 300, what);
+    assert.ok(tries < 300, typeof what === "function" ? what() : what);
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
 }
