@@ -58,7 +58,7 @@ export const box = (page, name) => page.locator(".react-flow__node", { has: page
 
 export async function until(condition, what) {
   for (let tries = 0; !(await condition()); ++tries) {
-    assert.ok(tries < 300, what);
+    assert.ok(tries < 300, typeof what === "function" ? what() : what);
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
 }
@@ -94,13 +94,17 @@ export async function sit_down(page) {
   await page.getByText("You operate").waitFor();
 }
 
-/** Of who sits there, in Operate: holds the button until the act has passed. */
+/** Of who sits there, in Operate: holds the button until the act has passed. The first cycles measure nothing yet: who arms then tries again. */
 export async function arm(page) {
   const button = page.getByRole("button", { name: /^arm: hold/ });
   const answer = page.locator(".call", { has: button }).locator("output");
-  await button.hover();
-  await page.mouse.down();
-  await answer.filter({ hasText: /./ }).waitFor();
-  await page.mouse.up();
-  await answer.filter({ hasText: "done" }).waitFor();
+  let said = "";
+  await until(async () => {
+    await button.hover();
+    await page.mouse.down();
+    await answer.filter({ hasText: /^[^…]/ }).waitFor();
+    await page.mouse.up();
+    said = await answer.innerText();
+    return /^done/.test(said);
+  }, () => `the head is armed, it says: ${said}`);
 }

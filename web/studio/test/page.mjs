@@ -42,10 +42,22 @@ export async function drag(page, from, to) {
   await page.mouse.down();
   const { x, y } = "x" in to ? to : await middle(to);
   await page.mouse.move(x - 20, y, { steps: 5 });
-  await page.waitForTimeout(150);
+  if (await from.evaluate((one) => one.classList.contains("pin"))) await page.locator(".canvas.reaching").waitFor();
   await page.mouse.move(x, y, { steps: 3 });
   await page.mouse.up();
-  await page.waitForTimeout(150);
+}
+
+/** What comes of what was done, once it has come. */
+export async function until(condition, what) {
+  for (let tries = 0; !(await condition()); ++tries) {
+    assert.ok(tries < 200, what);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+export async function edits_are(page, expected) {
+  await until(async () => (await edits(page)).length >= expected.length, `${expected.length} edits`);
+  assert.deepEqual(await edits(page), expected);
 }
 
 /** Waits on a busy machine until `look` finds what is expected. */
