@@ -102,6 +102,7 @@ export async function arm(page) {
   await until(async () => {
     await button.hover();
     await page.mouse.down();
+    await page.waitForTimeout(1500); // it is to be held for a second
     await answer.filter({ hasText: /^[^…]/ }).waitFor();
     await page.mouse.up();
     said = await answer.innerText();
