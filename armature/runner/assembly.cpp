@@ -139,7 +139,7 @@ std::optional<component::CallParameter> Assembly::resolve(const ParameterGiven& 
     made.member = *given.member;
     const auto& members = event.arguments;
     const bool fits = made.member < members.size() &&
-                      exec::EventCommand::takes(wanted, *members[made.member].type);
+                      component::CallParameters::takes(wanted, *members[made.member].type);
     if (fits) return made;
     mistake("the event's member " + std::to_string(made.member) + " is no " + wanted.name);
     return std::nullopt;
