@@ -106,6 +106,6 @@ export async function arm(page) {
     await answer.filter({ hasText: /^[^…]/ }).waitFor();
     await page.mouse.up();
     said = await answer.innerText();
-    return /^done/.test(said);
+    return /^done|are armed already/.test(said); // the latter if it was still under way before
   }, () => `the head is armed, it says: ${said}`);
 }
