@@ -101,7 +101,7 @@ void add_peers(const Component& written, exec::ComponentEntry& entry) {
   }
   const component::Interface& interface = component::interface_of(*entry.component);
   for (const Peer& peer : written.peers) {
-    entry.peers.push_back({peer.component, peer.where});
+    entry.peers.push_back({peer.component, peer.where, peer.superior});
     if (peer.name == peer.component) continue;
     bind_by_alias(interface.callers, peer, entry.bindings);
     bind_by_alias(interface.handlers, peer, entry.bindings);

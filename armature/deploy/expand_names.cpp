@@ -182,7 +182,7 @@ class Resolver {
     if (!check_visible(scope, name, peer.where)) return;
     const Composite* owner = composite(name);
     if (owner == nullptr) {
-      peers.push_back({peer.name, name, peer.where});
+      peers.push_back({peer.name, name, peer.where, peer.superior});
       return;
     }
     const std::size_t before = peers.size();
@@ -191,7 +191,7 @@ class Resolver {
         return earlier.component == one.component;
       });
       if (one.kind != ExportKind::kPort && !known) {
-        peers.push_back({one.component, one.component, peer.where});
+        peers.push_back({one.component, one.component, peer.where, peer.superior});
       }
     }
     if (peers.size() > before) return;

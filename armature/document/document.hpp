@@ -62,6 +62,7 @@ struct Peer {
   std::string name;       ///< as the component itself knows it
   std::string component;  ///< full name
   base::Location where;
+  bool superior = false;  ///< commands this one, which uses it nevertheless
 };
 
 /// Which peer's operation or event serves one that the component requires.

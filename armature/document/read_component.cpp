@@ -365,6 +365,10 @@ Component read_component(const std::string& name, const base::Location& where, c
   if (const Value* properties = fields.take("properties")) {
     read_properties(*properties, reader, component);
   }
+  for (const Value* superior : items_of(fields.take("superiors"))) {
+    read_peer(*superior, reader, component.peers);
+  }
+  for (Peer& peer : component.peers) peer.superior = true;
   for (const Value* peer : items_of(fields.take("peers"))) {
     read_peer(*peer, reader, component.peers);
   }

@@ -89,6 +89,14 @@ std::vector<Value> converted(const List& list, Convert convert) {
 
 Value reference_tree(const Reference& reference) { return make_text(reference.name); }
 
+std::vector<Peer> peers_of(const Component& component, bool superior) {
+  std::vector<Peer> peers;
+  for (const Peer& peer : component.peers) {
+    if (peer.superior == superior) peers.push_back(peer);
+  }
+  return peers;
+}
+
 Value call_tree(const Call& call) {
   if (call.with.empty()) return make_text(to_text(call.to));
   Value map = make_map();
@@ -103,7 +111,8 @@ Value component_tree(const Component& component) {
   if (!component.remote.name.empty()) add(map, "remote", component.remote.name);
   if (!component.interface.name.empty()) add(map, "interface", component.interface.name);
   add(map, "activity", activity_tree(component.activity));
-  add_items(map, "peers", converted(component.peers, peer_tree));
+  add_items(map, "peers", converted(peers_of(component, false), peer_tree));
+  add_items(map, "superiors", converted(peers_of(component, true), peer_tree));
   if (!component.bindings.empty()) {
     Value bind = make_map();
     for (const Binding& one : component.bindings)

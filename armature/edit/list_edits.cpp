@@ -21,9 +21,11 @@ const Node* find_peers(const Entry& entry) { return find_value(entry.value, "pee
 
 /// The peer in a list, or under its own name in a map.
 const Node* find_peer(const Entry& entry, const std::string& peer) {
-  for (const Node* item : items_of(find_peers(entry))) {
-    if (item->kind == Node::Kind::kScalar && item->text == peer) return item;
-    if (const Node* named = find_value(item, peer)) return named;
+  for (const char* key : {"peers", "superiors"}) {
+    for (const Node* item : items_of(find_value(entry.value, key))) {
+      if (item->kind == Node::Kind::kScalar && item->text == peer) return item;
+      if (const Node* named = find_value(item, peer)) return named;
+    }
   }
   return nullptr;
 }
@@ -102,6 +104,7 @@ std::optional<Value> peers_of(const Targets& targets, Workshop& shop) {
   const document::Component* component = find_component_in(shop.document(), targets.names.front());
   if (component == nullptr) return list;
   for (const document::Peer& peer : component->peers) {
+    if (peer.superior) continue;
     Value item = make_text(peer.component);
     if (peer.name != peer.component) {
       item = document::make_map();

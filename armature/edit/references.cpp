@@ -49,6 +49,7 @@ class Finder {
   void level(const Node* body, const std::string& composite) {
     each_value(find_value(body, "components"), [&](const std::string&, const Node* component) {
       peers(find_value(component, "peers"), composite);
+      peers(find_value(component, "superiors"), composite);
       items(find_value(component, "delays"), Form::kName, composite);
       each_value(find_value(component, "bind"), [&](const std::string&, const Node* member) {
         const bool named = last_dot(member->text) == member->text.npos;

@@ -19,6 +19,7 @@ namespace armature::exec {
 struct PeerEntry {
   std::string name;
   base::Location where;
+  bool superior = false;  ///< commands the component, which uses it nevertheless
 };
 
 /// Says which peer serves a requirement where several could: `sensorRead: aic1.sensorRead`.

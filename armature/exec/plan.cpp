@@ -43,6 +43,7 @@ Plan make_plan(const Blueprint& blueprint, base::Diagnostics& diagnostics) {
   internal::plan_modes(blueprint, directory, plan, diagnostics);
   internal::plan_connections(blueprint, directory, plan, diagnostics);
   internal::plan_requirements(blueprint, directory, plan, diagnostics);
+  internal::check_superiors(blueprint, directory, diagnostics);
   internal::plan_threads(blueprint, plan, diagnostics);
   internal::check_calls(blueprint, plan, diagnostics);
   internal::plan_observers(blueprint, plan, diagnostics);

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "armature/exec/internal/test_components.hpp"
@@ -272,8 +273,33 @@ TEST(PlanRequirements, ThePeerOfAUserUsesNothingOfThatUserItself) {
   EXPECT_EQ(problems_of(blueprint),
             "error: 'User' uses 'read': no peer has this operation (add a peer that has it, for "
             "example 'Axis1')\n");
+}
+
+/// Paper 4, section II.A: each component relies on its subordinates alone.
+TEST(PlanRequirements, ASubordinateThatUsesItsSuperiorIsRefused) {
+  Blueprint blueprint;
+  blueprint.add<User>("User");
+  blueprint.add<Axis>("Axis1");
   blueprint.add_peer("User", "Axis1");
-  EXPECT_EQ(problems_of(blueprint), "") << "each is a peer of the other";
+  EXPECT_EQ(problems_of(blueprint), "");
+  blueprint.add_peer("Axis1", "User");
+  EXPECT_EQ(problems_of(blueprint),
+            "error: 'Axis1' uses 'User', which uses it: peers form a circle, 'User' -> 'Axis1' -> "
+            "'User' (if that is meant, list the one that commands: superiors: [User])\n");
+  blueprint.components[1].peers.front().superior = true;
+  EXPECT_EQ(problems_of(blueprint), "") << "it is declared";
+}
+
+TEST(PlanRequirements, ACircleOfSubordinatesIsToldWithItsWay) {
+  Blueprint blueprint;
+  for (const char* name : {"A", "B", "C", "Other"}) blueprint.add<Axis>(name);
+  blueprint.add_peer("Other", "B");
+  blueprint.add_peer("A", "B");
+  blueprint.add_peer("A", "C");
+  blueprint.add_peer("B", "C");
+  EXPECT_EQ(problems_of(blueprint), "") << "two ways down to one subordinate are no circle";
+  blueprint.add_peer("C", "A");
+  EXPECT_THAT(problems_of(blueprint), ::testing::HasSubstr("'A' -> 'B' -> 'C' -> 'A'"));
 }
 
 TEST(PlanRequirements, SignaturesMustMatch) {

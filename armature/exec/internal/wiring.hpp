@@ -32,6 +32,10 @@ void plan_requirements(const Blueprint& blueprint, const Directory& directory, P
 /// Checks activities, makes the threads and assigns every component to one.
 void plan_threads(const Blueprint& blueprint, Plan& plan, base::Diagnostics& diagnostics);
 
+/// Refuses components that use who uses them, but for those that the deployment calls superiors.
+void check_superiors(const Blueprint& blueprint, const Directory& directory,
+                     base::Diagnostics& diagnostics);
+
 /// Refuses calls of other processes by components that call what they are told, from real-time
 /// threads.
 void check_calls(const Blueprint& blueprint, const Plan& plan, base::Diagnostics& diagnostics);
