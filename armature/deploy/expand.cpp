@@ -39,12 +39,6 @@ std::optional<Use> next_use(std::string_view text, std::size_t from) {
   return Use{begin, end + 1, text.substr(begin + 2, end - begin - 2)};
 }
 
-std::vector<std::string> names_of(const std::vector<Property>& properties) {
-  std::vector<std::string> names;
-  for (const Property& property : properties) names.push_back(property.name);
-  return names;
-}
-
 const Value* find_parameter(std::string_view name, const Scope& scope, const base::Location& where,
                             base::Diagnostics& diagnostics) {
   if (const Property* found = find(scope.parameters, name)) return &found->value;
@@ -133,6 +127,12 @@ class ParameterResolver {
 };
 
 }  // namespace
+
+std::vector<std::string> names_of(const std::vector<Property>& properties) {
+  std::vector<std::string> names;
+  for (const Property& property : properties) names.push_back(property.name);
+  return names;
+}
 
 bool Expander::spend(std::size_t nodes, const base::Location& where,
                      base::Diagnostics& diagnostics) {

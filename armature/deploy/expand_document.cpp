@@ -88,12 +88,6 @@ class DocumentBuilder {
     return document;
   }
 
-  static std::vector<std::string> names_of(const std::vector<Property>& properties) {
-    std::vector<std::string> names;
-    for (const Property& property : properties) names.push_back(property.name);
-    return names;
-  }
-
   void check_composites(const Value& composites) {
     for (const Property& composite : composites.entries) {
       const ValueReader reader("composite '" + composite.name + "'", diagnostics_);

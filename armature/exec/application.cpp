@@ -8,7 +8,6 @@
 #include "armature/exec/internal/application/before_stop.hpp"
 #include "armature/exec/internal/application/clock.hpp"
 #include "armature/exec/internal/application/connections.hpp"
-#include "armature/exec/internal/application/cycle_records.hpp"
 #include "armature/exec/internal/application/death_notice.hpp"
 #include "armature/exec/internal/application/engines.hpp"
 #include "armature/exec/internal/application/executor.hpp"
@@ -26,7 +25,8 @@
 #include "armature/exec/internal/application/tool_access.hpp"
 #include "armature/exec/internal/application/transitions.hpp"
 #include "armature/exec/internal/application/unreachable.hpp"
-#include "armature/exec/internal/application/watches.hpp"
+#include "armature/exec/internal/observing/cycle_records.hpp"
+#include "armature/exec/internal/observing/watches.hpp"
 
 namespace armature::exec {
 namespace {

@@ -10,7 +10,7 @@
 #include "armature/base/fixed_text.hpp"
 #include "armature/base/time.hpp"
 #include "armature/component/author.hpp"
-#include "armature/component/call_parameters.hpp"
+#include "armature/component/operations/call_parameters.hpp"
 #include "armature/component/untyped.hpp"
 #include "armature/exec/blueprint.hpp"
 #include "armature/rt/inbox.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "armature/component/calls_by_name.hpp"
+#include "armature/component/operations/calls_by_name.hpp"
 #include "armature/deploy/internal/parameter_builder.hpp"
 
 namespace armature::deploy::internal {

@@ -17,6 +17,8 @@ namespace armature::deploy::internal {
 
 using namespace document;
 
+std::vector<std::string> names_of(const std::vector<Property>& properties);
+
 /// What names in braces stand for.
 struct Scope {
   std::vector<Property> parameters;  ///< their final values

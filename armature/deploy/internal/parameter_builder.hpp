@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "armature/base/diagnostic.hpp"
-#include "armature/component/call_parameters.hpp"
+#include "armature/component/operations/call_parameters.hpp"
 #include "armature/component/ports/output_port.hpp"
 #include "armature/document/document.hpp"
 #include "armature/document/value_tree.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "armature/component/author.hpp"
-#include "armature/component/calls_by_name.hpp"
+#include "armature/component/operations/calls_by_name.hpp"
 #include "armature/component/untyped.hpp"
 
 namespace armature::general {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "armature/component/call_parameters.hpp"
+#include "armature/component/operations/call_parameters.hpp"
 #include "armature/component/operations/operation.hpp"
 #include "armature/component/outcome.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/exec/internal/application/cycle_records.hpp"
+#include "armature/exec/internal/observing/cycle_records.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/component/call_parameters.hpp"
+#include "armature/component/operations/call_parameters.hpp"
 
 #include <utility>
 

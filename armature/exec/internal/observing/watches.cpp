@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/exec/internal/application/watches.hpp"
+#include "armature/exec/internal/observing/watches.hpp"
 
 #include <limits>
 #include <utility>
