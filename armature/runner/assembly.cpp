@@ -90,6 +90,13 @@ Part& Part::peer(std::string_view name) {
   return *this;
 }
 
+Part& Part::superior(std::string_view name) {
+  if (auto* const entry = assembly_.entry(index_)) {
+    entry->peers.push_back({std::string(name), {}, true});
+  }
+  return *this;
+}
+
 Part& Part::bind(std::string_view requirement, std::string_view peer, std::string_view member) {
   if (auto* const entry = assembly_.entry(index_)) {
     entry->bindings.push_back(

@@ -40,6 +40,8 @@ class Part {
   Part& activity(exec::Activity activity);
   /// It may use the operations, events and properties of this one.
   Part& peer(std::string_view name);
+  /// The same of one that commands it, though it uses that one.
+  Part& superior(std::string_view name);
   /// @param member  of the peer; empty: called as the requirement
   Part& bind(std::string_view requirement, std::string_view peer, std::string_view member);
   Part& autostart(bool yes);

@@ -59,7 +59,9 @@ void add(const exec::ComponentEntry& entry, std::string& to) {
   to += "component " + component.name() + " model " + entry.model + " activity " +
         activity_text(entry.activity) + (entry.autostart ? "" : " no autostart") +
         (entry.autoconfigure ? "" : " no autoconfigure") + '\n';
-  for (const exec::PeerEntry& peer : entry.peers) to += "  peer " + peer.name + '\n';
+  for (const exec::PeerEntry& peer : entry.peers) {
+    to += (peer.superior ? "  superior " : "  peer ") + peer.name + '\n';
+  }
   for (const exec::BindingEntry& one : entry.bindings) {
     to += "  bind " + one.requirement + " to " + one.peer + '.' + one.member + '\n';
   }

@@ -150,7 +150,7 @@ Calls component_calls(const exec::ComponentEntry& entry, const document::Compone
     calls.push_back(property_text(*property, data));
   }
   for (const exec::PeerEntry& peer : entry.peers) {
-    calls.push_back(call(".peer", {text_literal(peer.name)}));
+    calls.push_back(call(peer.superior ? ".superior" : ".peer", {text_literal(peer.name)}));
   }
   for (const exec::BindingEntry& one : entry.bindings) {
     calls.push_back(call(".bind", {text_literal(one.requirement), text_literal(one.peer),

@@ -53,7 +53,7 @@ export function ports_of_opened(between: Component, checked: Checked, commanded:
   const { name, file = "", line = 0, column = 1 } = between;
   const settings = settings_at(texts, file, line, column);
   const pin = (kind: BoxPort["kind"], member: string, type: string, doc: string): BoxPort => ({
-    id: `${kind}:${member}`, name: member, kind, type, unit: "", doc, triggers: false, count: 1, ends: [`${name}.${member}`], written: `${name}.${member}`,
+    id: `${kind}:${member}`, name: member, kind, type, unit: "", doc, triggers: false, may_stay_open: true, count: 1, ends: [`${name}.${member}`], written: `${name}.${member}`,
   });
   const fed = new Set(between.inputs.map((one) => one.name));
   const parameters = parameters_of_command(checked, commanded, settings).map((one): BoxPort => ({

@@ -17,7 +17,7 @@ function component(name: string, line: number, more: Partial<Component>): Compon
 }
 
 function graph(text: string, components: Component[], connections: Connection[] = []) {
-  const checked: Checked = { file: kFile, application: "a", ok: true, errors: 0, diagnostics: [], components, connections, threads: [] };
+  const checked: Checked = { file: kFile, application: "a", ok: true, errors: 0, diagnostics: [], components, connections, threads: [], modes: [] };
   return graph_of(checked, new Map([[kFile, text]]), []);
 }
 
