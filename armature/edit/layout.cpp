@@ -21,8 +21,6 @@ bool is_list_or_map(const Node& node) {
   return node.kind == Node::Kind::kList || node.kind == Node::Kind::kMap;
 }
 
-std::string spaces(std::size_t count) { return std::string(count, ' '); }
-
 /// The item or key that `node` is, or is the value of.
 const Node* first_of_element(const Node& node) {
   const Node* container = node.parent;
@@ -42,6 +40,8 @@ bool means_something_when_empty(const Node& container) {
 }
 
 }  // namespace
+
+std::string spaces(std::size_t count) { return std::string(count, ' '); }
 
 bool is_in_flow(const Node& node) {
   for (const Node* around = node.parent; around != nullptr; around = around->parent) {

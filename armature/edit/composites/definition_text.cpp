@@ -8,6 +8,7 @@
 #include "armature/document/value_tree.hpp"
 #include "armature/document/yaml.hpp"
 #include "armature/edit/internal/element_text.hpp"
+#include "armature/edit/internal/layout.hpp"
 #include "armature/edit/internal/scalar_text.hpp"
 
 namespace armature::edit::internal {
@@ -16,8 +17,6 @@ namespace {
 using document::make_text;
 using document::Property;
 using document::Value;
-
-std::string spaces(std::size_t count) { return std::string(count, ' '); }
 
 /// Names in `${name}` of what stands in a node.
 void find_parameters(const SourceText& file, const Node& node, std::set<std::string>& names) {

@@ -14,6 +14,8 @@
 /// Changes of the YAML of a file, written as what stands beside them is.
 namespace armature::edit::internal {
 
+std::string spaces(std::size_t count);
+
 /// What becomes of the text of one file.
 class Layout {
  public:
