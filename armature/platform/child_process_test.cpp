@@ -46,7 +46,7 @@ TEST(ChildProcess, TellsHowItEnded) {
 }
 
 TEST(ChildProcess, TellsWhichSignalEndedIt) {
-  ChildProcess child = shell("sleep 100");
+  ChildProcess child = shell("exec sleep 100");
   child.send(SIGTERM);
   EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
 }
@@ -78,13 +78,13 @@ TEST(ChildProcess, WritesToItsLog) {
 TEST(ChildProcess, GoesWithItsOwnerUnlessItIsLasting) {
   int id = 0;
   {
-    const ChildProcess child = shell("sleep 100");
+    const ChildProcess child = shell("exec sleep 100");
     id = child.id();
     EXPECT_TRUE(process_lives(id));
   }
   EXPECT_FALSE(process_lives(id));
   {
-    const ChildProcess child = shell("sleep 100", {.lasting = true});
+    const ChildProcess child = shell("exec sleep 100", {.lasting = true});
     id = child.id();
   }
   EXPECT_TRUE(process_lives(id));
