@@ -23,9 +23,9 @@ const Mode* find_mode(const Document& document, const std::string& name) {
 
 /// A mode in the file that has the last word on it.
 struct WrittenMode {
-  const SourceText* file;
-  const Node* key;
-  const Node* value;
+  const SourceText* file = nullptr;
+  const Node* key = nullptr;
+  const Node* value = nullptr;
 };
 
 std::optional<WrittenMode> find_written(const std::string& name, Workshop& shop) {
@@ -172,7 +172,8 @@ void draft(const RemoveFromMode& remove, Workshop& shop) {
   if (items.size() == items_of(written->value).size()) {
     return shop.refuse("the mode would have no component", "remove the mode");
   }
-  for (const Node* item : items) shop.layout(*written->file).remove(*item);
+  Layout& layout = shop.layout(*written->file);
+  for (const Node* item : items) layout.remove(*item);
   shop.expect([&before = shop.before(), targets = *targets, remove](
                   const State&, base::Diagnostics& diagnostics) {
     Document expected = before.document;
