@@ -163,7 +163,8 @@ void draft(const AddToMode& add, Workshop& shop) {
 
 void draft(const RemoveFromMode& remove, Workshop& shop) {
   const std::optional<Targets> targets = find_targets(remove.component, shop);
-  const auto written = targets ? find_written(remove.mode, shop) : std::nullopt;
+  if (!targets) return;
+  const std::optional<WrittenMode> written = find_written(remove.mode, shop);
   const Mode* mode = find_mode(shop.document(), remove.mode);
   if (!written || mode == nullptr) return;
   const auto items = items_to_remove(*written, *mode, *targets, shop);
