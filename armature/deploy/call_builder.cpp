@@ -87,23 +87,16 @@ bool CallBuilder::check_number(const Component& written, const exec::ComponentEn
 const component::OperationBase* CallBuilder::operation_of(const Component& written,
                                                           const Call& call) {
   const Endpoint& to = call.to;
-  const auto target = components_.find(to.component);
-  if (target == components_.end()) {
-    if (blueprint_.absent.count(to.component) > 0) return nullptr;
-    std::vector<std::string> names;
-    for (const auto& [name, component] : components_) names.emplace_back(name);
-    std::sort(names.begin(), names.end());
-    diagnostics_.error(to.where, "unknown component " + in_quotes(to.component),
-                       base::suggestion(to.component, names));
-    return nullptr;
-  }
+  const component::Component* const target =
+      component_at(to, components_, blueprint_, diagnostics_);
+  if (target == nullptr) return nullptr;
   if (to.component == written.name) {
     diagnostics_.error(to.where, in_quotes(written.name) + " calls itself",
                        "name an operation of another component");
     return nullptr;
   }
   std::vector<std::string> names;
-  for (const auto* operation : component::interface_of(*target->second).operations) {
+  for (const auto* operation : component::interface_of(*target).operations) {
     names.emplace_back(operation->name());
     if (operation->name() != to.port) continue;
     if (operation->is_by_operator()) {

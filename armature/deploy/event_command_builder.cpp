@@ -24,13 +24,8 @@ std::string name_of(const Connection& connection) {
 
 }  // namespace
 
-const component::Component* EventCommandBuilder::component_of(const std::string& name) const {
-  const auto found = components_.find(name);
-  return found == components_.end() ? nullptr : found->second;
-}
-
 const component::EventBase* EventCommandBuilder::event_of(const Endpoint& end) const {
-  const component::Component* const component = component_of(end.component);
+  const component::Component* const component = find_component(components_, end.component);
   if (component == nullptr) return nullptr;
   // Few have events, and many have thousands of outputs: the name of one is looked for last.
   for (const auto* event : component::interface_of(*component).events) {
@@ -87,16 +82,9 @@ bool EventCommandBuilder::check_policy(const Connection& connection) {
 
 const component::CommandBase* EventCommandBuilder::command_of(const Connection& connection) {
   const Endpoint& to = connection.to;
-  const component::Component* const target = component_of(to.component);
-  if (target == nullptr) {
-    if (blueprint_.absent.count(to.component) > 0) return nullptr;
-    std::vector<std::string> names;
-    for (const auto& [name, component] : components_) names.emplace_back(name);
-    std::sort(names.begin(), names.end());
-    diagnostics_.error(to.where, "unknown component " + in_quotes(to.component),
-                       base::suggestion(to.component, names));
-    return nullptr;
-  }
+  const component::Component* const target =
+      component_at(to, components_, blueprint_, diagnostics_);
+  if (target == nullptr) return nullptr;
   for (const auto* operation : component::interface_of(*target).operations) {
     if (operation->name() != to.port || !operation->is_command()) continue;
     if (operation->is_by_operator()) {
@@ -145,7 +133,7 @@ void EventCommandBuilder::refuse_target(const Connection& connection,
 bool EventCommandBuilder::make(Wire&& wire) {
   const Connection& connection = wire.connection;
   const std::string name = name_of(connection);
-  if (component_of(name) != nullptr) {
+  if (find_component(components_, name) != nullptr) {
     diagnostics_.error(connection.where, in_quotes(name) + " is already the name of a component",
                        "give this one another: name: Follow");
     return false;

@@ -87,11 +87,6 @@ bool are_named(const Called& called) {
 
 }  // namespace
 
-const component::Component* ParameterBuilder::component_of(const std::string& name) const {
-  const auto found = components_.find(name);
-  return found == components_.end() ? nullptr : found->second;
-}
-
 std::optional<std::vector<component::CallParameter>> ParameterBuilder::parameters(
     const Called& called) {
   bool complete = check_names(called);
@@ -164,7 +159,7 @@ std::optional<component::CallParameter> ParameterBuilder::given(const Called& ca
   const Value& value = written.value;
   if (value.kind == Value::Kind::kText && !value.literal) {
     const auto [component, port] = split_last_dot(value.text);
-    if (component_of(component) != nullptr) return from_port(called, index, value);
+    if (find_component(components_, component) != nullptr) return from_port(called, index, value);
     const auto member =
         called.event == nullptr ? std::nullopt : find_argument(*called.event, value.text);
     if (member) return from_member(called, index, *member, value.where);
@@ -212,7 +207,7 @@ std::optional<component::CallParameter> ParameterBuilder::from_port(const Called
                                                                     std::size_t index,
                                                                     const Value& written) {
   const auto [name, port_name] = split_last_dot(written.text);
-  const component::Component& owner = *component_of(name);
+  const component::Component& owner = *find_component(components_, name);
   const component::OutputPortBase* const port = output_of(owner, port_name);
   if (port == nullptr) {
     diagnostics_.error(

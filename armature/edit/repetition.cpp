@@ -6,6 +6,7 @@
 
 #include "armature/document/value_tree.hpp"
 #include "armature/edit/internal/references.hpp"
+#include "armature/edit/internal/with_parameters.hpp"
 #include "armature/edit/internal/written_name.hpp"
 
 namespace armature::edit::internal {
@@ -19,17 +20,6 @@ std::optional<int> number_of(std::string_view digits) {
   const auto [end, error] = std::from_chars(digits.begin(), digits.end(), number);
   const bool whole = error == std::errc() && end == digits.end();
   return whole ? std::optional(number) : std::nullopt;
-}
-
-/// `${name}` replaced by the document's value, as far as there is one.
-std::string with_parameters(std::string text, const document::Document& document) {
-  for (std::size_t at = text.find("${"); at != text.npos; at = text.find("${", at + 1)) {
-    const std::size_t end = text.find('}', at);
-    if (end == text.npos) return text;
-    const auto* found = document::find(document.parameters, text.substr(at + 2, end - at - 2));
-    if (found != nullptr) text.replace(at, end + 1 - at, found->value.text);
-  }
-  return text;
 }
 
 /// The entry's range, moved to what `{i}` is when `{i+offset}` runs over it.
@@ -86,7 +76,8 @@ std::optional<Range> repetition_of(const ConnectionEntry& entry, const WrittenEn
   base::Diagnostics ignored;  // the document has no errors
   std::optional<Range> common;
   for (const std::string& end : {ends.from, ends.to}) {
-    const auto found = document::find_range(with_parameters(end, shop.document()), {}, ignored);
+    const auto found =
+        document::find_range(with_parameters(end, shop.document().parameters), {}, ignored);
     if (found) return found->range;
   }
   for (const std::string& end : {ends.from, ends.to}) {

@@ -7,24 +7,15 @@
 
 #include "armature/document/ranges.hpp"
 #include "armature/document/value_tree.hpp"
+#include "armature/edit/internal/with_parameters.hpp"
 
 namespace armature::edit {
 namespace {
 
 using document::place_text;
+using internal::with_parameters;
 
 bool is_true(const Node* value) { return value != nullptr && value->text == "true"; }
-
-/// `${name}` in a key, by the values that the document has.
-std::string with_parameters(std::string text, const std::vector<document::Property>& parameters) {
-  for (std::size_t at = text.find("${"); at != text.npos; at = text.find("${", at + 1)) {
-    const std::size_t end = text.find('}', at);
-    if (end == text.npos) return text;
-    const auto* found = document::find(parameters, text.substr(at + 2, end - at - 2));
-    if (found != nullptr) text.replace(at, end + 1 - at, found->value.text);
-  }
-  return text;
-}
 
 /// The names that a key with a range stands for.
 std::vector<std::string> names_in(const std::string& key) {

@@ -2,51 +2,27 @@
 // node --test encrypted_test.mjs, with ARMATURE=the program: the studio's page over TLS, as a browser of
 // another machine has it. Skipped without chromium.
 import assert from "node:assert/strict";
-import { execFileSync, spawn, spawnSync } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { execFileSync, spawnSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, test } from "node:test";
-import { launch, missing } from "../../web/studio/test/browser.mjs";
+import { after, before, test } from "node:test";
+import { begin, finish, folder, program, serve, skip, user } from "./session.mjs";
 
-const program = process.env.ARMATURE;
-const folder = mkdtempSync(join(tmpdir(), "encrypted_test_"));
+before(begin);
+after(finish);
+
 const [certificate, key, policy, file] = ["robot.pem", "robot.key", "studio.policy", "wave.yaml"].map((name) => join(folder, name));
-const command = (...more) => ["studio", file, "--listen", "wss://127.0.0.1:0", "--no-open", ...more];
-const environment = { ...process.env, XDG_STATE_HOME: folder };
-const left = [];
+const kAddress = ["--listen", "wss://127.0.0.1:0"];
 
 writeFileSync(file, "application: wave\nlibraries: [wave]\ncomponents:\n  Source: {model: Source, activity: {periodic: 10 ms}}\n");
 writeFileSync(policy, "allow page@web read,command workbench,run\n");
 execFileSync("openssl", ["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2", "-subj", "/CN=robot",
   "-addext", "subjectAltName=DNS:localhost", "-keyout", key, "-out", certificate], { stdio: "ignore" });
 
-after(async () => {
-  for (const end of left.reverse()) await end();
-  rmSync(folder, { recursive: true, force: true });
-});
-
-async function address_of(server) {
-  let told = "";
-  return new Promise((resolve, reject) => {
-    server.stderr.on("data", (data) => {
-      told += data;
-      const found = /open (http\S+) in/.exec(told);
-      if (found) resolve(found[1]);
-    });
-    server.once("exit", () => reject(new Error(told)));
-  });
-}
-
-test("a browser of another machine runs and stops, and edits nothing that the policy does not allow", { skip: missing, timeout: 120_000 }, async () => {
-  const server = spawn(program, command("--certificate", certificate, "--key", key, "--policy", policy), { env: environment, stdio: ["ignore", "ignore", "pipe"] });
-  left.push(() => server.kill("SIGTERM"));
-  const address = await address_of(server);
+test("a browser of another machine runs and stops, and edits nothing that the policy does not allow", { skip, timeout: 120_000 }, async () => {
+  const { address } = await serve(file, ...kAddress, "--certificate", certificate, "--key", key, "--policy", policy);
   assert.match(address, /^https:\/\/localhost:\d+\/#[0-9a-f]{32}$/);
-  const browser = await launch();
-  left.push(() => browser.close());
-  const page = await (await browser.newContext({ ignoreHTTPSErrors: true })).newPage();
-  await page.goto(address);
+  const page = await user(address, { ignoreHTTPSErrors: true });
   await page.locator(".react-flow__node").first().waitFor();
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await page.locator(".port .value:not(:empty)").first().waitFor();
@@ -63,7 +39,7 @@ for (const [missing, text] of [
   [["--certificate", certificate, "--key", key], /say with --policy what their pages may do/],
 ]) {
   test(`without what other machines need it does not listen: ${text.source}`, () => {
-    const { status, stderr } = spawnSync(program, command(...missing), { env: environment, encoding: "utf8" });
+    const { status, stderr } = spawnSync(program, ["studio", file, ...kAddress, "--no-open", ...missing], { encoding: "utf8" });
     assert.equal(status, 2);
     assert.match(stderr, text);
   });

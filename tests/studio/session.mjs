@@ -29,7 +29,14 @@ export async function finish() {
 export async function studio(name, text, port = 0) {
   const file = path_of(folder, name);
   if (text !== undefined) writeFileSync(file, text);
-  const server = spawn(program, ["studio", file, "--listen", `ws://127.0.0.1:${port}`, "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
+  const { server, address } = await serve(file, "--listen", `ws://127.0.0.1:${port}`);
+  const end = (signal) => new Promise((ended) => server.once("exit", ended) && server.kill(signal));
+  return { file, address, end, content: () => readFileSync(file, "utf8") };
+}
+
+/** A studio with these words of its command line, and the address that it says. */
+export async function serve(...words) {
+  const server = spawn(program, ["studio", ...words, "--no-open"], { env: environment, stdio: ["ignore", "ignore", "pipe"] });
   servers.push(server);
   let told = "";
   const address = await new Promise((resolve, reject) => {
@@ -40,13 +47,12 @@ export async function studio(name, text, port = 0) {
     });
     server.once("exit", () => reject(new Error(told)));
   });
-  const end = (signal) => new Promise((ended) => server.once("exit", ended) && server.kill(signal));
-  return { file, address, end, content: () => readFileSync(file, "utf8") };
+  return { server, address };
 }
 
 /** A user of it, with a browser of their own. */
-export async function user(address) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+export async function user(address, settings = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...settings });
   const page = await context.newPage();
   page.setDefaultTimeout(30_000);
   await page.goto(address);

@@ -39,7 +39,6 @@ class EventCommandBuilder {
     std::vector<Parameter> parameters;
   };
 
-  const component::Component* component_of(const std::string& name) const;
   const component::EventBase* event_of(const Endpoint& end) const;
   const component::CommandBase* command_of(const Connection& connection);
   void refuse_target(const Connection& connection, const component::Component& target);

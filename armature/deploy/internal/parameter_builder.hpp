@@ -10,6 +10,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/component/operations/call_parameters.hpp"
 #include "armature/component/ports/output_port.hpp"
+#include "armature/deploy/internal/components.hpp"
 #include "armature/document/document.hpp"
 #include "armature/document/value_tree.hpp"
 #include "armature/exec/blueprint.hpp"
@@ -17,9 +18,6 @@
 namespace armature::deploy::internal {
 
 using namespace document;
-
-/// Those of a blueprint by their names.
-using Components = std::unordered_map<std::string_view, const component::Component*>;
 
 /// How messages name an end.
 inline std::string path(const Endpoint& end) { return in_quotes(to_text(end)); }
@@ -56,7 +54,6 @@ class ParameterBuilder {
     const char* hint;
   };
 
-  const component::Component* component_of(const std::string& name) const;
   bool check_names(const Called& called);
   std::optional<Parameter> parameter(const Called& called, std::size_t index);
   std::optional<Parameter> of_event(const Called& called, std::size_t index);
