@@ -57,8 +57,8 @@ class Receiver : public Component {
 class Batches : public testing::Test {
  protected:
   Batches() : here_(sender_), there_(receiver_), sending_(here_.context.outbox) {
-    sender_.first.connect(receiver_.first, latest());
-    sender_.second.connect(receiver_.second, latest());
+    face(sender_.first).connect(face(receiver_.first), latest());
+    face(sender_.second).connect(face(receiver_.second), latest());
     start(sender_, receiver_);
     there_.context.live = true;
     here_.prepare_lanes();
@@ -87,7 +87,7 @@ TEST_F(Batches, EachValueOfAPortThatIsWrittenTwiceIsHandled) {
   flush();
   there_.deliver();
   EXPECT_THAT(receiver_.numbers, ElementsAre(1, 2));
-  EXPECT_EQ(receiver_.first.counters().missed, 0u);
+  EXPECT_EQ(face(receiver_.first).counters().missed, 0u);
 }
 
 TEST_F(Batches, AReaderThatIsSlowGetsTheNewestLastAndKnowsWhatItMissed) {
@@ -100,7 +100,7 @@ TEST_F(Batches, AReaderThatIsSlowGetsTheNewestLastAndKnowsWhatItMissed) {
   EXPECT_TRUE(std::is_sorted(receiver_.numbers.begin(), receiver_.numbers.end()));
   EXPECT_LT(receiver_.numbers.size(), static_cast<std::size_t>(kWrites));
   EXPECT_EQ(receiver_.numbers.back(), kWrites);
-  EXPECT_EQ(receiver_.numbers.size() + receiver_.first.counters().missed,
+  EXPECT_EQ(receiver_.numbers.size() + face(receiver_.first).counters().missed,
             static_cast<std::size_t>(kWrites));
   receiver_.numbers.clear();
   sender_.first.write(kWrites + 1);
@@ -122,7 +122,7 @@ TEST_F(Batches, AReadingStaysWhileNewValuesAreOnTheirWay) {
 TEST_F(Batches, AHandlerThatThrowsDoesNotKeepTheRestFromOthers) {
   Receiver other("other");
   there_.add(other);
-  sender_.second.connect(other.second, latest());
+  face(sender_.second).connect(face(other.second), latest());
   start(other);
   here_.prepare_lanes();
   receiver_.throws = true;
@@ -148,7 +148,7 @@ TEST_F(Batches, WhatIsWrittenWhereTheWriterMayWaitGoesAtOnce) {
 TEST_F(Batches, WhatAnOperationWroteIsOnItsWayBeforeItsCallerGoesOn) {
   Customer customer("customer");
   TestThread elsewhere(customer);
-  customer.act.connect(sender_.act);
+  face(customer.act).connect(face(sender_.act));
   here_.context.live = true;
   const auto call = customer.act.send();
   here_.deliver();

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/testing/test_thread.hpp"
 #include "armature/types/struct.hpp"
 
@@ -45,7 +46,7 @@ class BlackBoxes : public testing::Test {
  protected:
   BlackBoxes() : thread_(walker_) {
     walker_.legs.set_sample(legs(0.0));
-    walker_.legs.prepare();
+    face(walker_.legs).prepare();
     thread_.context.black_box = &box_;
   }
   void reserve(std::size_t pictures, std::size_t notes) {

@@ -68,9 +68,9 @@ class Reentrance : public testing::Test {
 };
 
 TEST_F(Reentrance, APortsHandlerThatSetsItselfOffFaultsItsComponentWithTheWayItTook) {
-  a_.out.connect(b_.in, {});
-  b_.out.connect(c_.in, {});
-  c_.out.connect(b_.in, {});
+  face(a_.out).connect(face(b_.in), {});
+  face(b_.out).connect(face(c_.in), {});
+  face(c_.out).connect(face(b_.in), {});
   start_all();
   a_.out.write(1);
   expect_fault(b_, "a handler set itself off: B.In -> C.In -> B.In");
@@ -81,16 +81,16 @@ TEST_F(Reentrance, APortsHandlerThatSetsItselfOffFaultsItsComponentWithTheWayItT
 }
 
 TEST_F(Reentrance, SoDoesAnEventsHandler) {
-  a_.arrived.subscribe(b_.peer_arrived);
-  b_.arrived.subscribe(a_.peer_arrived);
+  face(a_.arrived).subscribe(face(b_.peer_arrived));
+  face(b_.arrived).subscribe(face(a_.peer_arrived));
   start_all();
   a_.arrived.raise(1);
   expect_fault(b_, "a handler set itself off: B.arrived -> A.arrived -> B.arrived");
 }
 
 TEST_F(Reentrance, SoDoesAnUpdateThatDataSetOff) {
-  a_.out.connect(b_.update_in, {});
-  b_.out.connect(a_.in, {});
+  face(a_.out).connect(face(b_.update_in), {});
+  face(b_.out).connect(face(a_.in), {});
   start_all();
   a_.out.write(1);
   expect_fault(b_, "a handler set itself off: B.UpdateIn -> A.In -> B.UpdateIn");
@@ -98,16 +98,16 @@ TEST_F(Reentrance, SoDoesAnUpdateThatDataSetOff) {
 }
 
 TEST_F(Reentrance, AWayThroughAnOperationIsNoticedToo) {
-  a_.out.connect(b_.in, {});
-  b_.next.connect(a_.pass_on);
+  face(a_.out).connect(face(b_.in), {});
+  face(b_.next).connect(face(a_.pass_on));
   start_all();
   a_.out.write(1);
   expect_fault(b_, "a handler set itself off: B.In -> B.In");
 }
 
 TEST_F(Reentrance, HandlersMayNestAndRunAgainAfterwards) {
-  a_.out.connect(b_.in, {});
-  b_.out.connect(c_.in, {});
+  face(a_.out).connect(face(b_.in), {});
+  face(b_.out).connect(face(c_.in), {});
   start_all();
   a_.out.write(1);
   a_.out.write(2);
@@ -130,7 +130,7 @@ TEST_F(Reentrance, AnExceptionLeavesTheHandlerOpenForTheNextTime) {
   };
   Thrower thrower("thrower");
   thread_.add(thrower);
-  a_.out.connect(thrower.in, {});
+  face(a_.out).connect(face(thrower.in), {});
   start_all();
   start(thrower);
   a_.out.write(1);
@@ -159,10 +159,10 @@ TEST_F(Reentrance, OperationsThatCallEachOtherWithoutEndFaultBeforeTheStackIsUse
   Caller first("first");
   Caller second("second");
   thread_.add(first, second);
-  first.other.connect(second.call);
-  second.other.connect(first.call);
+  face(first.other).connect(face(second.call));
+  face(second.other).connect(face(first.call));
   start(first, second);
-  EXPECT_TRUE(first.call.execute(thread_.context));
+  EXPECT_EQ(face(first.call).execute_here(thread_.context, nullptr, nullptr), CallStatus::kDone);
   EXPECT_EQ(first.calls + second.calls, kLeastDepthLimit);
   EXPECT_EQ(first.state(), State::kException);
   EXPECT_EQ(first.reason(),
@@ -180,7 +180,7 @@ TEST(Entrance, ALongWayIsShortenedInTheMiddle) {
     start(*ring.back());
   }
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    ring[i]->out.connect(ring[(i + 1) % ring.size()]->in, {});
+    face(ring[i]->out).connect(face(ring[(i + 1) % ring.size()]->in), {});
   }
   ring[19]->out.write(1);
   EXPECT_EQ(ring[0]->reason(),

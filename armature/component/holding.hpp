@@ -5,6 +5,7 @@
 
 #include "armature/component/component.hpp"
 #include "armature/component/events/event.hpp"
+#include "armature/component/face.hpp"
 #include "armature/component/operations/signature.hpp"
 
 namespace armature::component {
@@ -21,9 +22,9 @@ class Holding {
   /// operator can do; empty if nothing would. Never asked unless the component runs.
   /// @param kept_by  the event without which nothing is held any more: whoever raises it is not
   ///   stopped either
-  template <auto Function>
-  Holding(Component* owner, Serve<Function> function, const EventHandlerBase& kept_by)
-      : Holding(owner, function, &kept_by) {}
+  template <auto Function, typename... Args>
+  Holding(Component* owner, Serve<Function> function, const EventHandler<Args...>& kept_by)
+      : Holding(owner, function, &internal::Inside::face(kept_by)) {}
   template <auto Function>
   Holding(Component* owner, Serve<Function> function) : Holding(owner, function, nullptr) {}
   Holding(const Holding&) = delete;

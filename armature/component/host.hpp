@@ -7,6 +7,7 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/face.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/internal/inside.hpp"
 #include "armature/component/step.hpp"

@@ -52,7 +52,7 @@ class Caller : public Component {
 class Measurement : public testing::Test {
  protected:
   Measurement() : thread_(first_, second_) {
-    first_.out.connect(second_.in, {});
+    face(first_.out).connect(face(second_.in), {});
     start(first_, second_);
   }
   void begin_cycle(bool measured) {
@@ -121,7 +121,7 @@ TEST_F(Measurement, NothingIsTakenInOtherCyclesNorOfWhatDidNotRun) {
 TEST_F(Measurement, AGuestFromAnotherThreadIsNotMeasuredThere) {
   Caller caller("caller");
   TestThread other(caller);
-  caller.call.connect(first_.work_here);
+  face(caller.call).connect(face(first_.work_here));
   start(caller);
   other.context.measuring = true;
   other.context.mark = rt::ticks();

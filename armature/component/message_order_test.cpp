@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/component/internal/test_ports.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -50,8 +51,8 @@ struct Way {
 class MessageOrder : public testing::TestWithParam<Way> {
  protected:
   MessageOrder() : here_(sender_), there_(receiver_) {
-    sender_.data.connect(receiver_.data, GetParam().policy);
-    sender_.happened.subscribe(receiver_.handler);
+    face(sender_.data).connect(face(receiver_.data), GetParam().policy);
+    face(sender_.happened).subscribe(face(receiver_.handler));
     start(sender_, receiver_);
     there_.context.live = true;
     here_.prepare_lanes();
@@ -109,8 +110,8 @@ TEST(MessageOrderOfFifos, AllThatWasWrittenBeforeTheDeliveryComesWithIt) {
   Receiver receiver("receiver");
   TestThread here(sender);
   TestThread there(receiver);
-  sender.data.connect(receiver.data, fifo(2, rt::WhenFull::kDropOldest));
-  sender.happened.subscribe(receiver.handler);
+  face(sender.data).connect(face(receiver.data), fifo(2, rt::WhenFull::kDropOldest));
+  face(sender.happened).subscribe(face(receiver.handler));
   start(sender, receiver);
   for (int value = 1; value <= 3; ++value) sender.data.write(value);
   sender.happened.raise(1);

@@ -86,8 +86,8 @@ TEST_P(PortsInRealTime, WritingTriggeringAndReadingVectorsAllocateNothing) {
   TestThread two;
   (same_thread ? one : two).add(reader);
   writer.out.set_sample(Vector(7));
-  writer.out.connect(reader.in, policy);
-  writer.out.connect(reader.triggered, policy);
+  face(writer.out).connect(face(reader.in), policy);
+  face(writer.out).connect(face(reader.triggered), policy);
   start(writer, reader);
   const Vector value(7, 1.0);
   const Vector wrong(8, 1.0);
@@ -105,7 +105,7 @@ TEST_P(PortsInRealTime, WritingTriggeringAndReadingVectorsAllocateNothing) {
             0u);
   EXPECT_GT(reads, 0);
   EXPECT_GT(reader.sum, 0.0);
-  EXPECT_EQ(writer.out.counters().wrong_size, 4u);
+  EXPECT_EQ(face(writer.out).counters().wrong_size, 4u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Connections, PortsInRealTime,
@@ -126,7 +126,7 @@ TEST(PortsInRealTime, ReactionsAllocateNothing) {
                           on_lost(reaction));
     TestThread thread(writer, reader);
     writer.out.set_sample(Vector(3));
-    writer.out.connect(reader.in, latest());
+    face(writer.out).connect(face(reader.in), latest());
     start(writer, reader);
     EXPECT_EQ(allocations_of([&] {
                 thread.cycle(std::chrono::seconds(1));
@@ -136,7 +136,7 @@ TEST(PortsInRealTime, ReactionsAllocateNothing) {
                 thread.cycle();
               }),
               0u);
-    EXPECT_GT(reader.in.counters().stale + reader.in.counters().lost, 0u);
+    EXPECT_GT(face(reader.in).counters().stale + face(reader.in).counters().lost, 0u);
   }
 }
 
@@ -183,9 +183,9 @@ class CallsInRealTime : public testing::TestWithParam<bool> {
     (GetParam() ? theirs_ : mine_).add(client_);
     theirs_.context.live = true;
     mine_.context.live = true;
-    client_.sum.connect(server_.sum);
-    client_.move.connect(server_.move);
-    server_.moved.subscribe(client_.moved);
+    face(client_.sum).connect(face(server_.sum));
+    face(client_.move).connect(face(server_.move));
+    face(server_.moved).subscribe(face(client_.moved));
     client_.sum.prepare(vector_);
     start(server_, client_);
   }
@@ -209,7 +209,7 @@ TEST_P(CallsInRealTime, SendingCollectingAndCancellingAllocateNothing) {
             }),
             0u);
   EXPECT_EQ(total, GetParam() ? 56.0 : 28.0);
-  EXPECT_GT(client_.sum.refused(), 0u);
+  EXPECT_GT(face(client_.sum).refused(), 0u);
 }
 
 TEST_P(CallsInRealTime, CommandsAllocateNothingHoweverTheyEnd) {

@@ -21,8 +21,25 @@
 #include "armature/component/ports/output_port.hpp"
 #include "armature/component/properties/property.hpp"
 #include "armature/component/states/state_machine.hpp"
+#include "armature/types/enum.hpp"
 
 namespace armature::component {
+
+/// How large a part of an application a component is (paper 4, section II.A).
+enum class Granularity : std::uint8_t {
+  kAtomic,       ///< touches hardware: a sensor, a drive, a bus
+  kComposite,    ///< is a device of several, behind one interface
+  kAlgorithm,    ///< computes only
+  kApplication,  ///< gives others their tasks
+};
+ARMATURE_ENUM(Granularity, kAtomic, kComposite, kAlgorithm, kApplication);
+
+/// Option of a model: how the studio draws it, e.g. `drawn_as("slider")`; docs/controls.md lists
+/// the faces.
+struct Face {
+  std::string_view name;
+};
+inline constexpr Face drawn_as(std::string_view name) { return {name}; }
 
 /// The component models that a program can make.
 class Registry {
@@ -41,6 +58,11 @@ class Registry {
     std::string library;  ///< empty for models of the program itself
     Make make;
     std::vector<FurtherName> further_names = {};
+    Granularity granularity = Granularity::kAlgorithm;
+    std::string face = {};  ///< empty: drawn as a box with its ports
+
+    void apply(Granularity option) { granularity = option; }
+    void apply(Face option) { face = option.name; }
   };
   /// A property and the value that a name of a model gives it.
   struct NumberInName {
@@ -51,16 +73,22 @@ class Registry {
   /// Adds a model; refused if one of its names is taken, naming both libraries.
   base::Result<void> add(Model model);
 
-  /// Adds the model `ComponentClass`, whose constructor takes the component's name.
-  template <typename ComponentClass>
-  void add(std::string_view name, std::string_view doc,
-           std::vector<FurtherName> further_names = {}) {
+  /// Adds the model `ComponentClass`, whose constructor takes the component's name. Options: a
+  /// `Granularity`, which is an algorithm's unless said otherwise; `drawn_as(face)`.
+  template <typename ComponentClass, typename... Options>
+  void add(std::string_view name, std::string_view doc, std::vector<FurtherName> further_names,
+           Options... options) {
     const Make make = [](std::string component_name) {
       return std::unique_ptr<Component>(
           std::make_unique<ComponentClass>(std::move(component_name)));
     };
-    problems_.append(
-        add_here({std::string(name), std::string(doc), library_, make, std::move(further_names)}));
+    Model model{std::string(name), std::string(doc), library_, make, std::move(further_names)};
+    (model.apply(options), ...);
+    problems_.append(add_here(std::move(model)));
+  }
+  template <typename ComponentClass, typename... Options>
+  void add(std::string_view name, std::string_view doc, Options... options) {
+    add<ComponentClass>(name, doc, std::vector<FurtherName>{}, options...);
   }
 
   /// The library whose function fills the registry now.

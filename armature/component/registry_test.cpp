@@ -50,6 +50,18 @@ TEST(Registry, FindsAModelByItsFurtherNamesAndTellsTheNumberInOne) {
   EXPECT_THAT(registry.names(), ElementsAre("PIDs"));
 }
 
+TEST(Registry, AModelSaysItsGranularityAndFace) {
+  Registry registry;
+  registry.add<Pid>("PID", "");
+  registry.add<Pid>("Knob", "", drawn_as("slider"), Granularity::kAtomic);
+  registry.add<Pid>("Tour", "", {{"Journey"}}, Granularity::kApplication);
+  EXPECT_EQ(registry.find("PID")->granularity, Granularity::kAlgorithm);
+  EXPECT_EQ(registry.find("PID")->face, "");
+  EXPECT_EQ(registry.find("Knob")->granularity, Granularity::kAtomic);
+  EXPECT_EQ(registry.find("Knob")->face, "slider");
+  EXPECT_EQ(registry.find("Journey")->granularity, Granularity::kApplication);
+}
+
 TEST(Registry, AFurtherNameIsTakenToo) {
   Registry registry;
   registry.add<Pid>("PIDs", "", {{"Bank"}});

@@ -72,7 +72,7 @@ TEST_P(PortsBetweenThreads, EveryValueIsHandledInOrderOrCountedWhereItWasLost) {
   Collector collector("collector");
   TestThread mine(writer);
   LiveThread theirs(collector);
-  writer.out.connect(collector.in, GetParam());
+  face(writer.out).connect(face(collector.in), GetParam());
   start(writer, collector);
   theirs.run();
   std::uint64_t refused = 0;
@@ -82,9 +82,9 @@ TEST_P(PortsBetweenThreads, EveryValueIsHandledInOrderOrCountedWhereItWasLost) {
   const bool last_refused = writer.out.write(kRounds) == WriteStatus::kFull;
   theirs.end();
   EXPECT_EQ(collector.out_of_order, 0u);
-  EXPECT_EQ(writer.out.counters().refused, refused + (last_refused ? 1 : 0));
+  EXPECT_EQ(face(writer.out).counters().refused, refused + (last_refused ? 1 : 0));
   if (!last_refused) {
-    EXPECT_EQ(collector.taken + collector.in.counters().missed,
+    EXPECT_EQ(collector.taken + face(collector.in).counters().missed,
               static_cast<std::uint64_t>(kRounds) + 1);
   }
 }
@@ -101,8 +101,8 @@ TEST(FanInBetweenThreads, SeveralWritersOnOneInputLoseNothingUntold) {
   TestThread one(a);
   TestThread two(b);
   LiveThread theirs(collector);
-  a.out.connect(collector.in, fifo(16));
-  b.out.connect(collector.in, fifo(16));
+  face(a.out).connect(face(collector.in), fifo(16));
+  face(b.out).connect(face(collector.in), fifo(16));
   start(a, b, collector);
   theirs.run();
   std::thread other([&] {
@@ -111,7 +111,7 @@ TEST(FanInBetweenThreads, SeveralWritersOnOneInputLoseNothingUntold) {
   for (int i = 0; i < kRounds; ++i) a.out.write(i);
   other.join();
   theirs.end();
-  EXPECT_EQ(collector.taken + a.out.counters().refused + b.out.counters().refused,
+  EXPECT_EQ(collector.taken + face(a.out).counters().refused + face(b.out).counters().refused,
             2u * static_cast<std::uint64_t>(kRounds));
 }
 
@@ -163,10 +163,10 @@ class Client : public Component {
 class CallsBetweenThreads : public testing::Test {
  protected:
   CallsBetweenThreads() : theirs_(counter_), mine_(client_) {
-    client_.add.connect(counter_.add);
-    client_.ask_time.connect(counter_.ask_time);
-    client_.fail.connect(counter_.fail);
-    client_.count_to.connect(counter_.count_to);
+    face(client_.add).connect(face(counter_.add));
+    face(client_.ask_time).connect(face(counter_.ask_time));
+    face(client_.fail).connect(face(counter_.fail));
+    face(client_.count_to).connect(face(counter_.count_to));
     start(counter_, client_);
   }
   ~CallsBetweenThreads() override { theirs_.end(); }
@@ -244,9 +244,9 @@ TEST_F(CallsBetweenThreads, HandlesMayBeLetGoOfByAnyoneAfterTheCallerIsDisconnec
   theirs_.run();
   for (int i = 0; i < 500; ++i) {
     SendHandle<int> handle = client_.add.send(1);
-    client_.add.disconnect();
+    face(client_.add).disconnect();
     if (i % 2 == 0) static_cast<void>(handle.wait(std::chrono::seconds(10)));
-    client_.add.connect(counter_.add);
+    face(client_.add).connect(face(counter_.add));
   }
   theirs_.end();
   EXPECT_EQ(counter_.total, 500);
@@ -276,7 +276,7 @@ TEST(EventsBetweenThreads, EveryEventIsHandledOrCounted) {
   Counter listener("listener");
   TestThread mine(raiser);
   LiveThread theirs(listener);
-  raiser.counted.subscribe(listener.told);
+  face(raiser.counted).subscribe(face(listener.told));
   start(raiser, listener);
   theirs.run();
   int refused = 0;
@@ -284,7 +284,7 @@ TEST(EventsBetweenThreads, EveryEventIsHandledOrCounted) {
     if (raiser.counted.raise(i) == RaiseStatus::kQueueFull) ++refused;
   }
   theirs.end();
-  EXPECT_EQ(listener.told.dropped(), static_cast<std::uint64_t>(refused));
+  EXPECT_EQ(face(listener.told).dropped(), static_cast<std::uint64_t>(refused));
   EXPECT_EQ(listener.events + refused, kRounds);
 }
 

@@ -82,20 +82,20 @@ class User final : public Component {
 struct Twins : testing::Test {
   Twins() {
     thread.add(notes, user);
-    output = original.position.twin(notes);
-    all = original.all.twin(notes);
-    input = original.reference.twin(notes);
-    twice = original.twice.twin(notes);
-    arm = original.arm.twin(notes);
-    travel = original.travel.twin(notes);
-    reached = original.reached.twin(notes);
+    output = face(original.position).twin(notes);
+    all = face(original.all).twin(notes);
+    input = face(original.reference).twin(notes);
+    twice = face(original.twice).twin(notes);
+    arm = face(original.arm).twin(notes);
+    travel = face(original.travel).twin(notes);
+    reached = face(original.reached).twin(notes);
     output->prepare();
     all->prepare();
-    output->connect(user.position, {});
-    user.wish.connect(*input, {});
-    user.twice.connect(*twice);
-    user.travel.connect(*travel);
-    reached->subscribe(user.reached);
+    output->connect(face(user.position), {});
+    face(user.wish).connect(*input, {});
+    face(user.twice).connect(*twice);
+    face(user.travel).connect(*travel);
+    reached->subscribe(face(user.reached));
     for (Component* each : {static_cast<Component*>(&notes), static_cast<Component*>(&user)}) {
       EXPECT_TRUE(Host::configure(*each));
       EXPECT_TRUE(Host::activate(*each));
@@ -118,13 +118,13 @@ struct Twins : testing::Test {
 TEST_F(Twins, AreKnownByTheSameNames) {
   EXPECT_EQ(output->name(), "Position");
   EXPECT_EQ(output->unit(), "rad");
-  EXPECT_EQ(twice->signature().text(), original.twice.signature().text());
-  EXPECT_EQ(travel->signature().text(), original.travel.signature().text());
-  EXPECT_EQ(reached->signature().text(), original.reached.signature().text());
+  EXPECT_EQ(twice->signature().text(), face(original.twice).signature().text());
+  EXPECT_EQ(travel->signature().text(), face(original.travel).signature().text());
+  EXPECT_EQ(reached->signature().text(), face(original.reached).signature().text());
   EXPECT_TRUE(travel->is_command());
   EXPECT_TRUE(arm->is_by_operator());
   EXPECT_TRUE(twice->is_elsewhere());
-  EXPECT_FALSE(original.twice.is_elsewhere());
+  EXPECT_FALSE(face(original.twice).is_elsewhere());
   EXPECT_EQ(interface_of(notes).outputs.size(), 2u);
   EXPECT_EQ(interface_of(notes).inputs.size(), 1u);
   EXPECT_TRUE(input->stays_open());
@@ -186,28 +186,28 @@ TEST_F(Twins, OfAnEventRaiseWhatTheyAreGiven) {
 TEST(AttachedTap, TakesWhatIsWrittenWhileItIsAttached) {
   Original original("Original");
   const double shape = 0.0;
-  const auto tap = original.position.make_tap(4, &shape);
+  const auto tap = face(original.position).make_tap(4, &shape);
   original.position.write(1.0);
   {
     const rt::RealtimeScope real_time;
-    original.position.attach(*tap);
+    face(original.position).attach(*tap);
     original.position.write(2.0);
-    original.position.detach(*tap);
+    face(original.position).detach(*tap);
   }
   original.position.write(3.0);
   TappedSample sample;
   ASSERT_TRUE(tap->take(sample));
   EXPECT_EQ(sample.sequence, 2u);
   EXPECT_FALSE(tap->take(sample));
-  EXPECT_FALSE(original.position.is_tapped());
+  EXPECT_FALSE(face(original.position).is_tapped());
 }
 
 TEST(Writer, IsAnOutputForAnInputWrittenFromElsewhere) {
   Original original("Original");
   User user("User");
-  const auto writer = original.reference.make_writer(user, "Original.Reference");
+  const auto writer = face(original.reference).make_writer(user, "Original.Reference");
   EXPECT_EQ(writer->name(), "Original.Reference");
-  writer->connect(original.reference, {});
+  writer->connect(face(original.reference), {});
   const double value = 4.0;
   writer->write_from(&value);
   EXPECT_EQ(original.reference.read().value, 4.0);

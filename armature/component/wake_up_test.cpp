@@ -35,9 +35,9 @@ class Receiver : public Component {
 class WakeUp : public testing::Test {
  protected:
   WakeUp() : here_(sender_), there_(receiver_) {
-    sender_.first.connect(receiver_.first, latest());
-    sender_.second.connect(receiver_.second, latest());
-    sender_.happened.subscribe(receiver_.handler);
+    face(sender_.first).connect(face(receiver_.first), latest());
+    face(sender_.second).connect(face(receiver_.second), latest());
+    face(sender_.happened).subscribe(face(receiver_.handler));
     start(sender_, receiver_);
     there_.context.live = true;
     there_.context.wakes_on_messages = true;

@@ -271,7 +271,7 @@ class AgingEngine : public ::testing::Test {
   AgingEngine()
       : writers_("writer", Activity::periodic(1ms), {&writer_}, {&writer_}),
         engine_("watcher", Activity::triggered(), {&watcher_}, {}) {
-    writer_.out.connect(watcher_.in, {});
+    face(writer_.out).connect(face(watcher_.in), {});
     start(writer_, watcher_);
     writers_.begin(at(0ms));
     engine_.begin(at(0ms));

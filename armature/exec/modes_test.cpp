@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/face.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
 namespace armature::exec {
@@ -85,7 +86,7 @@ class InModes : public ::testing::TestWithParam<bool> {
     second = &blueprint.add<Probe>("Second");
     motor = &blueprint.add<Motor>("Motor");
     // A machine that is busy with other things may leave out cycles.
-    if (!GetParam()) motor->act.set_max_age(component::max_age(10s));
+    if (!GetParam()) face(motor->act).set_max_age(component::max_age(10s));
     blueprint.connect("A.Act", "Motor.Act");
     blueprint.connect("B.Act", "Motor.Act");
     blueprint.connect("Helper.Out", "A.In");

@@ -19,6 +19,8 @@
 #include "armature/general/controls/timer.hpp"
 
 using namespace armature::general;
+using armature::component::drawn_as;
+using armature::component::Granularity;
 
 ARMATURE_COMPONENT_LIBRARY(controls, registry) {
   registry.add<Constant>("Constant", "writes a number");
@@ -30,13 +32,13 @@ ARMATURE_COMPONENT_LIBRARY(controls, registry) {
   registry.add<Limit>("Limit", "keeps a value between two bounds");
   registry.add<Logic>("Logic", "combines truth values");
   registry.add<Integrator>("Integrator", "sums a value up over time");
-  registry.add<Sequence>("Sequence", "does calls one after the other");
+  registry.add<Sequence>("Sequence", "does calls one after the other", Granularity::kApplication);
   registry.add<Request>("Request", "asks an operation and writes its result");
-  registry.add<Button>("Button", "something to press");
-  registry.add<Switch>("Switch", "something to turn on and off");
-  registry.add<Slider>("Slider", "a number that somebody moves");
-  registry.add<Light>("Light", "shows whether something holds");
-  registry.add<Number>("Number", "shows a number");
-  registry.add<Text>("Text", "shows a text");
-  registry.add<Plot>("Plot", "shows how numbers went");
+  registry.add<Button>("Button", "something to press", drawn_as("button"));
+  registry.add<Switch>("Switch", "something to turn on and off", drawn_as("switch"));
+  registry.add<Slider>("Slider", "a number that somebody moves", drawn_as("slider"));
+  registry.add<Light>("Light", "shows whether something holds", drawn_as("light"));
+  registry.add<Number>("Number", "shows a number", drawn_as("number"));
+  registry.add<Text>("Text", "shows a text", drawn_as("text"));
+  registry.add<Plot>("Plot", "shows how numbers went", drawn_as("plot"));
 }

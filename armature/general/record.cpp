@@ -5,9 +5,11 @@
 #include "armature/general/task_browser.hpp"
 
 using namespace armature::general;
+using armature::component::Granularity;
 
 ARMATURE_COMPONENT_LIBRARY(record, registry) {
   registry.add<Reporter>("Reporter", "records ports, properties and components",
                          {{"FileReporting"}, {"ReportingComponent"}});
-  registry.add<TaskBrowser>("TaskBrowser", "asks for the operator's prompt");
+  registry.add<TaskBrowser>("TaskBrowser", "asks for the operator's prompt",
+                            Granularity::kApplication);
 }

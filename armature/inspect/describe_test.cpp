@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::inspect {
@@ -64,10 +65,10 @@ class Card : public Component {
 class Description : public testing::Test {
  protected:
   Description() : thread_(drive_, card_) {
-    drive_.out.connect(card_.voltage, {});
-    card_.ticks.connect(drive_.extra, {});
-    drive_.moved.subscribe(card_.moved);
-    drive_.motor_on.connect(card_.on);
+    face(drive_.out).connect(face(card_.voltage), {});
+    face(card_.ticks).connect(face(drive_.extra), {});
+    face(drive_.moved).subscribe(face(card_.moved));
+    face(drive_.motor_on).connect(face(card_.on));
     start(drive_);
   }
   ComponentDescription describe() { return inspect::describe(drive_, "Drive"); }

@@ -129,6 +129,10 @@ std::string origin(const Registry::Model& model) {
   return model.library.empty() ? "the program" : model.library;
 }
 
+std::string granularity(const Registry::Model& model) {
+  return std::string(types::name_of(model.granularity));
+}
+
 }  // namespace
 
 namespace internal {
@@ -166,7 +170,7 @@ std::string list_models(const Registry& registry) {
   std::vector<Row> rows;
   for (const std::string& name : registry.names()) {
     const Registry::Model& model = *registry.find(name);
-    rows.push_back({name, origin(model), model.doc + further_names(model)});
+    rows.push_back({name, granularity(model), origin(model), model.doc + further_names(model)});
   }
   return base::table_text(rows);
 }
@@ -180,8 +184,9 @@ base::Result<std::string> describe_model(const Registry& registry, std::string_v
   if (!model) return base::Error{model.error()};
   const auto description = internal::describe_model(*model.value());
   if (!description) return base::Error{description.error()};
-  return model.value()->name + ": " + model.value()->doc + further_names(*model.value()) +
-         " (library " + origin(*model.value()) + ")\n" + text_of(description.value());
+  return model.value()->name + ": " + model.value()->doc + further_names(*model.value()) + " (" +
+         granularity(*model.value()) + ", library " + origin(*model.value()) + ")\n" +
+         text_of(description.value());
 }
 
 }  // namespace armature::inspect

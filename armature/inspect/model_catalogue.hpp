@@ -10,7 +10,7 @@
 
 namespace armature::inspect {
 
-/// One line for each model: name, library, what it is.
+/// One line for each model: name, granularity, library, what it is.
 std::string list_models(const component::Registry& registry);
 
 /// Ports, properties, operations, commands, events and requirements of a model, for people. The

@@ -16,10 +16,9 @@ Json json_of(const component::Registry::Model& model, const ComponentDescription
   for (const auto& one : model.further_names) {
     further.push_back({{"name", one.name}, {"number", one.property}});
   }
-  Json json = {{"name", model.name},
-               {"further_names", std::move(further)},
-               {"library", model.library},
-               {"doc", model.doc}};
+  Json json = {{"name", model.name},       {"further_names", std::move(further)},
+               {"library", model.library}, {"granularity", types::name_of(model.granularity)},
+               {"face", model.face},       {"doc", model.doc}};
   internal::add_members(description, "default", json);
   return json;
 }

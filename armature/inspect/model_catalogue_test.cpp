@@ -78,21 +78,22 @@ class Broken final : public Component {
 component::Registry registry() {
   component::Registry models;
   models.begin_library("motion");
-  models.add<Everything>("Everything", "has one of everything");
+  models.add<Everything>("Everything", "has one of everything", component::Granularity::kAtomic,
+                         component::drawn_as("gauge"));
   EXPECT_EQ(models.end_library(), "");
   models.add<Broken>("Broken", "cannot be made");
   return models;
 }
 
-TEST(ModelCatalogue, ListsModelsWithLibraryAndPurpose) {
+TEST(ModelCatalogue, ListsModelsWithGranularityLibraryAndPurpose) {
   EXPECT_EQ(list_models(registry()),
-            "Broken      the program  cannot be made\n"
-            "Everything  motion       has one of everything\n");
+            "Broken      algorithm  the program  cannot be made\n"
+            "Everything  atomic     motion       has one of everything\n");
 }
 
 TEST(ModelCatalogue, DescribesAModelForPeople) {
   EXPECT_EQ(describe_model(registry(), "Everything").value(),
-            R"(Everything: has one of everything (library motion)
+            R"(Everything: has one of everything (atomic, library motion)
 
 properties
   Gain    double  V/rad  of the loop (default 0.5, 0 .. 10, changeable while running)
@@ -130,6 +131,8 @@ TEST(ModelCatalogue, DescribesModelsForMachines) {
   const json& model = models[0];
   EXPECT_EQ(model["name"], "Everything");
   EXPECT_EQ(model["library"], "motion");
+  EXPECT_EQ(model["granularity"], "atomic");
+  EXPECT_EQ(model["face"], "gauge");
   EXPECT_EQ(model["properties"][0], json({{"name", "Gain"},
                                           {"type", "double"},
                                           {"unit", "V/rad"},

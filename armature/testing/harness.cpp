@@ -146,10 +146,11 @@ void Harness::check_signature(std::string_view item, const component::Signature&
                               is.text() + ", not " + given.text());
 }
 
-void Harness::check_command(std::string_view item, const component::OperationBase* command) const {
-  if (command != nullptr) return;
+void Harness::check_command(std::string_view item,
+                            const component::OperationBase& operation) const {
+  if (operation.is_command()) return;
   throw std::invalid_argument(quoted(component_->name()) + ": " + quoted(item) +
-                              " is not a command that takes vectors and text as const references");
+                              " is not a command");
 }
 
 }  // namespace armature::testing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -115,7 +116,7 @@ class Harness {
   void check_size(std::string_view input, bool fits) const;
   void check_signature(std::string_view item, const component::Signature& is,
                        const component::Signature& given) const;
-  void check_command(std::string_view item, const component::OperationBase* command) const;
+  void check_command(std::string_view item, const component::OperationBase& operation) const;
 
   /// Does `work` in the component's thread.
   template <typename Work>
@@ -161,8 +162,8 @@ void Harness::write(std::string_view name, const T& value) {
   check_type(name, input.type(), types::type_of<T>());
   auto& writer = fake<internal::Writer<T>>(name, [&](internal::Writer<T>& made) {
     made.port.set_sample(value);
-    check_size(name, made.port.fits(input));
-    made.port.connect(input, {});
+    check_size(name, face(made.port).fits(input));
+    face(made.port).connect(input, {});
   });
   auto status = component::WriteStatus::kWritten;
   in_thread([&] { status = writer.port.write(value); });
@@ -193,9 +194,9 @@ component::CommandHandle Harness::send(std::string_view name, const Args&... arg
   component::OperationBase& operation = find_operation(name);
   check_signature(name, operation.signature(),
                   component::Signature::of<void, internal::Passed<Args>...>({}));
-  check_command(name, dynamic_cast<component::Command<internal::Passed<Args>...>*>(&operation));
-  auto& commander =
-      fake<internal::Commander<Args...>>(name, [&](auto& made) { made.caller.connect(operation); });
+  check_command(name, operation);
+  auto& commander = fake<internal::Commander<Args...>>(
+      name, [&](auto& made) { face(made.caller).connect(operation); });
   component::CommandHandle handle(component::CallStatus::kPending);
   in_thread([&] {
     const rt::PermitScope permit;  // the first vectors make room for all
@@ -208,7 +209,8 @@ template <typename... Args>
 const std::vector<std::tuple<Args...>>& Harness::record(std::string_view name) {
   component::EventBase& event = find_event(name);
   check_signature(name, event.signature(), component::Signature::of<void, Args...>({}));
-  return fake<internal::Listener<Args...>>(name, [&](auto& made) { event.subscribe(made.handler); })
+  return fake<internal::Listener<Args...>>(name,
+                                           [&](auto& made) { event.subscribe(face(made.handler)); })
       .heard;
 }
 
@@ -216,17 +218,16 @@ template <typename... Args>
 void Harness::raise(std::string_view name, const Args&... arguments) {
   component::EventHandlerBase& handler = find_handler(name);
   check_signature(name, handler.signature(), component::Signature::of<void, Args...>({}));
-  in_thread([&] {
-    static_cast<component::EventHandler<Args...>&>(handler).handle(engine_.context(), arguments...);
-  });
+  const std::array<const void*, sizeof...(Args)> places{&arguments...};
+  in_thread([&] { handler.handle_from(engine_.context(), places.data()); });
 }
 
 template <typename Function>
 void Harness::serve(std::string_view name, std::function<Function> function) {
   component::OperationCallerBase& caller = find_caller(name);
   auto& server = fake<internal::Server<Function>>(name, [&](auto& made) {
-    check_signature(name, caller.signature(), made.operation.signature());
-    caller.connect(made.operation);
+    check_signature(name, caller.signature(), face(made.operation).signature());
+    caller.connect(face(made.operation));
   });
   server.function = std::move(function);
 }

@@ -82,5 +82,6 @@ class Servo final : public armature::controllers::JointHardware {
 }  // namespace servo
 
 ARMATURE_COMPONENT_LIBRARY(servo, registry) {
-  registry.add<servo::Servo>("Servo", "the drive of a joint");
+  registry.add<servo::Servo>("Servo", "the drive of a joint",
+                             armature::component::Granularity::kAtomic);
 }

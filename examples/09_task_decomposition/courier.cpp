@@ -177,10 +177,10 @@ class Courier final : public Component {
 }  // namespace
 
 ARMATURE_COMPONENT_LIBRARY(courier, registry) {
-  registry.add<Body>("Body", "a robot on its way");
+  registry.add<Body>("Body", "a robot on its way", Granularity::kAtomic);
   registry.add<Travel>("Travel", "goes somewhere");
   registry.add<Avoid>("Avoid", "keeps away from what is near");
   registry.add<Arbiter>("Arbiter", "lets one of two behaviours move the robot");
-  registry.add<Gripper>("Gripper", "takes things");
-  registry.add<Courier>("Courier", "fetches things");
+  registry.add<Gripper>("Gripper", "takes things", Granularity::kAtomic);
+  registry.add<Courier>("Courier", "fetches things", Granularity::kApplication);
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/max_age.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
@@ -20,7 +21,7 @@ class SensorWam final : public controllers::Sensor, public controllers::PassesSa
 
   std::vector<const component::InputPortBase*> samples_behind(
       const component::OutputPortBase& /*output*/) const override {
-    return {&data_};
+    return {&face(data_)};
   }
 
  private:

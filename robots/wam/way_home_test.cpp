@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robots/wam/way_home.hpp"
 
+#include <array>
 #include <chrono>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/face.hpp"
 #include "armature/testing/test_thread.hpp"
 
 namespace armature::wam {
@@ -48,7 +50,7 @@ class Arm : public component::Component {
 class WayHomeTest : public testing::Test {
  protected:
   WayHomeTest() : thread_(arm_, generator_) {
-    arm_.generator.connect(generator_.move_to);
+    face(arm_.generator).connect(face(generator_.move_to));
     component::start(arm_, generator_);
   }
   void begin() {
@@ -56,6 +58,11 @@ class WayHomeTest : public testing::Test {
     thread_.deliver();
   }
   WayHome::Arm at(base::Duration time) const { return {home_, positions_, base::Time(time)}; }
+
+  component::Outcome begin_motion(const Angles& to, double seconds) {
+    const std::array<const void*, 2> places{&to, &seconds};
+    return face(generator_.move_to).begin_from(nullptr, places.data());
+  }
 
   const Angles home_{0.0, 0.0};
   const Angles positions_{0.3, 0.4};
@@ -98,7 +105,7 @@ TEST_F(WayHomeTest, IsAskedForAgainUntilWhatWentOnBeforeHasComeToRest) {
 
 /// Its time is that from where the arm is now, not from where another motion ends.
 TEST_F(WayHomeTest, WaitsForNoOtherMotionAndIsAskedForAgainUntilThatIsOver) {
-  ASSERT_TRUE(generator_.move_to.begin(nullptr, home_, 7.0));
+  ASSERT_TRUE(begin_motion(home_, 7.0));
   begin();
   for (const base::Duration time : {2ms, 4ms}) {
     EXPECT_FALSE(way_.follow(at(time)));
@@ -119,7 +126,7 @@ TEST_F(WayHomeTest, WaitsForNoOtherMotionAndIsAskedForAgainUntilThatIsOver) {
 }
 
 TEST_F(WayHomeTest, EndsIfAnotherMotionTakesTooLong) {
-  ASSERT_TRUE(generator_.move_to.begin(nullptr, home_, 7.0));
+  ASSERT_TRUE(begin_motion(home_, 7.0));
   begin();
   EXPECT_FALSE(way_.follow(at(2s)));
   thread_.deliver();

@@ -21,6 +21,8 @@ def main():
     if done.returncode == 0:
         sys.exit(f"{file}: it compiles, but must not")
     refusals = re.findall(r"error: static (?:_?assert\w*) failed.*", done.stderr)
+    # In Clang's words, and in GCC's.
+    refusals += re.findall(r"error: .* (?:is a private member of|is inaccessible within) .*", done.stderr)
     for text in expected:
         if not any(text in refusal for refusal in refusals):
             sys.exit(f"{file}: no error says '{text}':\n" + done.stderr)

@@ -329,32 +329,32 @@ int main() {
   Operator human("operator");
   std::vector<Component*> all{&sampler, &mux, &controller, &demux, &generator, &human};
   std::vector<std::unique_ptr<Component>> owned;
-  for (OutputPortBase* out :
-       {static_cast<OutputPortBase*>(&mux.sensor), static_cast<OutputPortBase*>(&controller.act),
-        static_cast<OutputPortBase*>(&generator.desired)}) {
+  for (OutputPortBase* out : {static_cast<OutputPortBase*>(&face(mux.sensor)),
+                              static_cast<OutputPortBase*>(&face(controller.act)),
+                              static_cast<OutputPortBase*>(&face(generator.desired))}) {
     out->prepare();
   }
-  mux.sensor.connect(controller.sensor, {});
-  generator.desired.connect(controller.reference, {});
-  controller.act.connect(demux.act, {});
-  sampler.sample.subscribe(mux.on_sample);
+  face(mux.sensor).connect(face(controller.sensor), {});
+  face(generator.desired).connect(face(controller.reference), {});
+  face(controller.act).connect(face(demux.act), {});
+  face(sampler.sample).subscribe(face(mux.on_sample));
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string number = std::to_string(i + 1);
     auto card = std::make_unique<Card>("card" + number);
     auto joint = std::make_unique<Joint>("joint" + number);
     auto pid = std::make_unique<Pid>("pid" + number);
     if (!joint->peer.set(armature::types::Value::of(card->name()))) return 1;
-    joint->sensor_read.connect(card->sensor_read);
-    joint->actuator_set.connect(card->actuator_set);
+    face(joint->sensor_read).connect(face(card->sensor_read));
+    face(joint->actuator_set).connect(face(card->actuator_set));
     card->powered.assign(true);
-    sampler.sample.subscribe(joint->on_sample);
-    demux.act_event.subscribe(joint->on_act);
-    joint->displacement.connect(mux.displacements[i], {});
-    joint->position.connect(mux.positions[i], {});
-    controller.references[i].connect(pid->reference, {});
-    controller.measured[i].connect(pid->measured, {});
-    pid->output.connect(controller.outputs[i], {});
-    demux.voltages[i].connect(joint->voltage, {});
+    face(sampler.sample).subscribe(face(joint->on_sample));
+    face(demux.act_event).subscribe(face(joint->on_act));
+    face(joint->displacement).connect(face(mux.displacements[i]), {});
+    face(joint->position).connect(face(mux.positions[i]), {});
+    face(controller.references[i]).connect(face(pid->reference), {});
+    face(controller.measured[i]).connect(face(pid->measured), {});
+    face(pid->output).connect(face(controller.outputs[i]), {});
+    face(demux.voltages[i]).connect(face(joint->voltage), {});
     for (Component* each :
          {static_cast<Component*>(card.get()), static_cast<Component*>(joint.get()),
           static_cast<Component*>(pid.get())}) {
@@ -364,8 +364,8 @@ int main() {
     owned.push_back(std::move(joint));
     owned.push_back(std::move(pid));
   }
-  human.arm.connect(operation(generator, "arm"));
-  human.move_to.connect(generator.move_to);
+  face(human.arm).connect(operation(generator, "arm"));
+  face(human.move_to).connect(face(generator.move_to));
   for (Component* each : all) {
     Host::assign_context(*each, context);
     if (!Host::configure(*each) || !Host::start(*each)) return 2;

@@ -78,15 +78,14 @@ class Servos final : public Plant {
   void add(component::Component& drive) {
     for (component::OutputPortBase* output : component::interface_of(drive).outputs) {
       if (output->name() != "DisplacementSensor") continue;
-      drives_.push_back({drive.name(), static_cast<component::OutputPort<double>*>(output),
-                         output->current_time(), 0.0});
+      drives_.push_back({drive.name(), output, output->current_time(), 0.0});
     }
   }
   void advance_to(base::Time /*now*/) override {
     for (Drive& drive : drives_) {
       const base::Time written = drive.displacement->current_time();
       if (written != std::exchange(drive.written, written))
-        drive.angle += drive.displacement->last();
+        drive.angle += *static_cast<const double*>(drive.displacement->current());
     }
   }
   Vector positions() override {
@@ -105,7 +104,7 @@ class Servos final : public Plant {
   static constexpr double kGearRatio = 0.01;
   struct Drive {
     std::string name;
-    component::OutputPort<double>* displacement;
+    component::OutputPortBase* displacement;
     base::Time written;
     double angle;
   };

@@ -88,8 +88,8 @@ class Head {
     component::Component& writer = *robot.application().find(component);
     for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
       if (output->name() != port) continue;
-      auto& typed = static_cast<component::OutputPort<T>&>(*output);
-      ASSERT_TRUE(robot.application().run_in_thread_of(writer, [&] { typed.write(value); }));
+      ASSERT_TRUE(
+          robot.application().run_in_thread_of(writer, [&] { output->write_from(&value); }));
       return;
     }
     FAIL() << component << " has no output " << port;

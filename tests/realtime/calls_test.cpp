@@ -44,20 +44,21 @@ class CallFunctions : public ::testing::TestWithParam<bool> {
  protected:
   void SetUp() override {
     std::vector<component::NamedCall> calls(2);
-    calls[0] = {"Call1", "served.ask", &served_.ask, std::vector<component::CallParameter>(1)};
+    calls[0] = {"Call1", "served.ask", &face(served_.ask),
+                std::vector<component::CallParameter>(1)};
     calls[0].parameters[0].from = component::CallParameter::From::kPort;
     calls[0].parameters[0].input = "places";
-    calls[0].parameters[0].port = &served_.places;
-    calls[1] = {"Call2", "served.move", &served_.move, {}};
+    calls[0].parameters[0].port = &face(served_.places);
+    calls[1] = {"Call2", "served.move", &face(served_.move), {}};
     ASSERT_TRUE(sequence_.declare_calls(std::move(calls)));
     Host::assign_context(sequence_, here_);
     Host::assign_context(served_, GetParam() ? here_ : there_);
     for (component::Component* each : all()) ASSERT_TRUE(Host::configure(*each));
     const component::Interface& interface = component::interface_of(sequence_);
-    served_.places.prepare();
-    served_.places.connect(*interface.inputs.front(), {});
-    interface.callers[0]->connect(served_.ask);
-    interface.callers[1]->connect(served_.move);
+    face(served_.places).prepare();
+    face(served_.places).connect(*interface.inputs.front(), {});
+    interface.callers[0]->connect(face(served_.ask));
+    interface.callers[1]->connect(face(served_.move));
     for (component::Component* each : all()) ASSERT_TRUE(Host::activate(*each));
     for (component::Component* each : all()) ASSERT_TRUE(Host::start(*each));
     served_.places.write(std::vector<double>(7, 1.0));
@@ -65,7 +66,7 @@ class CallFunctions : public ::testing::TestWithParam<bool> {
   void TearDown() override {
     deliver();
     for (auto* caller : component::interface_of(sequence_).callers) caller->disconnect();
-    served_.places.disconnect_all();
+    face(served_.places).disconnect_all();
   }
   std::vector<component::Component*> all() { return {&served_, &sequence_}; }
   component::CommandBase& run() {

@@ -80,10 +80,10 @@ class ComponentFunctions : public ::testing::TestWithParam<bool> {
   ComponentFunctions() {
     Host::assign_context(client_, here_);
     Host::assign_context(server_, GetParam() ? here_ : there_);
-    client_.add.connect(server_.add_);
-    client_.queued.connect(server_.queued_);
-    client_.move.connect(server_.move);
-    server_.happened.subscribe(client_.on_happened);
+    face(client_.add).connect(face(server_.add_));
+    face(client_.queued).connect(face(server_.queued_));
+    face(client_.move).connect(face(server_.move));
+    face(server_.happened).subscribe(face(client_.on_happened));
     client_.queued.prepare(1.0, vector_);
     there_.log = &log_;
     here_.log = &log_;
@@ -99,7 +99,7 @@ class ComponentFunctions : public ::testing::TestWithParam<bool> {
     }
   }
   ~ComponentFunctions() override {
-    server_.happened.unsubscribe_all();
+    face(server_.happened).unsubscribe_all();
     for (auto* caller : interface_of(client_).callers) caller->disconnect();
   }
 
@@ -159,7 +159,7 @@ TEST_P(ComponentFunctions, Measurements) {
 }
 
 TEST_P(ComponentFunctions, HandlersThatSetThemselvesOff) {
-  expect_realtime("Entrance::refuse", [&] { client_.on_happened.refuse(here_); });
+  expect_realtime("Entrance::refuse", [&] { face(client_.on_happened).refuse(here_); });
   EXPECT_EQ(client_.state(), State::kException);
 }
 
@@ -223,10 +223,10 @@ class CountingTap final : public EventTap {
 TEST_P(ComponentFunctions, ATapOfAnEvent) {
   CountingTap tap;
   expect_realtime("EventBase::add_tap", [&] {
-    server_.happened.add_tap(tap);
-    server_.happened.remove_tap(tap);
+    face(server_.happened).add_tap(tap);
+    face(server_.happened).remove_tap(tap);
   });
-  server_.happened.add_tap(tap);
+  face(server_.happened).add_tap(tap);
   expect_realtime("EventTap::event_raised", [&] {
     server_.happened.raise(1.0, 2);
     deliver();
@@ -236,7 +236,7 @@ TEST_P(ComponentFunctions, ATapOfAnEvent) {
   const int number = 2;
   const void* const arguments[] = {&place, &number};
   expect_realtime("EventBase::raise_from", [&] {
-    server_.happened.raise_from(arguments);
+    face(server_.happened).raise_from(arguments);
     deliver();
   });
 }
@@ -336,7 +336,7 @@ TEST_P(ComponentFunctions, AnOperationInItsOwnThread) {
 TEST_P(ComponentFunctions, TooManyCallsAtOnce) {
   expect_realtime("OperationCaller::send",
                   [&] { static_cast<void>(client_.queued.send(1.0, vector_)); });
-  EXPECT_EQ(client_.queued.refused(), 101u - kDefaultOutstanding);
+  EXPECT_EQ(face(client_.queued).refused(), 101u - kDefaultOutstanding);
   deliver();
 }
 

@@ -49,26 +49,26 @@ class EventCommandFunctions : public ::testing::TestWithParam<bool> {
     std::vector<component::CallParameter> parameters(2);
     parameters[1].from = component::CallParameter::From::kPort;
     parameters[1].input = "places";
-    parameters[1].port = &raiser_.vector;
-    wire_ = std::make_unique<EventCommand>("wire", raiser_.raised, server_.move,
+    parameters[1].port = &face(raiser_.vector);
+    wire_ = std::make_unique<EventCommand>("wire", face(raiser_.raised), face(server_.move),
                                            std::move(parameters), std::chrono::seconds(1));
     Host::assign_context(raiser_, here_);
     Host::assign_context(*wire_, here_);
     Host::assign_context(server_, GetParam() ? here_ : there_);
     const component::Interface& interface = component::interface_of(*wire_);
     for (component::Component* each : all()) ASSERT_TRUE(Host::configure(*each));
-    raiser_.vector.prepare();
-    raiser_.vector.connect(*interface.inputs.front(), {});
-    raiser_.raised.subscribe(*interface.handlers.front());
-    interface.callers.front()->connect(server_.move);
+    face(raiser_.vector).prepare();
+    face(raiser_.vector).connect(*interface.inputs.front(), {});
+    face(raiser_.raised).subscribe(*interface.handlers.front());
+    interface.callers.front()->connect(face(server_.move));
     for (component::Component* each : all()) ASSERT_TRUE(Host::activate(*each));
     for (component::Component* each : all()) ASSERT_TRUE(Host::start(*each));
   }
   void TearDown() override {
     deliver();
-    raiser_.raised.unsubscribe_all();
+    face(raiser_.raised).unsubscribe_all();
     component::interface_of(*wire_).callers.front()->disconnect();
-    raiser_.vector.disconnect_all();
+    face(raiser_.vector).disconnect_all();
   }
   std::vector<component::Component*> all() { return {&raiser_, wire_.get(), &server_}; }
   void deliver() {

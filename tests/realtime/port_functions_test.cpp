@@ -66,8 +66,8 @@ class PortFunctions : public ::testing::TestWithParam<Connection> {
     for (Component* component :
          {static_cast<Component*>(&source_), static_cast<Component*>(&sink_)})
       ASSERT_TRUE(Host::configure(*component));
-    source_.number.prepare();
-    source_.vector.prepare();
+    face(source_.number).prepare();
+    face(source_.vector).prepare();
   }
   void connect(OutputPortBase& output, InputPortBase& input) {
     output.connect(input, GetParam().policy);
@@ -87,23 +87,23 @@ class PortFunctions : public ::testing::TestWithParam<Connection> {
 };
 
 TEST_P(PortFunctions, ANumberIsWrittenAndRead) {
-  connect(source_.number, sink_.number);
+  connect(face(source_.number), face(sink_.number));
   double sum = 0.0;
   expect_realtime("OutputPort::write", [&] { source_.number.write(1.0); });
   expect_realtime("OutputPortBase::take_over_from",
-                  [&] { source_.number.take_over_from(&source_.number); });
+                  [&] { face(source_.number).take_over_from(&face(source_.number)); });
   const double* taken = nullptr;
   expect_realtime("OutputPort::taken_over", [&] { taken = source_.number.taken_over(); });
   EXPECT_EQ(*taken, 1.0);
-  source_.number.take_over_from(nullptr);
+  face(source_.number).take_over_from(nullptr);
   const double given = 2.0;
-  expect_realtime("OutputPortBase::write_from", [&] { source_.number.write_from(&given); });
-  const auto tap = source_.number.make_tap(4, &given);
+  expect_realtime("OutputPortBase::write_from", [&] { face(source_.number).write_from(&given); });
+  const auto tap = face(source_.number).make_tap(4, &given);
   const Sample<double> pushed{given, {}, 1};
   expect_realtime("OutputPortBase::attach", [&] {
-    source_.number.attach(*tap);
+    face(source_.number).attach(*tap);
     source_.number.write(1.0);
-    source_.number.detach(*tap);
+    face(source_.number).detach(*tap);
   });
   expect_realtime("AttachedTap::push", [&] { tap->push(&pushed); });
   expect_realtime("InputPort::read", [&] {
@@ -115,14 +115,14 @@ TEST_P(PortFunctions, ANumberIsWrittenAndRead) {
 }
 
 TEST_P(PortFunctions, AVectorIsWrittenAndRead) {
-  connect(source_.vector, sink_.vector);
+  connect(face(source_.vector), face(sink_.vector));
   const std::vector<double> wrong_size(3, 1.0);
   const std::vector<double> right_size(7, 1.0);
   expect_realtime("OutputPort::write", [&] {
     source_.vector.write(right_size);
     source_.vector.write(wrong_size);
   });
-  EXPECT_EQ(source_.vector.counters().wrong_size, 101u);
+  EXPECT_EQ(face(source_.vector).counters().wrong_size, 101u);
   double sum = 0.0;
   expect_realtime("InputPort::read", [&] {
     begin_cycle();
@@ -133,7 +133,7 @@ TEST_P(PortFunctions, AVectorIsWrittenAndRead) {
 }
 
 TEST_P(PortFunctions, AWriteRunsTheHandler) {
-  connect(source_.number, sink_.triggering);
+  connect(face(source_.number), face(sink_.triggering));
   expect_realtime("OutputPort::write", [&] {
     source_.number.write(1.0);
     begin_cycle();
@@ -142,9 +142,9 @@ TEST_P(PortFunctions, AWriteRunsTheHandler) {
 }
 
 TEST_P(PortFunctions, ATappedWriteHasTheSameMeans) {
-  connect(source_.number, sink_.number);
-  Tap& numbers = source_.number.tap(50);  // of which it becomes full
-  Tap& vectors = source_.vector.tap(50, 2);
+  connect(face(source_.number), face(sink_.number));
+  Tap& numbers = face(source_.number).tap(50);  // of which it becomes full
+  Tap& vectors = face(source_.vector).tap(50, 2);
   const std::vector<double> vector(7, 1.0);
   expect_realtime("OutputPort::write", [&] {
     source_.number.write(1.0);
@@ -166,15 +166,15 @@ TEST_P(AgeFunctions, DataThatIsTooOldIsReactedTo) {
   Sink sink("sink");
   Host::assign_context(source, context);
   Host::assign_context(sink, context);
-  sink.number.set_max_age(max_age(milliseconds(1), GetParam()));
-  source.number.connect(sink.number, {});
+  face(sink.number).set_max_age(max_age(milliseconds(1), GetParam()));
+  face(source.number).connect(face(sink.number), {});
   ASSERT_TRUE(Host::configure(sink));
   ASSERT_TRUE(Host::start(sink));
   expect_realtime("InputPortBase::check_age", [&] {
     context.cycle_time = context.cycle_time.load() + milliseconds(5);
-    sink.number.check_age();
+    face(sink.number).check_age();
   });
-  EXPECT_EQ(sink.number.counters().stale, 1u);
+  EXPECT_EQ(face(sink.number).counters().stale, 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Reactions, AgeFunctions,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/exec/engine.hpp"
 #include "armature/exec/thread_watch.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -24,10 +25,10 @@ class Source final : public component::Component {
 class WatchFunctions : public ::testing::Test {
  protected:
   WatchFunctions() {
-    source_.out.prepare();
+    face(source_.out).prepare();
     const auto& port = source_.out;
-    for (auto& place : types::NumberPlace::all_in(port.type(), port.current())) {
-      numbers_.push_back({&source_, &port, nullptr, std::move(place)});
+    for (auto& place : types::NumberPlace::all_in(face(port).type(), face(port).current())) {
+      numbers_.push_back({&source_, &face(port), nullptr, std::move(place)});
     }
     const auto& gains = source_.gains;
     for (auto& place : types::NumberPlace::all_in(gains.type(), gains.data())) {

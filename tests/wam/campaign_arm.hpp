@@ -120,8 +120,7 @@ class CampaignArm {
     component::Component& writer = *application_->find(component);
     for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
       if (output->name() != port) continue;
-      auto& typed = static_cast<component::OutputPort<T>&>(*output);
-      ASSERT_TRUE(application_->run_in_thread_of(writer, [&] { typed.write(value); }));
+      ASSERT_TRUE(application_->run_in_thread_of(writer, [&] { output->write_from(&value); }));
       return;
     }
     FAIL() << component << " has no output " << port;

@@ -44,8 +44,7 @@ void write(Arm& arm, const char* component, std::string_view port, const Vector&
   component::Component& writer = *arm.application().find(component);
   for (component::OutputPortBase* output : component::interface_of(writer).outputs) {
     if (output->name() != port) continue;
-    auto& typed = static_cast<component::OutputPort<Vector>&>(*output);
-    ASSERT_TRUE(arm.application().run_in_thread_of(writer, [&] { typed.write(value); }));
+    ASSERT_TRUE(arm.application().run_in_thread_of(writer, [&] { output->write_from(&value); }));
     return;
   }
   FAIL() << component << " has no output " << port;

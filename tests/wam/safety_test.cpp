@@ -260,7 +260,7 @@ TEST_F(WamInMotion, ATorqueThatIsNoNumberIsAFaultOfWhoToldItAndTheArmIsBrakedAnd
     for (component::OutputPortBase* port : component::interface_of(*controller).outputs) {
       if (port->name() != "act") continue;
       const Vector torques(7, std::numeric_limits<double>::quiet_NaN());
-      static_cast<void>(static_cast<component::OutputPort<Vector>*>(port)->write(torques));
+      static_cast<void>(port->write_from(&torques));
     }
   }));
   arm.run_for(2s);

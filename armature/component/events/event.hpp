@@ -41,7 +41,7 @@ class EventListener {
 struct Occasional {};
 inline constexpr Occasional occasional{};
 
-/// Something that happens to a component and that others may react to.
+/// Something that happens to a component and that others may react to: the runtime's side of it.
 class EventBase {
  public:
   EventBase(const EventBase&) = delete;
@@ -132,7 +132,7 @@ struct QueueSize {
 inline QueueSize queue(std::size_t capacity) { return {capacity}; }
 inline constexpr std::size_t kDefaultEventQueue = 16;
 
-/// A component's declared reaction to an event of one of its peers.
+/// A component's declared reaction to an event of one of its peers: the runtime's side of it.
 class EventHandlerBase : public Requirement {
  public:
   ~EventHandlerBase() override;
@@ -148,6 +148,10 @@ class EventHandlerBase : public Requirement {
   /// Events that came while the queue was full.
   std::uint64_t dropped() const;
 
+  /// Handles an event whose arguments are where `arguments` says.
+  /// @thread the component's own, or that of the one who raises it
+  virtual void handle_from(ExecutionContext& where, const void* const* arguments) noexcept = 0;
+
  protected:
   EventHandlerBase(Component& owner, std::string_view name, std::string_view doc,
                    Signature signature) noexcept;
@@ -160,9 +164,6 @@ class EventHandlerBase : public Requirement {
   /// What it runs if that is no member function.
   void set_free_function(FreeFunction function) noexcept;
   FreeFunction free_function() const noexcept;
-
-  /// Handles an event whose arguments are where `arguments` says.
-  virtual void handle_from(ExecutionContext& where, const void* const* arguments) noexcept = 0;
 
   template <typename Code>
   void handle_with(ExecutionContext& where, Code&& code) noexcept {
@@ -191,7 +192,7 @@ class EventHandler;
 
 /// Raised by its component only.
 template <typename... Args>
-class Event final : public EventBase {
+class Event final : private EventBase {
   static_assert((std::is_trivially_copyable_v<Args> && ...),
                 "events carry data of fixed size: numbers, FixedText, arrays; vectors go on ports");
 
@@ -223,13 +224,19 @@ class Event final : public EventBase {
       tell_taps(places.data());
     return status;
   }
+
+ private:
+  using RuntimeFace = EventBase;
+  friend class internal::Inside;
 };
 
 /// Runs a member function when a peer raises the event of the same name and arguments: at once if
 /// both share a thread, else in the handler's own thread, once for each event, in their order.
 template <typename... Args>
-class EventHandler final : public EventHandlerBase {
+class EventHandler final : private EventHandlerBase {
  public:
+  using EventHandlerBase::bound;
+
   /// Options: from(property or name), optional, in_raisers_thread, queue(n).
   template <auto Function, typename... Options>
   EventHandler(Component* owner, std::string_view name, Serve<Function>, std::string_view doc,
@@ -256,12 +263,16 @@ class EventHandler final : public EventHandlerBase {
     (apply(options), ...);
   }
 
+ private:
+  using RuntimeFace = EventHandlerBase;
+  friend class internal::Inside;
+  friend class Event<Args...>;
+
   /// For a component that calls out (see internal::Inside::call_out).
   void handle(ExecutionContext& where, const Args&... arguments) noexcept {
     handle_(*this, where, arguments...);
   }
 
- private:
   using Handle = void (*)(EventHandler&, ExecutionContext&, const Args&...) noexcept;
   using Function = void (*)(void* self, const Args&...);
 

@@ -55,7 +55,7 @@ using Events = EventTest;
 
 TEST_F(Events, NobodyListeningIsAnAnswer) {
   EXPECT_EQ(raiser_.happened.raise(1), RaiseStatus::kNobodyListens);
-  EXPECT_EQ(raiser_.happened.raised(), 1u);
+  EXPECT_EQ(face(raiser_.happened).raised(), 1u);
 }
 
 TEST_F(Events, InOneThreadHandlersRunAtOnceInTheOrderOfSubscription) {
@@ -63,8 +63,8 @@ TEST_F(Events, InOneThreadHandlersRunAtOnceInTheOrderOfSubscription) {
   Listener a("a");
   Listener b("b");
   thread_.add(a, b);
-  raiser_.happened.subscribe(b.handler);
-  raiser_.happened.subscribe(a.handler);
+  face(raiser_.happened).subscribe(face(b.handler));
+  face(raiser_.happened).subscribe(face(a.handler));
   start(a, b);
   a.then = [&] { order.push_back("a"); };
   b.then = [&] { order.push_back("b"); };
@@ -76,7 +76,7 @@ TEST_F(Events, InOneThreadHandlersRunAtOnceInTheOrderOfSubscription) {
 TEST_F(Events, InAnotherThreadAHandlerRunsOncePerEventInOrder) {
   Listener listener("listener");
   other_.add(listener);
-  raiser_.happened.subscribe(listener.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
   start(listener);
   for (int i = 1; i <= 3; ++i) EXPECT_EQ(raiser_.happened.raise(i), RaiseStatus::kDelivered);
   EXPECT_THAT(listener.taken, ElementsAre());
@@ -92,8 +92,8 @@ TEST_F(Events, ThoseInOtherThreadsAreToldBeforeThoseInThisOneRun) {
   Listener there("there");
   thread_.add(here);
   other_.add(there);
-  raiser_.happened.subscribe(here.handler);
-  raiser_.happened.subscribe(there.handler);
+  face(raiser_.happened).subscribe(face(here.handler));
+  face(raiser_.happened).subscribe(face(there.handler));
   start(here, there);
   bool told = false;
   here.then = [&] { told = !other_.context.inbox.empty(); };
@@ -105,14 +105,14 @@ TEST_F(Events, AFullQueueIsAnAnswerToTheRaiserAndCounted) {
   Listener listener("listener", queue(2));
   Listener roomy("roomy", queue(8));
   other_.add(listener, roomy);
-  raiser_.happened.subscribe(listener.handler);
-  raiser_.happened.subscribe(roomy.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
+  face(raiser_.happened).subscribe(face(roomy.handler));
   start(listener, roomy);
   EXPECT_EQ(raiser_.happened.raise(1), RaiseStatus::kDelivered);
   EXPECT_EQ(raiser_.happened.raise(2), RaiseStatus::kDelivered);
   EXPECT_EQ(raiser_.happened.raise(3), RaiseStatus::kQueueFull);
-  EXPECT_EQ(listener.handler.dropped(), 1u);
-  EXPECT_EQ(roomy.handler.dropped(), 0u);
+  EXPECT_EQ(face(listener.handler).dropped(), 1u);
+  EXPECT_EQ(face(roomy.handler).dropped(), 0u);
   other_.deliver();
   EXPECT_THAT(listener.taken, ElementsAre(1, 2));
   EXPECT_THAT(roomy.taken, ElementsAre(1, 2, 3));
@@ -127,7 +127,7 @@ TEST_F(Events, HandlersOfOneThreadAreOneMessageInTheOrderOfTheirSubscription) {
   Listener last("last");
   for (Listener* each : {&one, &two, &small, &last}) {
     other_.add(*each);
-    raiser_.happened.subscribe(each->handler);
+    face(raiser_.happened).subscribe(face(each->handler));
     each->then = [&order, each] { order.push_back(each->name()); };
     start(*each);
   }
@@ -139,10 +139,10 @@ TEST_F(Events, HandlersOfOneThreadAreOneMessageInTheOrderOfTheirSubscription) {
 TEST_F(Events, TheCapacityOfAQueueIsKnownBeforeTheStart) {
   Listener usual("usual");
   Listener declared("declared", queue(300));
-  EXPECT_EQ(usual.handler.queue_capacity(), kDefaultEventQueue);
-  EXPECT_EQ(declared.handler.queue_capacity(), 300u);
+  EXPECT_EQ(face(usual.handler).queue_capacity(), kDefaultEventQueue);
+  EXPECT_EQ(face(declared.handler).queue_capacity(), 300u);
   other_.add(declared);
-  raiser_.happened.subscribe(declared.handler);
+  face(raiser_.happened).subscribe(face(declared.handler));
   start(declared);
   for (int i = 0; i < 300; ++i) ASSERT_EQ(raiser_.happened.raise(i), RaiseStatus::kDelivered);
   EXPECT_EQ(raiser_.happened.raise(300), RaiseStatus::kQueueFull);
@@ -154,7 +154,7 @@ TEST_F(Events, InRaisersThreadTheHandlerRunsThereAtOnce) {
   Listener listener("listener", in_raisers_thread);
   other_.add(listener);
   other_.context.live = true;
-  raiser_.happened.subscribe(listener.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
   start(listener);
   raiser_.happened.raise(5);
   EXPECT_THAT(listener.taken, ElementsAre(5));
@@ -164,7 +164,7 @@ TEST_F(Events, InRaisersThreadTheHandlerRunsThereAtOnce) {
 TEST_F(Events, AnEventRaisedDuringTheReceiversUpdateIsHandledInTheSameCycle) {
   Listener listener("listener");
   other_.add(listener);
-  raiser_.happened.subscribe(listener.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
   start(listener);
   other_.cycle();
   listener.in_update = [&] {
@@ -180,7 +180,7 @@ TEST_F(Events, AnEventRaisedDuringTheReceiversUpdateIsHandledInTheSameCycle) {
 TEST_F(Events, WhatDoesNotRunIsNotTold) {
   Listener listener("listener");
   thread_.add(listener);
-  raiser_.happened.subscribe(listener.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
   raiser_.happened.raise(1);
   ASSERT_TRUE(Host::configure(listener));
   raiser_.happened.raise(2);
@@ -194,7 +194,7 @@ TEST_F(Events, WhatDoesNotRunIsNotTold) {
 TEST_F(Events, WhatWasQueuedBeforeTheReceiverRunsIsHandledWhenItDoes) {
   Listener listener("listener");
   other_.add(listener);
-  raiser_.happened.subscribe(listener.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
   raiser_.happened.raise(1);
   start(listener);
   other_.deliver();
@@ -205,8 +205,8 @@ TEST_F(Events, AnExceptionInAHandlerBelongsToItsComponentAndTheRaiserGoesOn) {
   Listener broken("broken");
   Listener healthy("healthy");
   thread_.add(broken, healthy);
-  raiser_.happened.subscribe(broken.handler);
-  raiser_.happened.subscribe(healthy.handler);
+  face(raiser_.happened).subscribe(face(broken.handler));
+  face(raiser_.happened).subscribe(face(healthy.handler));
   start(raiser_, broken, healthy);
   broken.then = [] { throw std::runtime_error("cannot react"); };
   EXPECT_EQ(raiser_.happened.raise(1), RaiseStatus::kDelivered);
@@ -222,7 +222,7 @@ TEST_F(Events, AnExceptionInTheRaisersThreadFaultsTheReceiverInItsOwn) {
   other_.add(listener);
   other_.context.live = true;
   other_.context.log = &log;
-  raiser_.happened.subscribe(listener.handler);
+  face(raiser_.happened).subscribe(face(listener.handler));
   start(listener);
   listener.then = [] { throw std::runtime_error("cannot react"); };
   raiser_.happened.raise(1);
@@ -240,12 +240,12 @@ TEST_F(Events, AfterUnsubscribingNobodyIsTold) {
   Listener there("there");
   thread_.add(here);
   other_.add(there);
-  raiser_.happened.subscribe(here.handler);
-  raiser_.happened.subscribe(there.handler);
-  EXPECT_EQ(here.handler.source(), &raiser_.happened);
+  face(raiser_.happened).subscribe(face(here.handler));
+  face(raiser_.happened).subscribe(face(there.handler));
+  EXPECT_EQ(face(here.handler).source(), &face(raiser_.happened));
   EXPECT_TRUE(here.handler.bound());
   start(here, there);
-  raiser_.happened.unsubscribe_all();
+  face(raiser_.happened).unsubscribe_all();
   EXPECT_FALSE(here.handler.bound());
   EXPECT_EQ(raiser_.happened.raise(1), RaiseStatus::kNobodyListens);
   other_.deliver();
@@ -262,9 +262,9 @@ TEST_F(Events, HaveASignatureThatHandlersCanBeComparedWith) {
     void take(double) {}
   };
   Other other("other");
-  EXPECT_TRUE(raiser_.happened.signature().same_as(listener.handler.signature()));
-  EXPECT_FALSE(raiser_.happened.signature().same_as(other.handler.signature()));
-  EXPECT_EQ(raiser_.happened.signature().text(), "void(int32 count)");
+  EXPECT_TRUE(face(raiser_.happened).signature().same_as(face(listener.handler).signature()));
+  EXPECT_FALSE(face(raiser_.happened).signature().same_as(face(other.handler).signature()));
+  EXPECT_EQ(face(raiser_.happened).signature().text(), "void(int32 count)");
 }
 
 // --- taps ----------------------------------------------------------------------------------------
@@ -282,14 +282,14 @@ class Noting final : public EventTap {
 TEST_F(Events, AreSeenByEachTapUntilItIsRemoved) {
   Noting first;
   Noting second;
-  raiser_.happened.add_tap(first);
+  face(raiser_.happened).add_tap(first);
   raiser_.happened.raise(1);
-  raiser_.happened.add_tap(second);
+  face(raiser_.happened).add_tap(second);
   raiser_.happened.raise(2);
-  raiser_.happened.remove_tap(first);
-  raiser_.happened.remove_tap(first);
+  face(raiser_.happened).remove_tap(first);
+  face(raiser_.happened).remove_tap(first);
   raiser_.happened.raise(3);
-  raiser_.happened.remove_tap(second);
+  face(raiser_.happened).remove_tap(second);
   raiser_.happened.raise(4);
   EXPECT_THAT(first.counts, ElementsAre(1, 2));
   EXPECT_THAT(second.counts, ElementsAre(2, 3));

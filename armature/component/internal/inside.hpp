@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <string_view>
+#include <type_traits>
 
 #include "armature/component/component.hpp"
 #include "armature/component/context.hpp"
@@ -16,6 +17,15 @@ namespace armature::component::internal {
 /// The way into the code of components, and what happens to one whose code does not come back well.
 class Inside {
  public:
+  /// The runtime's side of what an author declared: of an `OutputPort<double>` its
+  /// `OutputPortBase`.
+  template <typename Declared>
+  static auto& face(Declared& declared) {
+    using Face = typename Declared::RuntimeFace;
+    using Side = std::conditional_t<std::is_const_v<Declared>, const Face, Face>;
+    return static_cast<Side&>(declared);
+  }
+
   /// Of the thread that runs it.
   static ExecutionContext& context(const Component& component) { return *component.context_; }
 

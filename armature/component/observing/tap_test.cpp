@@ -72,7 +72,7 @@ class Taps : public testing::Test {
     ASSERT_TRUE(Host::configure(source));
     ASSERT_TRUE(Host::configure(sink));
     ASSERT_TRUE(Host::start(sink));
-    source.vector.prepare();
+    face(source.vector).prepare();
   }
   ExecutionContext here{"here"};
   Source source{"source"};
@@ -80,7 +80,7 @@ class Taps : public testing::Test {
 };
 
 TEST_F(Taps, EverySampleComesWithItsTimeAndNumber) {
-  Tap& tap = source.number.tap(4);
+  Tap& tap = face(source.number).tap(4);
   here.cycle_time = base::time_from_ns(10);
   source.number.write(0.5);
   here.cycle_time = base::time_from_ns(20);
@@ -97,8 +97,8 @@ TEST_F(Taps, EverySampleComesWithItsTimeAndNumber) {
 }
 
 TEST_F(Taps, VectorsAndStructsComeAsTheyWere) {
-  Tap& vector = source.vector.tap(4);
-  Tap& pose = source.pose.tap(4);
+  Tap& vector = face(source.vector).tap(4);
+  Tap& pose = face(source.pose).tap(4);
   source.vector.write({1.0, -2.0});
   source.vector.write({1.0, 2.0, 3.0});  // of another size: not written
   source.pose.write({0.5, -3});
@@ -108,14 +108,14 @@ TEST_F(Taps, VectorsAndStructsComeAsTheyWere) {
 }
 
 TEST_F(Taps, OfEveryThirdSampleTheFirstIsTaken) {
-  Tap& tap = source.number.tap(4, 3);
+  Tap& tap = face(source.number).tap(4, 3);
   for (int i = 1; i <= 8; ++i) source.number.write(i);
   EXPECT_THAT(take_all<double>(tap), ElementsAre(Pair(1u, 1.0), Pair(4u, 4.0), Pair(7u, 7.0)));
   EXPECT_EQ(tap.dropped(), 0u);
 }
 
 TEST_F(Taps, WhatFindsNoRoomIsDroppedCountedAndAGap) {
-  Tap& tap = source.number.tap(2);
+  Tap& tap = face(source.number).tap(2);
   for (int i = 1; i <= 5; ++i) source.number.write(i);
   EXPECT_EQ(tap.dropped(), 3u);
   EXPECT_THAT(take_all<double>(tap), ElementsAre(Pair(1u, 1.0), Pair(2u, 2.0)));
@@ -125,19 +125,19 @@ TEST_F(Taps, WhatFindsNoRoomIsDroppedCountedAndAGap) {
 }
 
 TEST_F(Taps, AWriterIsToldWhatItIsToldWithoutTaps) {
-  source.number.tap(1);
+  face(source.number).tap(1);
   EXPECT_EQ(source.number.write(1.0), WriteStatus::kNotConnected);
   EXPECT_EQ(source.number.write(2.0), WriteStatus::kNotConnected);
-  source.number.connect(sink.latest, {});
+  face(source.number).connect(face(sink.latest), {});
   EXPECT_EQ(source.number.write(3.0), WriteStatus::kWritten);
-  EXPECT_EQ(source.number.counters().refused, 0u);
+  EXPECT_EQ(face(source.number).counters().refused, 0u);
   EXPECT_TRUE(sink.latest.read().is_new());
 }
 
 TEST_F(Taps, HandlersRunAndReadersReadAsWithoutTaps) {
-  source.number.connect(sink.triggering, {});
-  source.number.connect(sink.latest, {ConnectionPolicy::Kind::kFifo, 1});
-  Tap& tap = source.number.tap(8);
+  face(source.number).connect(face(sink.triggering), {});
+  face(source.number).connect(face(sink.latest), {ConnectionPolicy::Kind::kFifo, 1});
+  Tap& tap = face(source.number).tap(8);
   EXPECT_EQ(source.number.write(1.0), WriteStatus::kWritten);
   EXPECT_EQ(source.number.write(2.0), WriteStatus::kFull);
   EXPECT_EQ(sink.handled, 2);
@@ -146,8 +146,8 @@ TEST_F(Taps, HandlersRunAndReadersReadAsWithoutTaps) {
 }
 
 TEST_F(Taps, SeveralTapsOfAPortEachGetEverySample) {
-  Tap& first = source.number.tap(4);
-  Tap& second = source.number.tap(1);
+  Tap& first = face(source.number).tap(4);
+  Tap& second = face(source.number).tap(1);
   source.number.write(1.0);
   source.number.write(2.0);
   EXPECT_EQ(take_all<double>(first).size(), 2u);
@@ -156,25 +156,25 @@ TEST_F(Taps, SeveralTapsOfAPortEachGetEverySample) {
 }
 
 TEST_F(Taps, AreGoneWhenThePortIsDisconnected) {
-  source.number.tap(4);
-  EXPECT_TRUE(source.number.is_tapped());
-  source.number.disconnect_all();
-  EXPECT_FALSE(source.number.is_tapped());
+  face(source.number).tap(4);
+  EXPECT_TRUE(face(source.number).is_tapped());
+  face(source.number).disconnect_all();
+  EXPECT_FALSE(face(source.number).is_tapped());
   EXPECT_EQ(source.number.write(1.0), WriteStatus::kNotConnected);
 }
 
 TEST_F(Taps, APortOfAFamilyStaysWhileItIsTapped) {
-  source.ports[1].tap(4);
+  face(source.ports[1]).tap(4);
   const auto changed = source.count.set(types::Value::of(1));
   ASSERT_FALSE(changed);
   EXPECT_THAT(changed.error(), testing::HasSubstr("'Port2'"));
-  source.ports[1].disconnect_all();
+  face(source.ports[1]).disconnect_all();
   EXPECT_TRUE(source.count.set(types::Value::of(1)));
 }
 
 TEST_F(Taps, EverySampleArrivesInOrderFromAnotherThread) {
   constexpr int kSamples = 20'000;
-  Tap& tap = source.number.tap(16);
+  Tap& tap = face(source.number).tap(16);
   std::thread writer([this] {
     for (int i = 1; i <= kSamples; ++i) source.number.write(i);
   });

@@ -67,7 +67,8 @@ constexpr MayWait<Function> may_wait(std::size_t capacity) {
   return {capacity};
 }
 
-/// What tools know of a command, and how it goes on after it was accepted.
+/// The runtime's side of a command: what tools know of it, and how it goes on after it was
+/// accepted.
 class CommandBase : public OperationBase, public Step {
  public:
   ~CommandBase() override;
@@ -165,8 +166,14 @@ class CommandBase : public OperationBase, public Step {
 /// progress until it is done, failed or cancelled. One at a time, and as many wait as `may_wait`
 /// says; runs in its component's thread.
 template <typename... Args>
-class Command final : public CommandBase {
+class Command final : private CommandBase {
  public:
+  using CommandBase::active;
+  using CommandBase::complete;
+  using CommandBase::fail;
+  using CommandBase::report;
+  using CommandBase::waiting;
+
   /// `Function` is `Outcome f(Args...)`: accepts, or refuses with a reason and changes nothing.
   /// Options: done_when<&X::f>, cancelled_by<&X::f>, may_wait<&X::f>(n), by_operator, in_any_state,
   /// args(names...).
@@ -175,12 +182,6 @@ class Command final : public CommandBase {
           Options... options) noexcept
       : CommandBase(*owner, name, doc, Signature::of<void, Args...>({}), &serve_from<Function>) {
     (apply(options), ...);
-  }
-
-  /// Begins the command; `ticket` is told how it fares, if there is one.
-  Outcome begin(CommandTicket* ticket, Args... arguments) {
-    const std::array<const void*, sizeof...(Args)> places{&arguments...};
-    return begin_from(ticket, places.data());
   }
 
   /// Gives the memory of those that wait the shape of these arguments, so that none of them
@@ -192,6 +193,9 @@ class Command final : public CommandBase {
   }
 
  private:
+  using RuntimeFace = CommandBase;
+  friend class internal::Inside;
+
   using CommandBase::apply;
   template <auto Function>
   void apply(MayWait<Function> option) noexcept {
@@ -267,8 +271,10 @@ class CommandCallerBase : public OperationCallerBase {
 
 /// A component's declared use of a command of one of its peers.
 template <typename... Args>
-class CommandCaller final : public CommandCallerBase {
+class CommandCaller final : private CommandCallerBase {
  public:
+  using CommandCallerBase::bound;
+
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
   CommandCaller(Component* owner, std::string_view name, std::string_view doc,
@@ -284,6 +290,10 @@ class CommandCaller final : public CommandCallerBase {
     const std::array<const void*, sizeof...(Args)> places{&arguments...};
     return send_from(places.data());
   }
+
+ private:
+  using RuntimeFace = CommandCallerBase;
+  friend class internal::Inside;
 };
 
 // Compiled once, in the library.

@@ -60,7 +60,7 @@ class QueuedCommands : public ::testing::Test {
 
   QueuedCommands() : superior_(sender_), subordinate_(queue_) {
     subordinate_.context.live = true;
-    sender_.visit.connect(queue_.visit);
+    face(sender_.visit).connect(face(queue_.visit));
     queue_.visit.prepare({0.0, 0.0});
     start(sender_, queue_);
   }
@@ -187,8 +187,8 @@ TEST_F(QueuedCommands, CancellingOneThatWaitsEndsItAndThoseBehindIt) {
 
 TEST_F(QueuedCommands, OfAToolThatDoesNotFollowThemToo) {
   const std::vector<types::Value> places{types::Value::of(std::vector<double>{1.0, 0.0})};
-  EXPECT_TRUE(queue_.visit.invoke(places));
-  EXPECT_TRUE(queue_.visit.invoke(places));
+  EXPECT_TRUE(face(queue_.visit).invoke(places));
+  EXPECT_TRUE(face(queue_.visit).invoke(places));
   EXPECT_EQ(queue_.visit.waiting(), 1u);
   arrive();
   EXPECT_THAT(queue_.visited, ElementsAre(1.0, 1.0));
@@ -203,7 +203,7 @@ TEST_F(QueuedCommands, AllocateNothing) {
   const auto violations = guard.watch([&] {
     for (int i = 0; i < 20; ++i) {
       const std::array<const void*, 1> arguments{&places};
-      static_cast<void>(queue_.visit.begin_from(nullptr, arguments.data()));
+      static_cast<void>(face(queue_.visit).begin_from(nullptr, arguments.data()));
       arrive();
     }
   });

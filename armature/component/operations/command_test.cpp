@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <memory>
 
 #include <gmock/gmock.h>
@@ -54,13 +55,17 @@ class Commands : public testing::Test {
  protected:
   Commands() : superior_(planner_), subordinate_(axis_) {
     subordinate_.context.live = true;
-    planner_.move_to.connect(axis_.move_to);
+    face(planner_.move_to).connect(face(axis_.move_to));
     start(planner_, axis_);
   }
   CommandHandle send(double target) {
     CommandHandle handle = planner_.move_to.send(target);
     subordinate_.deliver();
     return handle;
+  }
+  Outcome begin(double target) {
+    const std::array<const void*, 1> places{&target};
+    return face(axis_.move_to).begin_from(nullptr, places.data());
   }
   Axis axis_{"axis"};
   Planner planner_{"planner"};
@@ -186,7 +191,7 @@ TEST_F(Commands, AFaultCancelsThemWithItsReason) {
 TEST_F(Commands, WhatIsCancelledByAStopCannotBeginAgainMeanwhile) {
   const CommandHandle handle = send(1.0);
   axis_.on_brake = [this] {
-    const Outcome again = axis_.move_to.begin(nullptr, 2.0);
+    const Outcome again = begin(2.0);
     EXPECT_EQ(again.reason(), "the component is not running");
   };
   Host::stop(axis_);
@@ -222,7 +227,7 @@ TEST_F(Commands, MoreThanTheDeclaredNumberSentIsAnAnswerAndCounted) {
   EXPECT_EQ(third.stage(), CommandStage::kRefused);
   EXPECT_EQ(third.reason(), "queue full");
   EXPECT_TRUE(third.ended());
-  EXPECT_EQ(planner_.move_to.refused(), 1u);
+  EXPECT_EQ(face(planner_.move_to).refused(), 1u);
   subordinate_.deliver();
 }
 
@@ -230,8 +235,8 @@ TEST_F(Commands, OfAComponentThatGoesAreOver) {
   auto axis = std::make_unique<Axis>("short-lived");
   subordinate_.add(*axis);
   start(*axis);
-  planner_.move_to.disconnect();
-  planner_.move_to.connect(axis->move_to);
+  face(planner_.move_to).disconnect();
+  face(planner_.move_to).connect(face(axis->move_to));
   const CommandHandle handle = send(1.0);
   EXPECT_EQ(handle.stage(), CommandStage::kAccepted);
   axis.reset();
@@ -260,24 +265,24 @@ TEST_F(Commands, LettingGoOfAHandleDoesNotCancel) {
 
 TEST_F(Commands, AHandleMayOutliveTheConnection) {
   CommandHandle handle = send(1.0);
-  planner_.move_to.disconnect();
+  face(planner_.move_to).disconnect();
   EXPECT_EQ(planner_.move_to.send(2.0).send_status(), CallStatus::kNotConnected);
   axis_.move_to.complete();
   EXPECT_EQ(handle.stage(), CommandStage::kDone);
 }
 
 TEST_F(Commands, ToolsBeginThemAndAreToldWhyNot) {
-  EXPECT_TRUE(axis_.move_to.invoke({types::Value::of(1.0)}));
-  const auto again = axis_.move_to.invoke({types::Value::of(1.0)});
+  EXPECT_TRUE(face(axis_.move_to).invoke({types::Value::of(1.0)}));
+  const auto again = face(axis_.move_to).invoke({types::Value::of(1.0)});
   ASSERT_FALSE(again);
   EXPECT_EQ(again.error(),
             "the previous command is still under way, and this command does not queue");
-  const auto wrong = axis_.move_to.invoke({types::Value::of(1)});
+  const auto wrong = face(axis_.move_to).invoke({types::Value::of(1)});
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error(),
             "'axis.moveTo' is void(double position [rad]); it was called with (int32)");
-  EXPECT_TRUE(axis_.move_to.is_command());
-  EXPECT_TRUE(planner_.move_to.needs_command());
+  EXPECT_TRUE(face(axis_.move_to).is_command());
+  EXPECT_TRUE(face(planner_.move_to).needs_command());
 }
 
 TEST(CommandNames, AreWords) {

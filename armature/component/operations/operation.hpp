@@ -45,7 +45,7 @@ ArgumentNames args(Names... names) {
   return {{std::string_view(names)...}};
 }
 
-/// A function of a component that its peers may call.
+/// A function of a component that its peers may call: the runtime's side of it.
 class OperationBase {
  public:
   OperationBase(const OperationBase&) = delete;
@@ -131,7 +131,7 @@ class OperationCaller;
 /// An operation that returns R and takes Args: a member function that peers, scripts and tools
 /// call.
 template <typename R, typename... Args>
-class Operation<R(Args...)> final : public OperationBase {
+class Operation<R(Args...)> final : private OperationBase {
  public:
   /// Options: in_own_thread, by_operator, in_any_state, only_if(property), args(names...).
   template <auto Function, typename... Options>
@@ -159,13 +159,17 @@ class Operation<R(Args...)> final : public OperationBase {
     (apply(options), ...);
   }
 
+ private:
+  using RuntimeFace = OperationBase;
+  friend class internal::Inside;
+  friend class OperationCaller<R(Args...)>;
+
   /// Executes it here, for a component that calls out (see internal::Inside::call_out).
   /// @param where  the context of the calling thread
   CallResult<R> execute(ExecutionContext& where, Args... arguments) noexcept {
     return execute_(*this, where, static_cast<Args>(arguments)...);
   }
 
- private:
   using Execute = CallResult<R> (*)(Operation&, ExecutionContext&, Args...) noexcept;
   using Function = R (*)(void* self, Args...);
 
@@ -237,7 +241,7 @@ struct Outstanding {
 inline Outstanding outstanding(std::size_t count) { return {count}; }
 inline constexpr std::size_t kDefaultOutstanding = 4;
 
-/// A component's declared use of an operation of one of its peers.
+/// A component's declared use of an operation of one of its peers: the runtime's side of it.
 class OperationCallerBase : public Requirement {
  public:
   ~OperationCallerBase() override;
@@ -286,8 +290,10 @@ class OperationCallerBase : public Requirement {
 };
 /// Calls an operation of a peer that returns R and takes Args.
 template <typename R, typename... Args>
-class OperationCaller<R(Args...)> final : public OperationCallerBase {
+class OperationCaller<R(Args...)> final : private OperationCallerBase {
  public:
+  using OperationCallerBase::bound;
+
   /// Options: from(property), optional, only_if(property), outstanding(n).
   template <typename... Options>
   OperationCaller(Component* owner, std::string_view name, std::string_view doc,
@@ -332,6 +338,9 @@ class OperationCaller<R(Args...)> final : public OperationCallerBase {
   }
 
  private:
+  using RuntimeFace = OperationCallerBase;
+  friend class internal::Inside;
+
   static constexpr base::Duration kCallLimit = std::chrono::seconds(1);
 
   OperationCaller(Component& owner, std::string_view name, std::string_view doc) noexcept

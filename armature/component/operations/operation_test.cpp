@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/testing/test_thread.hpp"
 
@@ -81,7 +82,7 @@ TEST_F(Calls, AnUnboundCallerSaysSoInsteadOfReturningZero) {
 
 TEST_F(Calls, AnOperationOfWhatIsNotConfiguredSaysThatItIsNotReady) {
   in_one_thread();
-  client_.add.connect(server_.add);
+  face(client_.add).connect(face(server_.add));
   EXPECT_EQ(client_.add(1.0, 2.0).status, CallStatus::kNotReady);
   start(server_);
   EXPECT_EQ(client_.add(1.0, 2.0).status, CallStatus::kDone);
@@ -93,19 +94,19 @@ TEST_F(Calls, InOneThreadTheyRunAtOnceAndReturnTheResult) {
   in_one_thread();
   start(server_);
   for (Operation<double(double, double)>* operation : {&server_.add, &server_.add_here}) {
-    client_.add.connect(*operation);
+    face(client_.add).connect(face(*operation));
     const CallResult<double> result = client_.add(1.0, 2.5);
     EXPECT_TRUE(result);
     EXPECT_EQ(result.value, 3.5);
   }
-  client_.twice.connect(server_.twice);
+  face(client_.twice).connect(face(server_.twice));
   EXPECT_THAT(client_.twice({1.0, 2.0}).value, ElementsAre(2.0, 4.0));
 }
 
 TEST_F(Calls, WithoutAnOptionAnOperationRunsInTheCallersThread) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add);
+  face(client_.add).connect(face(server_.add));
   const Component* running = nullptr;
   server_.then = [&] { running = one_.context.running(); };
   EXPECT_EQ(client_.add(1.0, 2.0).value, 3.0);
@@ -117,7 +118,7 @@ TEST_F(Calls, OneOfAThreadThatDoesNotRunYetRunsAtOnce) {
   one_.add(client_);
   other_.add(server_);
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   EXPECT_EQ(client_.add(1.0, 2.0).value, 3.0);
 }
 
@@ -125,7 +126,7 @@ TEST_F(Calls, InSimulatedTimeAllThreadsAreOne) {
   in_two_threads();
   other_.context.simulated = true;
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   EXPECT_EQ(client_.add(1.0, 2.0).value, 3.0);
 }
 
@@ -134,7 +135,7 @@ TEST_F(Calls, InSimulatedTimeAllThreadsAreOne) {
 TEST_F(Calls, SentOnesRunInTheOwnersThreadInTheirOrder) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> first = client_.add.send(1.0, 2.0);
   SendHandle<double> second = client_.add.send(3.0, 4.0);
   EXPECT_TRUE(first.sent());
@@ -151,14 +152,14 @@ TEST_F(Calls, SentOnesRunInTheOwnersThreadInTheirOrder) {
 TEST_F(Calls, MoreThanTheDeclaredNumberUnderWayIsAnAnswerAndCounted) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> first = client_.add.send(1.0, 0.0);
   SendHandle<double> second = client_.add.send(2.0, 0.0);
   SendHandle<double> third = client_.add.send(3.0, 0.0);
   EXPECT_FALSE(third.sent());
   EXPECT_TRUE(third.done());
   EXPECT_EQ(third.collect().status, CallStatus::kQueueFull);
-  EXPECT_EQ(client_.add.refused(), 1u);
+  EXPECT_EQ(face(client_.add).refused(), 1u);
   other_.deliver();
   EXPECT_FALSE(client_.add.send(4.0, 0.0).sent()) << "the results are still held";
   first = client_.add.send(5.0, 0.0);
@@ -171,7 +172,7 @@ TEST_F(Calls, MoreThanTheDeclaredNumberUnderWayIsAnAnswerAndCounted) {
 TEST_F(Calls, LettingGoOfAHandleDoesNotCancelTheCall) {
   in_two_threads();
   start(server_);
-  client_.reset.connect(server_.reset);
+  face(client_.reset).connect(face(server_.reset));
   for (int i = 0; i < 10; ++i) {
     EXPECT_TRUE(client_.reset.send().sent());
     other_.deliver();
@@ -182,7 +183,7 @@ TEST_F(Calls, LettingGoOfAHandleDoesNotCancelTheCall) {
 TEST_F(Calls, AQueuedOneCanBeCancelledABegunOneCannot) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> queued = client_.add.send(1.0, 2.0);
   EXPECT_TRUE(queued.cancel());
   EXPECT_TRUE(queued.done());
@@ -202,7 +203,7 @@ TEST_F(Calls, AQueuedOneCanBeCancelledABegunOneCannot) {
 TEST_F(Calls, WaitingEndsWithTheLimitAndTakesTheCallBack) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> handle = client_.add.send(1.0, 2.0);
   EXPECT_EQ(handle.wait(base::Duration(1)).status, CallStatus::kTimeout);
   other_.deliver();
@@ -213,7 +214,7 @@ TEST_F(Calls, WaitingEndsWithTheLimitAndTakesTheCallBack) {
 TEST_F(Calls, AWaitForSomethingDoneReturnsAtOnce) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> handle = client_.add.send(1.0, 2.0);
   other_.deliver();
   EXPECT_EQ(handle.wait(base::Duration(0)).value, 3.0);
@@ -221,7 +222,7 @@ TEST_F(Calls, AWaitForSomethingDoneReturnsAtOnce) {
 
 TEST_F(Calls, SentToWhatIsNotReadyTheyAreAnsweredSo) {
   in_two_threads();
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> handle = client_.add.send(1.0, 2.0);
   other_.deliver();
   EXPECT_EQ(handle.collect().status, CallStatus::kNotReady);
@@ -230,11 +231,11 @@ TEST_F(Calls, SentToWhatIsNotReadyTheyAreAnsweredSo) {
 TEST_F(Calls, AHandleMayOutliveItsCaller) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   SendHandle<double> handle = client_.add.send(1.0, 2.0);
   SendHandle<double> cancelled = client_.add.send(3.0, 4.0);
   EXPECT_TRUE(cancelled.cancel());
-  client_.add.disconnect();
+  face(client_.add).disconnect();
   EXPECT_EQ(client_.add(1.0, 2.0).status, CallStatus::kNotConnected);
   other_.deliver();
   EXPECT_EQ(handle.collect().value, 3.0);
@@ -245,7 +246,7 @@ TEST_F(Calls, AHandleMayOutliveItsCaller) {
 TEST_F(Calls, AnExceptionFaultsTheOwnerTheCallerIsToldAndGoesOn) {
   in_one_thread();
   start(server_, client_);
-  client_.add.connect(server_.add);
+  face(client_.add).connect(face(server_.add));
   server_.then = [] { throw std::runtime_error("overflow"); };
   EXPECT_EQ(client_.add(1.0, 2.0).status, CallStatus::kFailed);
   EXPECT_EQ(server_.state(), State::kException);
@@ -257,7 +258,7 @@ TEST_F(Calls, AnExceptionFaultsTheOwnerTheCallerIsToldAndGoesOn) {
 TEST_F(Calls, AnExceptionInASentOneToo) {
   in_two_threads();
   start(server_);
-  client_.add.connect(server_.add_here);
+  face(client_.add).connect(face(server_.add_here));
   server_.then = [] { throw 42; };
   SendHandle<double> handle = client_.add.send(1.0, 2.0);
   other_.deliver();
@@ -270,7 +271,7 @@ TEST_F(Calls, AnExceptionInTheCallersThreadFaultsTheOwnerInItsOwn) {
   rt::LogQueue log(4);
   other_.context.log = &log;
   start(server_);
-  client_.add.connect(server_.add);
+  face(client_.add).connect(face(server_.add));
   server_.then = [] { throw std::runtime_error("overflow"); };
   EXPECT_EQ(client_.add(1.0, 2.0).status, CallStatus::kFailed);
   EXPECT_EQ(client_.add(1.0, 2.0).status, CallStatus::kFailed);
@@ -288,11 +289,11 @@ TEST_F(Calls, AnExceptionInTheCallersThreadFaultsTheOwnerInItsOwn) {
 TEST_F(Calls, ToolsCallByValues) {
   in_one_thread();
   start(server_);
-  const auto sum = server_.add.invoke({types::Value::of(1.0), types::Value::of(2.0)});
+  const auto sum = face(server_.add).invoke({types::Value::of(1.0), types::Value::of(2.0)});
   ASSERT_TRUE(sum);
   ASSERT_TRUE(sum.value().has_value());
   EXPECT_EQ(*sum.value()->get_if<double>(), 3.0);
-  const auto nothing = server_.reset.invoke({});
+  const auto nothing = face(server_.reset).invoke({});
   ASSERT_TRUE(nothing);
   EXPECT_FALSE(nothing.value().has_value());
 }
@@ -300,31 +301,32 @@ TEST_F(Calls, ToolsCallByValues) {
 TEST_F(Calls, ToolsAreToldWhichArgumentsAreExpected) {
   in_one_thread();
   start(server_);
-  const auto one = server_.add.invoke({types::Value::of(1.0)});
+  const auto one = face(server_.add).invoke({types::Value::of(1.0)});
   ASSERT_FALSE(one);
   EXPECT_EQ(one.error(),
             "'server.add' is double(double a [m], double b [m]); it was called with (double)");
-  EXPECT_FALSE(server_.add.invoke({types::Value::of(1.0), types::Value::of(2)}));
+  EXPECT_FALSE(face(server_.add).invoke({types::Value::of(1.0), types::Value::of(2)}));
 }
 
 TEST_F(Calls, ToolsAreToldWhyACallDidNotSucceed) {
   in_one_thread();
-  const auto unready = server_.reset.invoke({});
+  const auto unready = face(server_.reset).invoke({});
   ASSERT_FALSE(unready);
   EXPECT_THAT(unready.error(), HasSubstr("reset: not ready"));
   start(server_);
   server_.then = [] { throw std::runtime_error("overflow"); };
-  const auto failed = server_.reset.invoke({});
+  const auto failed = face(server_.reset).invoke({});
   ASSERT_FALSE(failed);
   EXPECT_EQ(failed.error(), "reset: failed: exception: overflow");
 }
 
 TEST_F(Calls, AWrongSignatureIsSeenBeforeConnecting) {
-  EXPECT_TRUE(client_.add.signature().same_as(server_.add.signature())) << "names do not count";
-  EXPECT_FALSE(client_.add.signature().same_as(server_.reset.signature()));
-  EXPECT_FALSE(client_.twice.signature().same_as(server_.add.signature()));
-  EXPECT_FALSE(client_.add.needs_command());
-  EXPECT_FALSE(server_.add.is_command());
+  EXPECT_TRUE(face(client_.add).signature().same_as(face(server_.add).signature()))
+      << "names do not count";
+  EXPECT_FALSE(face(client_.add).signature().same_as(face(server_.reset).signature()));
+  EXPECT_FALSE(face(client_.twice).signature().same_as(face(server_.add).signature()));
+  EXPECT_FALSE(face(client_.add).needs_command());
+  EXPECT_FALSE(face(server_.add).is_command());
 }
 
 TEST(CallNames, AreWords) {

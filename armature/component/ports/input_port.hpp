@@ -48,7 +48,8 @@ struct InputCounters {
 struct OnDataUpdate {};
 inline constexpr OnDataUpdate on_data_update{};
 
-/// What input ports of all types have in common.
+/// What input ports of all types have in common: the runtime's side of them, which authors do not
+/// see.
 class InputPortBase : public PortBase {
  public:
   ~InputPortBase() override;
@@ -235,10 +236,15 @@ inline constexpr OnData<Handler> on_data{};
 
 /// Reads what is written to it, wait-free, from this thread or another.
 template <typename T>
-class InputPort final : public InputPortBase {
+class InputPort final : private InputPortBase {
   static_assert(PortData<T>, ARMATURE_INTERNAL_PORT_DATA_TEXT);
 
  public:
+  using InputPortBase::connected;
+  using InputPortBase::name;
+  using InputPortBase::operator new;
+  using InputPortBase::operator delete;
+
   /// Name, documentation and unit are literals. Options: on_data<&X::f>, on_data_update, max_age,
   /// on_lost, may_stay_open, fan_in, size_of(property, factor), unit_of(property).
   template <typename... Options>
@@ -261,6 +267,8 @@ class InputPort final : public InputPortBase {
   }
 
  private:
+  using RuntimeFace = InputPortBase;
+  friend class internal::Inside;
   template <typename Port>
   friend class PortArray;
   InputPort(Component& owner, std::string_view name, std::string_view doc,

@@ -26,7 +26,8 @@ struct OutputCounters {
   bool operator==(const OutputCounters&) const = default;
 };
 
-/// What output ports of all types have in common.
+/// What output ports of all types have in common: the runtime's side of them, which authors do not
+/// see.
 class OutputPortBase : public PortBase {
  public:
   ~OutputPortBase() override;
@@ -151,10 +152,14 @@ bool same_shape(const std::vector<E>& a, const std::vector<E>& b) { return a.siz
 /// costs one copy whatever the number of readers. Readers in other threads, FIFOs and delayed
 /// readers each have a channel.
 template <typename T>
-class OutputPort final : public OutputPortBase {
+class OutputPort final : private OutputPortBase {
   static_assert(PortData<T>, ARMATURE_INTERNAL_PORT_DATA_TEXT);
 
  public:
+  using OutputPortBase::name;
+  using OutputPortBase::operator new;
+  using OutputPortBase::operator delete;
+
   /// Name, documentation and unit are literals. Options: size_of(property, factor),
   /// unit_of(property).
   template <typename... Options>
@@ -193,6 +198,8 @@ class OutputPort final : public OutputPortBase {
   }
 
  private:
+  using RuntimeFace = OutputPortBase;
+  friend class internal::Inside;
   template <typename Port>
   friend class PortArray;
   OutputPort(Component& owner, std::string_view name, std::string_view doc,

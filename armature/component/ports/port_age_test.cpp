@@ -41,7 +41,7 @@ class Age : public testing::TestWithParam<bool> {
     thread_.context.supervisor = &supervisor_;
     thread_.add(*follower_);
     (GetParam() ? thread_ : other_).add(writer_);
-    writer_.out.connect(follower_->in, latest());
+    face(writer_.out).connect(face(follower_->in), latest());
     start(writer_, *follower_);
     return *follower_;
   }
@@ -68,7 +68,7 @@ TEST_P(Age, FreshDataStaysUsableForever) {
   for (int i = 0; i < 10; ++i) write_and_cycle(i);
   EXPECT_EQ(follower.state(), State::kRunning);
   EXPECT_THAT(follower.usable, testing::Each(true));
-  EXPECT_EQ(follower.in.counters().stale, 0u);
+  EXPECT_EQ(face(follower.in).counters().stale, 0u);
 }
 
 TEST_P(Age, OlderThanDeclaredStopsTheComponentBeforeItsUpdate) {
@@ -84,7 +84,7 @@ TEST_P(Age, OlderThanDeclaredStopsTheComponentBeforeItsUpdate) {
   EXPECT_EQ(follower.state(), State::kStopped);
   EXPECT_EQ(follower.reason(), "input 'Reference': its data is older than declared");
   EXPECT_EQ(follower.seen.size(), 3u) << "the update did not run once more";
-  EXPECT_EQ(follower.in.counters().stale, 1u);
+  EXPECT_EQ(face(follower.in).counters().stale, 1u);
   EXPECT_THAT(supervisor_.stopped, ElementsAre("follower"));
 }
 
@@ -108,13 +108,13 @@ TEST_P(Age, HoldsTheLastValueMarkedAsStaleAndCountsEachTimeItBegins) {
   EXPECT_EQ(follower.state(), State::kRunning);
   EXPECT_THAT(follower.seen, ElementsAre(1.0, 1.0, 1.0));
   EXPECT_THAT(follower.usable, ElementsAre(true, false, false));
-  EXPECT_EQ(follower.in.counters().stale, 1u);
+  EXPECT_EQ(face(follower.in).counters().stale, 1u);
   write_and_cycle(2.0);
   EXPECT_TRUE(follower.usable.back());
   EXPECT_EQ(follower.seen.back(), 2.0);
   cycle(milliseconds(3));
   Host::update(follower);
-  EXPECT_EQ(follower.in.counters().stale, 2u);
+  EXPECT_EQ(face(follower.in).counters().stale, 2u);
 }
 
 TEST_P(Age, ReadsZeroUntilThereIsFreshData) {
@@ -171,8 +171,8 @@ TEST(AgeOfHandlers, OldDataStopsTheComponentBeforeAHandlerOfAnotherPortRuns) {
   Writer<int> fast("fast");
   Mux mux("mux");
   TestThread thread(slow, fast, mux);
-  slow.out.connect(mux.slow, latest());
-  fast.out.connect(mux.fast, latest());
+  face(slow.out).connect(face(mux.slow), latest());
+  face(fast.out).connect(face(mux.fast), latest());
   start(mux);
   for (int i = 0; i < 3; ++i) {
     fast.out.write(i);
@@ -189,7 +189,7 @@ TEST(AgeOfHandlers, AValueThatIsOldOnArrivalDoesNotReachItsHandler) {
   TriggeredReader reader("reader", max_age(milliseconds(2), Reaction::kFault));
   TestThread mine(reader);
   TestThread theirs(writer);
-  writer.out.connect(reader.in, fifo(4));
+  face(writer.out).connect(face(reader.in), fifo(4));
   start(writer, reader);
   writer.out.write(1);
   mine.cycle(milliseconds(1));
@@ -205,12 +205,12 @@ TEST(AgeOfHandlers, AHandlerIsGivenZeroInPlaceOfAnOldValueIfThatIsDeclared) {
   TriggeredReader reader("reader", max_age(milliseconds(2), Reaction::kZero));
   TestThread mine(reader);
   TestThread theirs(writer);
-  writer.out.connect(reader.in, fifo(4));
+  face(writer.out).connect(face(reader.in), fifo(4));
   start(writer, reader);
   writer.out.write(7);
   mine.cycle(milliseconds(5));
   EXPECT_THAT(reader.values, ElementsAre(0));
-  EXPECT_EQ(reader.in.counters().stale, 1u);
+  EXPECT_EQ(face(reader.in).counters().stale, 1u);
 }
 
 TEST(AgeOfFifos, LookingAtTheAgeTakesNoValueFromTheReader) {
@@ -218,7 +218,7 @@ TEST(AgeOfFifos, LookingAtTheAgeTakesNoValueFromTheReader) {
   Reader<int> reader("reader", max_age(milliseconds(5)));
   TestThread mine(reader);
   TestThread theirs(writer);
-  writer.out.connect(reader.in, fifo(4));
+  face(writer.out).connect(face(reader.in), fifo(4));
   start(writer, reader);
   for (int i = 1; i <= 3; ++i) writer.out.write(i);
   mine.cycle();
@@ -230,7 +230,7 @@ TEST(AgeOfFifos, LookingAtTheAgeTakesNoValueFromTheReader) {
   EXPECT_TRUE(Host::admits(reader));
   EXPECT_EQ(reader.in.read().value, 2);
   EXPECT_EQ(reader.in.read().value, 3);
-  EXPECT_EQ(reader.in.counters().missed, 0u);
+  EXPECT_EQ(face(reader.in).counters().missed, 0u);
 }
 
 TEST(AgeOfOpenPorts, APortThatMayStayOpenAndDoesHasNoAge) {
@@ -252,7 +252,7 @@ TEST(AgeOfOpenPorts, ThatAreConnectedWhileTheComponentRunsIsLookedAtFromThenOn) 
   thread.cycle(milliseconds(100));
   Host::update(follower);
   ASSERT_EQ(follower.state(), State::kRunning);
-  writer.out.connect(follower.in, latest());
+  face(writer.out).connect(face(follower.in), latest());
   writer.out.write(1.0);
   Host::update(follower);
   thread.cycle(milliseconds(11));
@@ -264,8 +264,8 @@ TEST(AgeFromOutside, ADeploymentMayDeclareTheAgeOfAConnection) {
   Writer<int> writer("writer");
   Reader<int> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
-  reader.in.set_max_age(max_age(milliseconds(1), Reaction::kFault));
+  face(writer.out).connect(face(reader.in), latest());
+  face(reader.in).set_max_age(max_age(milliseconds(1), Reaction::kFault));
   start(reader);
   EXPECT_TRUE(Host::has_aging_inputs(reader));
   thread.cycle(milliseconds(2));
@@ -284,7 +284,7 @@ TEST_P(Lost, AFaultOfTheWriterStopsItsReadersUnlessTheyDeclareOtherwise) {
   cycle();
   EXPECT_EQ(follower.state(), State::kStopped);
   EXPECT_EQ(follower.reason(), "input 'Reference': the component that writes it is out of service");
-  EXPECT_EQ(follower.in.counters().lost, 1u);
+  EXPECT_EQ(face(follower.in).counters().lost, 1u);
   EXPECT_THAT(supervisor_.stopped, ElementsAre("follower"));
 }
 
@@ -294,7 +294,7 @@ TEST_P(Lost, HoldsZeroesOrFaultsAsDeclared) {
     Follower follower("follower", on_lost(reaction));
     thread_.add(follower);
     (GetParam() ? thread_ : other_).add(writer);
-    writer.out.connect(follower.in, latest());
+    face(writer.out).connect(face(follower.in), latest());
     start(writer, follower);
     writer.out.write(1.0);
     Host::update(follower);
@@ -318,15 +318,15 @@ TEST_P(Lost, TheLossGoesOnDownTheChain) {
   Follower holds("holds", on_lost(Reaction::kHold));
   thread_.add(last);
   other_.add(holds);
-  middle.out.connect(last.in, latest());
-  middle.out.connect(holds.in, latest());
+  face(middle.out).connect(face(last.in), latest());
+  face(middle.out).connect(face(holds.in), latest());
   start(last, holds);
   writer_.fault("for the test");
   for (int i = 0; i < 3; ++i) cycle();
   EXPECT_EQ(middle.state(), State::kStopped);
   EXPECT_EQ(last.state(), State::kStopped);
   EXPECT_EQ(holds.state(), State::kRunning);
-  EXPECT_EQ(holds.in.counters().lost, 1u);
+  EXPECT_EQ(face(holds.in).counters().lost, 1u);
 }
 
 TEST_P(Lost, AnExceptionInTheWriterIsALossAnOrderedStopIsNone) {

@@ -28,7 +28,7 @@ class Fifo : public testing::TestWithParam<bool> {
   void connect(const ConnectionPolicy& policy) {
     one_.add(writer_);
     (GetParam() ? one_ : other_).add(reader_);
-    writer_.out.connect(reader_.in, policy);
+    face(writer_.out).connect(face(reader_.in), policy);
   }
   Writer<int> writer_{"writer"};
   Reader<int> reader_{"reader"};
@@ -50,11 +50,11 @@ TEST_P(Fifo, WhenFullARefusalIsAnAnswerToTheWriterAndCountedNotASuccess) {
   EXPECT_EQ(writer_.out.write(2), WriteStatus::kWritten);
   EXPECT_EQ(writer_.out.write(3), WriteStatus::kFull);
   EXPECT_EQ(writer_.out.write(4), WriteStatus::kFull);
-  EXPECT_EQ(writer_.out.counters().refused, 2u);
+  EXPECT_EQ(face(writer_.out).counters().refused, 2u);
   EXPECT_THAT(read_all(reader_.in), ElementsAre(1, 2));
   EXPECT_EQ(writer_.out.write(5), WriteStatus::kWritten);
   EXPECT_THAT(read_all(reader_.in), ElementsAre(5));
-  EXPECT_EQ(reader_.in.counters().missed, 2u) << "the reader knows as well";
+  EXPECT_EQ(face(reader_.in).counters().missed, 2u) << "the reader knows as well";
 }
 
 TEST_P(Fifo, WhenFullDroppingTheOldestIsAnAnswerToTheWriterAndCounted) {
@@ -62,16 +62,16 @@ TEST_P(Fifo, WhenFullDroppingTheOldestIsAnAnswerToTheWriterAndCounted) {
   EXPECT_EQ(writer_.out.write(1), WriteStatus::kWritten);
   EXPECT_EQ(writer_.out.write(2), WriteStatus::kWritten);
   EXPECT_EQ(writer_.out.write(3), WriteStatus::kDropped);
-  EXPECT_EQ(writer_.out.counters().dropped, 1u);
+  EXPECT_EQ(face(writer_.out).counters().dropped, 1u);
   EXPECT_THAT(read_all(reader_.in), ElementsAre(2, 3));
-  EXPECT_EQ(reader_.in.counters().missed, 1u);
+  EXPECT_EQ(face(reader_.in).counters().missed, 1u);
 }
 
 TEST_P(Fifo, AFullOneDoesNotKeepValuesFromOtherReaders) {
   connect(fifo(1));
   Reader<int> other("other");
   one_.add(other);
-  writer_.out.connect(other.in, latest());
+  face(writer_.out).connect(face(other.in), latest());
   writer_.out.write(1);
   EXPECT_EQ(writer_.out.write(2), WriteStatus::kFull);
   EXPECT_EQ(other.in.read().value, 2);
@@ -89,7 +89,7 @@ TEST(FanIn, FourWritersOnOneInputLoseNothing) {
   for (int i = 0; i < 4; ++i) {
     writers.push_back(std::make_unique<Writer<int>>("writer"));
     thread.add(*writers.back());
-    writers.back()->out.connect(reader.in, latest());
+    face(writers.back()->out).connect(face(reader.in), latest());
   }
   start(reader);
   for (int round = 0; round < 3; ++round) {
@@ -99,7 +99,7 @@ TEST(FanIn, FourWritersOnOneInputLoseNothing) {
     }
   }
   EXPECT_THAT(reader.values, ElementsAre(0, 1, 2, 3, 10, 11, 12, 13, 20, 21, 22, 23));
-  EXPECT_EQ(reader.in.counters().missed, 0u);
+  EXPECT_EQ(face(reader.in).counters().missed, 0u);
 }
 
 TEST(FanIn, AReaderTakesTheWritersInTurn) {
@@ -108,8 +108,8 @@ TEST(FanIn, AReaderTakesTheWritersInTurn) {
   Reader<int> reader("reader", fan_in);
   TestThread thread(reader);
   TestThread other(a, b);
-  a.out.connect(reader.in, fifo(4));
-  b.out.connect(reader.in, fifo(4));
+  face(a.out).connect(face(reader.in), fifo(4));
+  face(b.out).connect(face(reader.in), fifo(4));
   a.out.write(1);
   a.out.write(2);
   a.out.write(3);
@@ -121,7 +121,7 @@ TEST(FanIn, AReaderTakesTheWritersInTurn) {
 
 class Delay : public testing::Test {
  protected:
-  Delay() : thread_(writer_, reader_) { writer_.out.connect(reader_.in, delayed()); }
+  Delay() : thread_(writer_, reader_) { face(writer_.out).connect(face(reader_.in), delayed()); }
   Writer<int> writer_{"writer"};
   Reader<int> reader_{"reader"};
   TestThread thread_;
@@ -135,7 +135,7 @@ TEST_F(Delay, AReaderBehindTheWriterReadsTheCycleBefore) {
     EXPECT_EQ(reading.status, i == 1 ? ReadStatus::kNone : ReadStatus::kNew);
     EXPECT_EQ(reading.value, i - 1) << "0 before the first";
   }
-  EXPECT_EQ(reader_.in.counters().missed, 0u);
+  EXPECT_EQ(face(reader_.in).counters().missed, 0u);
 }
 
 TEST_F(Delay, AReaderBeforeTheWriterReadsTheSame) {
@@ -155,13 +155,13 @@ TEST_F(Delay, TheLastOfSeveralWritesInACycleIsRead) {
   EXPECT_EQ(reader_.in.read().status, ReadStatus::kNone);
   thread_.cycle();
   EXPECT_EQ(reader_.in.read().value, 2);
-  EXPECT_EQ(reader_.in.counters().missed, 1u);
+  EXPECT_EQ(face(reader_.in).counters().missed, 1u);
 }
 
 TEST_F(Delay, AHandlerRunsAtTheBeginningOfTheNextCycle) {
   TriggeredReader triggered("triggered");
   thread_.add(triggered);
-  writer_.out.connect(triggered.in, delayed());
+  face(writer_.out).connect(face(triggered.in), delayed());
   start(triggered);
   thread_.cycle();
   writer_.out.write(1);
@@ -185,7 +185,7 @@ TEST_F(Delay, ALoopOfHandlersTurnsOncePerCycle) {
   };
   Loop loop("loop");
   thread_.add(loop);
-  loop.out.connect(loop.in, delayed());
+  face(loop.out).connect(face(loop.in), delayed());
   start(loop);
   thread_.cycle();
   loop.out.write(0);
@@ -206,7 +206,7 @@ class TwoThreads : public testing::Test {
 };
 
 TEST_F(TwoThreads, AReadFindsTheNewestValueAndCountsTheOthers) {
-  writer_.out.connect(reader_.in, latest());
+  face(writer_.out).connect(face(reader_.in), latest());
   EXPECT_EQ(reader_.in.read().status, ReadStatus::kNone);
   writer_.out.write(1);
   writer_.out.write(2);
@@ -214,12 +214,12 @@ TEST_F(TwoThreads, AReadFindsTheNewestValueAndCountsTheOthers) {
   const Reading<int> reading = reader_.in.read();
   EXPECT_EQ(reading.status, ReadStatus::kNew);
   EXPECT_EQ(reading.value, 3);
-  EXPECT_EQ(reader_.in.counters().missed, 2u);
+  EXPECT_EQ(face(reader_.in).counters().missed, 2u);
   EXPECT_EQ(reader_.in.read().status, ReadStatus::kOld);
 }
 
 TEST_F(TwoThreads, ASampleKeepsTheTimeOfTheWritersCycle) {
-  writer_.out.connect(reader_.in, latest());
+  face(writer_.out).connect(face(reader_.in), latest());
   writers_.cycle(std::chrono::microseconds(250));
   writer_.out.write(1);
   readers_.cycle(std::chrono::seconds(1));
@@ -227,7 +227,7 @@ TEST_F(TwoThreads, ASampleKeepsTheTimeOfTheWritersCycle) {
 }
 
 TEST_F(TwoThreads, AHandlerRunsInItsOwnThread) {
-  writer_.out.connect(triggered_.in, latest());
+  face(writer_.out).connect(face(triggered_.in), latest());
   start(writer_, triggered_);
   writer_.out.write(1);
   EXPECT_THAT(triggered_.values, ElementsAre());
@@ -238,17 +238,17 @@ TEST_F(TwoThreads, AHandlerRunsInItsOwnThread) {
 }
 
 TEST_F(TwoThreads, ALatestValueTriggersOnceForWhatWasWrittenSinceTheLastTime) {
-  writer_.out.connect(triggered_.in, latest());
+  face(writer_.out).connect(face(triggered_.in), latest());
   start(writer_, triggered_);
   writer_.out.write(1);
   writer_.out.write(2);
   readers_.deliver();
   EXPECT_THAT(triggered_.values, ElementsAre(2));
-  EXPECT_EQ(triggered_.in.counters().missed, 1u);
+  EXPECT_EQ(face(triggered_.in).counters().missed, 1u);
 }
 
 TEST_F(TwoThreads, AFifoTriggersOncePerValueInOrder) {
-  writer_.out.connect(triggered_.in, fifo(8));
+  face(writer_.out).connect(face(triggered_.in), fifo(8));
   start(writer_, triggered_);
   for (int i = 1; i <= 5; ++i) writer_.out.write(i);
   readers_.deliver();
@@ -259,17 +259,17 @@ TEST_F(TwoThreads, AFifoTriggersOncePerValueInOrder) {
 }
 
 TEST_F(TwoThreads, MoreThanAHundredEventsVanishOnlyIfTheWriterIsTold) {
-  writer_.out.connect(triggered_.in, fifo(300));
+  face(writer_.out).connect(face(triggered_.in), fifo(300));
   start(writer_, triggered_);
   for (int i = 0; i < 300; ++i) ASSERT_EQ(writer_.out.write(i), WriteStatus::kWritten);
   EXPECT_EQ(writer_.out.write(300), WriteStatus::kFull);
   readers_.deliver();
   EXPECT_EQ(triggered_.values.size(), 300u);
-  EXPECT_EQ(writer_.out.counters().refused, 1u);
+  EXPECT_EQ(face(writer_.out).counters().refused, 1u);
 }
 
 TEST_F(TwoThreads, ReadingATriggeringPortTakesNothingFromItsHandler) {
-  writer_.out.connect(triggered_.in, fifo(4));
+  face(writer_.out).connect(face(triggered_.in), fifo(4));
   start(writer_, triggered_);
   writer_.out.write(1);
   EXPECT_EQ(triggered_.in.read().status, ReadStatus::kNone);
@@ -279,7 +279,7 @@ TEST_F(TwoThreads, ReadingATriggeringPortTakesNothingFromItsHandler) {
 }
 
 TEST_F(TwoThreads, AnEventThatComesDuringTheUpdateIsHandledInTheSameCycle) {
-  writer_.out.connect(triggered_.in, fifo(4));
+  face(writer_.out).connect(face(triggered_.in), fifo(4));
   start(writer_, triggered_);
   readers_.cycle();
   triggered_.in_update = [this] {
@@ -297,8 +297,8 @@ TEST_F(TwoThreads, AnExceptionInAHandlerLeavesTheThreadAndTheOthersAlive) {
   TriggeredReader other("other");
   writers_.add(other_writer);
   readers_.add(other);
-  writer_.out.connect(triggered_.in, fifo(4));
-  other_writer.out.connect(other.in, fifo(4));
+  face(writer_.out).connect(face(triggered_.in), fifo(4));
+  face(other_writer.out).connect(face(other.in), fifo(4));
   start(writer_, other_writer, triggered_, other);
   triggered_.then = [] { throw 42; };
   writer_.out.write(1);
@@ -316,7 +316,7 @@ TEST_F(TwoThreads, VectorsOfAnotherSizeAreRefusedHereToo) {
   writers_.add(writer);
   readers_.add(reader);
   writer.out.set_sample({0.0, 0.0});
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   EXPECT_EQ(writer.out.write({1.0}), WriteStatus::kWrongSize);
   EXPECT_EQ(writer.out.write({1.0, 2.0}), WriteStatus::kWritten);
   EXPECT_THAT(reader.in.read().value, ElementsAre(1.0, 2.0));

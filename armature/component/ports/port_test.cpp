@@ -25,7 +25,7 @@ TEST(Port, AReadTellsNotConnectedNoneNewAndOldApart) {
   EXPECT_EQ(reader.in.read().status, ReadStatus::kNotConnected);
   EXPECT_FALSE(reader.in.read());
 
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   EXPECT_EQ(reader.in.read().status, ReadStatus::kNone);
   EXPECT_FALSE(reader.in.read());
 
@@ -47,7 +47,7 @@ TEST(Port, AValueEqualToTheLastIsNewNevertheless) {
   Writer<double> writer("writer");
   Reader<double> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   writer.out.write(0.5);
   EXPECT_TRUE(reader.in.read().is_new());
   writer.out.write(0.5);
@@ -59,15 +59,15 @@ TEST(Port, AWriteThatNobodyReadsSaysSoAndKeepsTheValueForTools) {
   TestThread thread(writer);
   EXPECT_EQ(writer.out.write(0.5), WriteStatus::kNotConnected);
   EXPECT_EQ(writer.out.last(), 0.5);
-  EXPECT_EQ(*static_cast<const double*>(writer.out.current()), 0.5);
-  EXPECT_EQ(writer.out.current_sequence(), 1u);
+  EXPECT_EQ(*static_cast<const double*>(face(writer.out).current()), 0.5);
+  EXPECT_EQ(face(writer.out).current_sequence(), 1u);
 }
 
 TEST(Port, ASampleHasTheCycleTimeOfItsWriteHoweverLateInTheCycle) {
   Writer<double> writer("writer");
   Reader<double> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   thread.cycle();
   writer.out.write(1.0);
   thread.cycle();
@@ -78,13 +78,13 @@ TEST(Port, CountsTheValuesThatWereOverwrittenUnread) {
   Writer<double> writer("writer");
   Reader<double> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   for (int i = 0; i < 5; ++i) writer.out.write(i);
   EXPECT_EQ(reader.in.read().value, 4.0);
-  EXPECT_EQ(reader.in.counters().missed, 4u);
+  EXPECT_EQ(face(reader.in).counters().missed, 4u);
   writer.out.write(5.0);
   EXPECT_EQ(reader.in.read().value, 5.0);
-  EXPECT_EQ(reader.in.counters().missed, 4u);
+  EXPECT_EQ(face(reader.in).counters().missed, 4u);
 }
 
 TEST(Port, OneWriterServesManyReaders) {
@@ -92,8 +92,8 @@ TEST(Port, OneWriterServesManyReaders) {
   Reader<double> a("a");
   Reader<double> b("b");
   TestThread thread(writer, a, b);
-  writer.out.connect(a.in, latest());
-  writer.out.connect(b.in, latest());
+  face(writer.out).connect(face(a.in), latest());
+  face(writer.out).connect(face(b.in), latest());
   writer.out.write(2.0);
   EXPECT_EQ(a.in.read().value, 2.0);
   EXPECT_EQ(a.in.read().status, ReadStatus::kOld);
@@ -110,12 +110,12 @@ TEST(Port, AValueWrittenBeforeTheConnectionIsReadAsNewOverEveryKindOfConnection)
       (same_thread ? one : other).add(reader);
       writer.out.write(6);
       writer.out.write(7);
-      writer.out.connect(reader.in, policy);
+      face(writer.out).connect(face(reader.in), policy);
       const Reading<int> reading = reader.in.read();
       EXPECT_EQ(reading.status, ReadStatus::kNew);
       EXPECT_EQ(reading.value, 7);
       EXPECT_EQ(reader.in.read().status, ReadStatus::kOld);
-      EXPECT_EQ(reader.in.counters().missed, 0u);
+      EXPECT_EQ(face(reader.in).counters().missed, 0u);
     }
   }
 }
@@ -125,7 +125,7 @@ TEST(Port, BeforeTheFirstWriteAnInputHoldsZerosInTheShapeOfItsWriter) {
   Reader<std::vector<double>> reader("reader");
   TestThread thread(writer, reader);
   writer.out.set_sample({1.0, 2.0});
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   const auto reading = reader.in.read();
   EXPECT_EQ(reading.status, ReadStatus::kNone);
   EXPECT_THAT(reading.value, ElementsAre(0.0, 0.0));
@@ -136,7 +136,7 @@ TEST(Port, ZerosReachEveryPartOfAStruct) {
   Reader<Pair> reader("reader");
   TestThread thread(writer, reader);
   writer.out.set_sample({1.0, {2.0f, 3.0f}});
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   EXPECT_EQ(reader.in.read().value.position, 0.0);
   EXPECT_THAT(reader.in.read().value.history, ElementsAre(0.0f, 0.0f));
 }
@@ -162,30 +162,30 @@ class AnyUnit : public Component {
 
 TEST(Port, HasTheUnitThatAPropertySays) {
   AnyUnit component("any");
-  EXPECT_EQ(component.out.unit(), "rad");
+  EXPECT_EQ(face(component.out).unit(), "rad");
   ASSERT_TRUE(component.unit.set(types::Value::of(std::string("a unit with a long name"))));
-  EXPECT_EQ(component.out.unit(), "a unit with a long name");
-  EXPECT_EQ(component.in.unit(), "a unit with a long name");
+  EXPECT_EQ(face(component.out).unit(), "a unit with a long name");
+  EXPECT_EQ(face(component.in).unit(), "a unit with a long name");
 }
 
 TEST(VectorPort, TakesItsSizeFromAProperty) {
   VectorWriter component("vectors");
   TestThread thread(component);
   ASSERT_TRUE(component.joints.set(types::Value::of(4)));
-  component.out.prepare();
+  face(component.out).prepare();
   EXPECT_EQ(component.out.last().size(), 12u);
-  EXPECT_EQ(component.in.declared_size().value(), 4u);
+  EXPECT_EQ(face(component.in).declared_size().value(), 4u);
 }
 
 TEST(VectorPort, AWrongSizeIsRefusedAndCountedAndNothingIsWritten) {
   VectorWriter writer("writer");
   Reader<std::vector<double>> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.prepare();
-  writer.out.connect(reader.in, latest());
+  face(writer.out).prepare();
+  face(writer.out).connect(face(reader.in), latest());
   EXPECT_EQ(writer.out.write({1, 2, 3, 4, 5}), WriteStatus::kWrongSize);
   EXPECT_EQ(writer.out.write({1, 2, 3, 4, 5, 6, 7}), WriteStatus::kWrongSize);
-  EXPECT_EQ(writer.out.counters().wrong_size, 2u);
+  EXPECT_EQ(face(writer.out).counters().wrong_size, 2u);
   EXPECT_EQ(reader.in.read().status, ReadStatus::kNone);
   EXPECT_EQ(writer.out.write({1, 2, 3, 4, 5, 6}), WriteStatus::kWritten);
   EXPECT_THAT(reader.in.read().value, ElementsAre(1, 2, 3, 4, 5, 6));
@@ -202,10 +202,10 @@ TEST(VectorPort, AWrongSizeInsideAStructIsRefusedToo) {
 TEST(VectorPort, SizesThatDoNotFitAreKnownBeforeConnecting) {
   VectorWriter writer("writer");
   VectorWriter reader("reader");
-  writer.out.prepare();
-  EXPECT_FALSE(writer.out.fits(reader.in)) << "6 elements for 2";
+  face(writer.out).prepare();
+  EXPECT_FALSE(face(writer.out).fits(face(reader.in))) << "6 elements for 2";
   ASSERT_TRUE(reader.joints.set(types::Value::of(6)));
-  EXPECT_TRUE(writer.out.fits(reader.in));
+  EXPECT_TRUE(face(writer.out).fits(face(reader.in)));
 }
 
 // --- triggers ------------------------------------------------------------------------------------
@@ -214,7 +214,7 @@ TEST(Trigger, AHandlerRunsOncePerEventInOrderAndWithinTheWrite) {
   Writer<int> writer("writer");
   TriggeredReader reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   start(writer, reader);
   for (int i = 1; i <= 3; ++i) {
     writer.out.write(i);
@@ -227,7 +227,7 @@ TEST(Trigger, NeitherAHandlerNorAMessageRunsTheUpdateHook) {
   Writer<int> writer("writer");
   TriggeredReader reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   start(writer, reader);
   writer.out.write(1);
   thread.cycle();
@@ -244,7 +244,7 @@ TEST(Trigger, OnDataUpdateRunsTheUpdateOncePerWrite) {
   Writer<int> writer("writer");
   UpdatedByData reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   start(writer, reader);
   reader.calls.clear();
   writer.out.write(1);
@@ -256,7 +256,7 @@ TEST(Trigger, OnDataUpdateRunsTheErrorHookWhileThereIsARunTimeError) {
   Writer<int> writer("writer");
   UpdatedByData reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   start(writer, reader);
   reader.error("for the test");
   reader.calls.clear();
@@ -268,7 +268,7 @@ TEST(Trigger, WhatArrivesWhileTheComponentDoesNotRunTriggersNothingAndCanBeReadL
   Writer<int> writer("writer");
   TriggeredReader reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   writer.out.write(1);
   start(writer, reader);
   EXPECT_THAT(reader.values, ElementsAre());
@@ -300,9 +300,9 @@ TEST(Trigger, AHandlerTakesNothingOrTheValueOrIndexAndValue) {
   Writer<int> b("b");
   AllHandlers reader("reader");
   TestThread thread(a, b, reader);
-  a.out.connect(reader.plain, latest());
-  a.out.connect(reader.several[0], latest());
-  b.out.connect(reader.several[1], latest());
+  face(a.out).connect(face(reader.plain), latest());
+  face(a.out).connect(face(reader.several[0]), latest());
+  face(b.out).connect(face(reader.several[1]), latest());
   start(a, b, reader);
   a.out.write(5);
   b.out.write(6);
@@ -315,8 +315,8 @@ TEST(Trigger, AnExceptionInAHandlerBelongsToTheReceiverAndTheWriterGoesOn) {
   TriggeredReader broken("broken");
   TriggeredReader healthy("healthy");
   TestThread thread(writer, broken, healthy);
-  writer.out.connect(broken.in, latest());
-  writer.out.connect(healthy.in, latest());
+  face(writer.out).connect(face(broken.in), latest());
+  face(writer.out).connect(face(healthy.in), latest());
   start(writer, broken, healthy);
   broken.then = [] { throw std::runtime_error("cannot take it"); };
 
@@ -337,14 +337,14 @@ TEST(Connection, APortForgetsItsPeersWhenTheyAreDestroyed) {
   Writer<int> writer("writer");
   Reader<int> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   {
     Reader<int> passing("passing");
     thread.add(passing);
-    writer.out.connect(passing.in, fifo(2));
-    EXPECT_EQ(writer.out.readers().size(), 2u);
+    face(writer.out).connect(face(passing.in), fifo(2));
+    EXPECT_EQ(face(writer.out).readers().size(), 2u);
   }
-  EXPECT_THAT(writer.out.readers(), ElementsAre(&reader.in));
+  EXPECT_THAT(face(writer.out).readers(), ElementsAre(&face(reader.in)));
   EXPECT_EQ(writer.out.write(1), WriteStatus::kWritten);
   EXPECT_EQ(reader.in.read().value, 1);
 }
@@ -356,12 +356,12 @@ TEST(Connection, AnInputForgetsAWriterThatIsDestroyed) {
   {
     Writer<int> passing("passing");
     thread.add(stays, passing);
-    passing.out.connect(reader.in, fifo(2));
-    stays.out.connect(reader.in, fifo(2));
+    face(passing.out).connect(face(reader.in), fifo(2));
+    face(stays.out).connect(face(reader.in), fifo(2));
     passing.out.write(1);
     EXPECT_EQ(reader.in.read().value, 1);
   }
-  EXPECT_THAT(reader.in.writers(), ElementsAre(&stays.out));
+  EXPECT_THAT(face(reader.in).writers(), ElementsAre(&face(stays.out)));
   EXPECT_EQ(reader.in.read().status, ReadStatus::kNone);
   stays.out.write(2);
   EXPECT_EQ(reader.in.read().value, 2);
@@ -372,10 +372,10 @@ TEST(Connection, DisconnectingOneOfSeveralWritersLeavesTheOthers) {
   Writer<int> b("b");
   TriggeredReader reader("reader", fan_in);
   TestThread thread(a, b, reader);
-  a.out.connect(reader.in, fifo(2));
-  b.out.connect(reader.in, fifo(2));
+  face(a.out).connect(face(reader.in), fifo(2));
+  face(b.out).connect(face(reader.in), fifo(2));
   start(a, b, reader);
-  a.out.disconnect_all();
+  face(a.out).disconnect_all();
   EXPECT_EQ(a.out.write(1), WriteStatus::kNotConnected);
   b.out.write(2);
   EXPECT_THAT(reader.values, ElementsAre(2));
@@ -385,9 +385,9 @@ TEST(Connection, AfterDisconnectingAnInputSaysThatItIsNotConnected) {
   Writer<int> writer("writer");
   Reader<int> reader("reader");
   TestThread thread(writer, reader);
-  writer.out.connect(reader.in, latest());
+  face(writer.out).connect(face(reader.in), latest());
   writer.out.write(1);
-  writer.out.disconnect_all();
+  face(writer.out).disconnect_all();
   EXPECT_EQ(reader.in.read().status, ReadStatus::kNotConnected);
   EXPECT_EQ(writer.out.write(2), WriteStatus::kNotConnected);
 }

@@ -26,15 +26,15 @@ class Turns {
       Host::assign_context(*each, context);
       EXPECT_TRUE(Host::configure(*each));
     }
-    reader.in.let_writers_take_turns();
-    a.out.connect(reader.in, latest());
-    b.out.connect(reader.in, latest());
+    face(reader.in).let_writers_take_turns();
+    face(a.out).connect(face(reader.in), latest());
+    face(b.out).connect(face(reader.in), latest());
     EXPECT_TRUE(Host::start(a));
     EXPECT_TRUE(Host::start(reader));
   }
   ~Turns() {
-    a.out.disconnect_all();
-    b.out.disconnect_all();
+    face(a.out).disconnect_all();
+    face(b.out).disconnect_all();
   }
   void at(base::Duration time) { context.cycle_time = base::Time{} + time; }
 
@@ -113,10 +113,10 @@ TEST(Turns, APortKnowsWhatItTakesOverAsLongAsItIsSaid) {
   Turns<Reader<int>> turns;
   turns.a.out.write(7);
   EXPECT_EQ(turns.b.out.taken_over(), nullptr);
-  turns.b.out.take_over_from(&turns.a.out);
+  face(turns.b.out).take_over_from(&face(turns.a.out));
   ASSERT_NE(turns.b.out.taken_over(), nullptr);
   EXPECT_EQ(*turns.b.out.taken_over(), 7);
-  turns.b.out.take_over_from(nullptr);
+  face(turns.b.out).take_over_from(nullptr);
   EXPECT_EQ(turns.b.out.taken_over(), nullptr);
 }
 

@@ -184,14 +184,14 @@ TEST_F(PortArrays, FollowTheirPropertyUpAndDown) {
 TEST_F(PortArrays, HaveTheOptionsOfTheirDeclarationAndAnIndex) {
   ASSERT_TRUE(mux_.joints.set(Value::of(3)));
   start(mux_);
-  source_.out.connect(mux_.positions[2], {});
+  face(source_.out).connect(face(mux_.positions[2]), {});
   source_.out.write(1.0);
   EXPECT_THAT(mux_.arrived, ElementsAre(2u));
-  EXPECT_EQ(mux_.positions[2].unit(), "rad");
+  EXPECT_EQ(face(mux_.positions[2]).unit(), "rad");
 }
 
 TEST_F(PortArrays, KeepTheirSizeWhileOneOfThemIsConnected) {
-  source_.out.connect(mux_.positions[1], {});
+  face(source_.out).connect(face(mux_.positions[1]), {});
   const auto refusal = mux_.joints.set(Value::of(1));
   ASSERT_FALSE(refusal);
   EXPECT_EQ(refusal.error(),
@@ -199,7 +199,7 @@ TEST_F(PortArrays, KeepTheirSizeWhileOneOfThemIsConnected) {
   EXPECT_EQ(mux_.joints(), 2);
   EXPECT_EQ(mux_.positions.size(), 2u);
   EXPECT_TRUE(mux_.joints.set(Value::of(2))) << "no change at all";
-  source_.out.disconnect_all();
+  face(source_.out).disconnect_all();
   EXPECT_TRUE(mux_.joints.set(Value::of(1)));
   EXPECT_EQ(mux_.positions.size(), 1u);
 }

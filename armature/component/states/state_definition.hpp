@@ -23,12 +23,16 @@
 
 #include "armature/base/time.hpp"
 #include "armature/component/component.hpp"
+#include "armature/component/face.hpp"
+#include "armature/component/internal/inside.hpp"
 #include "armature/component/operations/signature.hpp"
 #include "armature/component/states/machine_table.hpp"
 
 namespace armature::component {
 
 class EventBase;
+template <typename... Args>
+class Event;
 class Trigger;
 
 /// Options of a state, all of them `void f()` of the component.
@@ -143,10 +147,10 @@ TransitionDefinition on(Trigger& trigger, Options... options) noexcept {
   return definition;
 }
 /// On an event that the component itself raises.
-template <typename... Options>
-TransitionDefinition on(EventBase& event, Options... options) noexcept {
+template <typename... Args, typename... Options>
+TransitionDefinition on(Event<Args...>& event, Options... options) noexcept {
   TransitionDefinition definition(MachineTransition::Cause::kTrigger);
-  definition.event = &event;
+  definition.event = &internal::Inside::face(event);
   (definition.apply(options), ...);
   return definition;
 }

@@ -97,7 +97,7 @@ TEST_F(Machine, AnOperationTriggersAndSaysWhetherTheMachineReacted) {
   thread_.add(superior);
   ASSERT_EQ(interface_of(chassis_).operations.front()->name(), "drive");
   ASSERT_TRUE(interface_of(chassis_).operations.front()->runs_in_own_thread());
-  superior.drive.connect(*interface_of(chassis_).operations.front());
+  face(superior.drive).connect(*interface_of(chassis_).operations.front());
   EXPECT_TRUE(superior.drive().value);
   EXPECT_EQ(path(), "Moving/Accelerating");
   EXPECT_FALSE(superior.drive().value) << "it moves already";
@@ -107,7 +107,7 @@ TEST_F(Machine, AnOperationFromAnotherThreadTriggersInItsOwn) {
   Superior superior("superior");
   TestThread other(superior);
   thread_.context.live = true;
-  superior.drive.connect(*interface_of(chassis_).operations.front());
+  face(superior.drive).connect(*interface_of(chassis_).operations.front());
   SendHandle<bool> handle = superior.drive.send();
   EXPECT_EQ(path(), "Idle");
   thread_.deliver();
@@ -139,7 +139,7 @@ TEST(MachineEvents, APeersEventTriggersAndGuardsSeeWhatCameWithIt) {
   TestThread one(motor);
   TestThread other(guarded);
   ASSERT_EQ(interface_of(guarded).handlers.size(), 1u) << "bound by name, like any handler";
-  motor.overheated.subscribe(*interface_of(guarded).handlers.front());
+  face(motor.overheated).subscribe(*interface_of(guarded).handlers.front());
   start(motor, guarded);
   motor.overheated.raise(75.0);
   other.deliver();

@@ -9,6 +9,7 @@
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/control/arming/hand_over.hpp"
 #include "armature/control/arming/reference_brake.hpp"
 #include "armature/control/arming/resting_mean.hpp"
@@ -42,7 +43,7 @@ class Controller : public component::Component, public PassesSamples, public Dri
 
   std::vector<const component::InputPortBase*> samples_behind(
       const component::OutputPortBase& /*output*/) const override {
-    return {&sensor_};
+    return {&face(sensor_)};
   }
   /// Of `reference`: all of its joints.
   std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,

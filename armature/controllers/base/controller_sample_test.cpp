@@ -89,10 +89,10 @@ class ControllersThatTakeTurns : public ::testing::Test {
     for (ControllerNPID* each : {&first, &second}) {
       EXPECT_TRUE(component::Host::configure(*each));
       for (auto* output : component::interface_of(*each).outputs) output->prepare();
-      around.sample.subscribe(*component::interface_of(*each).handlers.front());
-      connect(around.sensor, input(*each, "sensor"));
-      connect(around.reference, input(*each, "reference"));
-      connect(act(*each), around.act);
+      face(around.sample).subscribe(*component::interface_of(*each).handlers.front());
+      connect(face(around.sensor), input(*each, "sensor"));
+      connect(face(around.reference), input(*each, "reference"));
+      connect(act(*each), face(around.act));
     }
     component::start(around, first);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 
 namespace armature::controllers {
 
@@ -13,9 +14,9 @@ namespace armature::controllers {
 class SampleInput final : public component::Checked {
  public:
   /// @param event, port  of `owner`; either begins a sampling period
-  SampleInput(component::Component* owner, const component::EventHandlerBase& event,
-              const component::InputPortBase& port)
-      : Checked(owner), event_(event), port_(port) {}
+  SampleInput(component::Component* owner, const component::EventHandler<>& event,
+              const component::InputPort<std::uint64_t>& port)
+      : Checked(owner), event_(face(event)), port_(face(port)) {}
 
   void check(component::Check& check) const override;
 

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/face.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/testing/harness.hpp"
 
@@ -260,7 +261,7 @@ class ControllerNpidInPlaceOfAnother : public ControllerNpid {
     desire(1.0, 2.0);
     other.port.set_sample({first, second});
     controller.advance(10ms);
-    port("act").take_over_from(&other.port);
+    port("act").take_over_from(&face(other.port));
     ASSERT_TRUE(controller.start()) << controller.reason();
     port("act").take_over_from(nullptr);
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/component/face.hpp"
 #include "armature/control/dc_motor.hpp"
 #include "armature/controllers/base/checked_gains.hpp"
 #include "armature/controllers/base/controller_of_pids.hpp"
@@ -31,7 +32,7 @@ class ControllerNPIDFF final : public ControllerOfPids {
   /// Of the torques of its model: all joints.
   std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
                                          const component::Check& check) override {
-    if (input == &out_model_) return driven_joints(check);
+    if (input == &face(out_model_)) return driven_joints(check);
     return ControllerOfPids::joints_behind(input, check);
   }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/control/arming/arming_sequence.hpp"
 #include "armature/control/arming/holding_watch.hpp"
 #include "armature/control/joint_limiter.hpp"
@@ -52,7 +53,7 @@ class Joint final : public component::Component,
                                          const component::Check& check) override;
   std::vector<const component::InputPortBase*> samples_behind(
       const component::OutputPortBase& /*output*/) const override {
-    return {&displacement_sensor_};
+    return {&face(displacement_sensor_)};
   }
   component::Keeping& keeping() override { return kept_; }
 

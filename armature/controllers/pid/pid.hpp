@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/control/arming/gain_fade.hpp"
 #include "armature/control/pid.hpp"
 #include "armature/controllers/base/checked_gains.hpp"
@@ -32,8 +33,8 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
  public:
   using Component::Component;
 
-  const component::InputPortBase& desired_input() const override { return reference_; }
-  const component::InputPortBase& measured_input() const override { return measured_; }
+  const component::InputPortBase& desired_input() const override { return face(reference_); }
+  const component::InputPortBase& measured_input() const override { return face(measured_); }
   std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
                                          const component::Check& check) override;
 

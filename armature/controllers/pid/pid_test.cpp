@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/face.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/testing/harness.hpp"
 
@@ -139,7 +140,7 @@ TEST_F(PidTest, GoesOnFromWhatItsPredecessorWroteAndDesired) {
   pid.write("Ref", 1.0);
   pid.advance(10ms);
   auto& out = *component::interface_of(pid.component()).outputs.front();
-  out.take_over_from(&other.port);
+  out.take_over_from(&face(other.port));
   ASSERT_TRUE(pid.start()) << pid.reason();
   out.take_over_from(nullptr);
   pid.write("Sen", 0.8);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "armature/component/face.hpp"
 #include "armature/control/arming/gathering.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
@@ -47,7 +48,7 @@ class SensorNMux final : public Sensor, public PassesSamples {
   void take(std::size_t joint, double value, std::size_t place);
   void refuse(std::size_t joint, double value, std::size_t place);
   void note_missing();
-  std::string_view name_of(std::size_t joint) { return writer_of(position_[joint]); }
+  std::string_view name_of(std::size_t joint) { return writer_of(face(position_[joint])); }
 
   static constexpr std::size_t kPosition = 0;
   static constexpr std::size_t kDisplacement = 1;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/face.hpp"
 #include "armature/component/holding.hpp"
 #include "armature/exec/internal/test_components.hpp"
 #include "armature/exec/modes.hpp"

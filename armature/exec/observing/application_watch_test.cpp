@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/component/face.hpp"
 #include "armature/exec/internal/test_components.hpp"
 
 namespace armature::exec {
@@ -26,8 +27,8 @@ class Watching : public ::testing::TestWithParam<bool> {
     gain_ = &blueprint.add<Gain>("Gain", Activity::triggered());
     idle_ = &blueprint.add<Probe>("Idle", Activity::periodic(1ms));
     blueprint.connect("Counter.Count", "Gain.In");
-    all_ = {of(*gain_, gain_->out), of(*counter_, counter_->count), of(*gain_, gain_->factor),
-            of(*idle_, idle_->out), of(*gain_, gain_->in)};
+    all_ = {of(*gain_, face(gain_->out)), of(*counter_, face(counter_->count)),
+            of(*gain_, gain_->factor), of(*idle_, face(idle_->out)), of(*gain_, face(gain_->in))};
     application_.emplace(std::move(blueprint), patient(GetParam()));
     EXPECT_EQ(application_->start().to_text(), "");
   }
@@ -117,7 +118,7 @@ TEST_P(WatchingInSimulatedTime, TimesAreThoseOfTheWrites) {
 }
 
 TEST_P(WatchingInSimulatedTime, WhatNobodyTookIsCountedAndReplaced) {
-  const auto handle = application_->watch({of(*counter_, counter_->count)}, 0ms);
+  const auto handle = application_->watch({of(*counter_, face(counter_->count))}, 0ms);
   application_->run_for(10ms);
   EXPECT_EQ(application_->watched(handle.value())->replaced, 9u);
   application_->run_for(1ms);
@@ -125,7 +126,7 @@ TEST_P(WatchingInSimulatedTime, WhatNobodyTookIsCountedAndReplaced) {
 }
 
 TEST_P(WatchingInSimulatedTime, CopiesNoMoreOftenThanAskedFor) {
-  const auto handle = application_->watch({of(*counter_, counter_->count)}, 10ms);
+  const auto handle = application_->watch({of(*counter_, face(counter_->count))}, 10ms);
   application_->run_for(100ms);
   const WatchSample& sample = *application_->watched(handle.value());
   EXPECT_NEAR(static_cast<double>(sample.replaced), 11.0, 2.0) << "of 100 cycles";

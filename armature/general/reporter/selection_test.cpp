@@ -51,8 +51,8 @@ TEST_F(Selecting, AMemberIsAPortPropertyOrAttribute) {
               ElementsAre("Joint2.Velocity", "Joint1.Voltage", "Joint1.Ratio", "Joint1.faults"));
   const Selection selection =
       select({"Joint1.Position", "Joint1.Voltage", "Joint1.Ratio"}, {&joint1});
-  EXPECT_EQ(selection.sources[0].output, &joint1.position);
-  EXPECT_EQ(selection.sources[1].input, &joint1.voltage);
+  EXPECT_EQ(selection.sources[0].output, &face(joint1.position));
+  EXPECT_EQ(selection.sources[1].input, &face(joint1.voltage));
   EXPECT_EQ(selection.sources[2].property, &joint1.ratio);
 }
 

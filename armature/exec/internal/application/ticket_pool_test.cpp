@@ -45,9 +45,9 @@ class TicketPoolTest : public ::testing::Test {
 };
 
 TEST_F(TicketPoolTest, GivesNobodyATicketThatAnotherHas) {
-  ToolTicket& first = pool_.claim(mover().move);
+  ToolTicket& first = pool_.claim(face(mover().move));
   const component::CommandHandle held(first);
-  ToolTicket& second = pool_.claim(mover().move);
+  ToolTicket& second = pool_.claim(face(mover().move));
   const component::CommandHandle held_too(second);
   EXPECT_NE(&second, &first);
   end(first);
@@ -55,12 +55,12 @@ TEST_F(TicketPoolTest, GivesNobodyATicketThatAnotherHas) {
 }
 
 TEST_F(TicketPoolTest, GivesATicketAgainWhoseCommandHasEndedAndThatNobodyLooksAt) {
-  ToolTicket* const first = &pool_.claim(mover().move);
+  ToolTicket* const first = &pool_.claim(face(mover().move));
   {
     const component::CommandHandle held(*first);
     end(*first);
   }
-  ASSERT_EQ(&pool_.claim(mover().move), first);
+  ASSERT_EQ(&pool_.claim(face(mover().move)), first);
   const component::CommandHandle held(*first);
   end(*first);
 }
@@ -68,9 +68,9 @@ TEST_F(TicketPoolTest, GivesATicketAgainWhoseCommandHasEndedAndThatNobodyLooksAt
 TEST_F(TicketPoolTest, CancelsWhatIsUnderWay) {
   EXPECT_FALSE(pool_.cancel_all());
   EXPECT_FALSE(pool_.any_under_way());
-  ToolTicket& ticket = pool_.claim(mover().move);
+  ToolTicket& ticket = pool_.claim(face(mover().move));
   const component::CommandHandle held(ticket);
-  ASSERT_TRUE(mover().move.begin_with(&ticket, {}).ok());
+  ASSERT_TRUE(face(mover().move).begin_with(&ticket, {}).ok());
   EXPECT_TRUE(pool_.any_under_way());
   EXPECT_TRUE(pool_.cancel_all());
   parts_.engine_of(0).step({});
