@@ -103,7 +103,7 @@ def node(*arguments):
     return json.loads(subprocess.run(["node", *arguments], check=True, stdout=subprocess.PIPE).stdout)
 
 
-def watching(program, folder):
+def watching(program, folder, *arguments):
     """studio_watch.ts needs what rcidl makes of the two interfaces, and the runtime of the tree."""
     interfaces = ("armature/remote/inspection.idl", "armature/studio/workbench.idl")
     for idl in interfaces:
@@ -117,7 +117,7 @@ def watching(program, folder):
                     f"--alias:@armature/ride/tcp={ride}/tcp.ts", f"--alias:@armature/ride={ride}/ride.ts",
                     f"--alias:@armature/placeholders={folder}", f"--outfile={bundle}",
                     os.path.join(ROOT, "benchmarks/studio_watch.ts")], check=True)
-    return node(bundle, program, os.path.join(ROOT, "robots"))
+    return node(bundle, program, os.path.join(ROOT, "robots"), *arguments)
 
 
 def page(program, folder):
@@ -130,7 +130,8 @@ def page(program, folder):
 def show(entry):
     name, measured = entry["name"], entry["ratio"] or entry["value"]
     missed = measured > BOUNDS.get(name, measured) or measured < LEAST.get(name, measured)
-    bound = f"at least {LEAST[name]:g}" if name in LEAST else f"at most {BOUNDS[name]:g}"
+    bound = f"at least {LEAST[name]:g}" if name in LEAST else "for comparison"
+    bound = f"at most {BOUNDS[name]:g}" if name in BOUNDS else bound
     ratio = f", {entry['ratio']:.3f} of {entry['reference']:.3g}" if entry["ratio"] else ""
     print(f"{name:36} {entry['value']:8.4g} {entry['unit']:6}  ({bound}{ratio}{': missed' if missed else ''})")
 
@@ -141,12 +142,16 @@ def main():
     parser.add_argument("--json")
     parser.add_argument("--rounds", type=int, default=200)
     parser.add_argument("--browsers", action="store_true")
+    parser.add_argument("--watching", action="store_true", help="only tries what watches: one second")
     arguments = parser.parse_args()
     program = os.path.abspath(arguments.program)
     entries = check(program, arguments.rounds)
     if arguments.browsers:
         with tempfile.TemporaryDirectory() as folder:
             entries += page(program, folder) + watching(program, folder)
+    if arguments.watching:
+        with tempfile.TemporaryDirectory() as folder:
+            entries += watching(program, folder, "--seconds", "1", "--rounds", "1")
     for entry in entries:
         show(entry)
     if arguments.json:
