@@ -6,5 +6,8 @@
 using namespace armature::rover;
 
 ARMATURE_COMPONENT_LIBRARY(rover, registry) {
-  registry.add<Vision>("Vision", "recognises a ball by its colour in the images of a camera");
+  constexpr const char* kVision = "recognises a ball by its colour in the images of a camera";
+  registry.add<Vision>("Vision", kVision);
+  // To other programs a component has the interface of its model's name, and rover.idl says VS.
+  registry.add<Vision>("VS", kVision);
 }
