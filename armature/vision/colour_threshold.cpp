@@ -12,6 +12,7 @@ namespace armature::vision {
 namespace {
 
 constexpr double kSixth = std::numbers::pi / 3.0;
+constexpr double kNever = 256.0;  // no pixel has that spread
 
 }  // namespace
 
@@ -29,13 +30,20 @@ base::Result<ColourThreshold> ColourThreshold::make(const Config& config) {
   return ColourThreshold(config);
 }
 
-ColourThreshold::ColourThreshold(const Config& config)
-    : config_(config), least_value_(255.0 * config.min_value), near_{} {
+/// All that a pixel is compared with is a whole number, in a table.
+ColourThreshold::ColourThreshold(const Config& config) : config_(config) {
   const double wanted = hsv_of(config.wanted).hue_rad / kSixth;
   const double tolerance = config.hue_tolerance_rad / kSixth;
-  for (std::size_t part = 0; part < near_.size(); ++part) {
-    const double middle = std::remainder(wanted - 2.0 * static_cast<double>(part), 6.0);
-    near_[part] = {middle - tolerance, middle + tolerance};
+  for (std::size_t shade = 0; shade < kShades; ++shade) {
+    const auto number = static_cast<double>(shade);
+    const bool dark = number < 255.0 * config.min_value;
+    const double least = dark ? kNever : std::max(1.0, config.min_saturation * number);
+    least_spread_[shade] = static_cast<std::int16_t>(std::ceil(least));
+    for (std::size_t part = 0; part < near_.size(); ++part) {
+      const double middle = std::remainder(wanted - 2.0 * static_cast<double>(part), 6.0);
+      near_[part][shade] = {static_cast<std::int16_t>(std::ceil((middle - tolerance) * number)),
+                            static_cast<std::int16_t>(std::floor((middle + tolerance) * number))};
+    }
   }
 }
 
@@ -45,19 +53,17 @@ double ColourThreshold::distance(Rgb pixel) const noexcept {
   return hue_distance(colour.hue_rad, hsv_of(config_.wanted).hue_rad) / std::numbers::pi;
 }
 
-/// Without a division, as it is asked for each pixel of each image.
 bool ColourThreshold::holds(int red, int green, int blue) const noexcept {
-  const int greatest = std::max({red, green, blue});
-  const int spread = greatest - std::min({red, green, blue});
-  if (spread == 0 || greatest < least_value_ || spread < config_.min_saturation * greatest) {
-    return false;
-  }
-  const auto near = [spread](const Interval& interval, int ahead) {
-    return ahead >= interval.low * spread && ahead <= interval.high * spread;
+  const int greatest = std::max(std::max(red, green), blue);
+  const int spread = greatest - std::min(std::min(red, green), blue);
+  if (spread < least_spread_[static_cast<std::size_t>(greatest)]) return false;
+  const auto near = [this, spread](std::size_t part, int difference) {
+    const Interval& interval = near_[part][static_cast<std::size_t>(spread)];
+    return difference >= interval.low && difference <= interval.high;
   };
-  if (greatest == red) return near(near_[0], green - blue);
-  if (greatest == green) return near(near_[1], blue - red);
-  return near(near_[2], red - green);
+  if (greatest == red) return near(0, green - blue);
+  if (greatest == green) return near(1, blue - red);
+  return near(2, red - green);
 }
 
 void ColourThreshold::mask(const ImageView& image, std::span<std::uint8_t> mask) const noexcept {

@@ -41,18 +41,21 @@ class ColourThreshold {
   void mask(const ImageView& image, std::span<std::uint8_t> mask) const noexcept;
 
  private:
-  /// Of a pixel whose greatest part is one of the three: (next - last) / spread lies within.
+  /// Whole numbers from `low` to `high`.
   struct Interval {
-    double low = 0.0;
-    double high = 0.0;
+    std::int16_t low = 0;
+    std::int16_t high = 0;
   };
+  static constexpr std::size_t kShades = 256;
 
   explicit ColourThreshold(const Config& config);
   bool holds(int red, int green, int blue) const noexcept;
 
   Config config_;
-  double least_value_;
-  std::array<Interval, 3> near_;  ///< greatest part red, green, blue
+  /// By a pixel's greatest part: how much less its least part is at least.
+  std::array<std::int16_t, kShades> least_spread_{};
+  /// By which part is the greatest, and the difference to the least: that of the two behind it.
+  std::array<std::array<Interval, kShades>, 3> near_{};
 };
 
 }  // namespace armature::vision
