@@ -14,6 +14,10 @@ namespace {
 constexpr double kSixth = std::numbers::pi / 3.0;
 constexpr double kNever = 256.0;  // no pixel has that spread
 
+// Without a branch, which noise would make the processor guess wrongly: half of the time of a mask.
+int larger(int a, int b) { return a - ((a - b) & ((a - b) >> 31)); }
+int smaller(int a, int b) { return b + ((a - b) & ((a - b) >> 31)); }
+
 }  // namespace
 
 base::Result<ColourThreshold> ColourThreshold::make(const Config& config) {
@@ -54,8 +58,8 @@ double ColourThreshold::distance(Rgb pixel) const noexcept {
 }
 
 bool ColourThreshold::holds(int red, int green, int blue) const noexcept {
-  const int greatest = std::max(std::max(red, green), blue);
-  const int spread = greatest - std::min(std::min(red, green), blue);
+  const int greatest = larger(larger(red, green), blue);
+  const int spread = greatest - smaller(smaller(red, green), blue);
   if (spread < least_spread_[static_cast<std::size_t>(greatest)]) return false;
   const auto near = [this, spread](std::size_t part, int difference) {
     const Interval& interval = near_[part][static_cast<std::size_t>(spread)];
