@@ -194,6 +194,52 @@ TEST_F(VisualComponentTest, AFrozenCameraIsToldByFailedOnce) {
   EXPECT_EQ(failures_.size(), 1u);
 }
 
+// --- as a deployment of another process uses it --------------------------------------------------
+
+/// Its superior in another application: commands it, and hears its events.
+class Superior final : public component::Component {
+ public:
+  using Component::Component;
+
+  std::atomic<bool> begins{false};
+  std::atomic<int> x{-1};
+  std::atomic<int> failures{0};
+
+ private:
+  void on_update() override {
+    if (!begins.exchange(false)) return;
+    static_cast<void>(initialize_.send());
+    static_cast<void>(start_.send());
+  }
+  void follow(std::int32_t right, std::int32_t) { x = right; }
+  void note(const base::FixedText<31>&, const base::FixedText<127>&) { ++failures; }
+
+  component::OperationCaller<std::int32_t()> initialize_{this, "initialize", ""};
+  component::CommandCaller<> start_{this, "start", ""};
+  component::EventHandler<std::int32_t, std::int32_t> position_{
+      this, "ObjectPositionEvent", component::serve<&Superior::follow>, ""};
+  component::EventHandler<base::FixedText<31>, base::FixedText<127>> failed_{
+      this, "Failed", component::serve<&Superior::note>, ""};
+};
+
+TEST_F(VisualComponentTest, ASuperiorElsewhereKnowsItsModelOnly) {
+  Process pilot("components:\n  Vision: {model: VS, remote: '" + robot_.address() +
+                    "/Vision'}\n"
+                    "  Superior: {model: Superior, activity: {periodic: 5 ms}, peers: [Vision]}\n",
+                [](component::Registry& models) {
+                  add_models(models);
+                  models.add<Superior>("Superior", "");
+                });
+  auto started = std::async(std::launch::async, [&] { pilot.start(); });
+  EXPECT_TRUE(
+      serve_until({&robot_}, [&] { return started.wait_for(0s) == std::future_status::ready; }));
+  auto& superior = pilot.find<Superior>("Superior");
+  superior.begins = true;
+  EXPECT_TRUE(serve_until({&robot_, &pilot}, [&] { return superior.x == 16; })) << pilot.log;
+  robot_.find<TestCamera>("Camera").frozen = true;
+  EXPECT_TRUE(serve_until({&robot_, &pilot}, [&] { return superior.failures == 1; })) << pilot.log;
+}
+
 // --- the check of a deployment -------------------------------------------------------------------
 
 TEST(VisionCheck, AcceptsImagesOfItsSize) { EXPECT_EQ(mistakes_in(robot()), ""); }
