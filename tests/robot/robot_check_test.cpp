@@ -16,6 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 deploy::Deployment load(const std::string& file, std::vector<std::string> overrides = {}) {
   deploy::DeploymentOptions options;
@@ -199,6 +200,32 @@ TEST(RobotCheck, SaysWhatOfTheRobotIsMissing) {
   EXPECT_THAT(own({"Robot.inertia_min=[3]"}), HasSubstr("a joint moves 3 to 0.25 kg m^2"));
   EXPECT_THAT(own({"Robot.motor_torque_constant=[]"}),
               HasSubstr("expected motor_resistance and motor_torque_constant, or neither"));
+}
+
+TEST(RobotCheck, AJointHasBothEndsOrNone) {
+  EXPECT_THAT(own({"Joint1.Continuous=true"}),
+              AllOf(HasSubstr("'Joint1': property 'PositionMin' is given, and Continuous says that "
+                              "the joint turns without end (leave out one of them)"),
+                    HasSubstr("property 'PositionMax' is given")));
+  const std::string begin = "libraries: [robot, servo]\ncomponents:\n"
+                            "  Joint: {model: Joint, peers: [Drive], properties: {PeerName: Drive, "
+                            "Sampler: false, Period: 0.01, GearRatio: 1, MaxVelocity: 2, "
+                            "MaxAcceleration: 8, MaxVoltage: 12";
+  const std::string end =
+      "}}\n  Drive: {model: Servo, activity: {periodic: 10 ms}}\nconnections:\n"
+      "  - Drive.DisplacementSensor -> Joint.DisplacementSensor\n"
+      "  - Drive.IndexSensor -> Joint.IndexSensor\n"
+      "  - Joint.VoltageActuator -> Drive.VoltageActuator\n";
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, SERVO_LIBRARY};
+  EXPECT_THAT(
+      deploy::parse_deployment(begin + end, "joint.yaml", options).diagnostics.to_text(),
+      AllOf(HasSubstr("'Joint': property 'PositionMin' has no default and must be given (or set "
+                      "Continuous: true for a joint that turns without end)"),
+            HasSubstr("property 'PositionMax' has no default")));
+  EXPECT_THAT(deploy::parse_deployment(begin + ", Continuous: true" + end, "joint.yaml", options)
+                  .diagnostics.to_text(),
+              Not(HasSubstr("Position")));
 }
 
 TEST(RobotCheck, WarnsOfAJointThatNobodyDescribes) {
