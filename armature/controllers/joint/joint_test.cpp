@@ -178,7 +178,10 @@ TEST_F(JointTest, WithAnEndItIsDrivenNoFarther) {
 TEST_F(JointTest, ThatIsContinuousIsDrivenOnWithoutEnd) {
   joint.set("Continuous", true);
   start_armed();
-  for (int period = 0; period < 700; ++period) sample(0.9);
+  for (int period = 0; period < 700; ++period) {
+    act(0.1);
+    sample(0.9);
+  }
   EXPECT_GT(position(), 7.0);  // PositionMax is 4.5
   EXPECT_EQ(act(1.0), 1.0);
   EXPECT_EQ(act(-1.0), -1.0);
