@@ -199,14 +199,21 @@ bool ChassisDrive::want(const Speeds& speeds, base::Time at, std::string_view le
 }
 
 void ChassisDrive::stop_smoothly(std::string_view why) {
-  if (moving_) stopped_.raise(StopReason(why));
+  if (moving_) tell_stop(why);
   moving_ = false;
 }
 
 void ChassisDrive::stop_at_once(std::string_view why) {
-  if (moving_ || !ramp_.at_rest()) stopped_.raise(StopReason(why));
+  if (moving_ || !ramp_.at_rest()) tell_stop(why);
   moving_ = false;
   ramp_.rest();
+}
+
+void ChassisDrive::tell_stop(std::string_view why) {
+  const StopReason reason(why);
+  stop_reason_.assign(reason);
+  log_info("stops: {}", why);
+  stopped_.raise(reason);
 }
 
 void ChassisDrive::settle() {
@@ -232,7 +239,7 @@ void ChassisDrive::fail(std::size_t wheel, std::string_view what) {
   why.append(controllers::writer_of(position_[wheel])).append(") has failed: ").append(what);
   moving_ = false;
   ramp_.rest();
-  stopped_.raise(StopReason(why.view()));
+  tell_stop(why.view());
   static_cast<void>(disarm_.send());
   fault(why);
 }

@@ -63,6 +63,7 @@ class ChassisDrive final : public component::Component {
   bool want(const Speeds& speeds, base::Time at, std::string_view left, std::string_view right);
   void stop_smoothly(std::string_view why);
   void stop_at_once(std::string_view why);
+  void tell_stop(std::string_view why);
   void settle();
   void brake() { stop_smoothly("Arming.stop was called"); }
   std::size_t first_disarmed();
@@ -161,6 +162,9 @@ class ChassisDrive final : public component::Component {
       component::serve<&ChassisDrive::set_velocity>,
       "drives with these speeds for 200 ms; renew it to go on",
       component::args("left [m/s]", "right [m/s]")};
+
+  component::Attribute<StopReason> stop_reason_{this, "stop_reason", StopReason(),
+                                                "why it came to rest last"};
 
   controllers::Changes changes_{wheels_,           wheel_radius_,      track_,
                                 max_acceleration_, stop_deceleration_, period_.property()};

@@ -29,7 +29,9 @@ bool Wheel::actuator_set(control::LimitedEffort effort) {
   return answer.status == CallStatus::kDone && answer.value;
 }
 
+/// Out of service it measures nothing, so that its joint is missed.
 bool Wheel::sensor_read() {
+  if (state() != component::State::kRunning) return false;
   const auto answer = read_(number_);
   if (answer.status != CallStatus::kDone || !answer.value.fresh) return false;
   if (on_ && !answer.value.on) {
