@@ -14,5 +14,6 @@ ARMATURE_COMPONENT_LIBRARY(rover, registry) {
   registry.add<Wheel>("Wheel", "a wheel with its motor and encoder: the hardware of a joint");
   registry.add<Camera>("Camera", "the images of the camera on the rover's mast");
   registry.add<Ball>("Ball", "the ball, on a way that is chosen");
-  registry.add<ChassisDrive>("ChassisDrive", "drives the wheels of both sides: setVelocity");
+  registry.add<ChassisDrive>("ChassisDrive", "drives the wheels of both sides: setVelocity",
+                             {{"Chassis"}});  // as table 4 of paper 4 calls the interface
 }

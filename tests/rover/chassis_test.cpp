@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 
+#include "armature/testing/realtime_guard.hpp"
 #include "robots/rover/numbers.hpp"
 #include "tests/rover/rover.hpp"
 
@@ -263,6 +264,17 @@ TEST(RoverBody, TwentyImagesASecondAndTwiceTheSameToTheBit) {
       EXPECT_EQ(robot.plant().place().x, x);
     }
   }
+}
+
+TEST(RoverBody, BreaksNoRuleOfRealTime) {
+  Robot robot(by_script());
+  robot.start_armed();
+  robot.drive(0.3F, 0.3F, 1s);
+  const testing::RealtimeGuard guard;
+  robot.run_for(500ms);
+  robot.set("Rover", "SilentEncoder", types::Value::of(1));
+  robot.run_for(500ms);
+  EXPECT_EQ(guard.violations(), 0U) << guard.report();
 }
 
 TEST(RoverBody, GainsThatWouldShakeAWheelAreRefused) {
