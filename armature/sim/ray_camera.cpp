@@ -127,7 +127,8 @@ void RayCamera::Impl::scan(const Shape& shape, const Thing& thing, const Sight& 
     const double lit = internal::dot(meeting.normal, sight.light);
     const int full = kAmbient + (lit > 0.0 ? static_cast<int>(kDiffuse * lit) : 0);
     const int shade = meeting.dark ? full * 3 / 4 : full;
-    for (std::size_t i = 0; i < 3; ++i) colour[at][i] = std::min(thing.colour[i] * shade / 256, 255);
+    for (std::size_t i = 0; i < 3; ++i)
+      colour[at][i] = std::min(thing.colour[i] * shade / 256, 255);
   }
 }
 

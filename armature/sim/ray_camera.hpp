@@ -17,26 +17,27 @@ namespace armature::sim {
 /// What a camera of a MuJoCo description (MJCF) sees: one ray for each pixel, to the nearest plane,
 /// sphere, box or cylinder, whose colour is shaded by its normal; no graphics hardware, no library.
 ///
-/// Where bodies are is told by `place`, so the image is that of a copy of the state: whoever renders
-/// may do so in another thread than the simulation's. Geometries of the group 3 and above, and those
-/// of the robot that carries the camera, are not seen. A plane with `user="SIZE"` has checks of that
-/// size [m]. Planes end where their size says and are seen from the front only, as by MuJoCo's rays.
+/// Where bodies are is told by `place`, so the image is that of a copy of the state: whoever
+/// renders may do so in another thread than the simulation's. Geometries of the group 3 and above,
+/// and those of the robot that carries the camera, are not seen. A plane with `user="SIZE"` has
+/// checks of that size [m]. Planes end where their size says and are seen from the front only, as
+/// by MuJoCo's rays.
 ///
 /// Equal poses, seeds and frames make equal images on every machine. Rays are computed here by
-/// additions, multiplications, divisions and roots alone, which IEEE 754 rounds in one way, compiled
-/// without fused ones; poses count in steps of 2^-24 m and 2^-30, so the last bits of a sine do not;
-/// shades and noise are whole numbers.
+/// additions, multiplications, divisions and roots alone, which IEEE 754 rounds in one way,
+/// compiled without fused ones; poses count in steps of 2^-24 m and 2^-30, so the last bits of a
+/// sine do not; shades and noise are whole numbers.
 ///
 /// One thread uses it.
 class RayCamera {
  public:
   /// The picture, and what disturbs it.
   struct Options {
-    std::string camera;         ///< its name in the description, which has its place and `fovy`
-    int width = 320;            ///< [px], 1 to 4096
-    int height = 240;           ///< [px], 1 to 4096
-    double noise = 0.0;         ///< standard deviation [levels of 255], 0 to 64; of each channel
-    std::uint64_t seed = 1;     ///< of the noise
+    std::string camera;      ///< its name in the description, which has its place and `fovy`
+    int width = 320;         ///< [px], 1 to 4096
+    int height = 240;        ///< [px], 1 to 4096
+    double noise = 0.0;      ///< standard deviation [levels of 255], 0 to 64; of each channel
+    std::uint64_t seed = 1;  ///< of the noise
   };
 
   /// @param mjcf  the text of the description, without files beside it

@@ -123,7 +123,7 @@ TEST(RayCamera, HasTheMiddleOfABallWhereItIs) {
 TEST(RayCamera, ShadesColoursAndChecksTheFloor) {
   RayCamera camera = make_camera();
   const Image image = render(camera);
-  const auto lit_from_above = pixel(image, 160, 120 - 8);  // upper part of the ball
+  const auto lit_from_above = pixel(image, 160, 120 - 8);   // upper part of the ball
   const auto lit_from_aside = pixel(image, 160, 120 + 18);  // its lower rim
   EXPECT_GT(lit_from_above[0], lit_from_aside[0] + 20);
   EXPECT_EQ(lit_from_above[1], 0);
@@ -156,12 +156,14 @@ TEST(RayCamera, SeesWhatMuJoCosRaysMeet) {
       std::array<mjtNum, 3> direction{};
       mju_mulMatVec(direction.data(), data->cam_xmat, ray.data(), 3, 3);
       int geom = -1;
-      mj_ray(model.get(), data.get(), data->cam_xpos, direction.data(), kSeen.data(), 1, cart, &geom);
+      mj_ray(model.get(), data.get(), data->cam_xpos, direction.data(), kSeen.data(), 1, cart,
+             &geom);
       const auto [red, green, blue] = pixel(image, column, row);
       const std::array<bool, 3> has{red > 60, green > 60, blue > 60};
       std::array<bool, 3> expected{true, true, true};
       if (geom >= 0) {
-        for (std::size_t i = 0; i < 3; ++i) expected[i] = model->geom_rgba[4 * static_cast<std::size_t>(geom) + i] > 0.3F;
+        for (std::size_t i = 0; i < 3; ++i)
+          expected[i] = model->geom_rgba[4 * static_cast<std::size_t>(geom) + i] > 0.3F;
       }
       differ += has == expected ? 0 : 1;
     }
@@ -179,7 +181,8 @@ TEST(RayCamera, DoesNotSeeWhatCarriesIt) {
 TEST(RayCamera, TurnsWithItsCarrier) {
   RayCamera camera = make_camera();
   const double half = 0.5 * 10.0 * mjPI / 180.0;  // to the left, so the ball is to the right
-  camera.place(*camera.find_body("cart"), {{0.0, 0.0, 0.0}, {std::cos(half), 0.0, 0.0, std::sin(half)}});
+  camera.place(*camera.find_body("cart"),
+               {{0.0, 0.0, 0.0}, {std::cos(half), 0.0, 0.0, std::sin(half)}});
   const Spot turned = red_spot(render(camera));
   const Spot truth = seen(camera, std::cos(2.0 * half), -std::sin(2.0 * half), 0.05);
   EXPECT_NEAR(turned.x, truth.x, 0.3);
@@ -250,7 +253,8 @@ TEST(RayCamera, MistakesAreNamed) {
   EXPECT_EQ(mistake(kScene, {.camera = "nose"}), "arena: unknown camera 'nose'");
   EXPECT_THAT(mistake(kScene, {.camera = "eye", .width = 0}), HasSubstr("expected 1 to 4096"));
   EXPECT_THAT(mistake(kScene, {.camera = "eye", .noise = -1.0}), HasSubstr("expected 0 to 64"));
-  EXPECT_EQ(mistake("", {.camera = "eye"}), "arena: the file is empty, expected an MJCF description");
+  EXPECT_EQ(mistake("", {.camera = "eye"}),
+            "arena: the file is empty, expected an MJCF description");
   EXPECT_THAT(mistake("<mujoco><worldbody><geom name='egg' type='ellipsoid' size='1 1 2'/>"
                       "<camera name='eye'/></worldbody></mujoco>",
                       {.camera = "eye"}),

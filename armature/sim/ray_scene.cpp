@@ -89,8 +89,7 @@ Frame snapped(const Pose& pose) {
                       in_steps(q[2], kRotations), in_steps(q[3], kRotations))};
 }
 
-base::Result<Scene> make_scene(mjModel& model, const std::string& name,
-                               const std::string& camera) {
+base::Result<Scene> make_scene(mjModel& model, const std::string& name, const std::string& camera) {
   const int eye = mj_name2id(&model, mjOBJ_CAMERA, camera.c_str());
   if (eye < 0) return base::Error{name + ": unknown camera '" + camera + "'"};
   Scene scene;
@@ -103,8 +102,7 @@ base::Result<Scene> make_scene(mjModel& model, const std::string& name,
     if (is_of_carrier(model, geom, model.cam_bodyid[eye])) continue;
     const std::optional<Shape> shape = shape_of(model, geom);
     if (!shape) {
-      return base::Error{name + ": the geometry '" +
-                         std::string(name_of(model, mjOBJ_GEOM, geom)) +
+      return base::Error{name + ": the geometry '" + std::string(name_of(model, mjOBJ_GEOM, geom)) +
                          "' is expected to be a plane, sphere, box or cylinder (hide another in "
                          "group 3)"};
     }

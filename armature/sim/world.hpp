@@ -16,8 +16,8 @@
 namespace armature::sim {
 
 /// Bodies that touch each other, such as a mobile robot on its floor: from MuJoCo's own description
-/// (MJCF), with its contacts, friction and actuator-less joints; efforts in, motion out. For arms on
-/// a base there is Plant, which takes a URDF.
+/// (MJCF), with its contacts, friction and actuator-less joints; efforts in, motion out. For arms
+/// on a base there is Plant, which takes a URDF.
 ///
 /// Time passes in `step` alone, so two equal runs are equal to the bit.
 ///

@@ -30,17 +30,26 @@ class Ball final : public component::Component {
   component::Property<BallWay> way_{this, "Way", BallWay::kRest, "that it takes at the start"};
   component::Property<double> speed_{
       this, "Speed", 0.3, "with which it rolls", "m/s", component::range(0.001, 2.0)};
-  component::Property<double> begin_x_{this, "BeginX", kBallRestX, "where it is at the start", "m",
-                                       component::range(-2.9, 2.9)};
-  component::Property<double> begin_y_{this, "BeginY", 0.0, "where it is at the start", "m",
-                                       component::range(-1.9, 1.9)};
-  component::InputPort<double> x_{this, "X", "where it is, on the way `ports`", "m",
+  component::Property<double> begin_x_{
+      this, "BeginX", kBallRestX, "where it is at the start", "m", component::range(-2.9, 2.9)};
+  component::Property<double> begin_y_{
+      this, "BeginY", 0.0, "where it is at the start", "m", component::range(-1.9, 1.9)};
+  component::InputPort<double> x_{this,
+                                  "X",
+                                  "where it is, on the way `ports`",
+                                  "m",
                                   component::may_stay_open,
                                   component::on_lost(component::Reaction::kHold)};
-  component::InputPort<double> y_{this, "Y", "where it is, on the way `ports`", "m",
+  component::InputPort<double> y_{this,
+                                  "Y",
+                                  "where it is, on the way `ports`",
+                                  "m",
                                   component::may_stay_open,
                                   component::on_lost(component::Reaction::kHold)};
-  component::InputPort<Place> place_{this, "Place", "where the rover is, for `carry`", "",
+  component::InputPort<Place> place_{this,
+                                     "Place",
+                                     "where the rover is, for `carry`",
+                                     "",
                                      component::may_stay_open,
                                      component::on_lost(component::Reaction::kHold)};
   component::OutputPort<BallPoint> point_{this, "Point", "where its middle is"};

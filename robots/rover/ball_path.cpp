@@ -10,13 +10,13 @@
 namespace armature::rover {
 namespace {
 
-constexpr double kHalfLine = 1.0;        // [m]
-constexpr double kRest = 2.0;            // [s]
-constexpr double kCircleRadius = 1.5;    // [m]
-constexpr double kEightX = 1.5;          // half its length [m]
-constexpr double kEightY = 0.8;          // half its width [m]
-constexpr double kCarrySpeed = 2.0;      // [m/s]
-constexpr double kCarryHeight = 0.9;     // [m]
+constexpr double kHalfLine = 1.0;      // [m]
+constexpr double kRest = 2.0;          // [s]
+constexpr double kCircleRadius = 1.5;  // [m]
+constexpr double kEightX = 1.5;        // half its length [m]
+constexpr double kEightY = 0.8;        // half its width [m]
+constexpr double kCarrySpeed = 2.0;    // [m/s]
+constexpr double kCarryHeight = 0.9;   // [m]
 constexpr BallPoint kBeforeScreen{0.1, 1.5, kBallRadius};
 constexpr BallPoint kBehindScreen{1.5, 1.5, kBallRadius};
 

@@ -26,13 +26,13 @@ struct BallPoint {
   double z = 0.0;
 };
 
-/// The ball's motion, of constant speed but where it rests. A way that begins elsewhere is rolled to
-/// first, in a straight line.
+/// The ball's motion, of constant speed but where it rests. A way that begins elsewhere is rolled
+/// to first, in a straight line.
 class BallPath {
  public:
   struct Config {
-    double speed = 0.3;        ///< [m/s], > 0; a hand carries with 2 m/s
-    BallPoint carry_to{};      ///< z does not count
+    double speed = 0.3;    ///< [m/s], > 0; a hand carries with 2 m/s
+    BallPoint carry_to{};  ///< z does not count
   };
 
   explicit BallPath(const BallPoint& begin) : at_(begin) {}

@@ -40,13 +40,16 @@ class Camera final : public component::Component {
       this, "ImageWidth", 320, "pixels of a row", "", component::range(16, 4096)};
   component::Property<int> height_{
       this, "ImageHeight", 240, "rows", "", component::range(16, 4096)};
-  component::Property<double> noise_{this, "Noise", 2.0,
-                                     "standard deviation of each channel, of 255 levels", "",
-                                     component::range(0.0, 64.0)};
-  component::Property<int> seed_{this, "Seed", 1, "of the noise", "",
-                                 component::range(0, 1'000'000'000)};
-  component::Property<CameraFault> fault_{this, "Fault", CameraFault::kNone,
-                                          "what it does instead of its work", "",
+  component::Property<double> noise_{this, "Noise",
+                                     2.0,  "standard deviation of each channel, of 255 levels",
+                                     "",   component::range(0.0, 64.0)};
+  component::Property<int> seed_{this,           "Seed", 1,
+                                 "of the noise", "",     component::range(0, 1'000'000'000)};
+  component::Property<CameraFault> fault_{this,
+                                          "Fault",
+                                          CameraFault::kNone,
+                                          "what it does instead of its work",
+                                          "",
                                           component::changeable_while_running};
   component::InputPort<Place> rover_{this, "Place", "where the rover is", "",
                                      component::on_lost(component::Reaction::kHold)};

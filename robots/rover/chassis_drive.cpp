@@ -62,7 +62,8 @@ Outcome ChassisDrive::set_up() {
 void ChassisDrive::on_sample() {
   const Gathering::Round round = gathering_->begin();
   if (round.missing > 0) {
-    missing_.note(*gathering_, [this](std::size_t wheel) { return controllers::writer_of(position_[wheel]); });
+    missing_.note(*gathering_,
+                  [this](std::size_t wheel) { return controllers::writer_of(position_[wheel]); });
   }
   if (round.overdue != Gathering::kNobody) {
     fail(round.overdue, "its encoder does not answer");
@@ -146,7 +147,8 @@ void ChassisDrive::watch_wheels() {
       good_at_[wheel] = time();
     } else if (base::to_seconds(time() - good_at_[wheel]) > error_time_) {
       Reason what("it is to roll with ");
-      controllers::append_number(what, std::round(wanted * 1e3) / 1e3).append(" m/s and rolls with ");
+      controllers::append_number(what, std::round(wanted * 1e3) / 1e3)
+          .append(" m/s and rolls with ");
       controllers::append_number(what, std::round(wheel_speed_[wheel] * 1e3) / 1e3);
       return fail(wheel, what.append(" m/s").view());
     }

@@ -10,8 +10,8 @@
 namespace armature::rover {
 namespace {
 
-/// Only wheels and caster touch the floor with friction of their own: the floor has none, and of two
-/// frictions the larger counts.
+/// Only wheels and caster touch the floor with friction of their own: the floor has none, and of
+/// two frictions the larger counts.
 constexpr std::string_view kArena = R"(
     <geom name="floor" type="plane" size="3 2 1" rgba="0.55 0.55 0.52 1" user="0.5" friction="0 0 0"/>
     <geom name="east" type="plane" size="0.25 2 1" pos="3 0 0.25" zaxis="-1 0 0" rgba="0.78 0.78 0.74 1"/>

@@ -83,9 +83,8 @@ Place Plant::place() const {
 }
 
 void Plant::put(const Place& place) {
-  world_.place(body_,
-               {{place.x, place.y, kWheelRadius},
-                {std::cos(0.5 * place.heading), 0.0, 0.0, std::sin(0.5 * place.heading)}});
+  world_.place(body_, {{place.x, place.y, kWheelRadius},
+                       {std::cos(0.5 * place.heading), 0.0, 0.0, std::sin(0.5 * place.heading)}});
 }
 
 }  // namespace armature::rover

@@ -22,8 +22,8 @@ struct Place {
   double heading = 0.0;  ///< [rad] from x to y, -pi to pi
 };
 
-/// The simulated rover in its arena, with the drive of each wheel: motor, encoder, and a bridge that
-/// drives with the voltage that it was told last, for 100 ms. Without a new one it shorts the
+/// The simulated rover in its arena, with the drive of each wheel: motor, encoder, and a bridge
+/// that drives with the voltage that it was told last, for 100 ms. Without a new one it shorts the
 /// winding, and so it does while it is off: the motor brakes itself.
 ///
 /// Time passes where it is asked for: each function with a time brings the rover there first.

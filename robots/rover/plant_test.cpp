@@ -28,14 +28,13 @@ struct Rover {
   /// Voltages that are told every 10 ms.
   void drive(double left, double right, base::Duration time) {
     for (const base::Time end = now + time; now < end;) {
-      for (std::size_t i = 0; i < plant->wheels(); ++i) plant->drive(i, i % 2 == 0 ? left : right, now);
+      for (std::size_t i = 0; i < plant->wheels(); ++i)
+        plant->drive(i, i % 2 == 0 ? left : right, now);
       now += 10ms;
       plant->advance_to(now);
     }
   }
-  double way() const {
-    return std::hypot(plant->place().x - begin.x, plant->place().y - begin.y);
-  }
+  double way() const { return std::hypot(plant->place().x - begin.x, plant->place().y - begin.y); }
 
   base::Time now{1s};
   std::unique_ptr<Plant> plant;

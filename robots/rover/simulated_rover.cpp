@@ -46,9 +46,8 @@ std::optional<std::size_t> SimulatedRover::index_of(int number) const {
 WheelSample SimulatedRover::read_wheel(int number) {
   const auto wheel = index_of(number);
   if (!wheel || number == silent_encoder_) return {};
-  return {.counts = plant_->take_counts(*wheel, time()),
-          .fresh = true,
-          .on = plant_->is_on(*wheel)};
+  return {
+      .counts = plant_->take_counts(*wheel, time()), .fresh = true, .on = plant_->is_on(*wheel)};
 }
 
 bool SimulatedRover::set_wheel(int number, control::LimitedEffort effort) {
@@ -71,7 +70,8 @@ bool SimulatedRover::wheel_off(int number) {
 }
 
 void SimulatedRover::put(double x, double y, double heading) {
-  if (plant_ == nullptr || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(heading)) return;
+  if (plant_ == nullptr || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(heading))
+    return;
   plant_->put({x, y, heading});
 }
 

@@ -52,11 +52,20 @@ class SimulatedRover final : public component::Component {
   component::Property<int> wheels_{
       this, "Wheels", 2, "2, with a caster, or 4", "", component::range(2, 4)};
   component::Property<int> silent_encoder_{
-      this, "SilentEncoder", 0, "number of the wheel whose encoder does not answer; 0: none", "",
-      component::range(0, 4), component::changeable_while_running};
-  component::Property<int> dead_motor_{
-      this, "DeadMotor", 0, "number of the wheel whose motor's winding is open; 0: none", "",
-      component::range(0, 4), component::changeable_while_running};
+      this,
+      "SilentEncoder",
+      0,
+      "number of the wheel whose encoder does not answer; 0: none",
+      "",
+      component::range(0, 4),
+      component::changeable_while_running};
+  component::Property<int> dead_motor_{this,
+                                       "DeadMotor",
+                                       0,
+                                       "number of the wheel whose motor's winding is open; 0: none",
+                                       "",
+                                       component::range(0, 4),
+                                       component::changeable_while_running};
 
   component::EventHandler<> sample_{this,
                                     "Sample",
@@ -85,13 +94,14 @@ class SimulatedRover final : public component::Component {
       "switches a wheel's drive on",
       component::args("number", "permit"),
       component::in_own_thread};
-  component::Operation<bool(int)> wheel_off_{this,
-                                             "wheelOff",
-                                             component::serve<&SimulatedRover::wheel_off>,
-                                             "switches a wheel's drive off: its motor brakes itself",
-                                             component::args("number"),
-                                             component::in_own_thread,
-                                             component::in_any_state};
+  component::Operation<bool(int)> wheel_off_{
+      this,
+      "wheelOff",
+      component::serve<&SimulatedRover::wheel_off>,
+      "switches a wheel's drive off: its motor brakes itself",
+      component::args("number"),
+      component::in_own_thread,
+      component::in_any_state};
   component::Operation<void(double, double, double)> put_{
       this,
       "put",

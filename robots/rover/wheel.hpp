@@ -28,15 +28,20 @@ class Wheel final : public controllers::JointHardware {
   bool brake_release() override { return true; }
 
   component::Property<int> number_{
-      this, "Number", 1, "of the wheel: odd ones are on the left, the front ones come first",
-      "",   component::mandatory, component::range(1, 4)};
+      this,
+      "Number",
+      1,
+      "of the wheel: odd ones are on the left, the front ones come first",
+      "",
+      component::mandatory,
+      component::range(1, 4)};
   component::Property<double> counts_per_turn_{
       this, "CountsPerTurn", 2000.0, "of the motor", "", component::range(1.0, 1e9)};
   component::OperationCaller<WheelSample(int)> read_{this, "readWheel", "has the drive say"};
   component::OperationCaller<bool(int, control::LimitedEffort)> set_{this, "setWheel",
                                                                      "drives the motor"};
-  component::OperationCaller<bool(int, control::DrivePermit)> switch_on_{
-      this, "wheelOn", "switches the drive on"};
+  component::OperationCaller<bool(int, control::DrivePermit)> switch_on_{this, "wheelOn",
+                                                                         "switches the drive on"};
   component::OperationCaller<bool(int)> switch_off_{this, "wheelOff", "switches the drive off"};
 
   bool on_ = false;  ///< switched on, as far as this side knows

@@ -216,10 +216,11 @@ TEST(RobotCheck, AJointHasBothEndsOrNone) {
                EXAMPLES "/07_own_robot/endless.yaml", options)
         .diagnostics.to_text();
   };
-  EXPECT_THAT(without_end(""),
-              AllOf(HasSubstr("'Joint1': property 'PositionMin' has no default and must be given (or "
-                              "set Continuous: true for a joint that turns without end)"),
-                    HasSubstr("property 'PositionMax' has no default")));
+  EXPECT_THAT(
+      without_end(""),
+      AllOf(HasSubstr("'Joint1': property 'PositionMin' has no default and must be given (or "
+                      "set Continuous: true for a joint that turns without end)"),
+            HasSubstr("property 'PositionMax' has no default")));
   EXPECT_EQ(without_end(", Continuous: true"), "");
 }
 

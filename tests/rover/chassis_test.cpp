@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rover's chassis as its deployments make it: what it does with speeds, and when there are none.
+// The rover's chassis as its deployments make it: what it does with speeds, and when there are
+// none.
 #include <chrono>
 #include <cmath>
 #include <cstdint>

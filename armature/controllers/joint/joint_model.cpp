@@ -146,10 +146,12 @@ std::string JointModel::objection(const Known& known, const JointSettings& limit
   const double braking =
       known.joint.heaviest.inertia * limits.max_acceleration + known.joint.most_weight;
   if (limits.lowest() < described.lower - kBeyond) {
-    return versus(limits.continuous ? "Continuous: PositionMin" : "PositionMin", limits.lowest(), "rad", "the joint ends at", described.lower);
+    return versus(limits.continuous ? "Continuous: PositionMin" : "PositionMin", limits.lowest(),
+                  "rad", "the joint ends at", described.lower);
   }
   if (limits.highest() > described.upper + kBeyond) {
-    return versus(limits.continuous ? "Continuous: PositionMax" : "PositionMax", limits.highest(), "rad", "the joint ends at", described.upper);
+    return versus(limits.continuous ? "Continuous: PositionMax" : "PositionMax", limits.highest(),
+                  "rad", "the joint ends at", described.upper);
   }
   if (limits.max_velocity > kFaster * described.max_velocity) {
     return versus("MaxVelocity", limits.max_velocity, "rad/s", "the description allows",
