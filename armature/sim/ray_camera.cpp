@@ -11,11 +11,31 @@
 #include "armature/sim/internal/ray_scene.hpp"
 
 namespace armature::sim {
+namespace internal {
+
+/// Pixels from `first` to before `end`.
+struct Span {
+  int first = 0;
+  int end = 0;
+};
+
+/// A thing as the eye has it in this image.
+struct Sight {
+  Matrix turn;    ///< from the eye's axes to those of the thing
+  Vector origin;  ///< the eye, in the axes of the thing
+  Vector light;
+  Span columns;
+  Span rows;
+};
+
+}  // namespace internal
 
 using internal::Frame;
 using internal::Matrix;
 using internal::Meeting;
 using internal::Scene;
+using internal::Sight;
+using internal::Span;
 using internal::Thing;
 using internal::Vector;
 
@@ -27,12 +47,6 @@ constexpr Vector kLight{-0.36, 0.48, 0.8};
 /// Of 256: in the shadow, and what full light adds.
 constexpr int kAmbient = 150;
 constexpr double kDiffuse = 106.0;
-
-/// Pixels from `first` to before `end`.
-struct Span {
-  int first = 0;
-  int end = 0;
-};
 
 /// Those of one axis in which a ball is seen; some too many, never one too few.
 /// @param aside  of its middle, in the picture's direction
@@ -57,15 +71,6 @@ std::uint64_t scrambled(std::uint64_t number) {
   number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
   return number ^ (number >> 31U);
 }
-
-/// A thing as the eye has it in this image.
-struct Sight {
-  Matrix turn;    ///< from the eye's axes to those of the thing
-  Vector origin;  ///< the eye, in the axes of the thing
-  Vector light;
-  Span columns;
-  Span rows;
-};
 
 }  // namespace
 
