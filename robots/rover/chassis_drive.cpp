@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
@@ -63,7 +64,7 @@ void ChassisDrive::on_sample() {
   const Gathering::Round round = gathering_->begin();
   if (round.missing > 0) {
     missing_.note(*gathering_,
-                  [this](std::size_t wheel) { return controllers::writer_of(position_[wheel]); });
+                  [this](std::size_t wheel) { return controllers::writer_of(face(position_[wheel])); });
   }
   if (round.overdue != Gathering::kNobody) {
     fail(round.overdue, "its encoder does not answer");
@@ -125,7 +126,7 @@ void ChassisDrive::check_age() {
 
 void ChassisDrive::drive() {
   if (const std::size_t disarmed = first_disarmed(); disarmed < wheels()) {
-    Reason why(controllers::writer_of(joint_armed_[disarmed]));
+    Reason why(controllers::writer_of(face(joint_armed_[disarmed])));
     stop_at_once(why.append(" is disarmed").view());
   }
   const Speeds target = moving_ ? within(wanted_, max_speed_) : Speeds{};
@@ -238,7 +239,7 @@ std::size_t ChassisDrive::first_disarmed() {
 void ChassisDrive::fail(std::size_t wheel, std::string_view what) {
   Reason why("wheel ");
   controllers::append_number(why, static_cast<double>(wheel + 1)).append(" (");
-  why.append(controllers::writer_of(position_[wheel])).append(") has failed: ").append(what);
+  why.append(controllers::writer_of(face(position_[wheel]))).append(") has failed: ").append(what);
   moving_ = false;
   ramp_.rest();
   tell_stop(why.view());

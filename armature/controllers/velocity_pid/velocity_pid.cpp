@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
@@ -64,8 +65,8 @@ void VelocityPid::reset() {
 
 /// It measures what it drives.
 void VelocityPid::on_check(component::Check& check) const {
-  for (const component::InputPortBase* const driven : check.readers_of(output_)) {
-    for (const component::OutputPortBase* const writer : check.writers_of(measured_)) {
+  for (const component::InputPortBase* const driven : check.readers_of(face(output_))) {
+    for (const component::OutputPortBase* const writer : check.writers_of(face(measured_))) {
       if (&writer->owner() == &driven->owner()) continue;
       check.error("it drives '" + std::string(driven->owner().name()) + "', and Sen is of '" +
                       std::string(writer->owner().name()) + "'",
@@ -75,14 +76,14 @@ void VelocityPid::on_check(component::Check& check) const {
 }
 
 std::vector<DrivenJoint> VelocityPid::joints(const component::Check& check) {
-  std::vector<DrivenJoint> joints = controllers::joints_behind(output_, check);
-  answer_later(joints, cycles_late(measured_, check), base::to_seconds(period()));
+  std::vector<DrivenJoint> joints = controllers::joints_behind(face(output_), check);
+  answer_later(joints, cycles_late(face(measured_), check), base::to_seconds(period()));
   return joints;
 }
 
 std::vector<DrivenJoint> VelocityPid::joints_behind(const component::InputPortBase* input,
                                                     const component::Check& check) {
-  return input == &reference_ ? joints(check) : std::vector<DrivenJoint>{};
+  return input == &face(reference_) ? joints(check) : std::vector<DrivenJoint>{};
 }
 
 std::string VelocityPid::objection(const DrivenJoint& joint, double period_s,
