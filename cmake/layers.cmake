@@ -8,6 +8,7 @@ set(ARMATURE_LAYERS
     "types: base"
     "rt: base platform"
     "control: base"
+    "vision: base"
     "guard: base platform rt"
     "idl: base"
     "component: base rt types"
@@ -35,6 +36,6 @@ set(ARMATURE_LAYERS
     "controllers: base component control guardian types"
     "general: base component record rt"
     "sim: base control"
-    "robots: base platform rt types controllers component can control guardian sim"
+    "robots: base platform rt types controllers component can control vision guardian sim"
     "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim"
     "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim")

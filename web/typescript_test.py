@@ -73,8 +73,8 @@ def main():
         check(node, source, folder, [*generated, *sorted((source / "idl/testdata/golden").glob("*.ts")),
                                      *sorted((source / "web/ride/test").glob("*.ts"))])
         # What the test would say if it could not tell: a use with a wrong type is refused.
-        (folder / "wrong.ts").write_text('import { VisionPlaceholder } from "./ball.js";\n'
-                                         "export const wrong = (it: VisionPlaceholder) => it.setThreshold(1, 2, \"3\");\n")
+        (folder / "wrong.ts").write_text('import { VSPlaceholder } from "./ball.js";\n'
+                                         "export const wrong = (it: VSPlaceholder) => it.setThreshold(1, 2, \"3\");\n")
         try:
             check(node, source, folder, [folder / "wrong.ts"])
         except AssertionError as problem:

@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Conversion{47, "pF", "nF", 0.047}, Conversion{2, "V/(rad/s)", "V s/rad", 2},
                     Conversion{2, "V/rad", "mV/rad", 2000}, Conversion{4, "counts", "count", 4},
                     Conversion{4, "pulse/rev", "count/rev", 4},
+                    Conversion{2, "m/(s px)", "mm/s/px", 2000},
                     Conversion{1, "Mbit/s", "kbit/s", 1000}, Conversion{300, "K", "K", 300},
                     Conversion{50, "%", "", 0.5}, Conversion{0.5, "1", "%", 50},
                     Conversion{0.3, " ", "", 0.3}));

@@ -66,7 +66,7 @@ void add_models(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand("models", "lists component models, or describes one");
   const auto arguments = arguments_of(*command, to, models);
   command->add_option("name", arguments->name,
-                      "the model to describe, or an interface file: ball.idl#Vision");
+                      "the model to describe, or an interface file: ball.idl#VS");
   command->add_option("-l,--library", arguments->libraries, "component library to search")
       ->allow_extra_args(false);
   add_folders(*command, arguments->library_folders);

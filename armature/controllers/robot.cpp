@@ -18,6 +18,7 @@
 #include "armature/controllers/robot_model/robot_model.hpp"
 #include "armature/controllers/sampler/sampler.hpp"
 #include "armature/controllers/sensor_mux/sensor_mux.hpp"
+#include "armature/controllers/velocity_pid/velocity_pid.hpp"
 
 using namespace armature::controllers;
 
@@ -30,6 +31,7 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints",
                                {{"Actuator#Demux", "joints"}});
   registry.add<Pid>("PID", "the controller of one joint");
+  registry.add<VelocityPid>("VelocityPID", "the controller of one joint that follows a velocity");
   registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints",
                                {{"Controller#PID", "joints"}});
   registry.add<ControllerNPIDFF>("ControllerNPIDFF",

@@ -17,12 +17,6 @@ namespace {
 using component::Signature;
 using From = component::CallParameter::From;
 
-/// `position [rad]` is `position`, in rad.
-struct NameAndUnit {
-  std::string name;
-  std::string unit;
-};
-
 NameAndUnit parts_of(std::string_view text) {
   const std::size_t open = text.find(" [");
   if (open == std::string_view::npos || !text.ends_with(']')) return {std::string(text), {}};
@@ -35,6 +29,18 @@ NameAndUnit argument(const Signature& signature, std::size_t index) {
   NameAndUnit named = parts_of(signature.arguments[index].name);
   if (named.name.empty()) named.name = "argument" + std::to_string(index + 1);
   return named;
+}
+
+/// `value [Unit]` has the unit that the property `Unit` of its component says.
+std::string resolved(std::string unit, const component::Component* owner) {
+  if (owner == nullptr) return unit;
+  for (const component::PropertyBase* property : component::interface_of(*owner).properties) {
+    const bool is_it = property->name() == unit;
+    if (is_it && &property->type() == &types::type_of<std::string>()) {
+      return *static_cast<const std::string*>(property->data());
+    }
+  }
+  return unit;
 }
 
 std::vector<std::string> names_of(const Signature& signature) {
@@ -114,6 +120,12 @@ bool ParameterBuilder::check_names(const Called& called) {
   return good;
 }
 
+NameAndUnit ParameterBuilder::wanted_argument(const Called& called, std::size_t index) const {
+  NameAndUnit wanted = argument(called.signature, index);
+  wanted.unit = resolved(std::move(wanted.unit), find_component(components_, called.to.component));
+  return wanted;
+}
+
 /// As `with` says; else the event's member of that name; where nothing is said and the names do not
 /// fit, the one at the same place.
 std::optional<component::CallParameter> ParameterBuilder::parameter(const Called& called,
@@ -164,7 +176,7 @@ std::optional<component::CallParameter> ParameterBuilder::given(const Called& ca
         called.event == nullptr ? std::nullopt : find_argument(*called.event, value.text);
     if (member) return from_member(called, index, *member, value.where);
   }
-  const NameAndUnit wanted = argument(called.signature, index);
+  const NameAndUnit wanted = wanted_argument(called, index);
   const types::Type& type = *called.signature.arguments[index].type;
   const std::string subject = "parameter " + in_quotes(wanted.name) + " of " + path(called.to);
   auto constant = make_value(value, type, wanted.unit, subject, diagnostics_);
@@ -191,7 +203,7 @@ std::optional<component::CallParameter> ParameterBuilder::from_member(const Call
 
 /// Its type and unit are those of the parameter, or it is a number that becomes one of them.
 bool ParameterBuilder::fits(const Called& called, std::size_t index, const Offer& offer) {
-  const NameAndUnit wants = argument(called.signature, index);
+  const NameAndUnit wants = wanted_argument(called, index);
   const types::Type& wanted = *called.signature.arguments[index].type;
   if (component::CallParameters::takes(wanted, offer.type) && same_unit(offer.unit, wants.unit))
     return true;

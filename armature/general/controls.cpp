@@ -8,6 +8,7 @@
 #include "armature/general/controls/constant.hpp"
 #include "armature/general/controls/displays.hpp"
 #include "armature/general/controls/integrator.hpp"
+#include "armature/general/controls/latch.hpp"
 #include "armature/general/controls/limit.hpp"
 #include "armature/general/controls/logic.hpp"
 #include "armature/general/controls/multiplier.hpp"
@@ -29,6 +30,7 @@ ARMATURE_COMPONENT_LIBRARY(controls, registry) {
   registry.add<Multiplier>("Multiplier", "multiplies its inputs");
   registry.add<Comparator>("Comparator", "tells when a value passes a threshold");
   registry.add<Selector>("Selector", "passes on one of its inputs");
+  registry.add<Latch>("Latch", "passes on the last number that it was told");
   registry.add<Limit>("Limit", "keeps a value between two bounds");
   registry.add<Logic>("Logic", "combines truth values");
   registry.add<Integrator>("Integrator", "sums a value up over time");

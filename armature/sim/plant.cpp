@@ -2,11 +2,9 @@
 #include "armature/sim/plant.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -15,58 +13,16 @@
 #include <mujoco/mujoco.h>
 
 #include "armature/base/seconds.hpp"
+#include "armature/sim/internal/mujoco_model.hpp"
 
 namespace armature::sim {
 namespace {
 
-struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using Model = std::unique_ptr<mjModel, DeleteModel>;
-using Data = std::unique_ptr<mjData, DeleteData>;
-
-/// MuJoCo reads files of its own file system, too: one that is in memory.
-class FilesInMemory {
- public:
-  FilesInMemory() : files_(std::make_unique<mjVFS>()) { mj_defaultVFS(files_.get()); }
-  FilesInMemory(const FilesInMemory&) = delete;
-  FilesInMemory& operator=(const FilesInMemory&) = delete;
-  ~FilesInMemory() { mj_deleteVFS(files_.get()); }
-
-  void add(const char* name, const std::string& text) {
-    mj_makeEmptyFileVFS(files_.get(), name, static_cast<int>(text.size()));
-    const int index = mj_findFileVFS(files_.get(), name);
-    std::copy(text.begin(), text.end(), static_cast<char*>(files_->filedata[index]));
-  }
-  const mjVFS* get() const { return files_.get(); }
-
- private:
-  std::unique_ptr<mjVFS> files_;
-};
-
-/// Without a handler MuJoCo writes warnings to a file, from the thread that steps.
-void ignore_warning(const char*) {}
-
-/// The text of a URDF as a model, or what is wrong with it.
-base::Result<Model> compile(const std::string& urdf, const std::string& name) {
-  mju_user_warning = ignore_warning;
-  // The name tells MuJoCo nothing: it knows a URDF by its root element.
-  constexpr const char* kName = "robot.urdf";
-  if (urdf.empty()) return base::Error{name + ": the file is empty, expected a URDF"};
-  FilesInMemory files;
-  files.add(kName, urdf);
-  std::array<char, 1000> error{};
-  Model model(mj_loadXML(kName, files.get(), error.data(), static_cast<int>(error.size())));
-  if (model == nullptr) return base::Error{name + ": " + error.data()};
-  return model;
-}
+using internal::Data;
+using internal::Model;
 
 std::string_view joint_name(const mjModel& model, int joint) {
-  const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
-  return name == nullptr ? std::string_view() : name;
+  return internal::name_of(model, mjOBJ_JOINT, joint);
 }
 
 base::Result<void> check_joints(const mjModel& model, const std::string& name) {
@@ -163,19 +119,9 @@ struct Plant::Impl {
   std::size_t joints() const { return static_cast<std::size_t>(model->njnt); }
   int dof(std::size_t joint) const { return model->jnt_dofadr[joint]; }
   int coordinate(std::size_t joint) const { return model->jnt_qposadr[joint]; }
-  bool sound() const;
   void forward();
   void inner();
 };
-
-/// Whether MuJoCo had nothing to warn of and the joints are to be accelerated by numbers.
-bool Plant::Impl::sound() const {
-  const auto warned = [](const mjWarningStat& warning) { return warning.number > 0; };
-  const auto wild = [](mjtNum acceleration) { return !(std::abs(acceleration) <= mjMAXVAL); };
-  const mjtNum* const accelerations = data->qacc;
-  return std::none_of(std::begin(data->warning), std::end(data->warning), warned) &&
-         std::none_of(accelerations, accelerations + model->nv, wild);
-}
 
 /// As mj_forward, with the couplings of the motors, which MuJoCo's own models do not know, in the
 /// inertia matrix.
@@ -197,7 +143,7 @@ void Plant::Impl::forward() {
 /// The two halves of mj_step, which would begin anew on its own where a number is not finite.
 void Plant::Impl::inner() {
   forward();
-  if (!sound()) {
+  if (!internal::is_sound(*model, *data)) {
     status = PlantStatus::kDiverged;
     return;
   }
@@ -228,7 +174,7 @@ base::Result<Plant> Plant::parse(const std::string& urdf, const std::string& nam
     return base::Error{name + ": inner_step is " + std::to_string(options.inner_step.count()) +
                        " ns, expected more than 0"};
   }
-  auto compiled = compile(urdf, name);
+  auto compiled = internal::compile(urdf, name, "a URDF");
   if (!compiled) return base::Error{compiled.error()};
   auto impl = std::make_unique<Impl>();
   impl->model = std::move(compiled).value();

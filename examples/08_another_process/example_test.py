@@ -74,7 +74,7 @@ def check_deployment(address):
 def check_mistakes(address):
     """Each is told at its place, in the interface file too."""
     folder = pathlib.Path(address.removeprefix("unix:")).parent
-    (folder / "ball.idl").write_text("interface Vision {\n    void start(strin name);\n};\n")
+    (folder / "ball.idl").write_text("interface VS {\n    void start(strin name);\n};\n")
     (folder / "ball.yaml").write_text(pathlib.Path(DEPLOYMENT).read_text())
     done = subprocess.run([armature, "check", str(folder / "ball.yaml")], capture_output=True, text=True,
                           timeout=120)
@@ -91,12 +91,12 @@ def check_models():
     interface = str(pathlib.Path(DEPLOYMENT).parent / "ball.idl")
     done = subprocess.run([armature, "models", interface], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
-    for shown in ("Vision: interface of ", "Chassis: interface of ", "void(float left [m/s], float right [m/s])",
+    for shown in ("VS: interface of ", "Chassis: interface of ", "void(float left [m/s], float right [m/s])",
                   "void(int32 x [px], int32 y [px])"):
         assert shown in done.stdout, done.stdout
-    done = subprocess.run([armature, "models", interface + "#Vison"], capture_output=True, text=True,
+    done = subprocess.run([armature, "models", interface + "#Chasis"], capture_output=True, text=True,
                           timeout=120)
-    assert done.returncode == 1 and "did you mean 'Vision'?" in done.stderr + done.stdout, done
+    assert done.returncode == 1 and "did you mean 'Chassis'?" in done.stderr + done.stdout, done
 
 
 with tempfile.TemporaryDirectory() as folder:

@@ -14,6 +14,8 @@ namespace {
 
 constexpr float kTurning = 0.002f;  // k1 [m/s per px]
 constexpr float kDriving = 0.02f;   // k2
+constexpr int kMiddleX = 160;       // x0 of a picture of 320 x 240 pixels [px]
+constexpr int kMiddleY = 120;       // y0
 constexpr int kNearEnough = 5;      // [px]
 constexpr int kPicturesInTheMiddle = 20;
 
@@ -23,14 +25,16 @@ class Pilot {
 
   std::future<void> arrival() { return arrival_.get_future(); }
 
-  void follow(const ball::ObjectPosition& ball) {
+  void follow(const ball::ObjectPositionEvent& ball) {
     if (arrived_) return;
-    const float turn = kTurning * static_cast<float>(ball.x);
-    const float drive = kDriving * static_cast<float>(ball.y);
+    const int right = ball.x - kMiddleX;
+    const int up = ball.y - kMiddleY;
+    const float turn = kTurning * static_cast<float>(right);
+    const float drive = kDriving * static_cast<float>(up);
     const auto within = [](float velocity) { return std::clamp(velocity, -1.0f, 1.0f); };
     chassis_.setVelocity(within(drive + turn), within(drive - turn));
 
-    const bool in_the_middle = std::abs(ball.x) < kNearEnough && std::abs(ball.y) < kNearEnough;
+    const bool in_the_middle = std::abs(right) < kNearEnough && std::abs(up) < kNearEnough;
     pictures_ = in_the_middle ? pictures_ + 1 : 0;
     if (pictures_ < kPicturesInTheMiddle) return;
     arrived_ = true;
@@ -50,7 +54,7 @@ class Pilot {
 int main(int count, char** arguments) {
   armature::ride::Node node;
   armature::ride::Peer& robot = node.connect(count > 1 ? arguments[1] : "tcp://127.0.0.1:4848");
-  ball::VisionPlaceholder vision(robot, "Vision");
+  ball::VSPlaceholder vision(robot, "Vision");
   ball::ChassisPlaceholder chassis(robot, "Chassis");
   const auto connected = robot.wait_until_connected(std::chrono::seconds(5));
   if (!connected) {
@@ -67,8 +71,8 @@ int main(int count, char** arguments) {
 
   Pilot pilot(chassis);
   std::future<void> arrival = pilot.arrival();
-  const auto pictures = vision.on_ObjectPosition(
-      [&](const ball::ObjectPosition& position) { pilot.follow(position); });
+  const auto pictures = vision.on_ObjectPositionEvent(
+      [&](const ball::ObjectPositionEvent& position) { pilot.follow(position); });
   vision.start();
   // A robot that comes back has a camera that is off.
   const auto changes = robot.on_change([&](const armature::ride::PeerChange& change) {

@@ -29,7 +29,7 @@ class Wheels final : public ball::ChassisService {
   std::atomic<float> right_{0.0f};
 };
 
-class Camera final : public ball::VisionService {
+class Camera final : public ball::VSService {
  public:
   std::int32_t initialize() override { return 0; }
   std::int32_t setThreshold(std::uint32_t, std::uint32_t, std::uint32_t) override { return 0; }
@@ -37,7 +37,7 @@ class Camera final : public ball::VisionService {
   void stop() override { on_ = false; }
 
   void see(int x, int y) {
-    if (on_) raise(ball::ObjectPosition{x, y});
+    if (on_) raise(ball::ObjectPositionEvent{x, y});
   }
 
  private:
@@ -54,8 +54,9 @@ struct Ball {
     bearing -= (right - left) / kTrack * seconds;
     distance = std::max(0.2, distance - (left + right) / 2 * std::cos(bearing) * seconds);
   }
-  int column() const { return static_cast<int>(std::lround(-200 * std::tan(bearing))); }
-  int row() const { return static_cast<int>(std::lround(60 * (distance - 1.0))); }
+  /// In a picture of 320 x 240 pixels, from its lower left corner [px].
+  int x() const { return static_cast<int>(std::lround(160 - 200 * std::tan(bearing))); }
+  int y() const { return static_cast<int>(std::lround(120 + 60 * (distance - 1.0))); }
 };
 
 }  // namespace
@@ -77,6 +78,6 @@ int main(int count, char** arguments) {
   for (auto next = std::chrono::steady_clock::now();; std::this_thread::sleep_until(next)) {
     next += kPeriod;
     ball.move(wheels.left(), wheels.right(), std::chrono::duration<double>(kPeriod).count());
-    camera.see(ball.column(), ball.row());
+    camera.see(ball.x(), ball.y());
   }
 }

@@ -24,6 +24,7 @@
 #include "armature/controllers/pid/pid.hpp"
 #include "armature/controllers/sampler/sampler.hpp"
 #include "armature/controllers/sensor_mux/sensor_mux.hpp"
+#include "armature/controllers/velocity_pid/velocity_pid.hpp"
 #include "armature/testing/harness.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -107,6 +108,21 @@ TEST(RealtimeComponents, Pid) {
     pid.write("Ref", 1.0);
     pid.write("Sen", 0.0);
     EXPECT_TRUE(pid.call("reset"));
+  });
+  EXPECT_EQ(pid.writes("Out"), 100u);
+}
+
+TEST(RealtimeComponents, VelocityPid) {
+  testing::Harness pid(std::make_unique<VelocityPid>("PID"));
+  pid.set("UMin", -1.0);
+  pid.set("UMax", 1.0);
+  pid.set("Ki", 0.1);
+  pid.set("Period", 0.01);
+  start(pid);
+  expect_realtime_on_bench("VelocityPid", [&] {
+    pid.write("Ref", 1.0);
+    pid.write("Sen", 0.0);
+    pid.raise("Arm");
   });
   EXPECT_EQ(pid.writes("Out"), 100u);
 }

@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "armature/sim/brake.hpp"
 #include "armature/sim/encoder.hpp"
 #include "armature/sim/index_switch.hpp"
 #include "armature/sim/motor.hpp"
 #include "armature/sim/plant.hpp"
+#include "armature/sim/ray_camera.hpp"
+#include "armature/sim/world.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::sim {
@@ -70,6 +73,41 @@ TEST(RealtimeSim, AMotorWithItsEncoder) {
   bool closed = false;
   expect_realtime("IndexSwitch::closed", [&] { closed = index.closed(0.0); });
   EXPECT_TRUE(closed);
+}
+
+const char* const kBallOnFloor =
+    "<mujoco><worldbody><geom type='plane' size='1 1 1'/>"
+    "<camera name='eye' pos='0 0 2'/>"
+    "<body name='ball' pos='0 0 0.5'><freejoint/><geom type='sphere' size='0.1'/>"
+    "<body name='hand' pos='0.2 0 0'><joint name='wrist' axis='0 0 1'/>"
+    "<geom type='box' size='0.05 0.05 0.05'/></body></body></worldbody></mujoco>";
+
+TEST(RealtimeSim, AWorldOfBodiesThatTouch) {
+  auto made = World::parse(kBallOnFloor, "ball", {});
+  ASSERT_TRUE(made) << made.error();
+  World& world = made.value();
+  const std::size_t ball = *world.find_body("ball");
+  const std::size_t wrist = *world.find_joint("wrist");
+  Pose pose;
+  expect_realtime("World::set_effort", [&] { world.set_effort(wrist, 0.001); });
+  expect_realtime("World::step", [&] { world.step(10ms); });
+  expect_realtime("World::pose", [&] { pose = world.pose(ball); });
+  expect_realtime("World::place", [&] { world.place(ball, pose); });
+  EXPECT_LT(pose.position[2], 0.2) << "it fell";
+}
+
+TEST(RealtimeSim, ACamera) {
+  auto made = RayCamera::parse(kBallOnFloor, "ball",
+                               {.camera = "eye", .width = 16, .height = 12, .noise = 2.0});
+  ASSERT_TRUE(made) << made.error();
+  RayCamera& camera = made.value();
+  const std::size_t ball = *camera.find_body("ball");
+  std::vector<std::uint8_t> image;
+  camera.render(0, image);
+  const std::vector<std::uint8_t> before = image;
+  expect_realtime("RayCamera::place", [&] { camera.place(ball, {{0.3, 0.0, 1.0}, {1, 0, 0, 0}}); });
+  expect_realtime("RayCamera::render", [&] { camera.render(0, image); });
+  EXPECT_NE(image, before);
 }
 
 }  // namespace

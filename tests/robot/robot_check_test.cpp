@@ -201,6 +201,29 @@ TEST(RobotCheck, SaysWhatOfTheRobotIsMissing) {
               HasSubstr("expected motor_resistance and motor_torque_constant, or neither"));
 }
 
+TEST(RobotCheck, AJointHasBothEndsOrNone) {
+  EXPECT_THAT(own({"Joint1.Continuous=true"}),
+              AllOf(HasSubstr("'Joint1': property 'PositionMin' is given, and Continuous says that "
+                              "the joint turns without end (leave out one of them)"),
+                    HasSubstr("property 'PositionMax' is given")));
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, SERVO_LIBRARY};
+  const auto without_end = [&](const std::string& more) {
+    return deploy::parse_deployment(
+               "include: arm.yaml\napplication: endless\ncomponents:\n  Joint1: {override: true, "
+               "properties: {PositionMin: {remove: true}, PositionMax: {remove: true}" +
+                   more + "}}\n",
+               EXAMPLES "/07_own_robot/endless.yaml", options)
+        .diagnostics.to_text();
+  };
+  EXPECT_THAT(
+      without_end(""),
+      AllOf(HasSubstr("'Joint1': property 'PositionMin' has no default and must be given (or "
+                      "set Continuous: true for a joint that turns without end)"),
+            HasSubstr("property 'PositionMax' has no default")));
+  EXPECT_EQ(without_end(", Continuous: true"), "");
+}
+
 TEST(RobotCheck, WarnsOfAJointThatNobodyDescribes) {
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, SERVO_LIBRARY};

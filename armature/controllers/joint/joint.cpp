@@ -111,8 +111,8 @@ Outcome Joint::set_up() {
 }
 
 JointLimiter::Config Joint::limits() const {
-  return {.lower = settings_->lower,
-          .upper = settings_->upper,
+  return {.lower = settings_->lowest(),
+          .upper = settings_->highest(),
           .max_velocity = settings_->max_velocity,
           .max_acceleration = settings_->max_acceleration,
           .max_effort = settings_->max_effort,

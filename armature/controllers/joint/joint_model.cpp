@@ -64,6 +64,7 @@ const DescribesRobot* JointModel::robot(const component::Check& check) const {
 void JointModel::check(component::Check& check) const {
   known_.reset();
   const JointSettings& limits = settings_.get();
+  check_ends(check);
   if (!all_numbers(limits)) return check.error("one of its limits is not a number");
   const DescribesRobot* const model = robot(check);
   if (number_ == 0 && model == nullptr) {
@@ -82,6 +83,21 @@ void JointModel::check(component::Check& check) const {
     check.error(wrong);
   }
   known_ = std::move(found).value();
+}
+
+/// A joint either has both ends, or none.
+void JointModel::check_ends(component::Check& check) const {
+  for (const component::PropertyBase* const each : component::interface_of(owner_).properties) {
+    if (each->name() != "PositionMin" && each->name() != "PositionMax") continue;
+    const std::string name = "property '" + std::string(each->name()) + "'";
+    if (settings_->continuous && each->was_set()) {
+      check.error(name + " is given, and Continuous says that the joint turns without end",
+                  "leave out one of them");
+    } else if (!settings_->continuous && !each->was_set()) {
+      check.error(name + " has no default and must be given",
+                  "or set Continuous: true for a joint that turns without end");
+    }
+  }
 }
 
 /// Hardware that has the gear itself tells of the joint's axis.
@@ -116,8 +132,8 @@ base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) co
   Known known{.joint = std::move(joint).value(), .described = {}};
   known.joint.name = owner_.name();
   known.joint.most_effort = settings_->max_effort;
-  known.joint.lower = settings_->lower;
-  known.joint.upper = settings_->upper;
+  known.joint.lower = settings_->lowest();
+  known.joint.upper = settings_->highest();
   known.joint.max_velocity = settings_->max_velocity;
   known.joint.max_acceleration = settings_->max_acceleration;
   known.described = robot.limits(number);
@@ -129,11 +145,13 @@ std::string JointModel::objection(const Known& known, const JointSettings& limit
   const double torque = known.joint.lightest.torque_per_effort * limits.max_effort;
   const double braking =
       known.joint.heaviest.inertia * limits.max_acceleration + known.joint.most_weight;
-  if (limits.lower < described.lower - kBeyond) {
-    return versus("PositionMin", limits.lower, "rad", "the joint ends at", described.lower);
+  if (limits.lowest() < described.lower - kBeyond) {
+    return versus(limits.continuous ? "Continuous: PositionMin" : "PositionMin", limits.lowest(),
+                  "rad", "the joint ends at", described.lower);
   }
-  if (limits.upper > described.upper + kBeyond) {
-    return versus("PositionMax", limits.upper, "rad", "the joint ends at", described.upper);
+  if (limits.highest() > described.upper + kBeyond) {
+    return versus(limits.continuous ? "Continuous: PositionMax" : "PositionMax", limits.highest(),
+                  "rad", "the joint ends at", described.upper);
   }
   if (limits.max_velocity > kFaster * described.max_velocity) {
     return versus("MaxVelocity", limits.max_velocity, "rad/s", "the description allows",

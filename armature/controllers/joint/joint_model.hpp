@@ -38,6 +38,7 @@ class JointModel final : public component::Checked, public component::PropertyFo
     double sensor_turns = 1.0;  ///< that DisplacementSensor tells for one of the motor's axis
   };
 
+  void check_ends(component::Check& check) const;
   const DescribesRobot* robot(const component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
   double sensor_turns(const component::Check& check) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+
 #include "armature/component/author.hpp"
 
 namespace armature::controllers {
@@ -14,6 +16,7 @@ struct JointSettings {
   double initial_position = 0.0;
 
   // Of the limiter.
+  bool continuous = false;
   double lower = 0.0;
   double upper = 0.0;
   double max_velocity = 0.0;
@@ -28,6 +31,13 @@ struct JointSettings {
   double holding_motion = 0.1;
   double holding_velocity = 0.5;
   double holding_alternation = 0.4;
+
+  /// Where the joint ends; a continuous one does not.
+  double lowest() const { return continuous ? -kNoEnd : lower; }
+  double highest() const { return continuous ? kNoEnd : upper; }
+
+ private:
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 };
 
 /// They are the properties of a Joint.

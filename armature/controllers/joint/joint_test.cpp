@@ -168,6 +168,25 @@ TEST_F(JointTest, RefusesToStartWithWhatCannotBe) {
   EXPECT_THAT(std::string(joint.start().reason()), HasSubstr("upper"));
 }
 
+TEST_F(JointTest, WithAnEndItIsDrivenNoFarther) {
+  start_armed();
+  sample(400.0);  // at 5 rad, beyond PositionMax
+  sample();
+  EXPECT_EQ(act(1.0), 0.0);
+}
+
+TEST_F(JointTest, ThatIsContinuousIsDrivenOnWithoutEnd) {
+  joint.set("Continuous", true);
+  start_armed();
+  for (int period = 0; period < 700; ++period) {
+    act(0.1);
+    sample(0.9);
+  }
+  EXPECT_GT(position(), 7.0);  // PositionMax is 4.5
+  EXPECT_EQ(act(1.0), 1.0);
+  EXPECT_EQ(act(-1.0), -1.0);
+}
+
 TEST(UnconnectedJoint, IsRefusedAtStartUnlessItFollowsNoSampler) {
   testing::Harness joint{std::make_unique<Joint>("Joint1")};
   joint.set("PeerName", "Card");

@@ -56,7 +56,7 @@ std::optional<sys_seconds> date_of(const std::string& text) {
 }
 
 std::string range_text(const JointSettings& settings) {
-  return figure(settings.lower) + " to " + figure(settings.upper) + " rad";
+  return figure(settings.lowest()) + " to " + figure(settings.highest()) + " rad";
 }
 
 }  // namespace
@@ -116,7 +116,8 @@ std::string KeptPosition::objection(const KeepingMoment& moment) const {
     return "has the date " + found_.date + ", which is to come: it is " + date_text(moment.now);
   }
   const double position = found_.position;
-  if (!std::isfinite(position) || position < settings_->lower || position > settings_->upper) {
+  if (!std::isfinite(position) || position < settings_->lowest() ||
+      position > settings_->highest()) {
     return "is " + figure(position) + " rad, expected " + range_text(settings_.get());
   }
   return {};
@@ -140,7 +141,8 @@ std::string KeptPosition::end(const KeepingMoment& moment) {
   if (!stop_.braked) return "its brake did not confirm that it holds";
   if (!stop_.exact) return "a sample of it was lost";
   if (doubtful_ && !proposal_) return "the operator did not confirm where it began";
-  const bool within = stop_.position >= settings_->lower && stop_.position <= settings_->upper;
+  const bool within =
+      stop_.position >= settings_->lowest() && stop_.position <= settings_->highest();
   if (!within) {
     return "it is at " + figure(stop_.position) + " rad, outside " + range_text(settings_.get());
   }

@@ -33,6 +33,12 @@ struct Called {
   const component::Signature* event = nullptr;  ///< its members
 };
 
+/// `position [rad]` is `position`, in rad.
+struct NameAndUnit {
+  std::string name;
+  std::string unit;
+};
+
 /// Finds what gives the parameters of a call, and whether it fits.
 class ParameterBuilder {
  public:
@@ -62,6 +68,7 @@ class ParameterBuilder {
                                        const base::Location& where);
   std::optional<Parameter> from_port(const Called& called, std::size_t index, const Value& written);
   bool fits(const Called& called, std::size_t index, const Offer& offer);
+  NameAndUnit wanted_argument(const Called& called, std::size_t index) const;
 
   const Components& components_;
   base::Diagnostics& diagnostics_;

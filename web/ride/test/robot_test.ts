@@ -12,12 +12,12 @@ import * as ride from "../src/tcp.ts";
 const folder = mkdtempSync(join(tmpdir(), "robot_"));
 after(() => rmSync(folder, { recursive: true }));
 
-const ObjectPosition = ride.event<{ x: number; y: number }>("ObjectPosition", 0x714c2b59, { x: ride.int, y: ride.int });
+const ObjectPosition = ride.event<{ x: number; y: number }>("ObjectPositionEvent", 0xd5a0d923, { x: ride.int, y: ride.int });
 
 /** As rcidl writes it of ball.idl. */
 class Vision extends ride.Placeholder {
   constructor(peer: ride.Peer) {
-    super(peer, "Vision", "Vision", 0xb303dcc2);
+    super(peer, "Vision", "VS", 0x0b00e8e4);
   }
   initialize() {
     return this.request("initialize", ride.numberOf("int initialize()"), [], ride.int);
@@ -32,7 +32,7 @@ class Vision extends ride.Placeholder {
   missing() {
     return this.request("missing", ride.numberOf("int missing()"), [], ride.int);
   }
-  on_ObjectPosition(handler: ride.Handler<{ x: number; y: number }>) {
+  on_ObjectPositionEvent(handler: ride.Handler<{ x: number; y: number }>) {
     return this.subscribe(ObjectPosition, handler);
   }
 }
@@ -60,9 +60,9 @@ for (const address of ["tcp://127.0.0.1:0", `unix:${folder}/robot.sock`]) {
     assert.equal(await vision.setThreshold(1, 2, 3), 0);
     await assert.rejects(vision.setThreshold(300, 2, 3), /'Vision' at .*, setThreshold: parameter red is 300, expected 0 to 255/);
     await assert.rejects(vision.missing(), { code: ride.Code.noSuchOperation });
-    const seen = new Promise<{ x: number; y: number }>((resolve) => void vision.on_ObjectPosition(resolve));
+    const seen = new Promise<{ x: number; y: number }>((resolve) => void vision.on_ObjectPositionEvent(resolve));
     await vision.start();
-    assert.equal((await seen).y, 120);
+    assert.equal((await seen).y, 240);
     peer.close();
     await ended(there.process);
   });
@@ -74,7 +74,7 @@ test("A robot that is killed and started again is found again, and is not told a
   const peer = await ride.connect(address);
   const vision = new Vision(peer);
   let seen = 0;
-  vision.on_ObjectPosition(() => void ++seen);
+  vision.on_ObjectPositionEvent(() => void ++seen);
   await vision.start();
   await ended(first.process);
   while (peer.isConnected()) await new Promise((resolve) => setTimeout(resolve, 5));
