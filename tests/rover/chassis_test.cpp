@@ -283,5 +283,19 @@ TEST(RoverBody, GainsThatWouldShakeAWheelAreRefused) {
   EXPECT_THAT(wild.diagnostics.to_text(), HasSubstr("Chassis.Joint1: shakes at "));
 }
 
+TEST(RoverBody, ATopSpeedThatItsJointsWouldCutIsRefusedAtCheckAndAtRunTime) {
+  const auto fast = Robot::load(by_script(), {"Chassis.Drive.MaxSpeed=1.2 m/s"});
+  EXPECT_THAT(fast.diagnostics.to_text(),
+              HasSubstr("'Chassis.Drive': MaxSpeed is 1.2 m/s, which Chassis.Joint1 makes with 24 "
+                        "rad/s, expected at most its MaxVelocity of 20 rad/s"));
+  Robot robot(by_script());
+  robot.start_armed();
+  EXPECT_FALSE(
+      robot.application().set_property("Chassis.Drive", "MaxSpeed", types::Value::of(1.2)));
+  EXPECT_TRUE(robot.application().set_property("Chassis.Drive", "MaxSpeed", types::Value::of(0.4)));
+  robot.drive(0.6F, 0.6F, 1s);
+  EXPECT_NEAR(robot.speed(0), 0.4, 0.02);
+}
+
 }  // namespace
 }  // namespace armature::rover
