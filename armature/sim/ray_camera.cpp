@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -27,6 +26,8 @@ constexpr Vector kLight{-0.36, 0.48, 0.8};
 /// Of 256: in the shadow, and what full light adds.
 constexpr int kAmbient = 150;
 constexpr double kDiffuse = 106.0;
+/// Beyond that nothing is seen, and no body is [m].
+constexpr double kFarthest = 1e6;
 
 /// Pixels from `first` to before `end`.
 struct Span {
@@ -133,7 +134,7 @@ void RayCamera::Impl::scan(const Shape& shape, const Thing& thing, const Sight& 
 }
 
 void RayCamera::Impl::render_row(int row) {
-  std::fill(depth.begin(), depth.end(), std::numeric_limits<double>::infinity());
+  std::fill(depth.begin(), depth.end(), kFarthest);
   std::fill(colour.begin(), colour.end(), kSky);
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const Sight& sight = sights[i];
@@ -204,8 +205,14 @@ std::optional<std::size_t> RayCamera::find_body(std::string_view name) const {
   return static_cast<std::size_t>(body);
 }
 
-void RayCamera::place(std::size_t body, const Pose& pose) {
+bool RayCamera::place(std::size_t body, const Pose& pose) {
+  const auto near = [](double length) { return std::abs(length) <= kFarthest; };
+  const auto& [w, x, y, z] = pose.orientation;
+  const double length = w * w + x * x + y * y + z * z;
+  const bool turned = length > 0.5 && length < 2.0;
+  if (!turned || !std::all_of(pose.position.begin(), pose.position.end(), near)) return false;
   impl_->scene.bodies[body] = internal::snapped(pose);
+  return true;
 }
 
 std::size_t RayCamera::size() const {
