@@ -192,7 +192,7 @@ base::Result<RayCamera> RayCamera::parse(const std::string& mjcf, const std::str
   impl->options = options;
   const double focal = 0.5 * options.height / std::tan(0.5 * impl->scene.field_of_view);
   impl->focal = std::floor(focal * kFocalSteps + 0.5) / kFocalSteps;
-  impl->noise_step = static_cast<int>(options.noise / kNoiseDeviation * 65536.0 + 0.5);
+  impl->noise_step = static_cast<int>(std::lround(options.noise / kNoiseDeviation * 65536.0));
   impl->sights.resize(impl->scene.things.size());
   impl->depth.resize(static_cast<std::size_t>(options.width));
   impl->colour.resize(static_cast<std::size_t>(options.width));
