@@ -12,7 +12,7 @@ using namespace armature::rover;
 ARMATURE_COMPONENT_LIBRARY(rover, registry) {
   registry.add<SimulatedRover>("SimulatedRover",
                                "the simulated rover in its arena, with its drives");
-  registry.add<Wheel>("Wheel", "a wheel with its motor and encoder: the hardware of a joint");
+  registry.add<Wheel>("RoverWheel", "a wheel with its motor and encoder: the hardware of a joint");
   registry.add<Camera>("Camera", "the images of the camera on the rover's mast");
   registry.add<Ball>("Ball", "the ball, on a way that is chosen");
   registry.add<ChassisDrive>("ChassisDrive", "drives the wheels of both sides: setVelocity",
