@@ -15,15 +15,16 @@ export interface BoxData extends Record<string, unknown> {
   ports: boolean;
   lane: number;      ///< of its thread; -1: several, or none
   errors: number;
+  off: boolean;      ///< in the mode that is shown
 }
 
 export type BoxNodeType = Node<BoxData, "box">;
 
 export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
-  const { box, ports, lane, errors } = data;
+  const { box, ports, lane, errors, off } = data;
   const state = run.use((all) => boxes_state(box, all.components));
   const stacked = box.names.length > 1;
-  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state)];
+  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state), off && "is-off"];
   return (
     <div className={classes.filter(Boolean).join(" ")} data-lane={lane}>
       <header title={box_title(box)}>
@@ -31,7 +32,7 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
         {stacked && <span className="count">{`×${box.names.length}`}</span>}
         {errors > 0 && <span className="mistakes" title={`${errors} problems`}>!</span>}
         <small>{subtitle(box)}</small>
-        {state && <em className="state">{state}</em>}
+        {(state || off) && <em className="state">{off ? "off" : state}</em>}
       </header>
       {box.inputs.map((port) => <PortRow key={port.id} box={box} port={port} shown={ports} />)}
       {box.outputs.map((port) => <PortRow key={port.id} box={box} port={port} shown={ports} />)}

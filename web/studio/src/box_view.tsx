@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
+import { takes_calls } from "./calls.ts";
+import { Calls } from "./calls_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
 import { Field } from "./field.tsx";
 import type { Box } from "./graph.ts";
@@ -23,6 +25,7 @@ export function BoxView({ box }: { box: Box }) {
       {is_range(box) && <SplitField box={box} />}
       {!box.composite && <ActivityField box={box} />}
       {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
+      {!box.composite && takes_calls(box) && <Calls box={box} />}
       {!box.composite && <Requirements box={box} />}
       <p className="actions">
         <ConnectByName boxes={[box.id]} />

@@ -11,6 +11,8 @@ import { port_place, size_of } from "./geometry.ts";
 import type { Box, Graph, Wire } from "./graph.ts";
 import type { Lane } from "./lanes.ts";
 import { on_grid, type Point } from "./layout.ts";
+import { is_off } from "./modes.ts";
+import { ShownMode, useShownMode } from "./modes_view.tsx";
 import { kMostWithPorts, lanes_of, places_of } from "./placing.ts";
 import { change, edit, project } from "./project.ts";
 import { arrange, arrangements } from "./remembered.ts";
@@ -70,6 +72,7 @@ function Flow() {
           <ControlButton onClick={arrange} title="Lay out anew all boxes that nobody moved" aria-label="Arrange">⇶</ControlButton>
           <ControlButton onClick={() => selection.set({ lanes: !in_lanes })} title="Threads as lanes: places of boxes stay as they are" aria-label="Threads as lanes" aria-pressed={in_lanes}>☰</ControlButton>
         </Controls>
+        <ShownMode />
         {graph.boxes.length > kMostWithoutMap && <MiniMap pannable zoomable ariaLabel="Overview" />}
       </ReactFlow>
       {graph.boxes.length === 0 && <Empty />}
@@ -109,12 +112,13 @@ function useNodes(graph: Graph) {
   const ports = !far && graph.boxes.length <= kMostWithPorts;
   const [moved, set_moved] = useState<ReadonlyMap<string, Point>>(new Map());
   useEffect(() => set_moved(new Map()), [places, graph]);
+  const { modes, mode } = useShownMode();
   const arranged = arrangements.use((state) => state.count);
   const in_lanes = selection.use((state) => state.lanes);
   const laid = useMemo(() => (in_lanes ? lanes_of(graph) : { places: places_of(graph, places), lanes: [] }), [graph, places, arranged, in_lanes]);
   const all = useMemo(
-    () => graph.boxes.map((box) => node_of(box, moved.get(box.id) ?? laid.places.get(box.id)!, ports, chosen.includes(box.id), lane_of(box), errors_of(box, diagnostics))),
-    [graph, moved, laid, ports, chosen, diagnostics],
+    () => graph.boxes.map((box) => node_of(moved.get(box.id) ?? laid.places.get(box.id)!, chosen.includes(box.id), { box, ports, lane: lane_of(box), errors: errors_of(box, diagnostics), off: is_off(box, modes, mode) })),
+    [graph, moved, laid, ports, chosen, diagnostics, modes, mode],
   );
   const changed = useCallback((changes: NodeChange<BoxNodeType>[]) => {
     select_nodes(changes);
@@ -133,9 +137,9 @@ function place_in(nodes: BoxNodeType[], id: string): [string, Point] {
   return [id, [on_grid(x), on_grid(y)]];
 }
 
-function node_of(box: Box, [x, y]: Point, ports: boolean, selected: boolean, lane: number, errors: number): BoxNodeType {
+function node_of([x, y]: Point, selected: boolean, data: BoxData): BoxNodeType {
+  const { box, ports, off } = data;
   const size = size_of(box, ports);
-  const data: BoxData = { box, ports, lane, errors };
   const handles = [...box.inputs, ...box.outputs].map((port) => {
     const at = port_place(box, port, ports);
     const source = is_source(port);
@@ -144,7 +148,7 @@ function node_of(box: Box, [x, y]: Point, ports: boolean, selected: boolean, lan
       x: at.x - 5, y: at.y - 5, width: 10, height: 10,
     };
   });
-  const label = `${box.title}, ${box.model}${box.names.length > 1 ? `, ${box.names.length} of them` : ""}`;
+  const label = `${box.title}, ${box.model}${box.names.length > 1 ? `, ${box.names.length} of them` : ""}${off ? ", off in this mode" : ""}`;
   return { id: box.id, type: "box", position: { x, y }, ...size, measured: size, selected, data, handles, ariaLabel: label, domAttributes: { "aria-roledescription": "box" } };
 }
 

@@ -4,6 +4,7 @@ import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
 import { CommandView } from "./command_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
+import { Includes } from "./includes_view.tsx";
 import { project } from "./project.ts";
 import { group_selected, may_group } from "./grouping.ts";
 import { box_called, counted, port_of, remove_selected, useScene } from "./scene.ts";
@@ -62,6 +63,7 @@ function Application() {
         {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
       </ul>
       {shown.components.length > 1 && <p className="actions"><ConnectByName /></p>}
+      <Includes />
       <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>
     </>
   );

@@ -2,6 +2,7 @@
 import { lazy, type ReactNode, Suspense } from "react";
 import { CycleView } from "./cycle_view.tsx";
 import { Log } from "./log.tsx";
+import { Modes } from "./modes_view.tsx";
 import { Operate } from "./operate.tsx";
 import { Problems } from "./problems.tsx";
 import { project } from "./project.ts";
@@ -10,10 +11,10 @@ import { Threads } from "./threads.tsx";
 
 const Plot = lazy(() => import("./plot.tsx"));
 
-const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["cycle", "Cycle"], ["plot", "Plot"], ["operate", "Operate"]];
+const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["cycle", "Cycle"], ["plot", "Plot"], ["modes", "Modes"], ["operate", "Operate"]];
 
 const views: Record<Tab, () => ReactNode> = {
-  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, cycle: () => <CycleView />, operate: () => <Operate />,
+  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, cycle: () => <CycleView />, operate: () => <Operate />, modes: () => <Modes />,
   plot: () => <Suspense fallback={<p className="hint">Opening the plot …</p>}><Plot /></Suspense>,
 };
 
