@@ -24,7 +24,7 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
   const { box, ports, lane, errors, off } = data;
   const state = run.use((all) => boxes_state(box, all.components));
   const stacked = box.names.length > 1;
-  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state), off && "is-off"];
+  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state), off && "is-off", box.components[0]!.unknown && "is-unknown"];
   return (
     <div className={classes.filter(Boolean).join(" ")} data-lane={lane}>
       <header title={box_title(box)}>
@@ -42,6 +42,8 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
 
 function subtitle(box: Box): string {
   if (box.opened) return "an event that commands";
+  if (box.components[0]!.unknown) return `${box.model || "no model"} · has a mistake`;
+  if (!box.model) return "switches modes";
   if (box.composite) return `${box.model} · ${box.components.length} parts`;
   return `${box.model} · ${activity_text(box.components[0]!.activity)}`;
 }

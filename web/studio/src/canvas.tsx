@@ -8,6 +8,7 @@ import { WireEdge } from "./wire_edge.tsx";
 import { BoxNode, type BoxData, type BoxNodeType } from "./box_node.tsx";
 import { Breadcrumb } from "./breadcrumb.tsx";
 import { port_place, size_of } from "./geometry.ts";
+import { has_nothing_yet } from "./checked.ts";
 import type { Box, Graph, Wire } from "./graph.ts";
 import type { Lane } from "./lanes.ts";
 import { on_grid, type Point } from "./layout.ts";
@@ -93,12 +94,22 @@ function LaneBands({ lanes }: { lanes: Lane[] }) {
 }
 
 function Empty() {
+  const checked = project.use((state) => state.checked);
   const loaded = project.use((state) => state.loaded);
+  if (!loaded || !checked) return <div className="empty"><p><strong>Reading the deployment …</strong></p></div>;
+  if (!has_nothing_yet(checked)) {
+    return (
+      <div className="empty">
+        <p><strong>The text cannot be read as it is.</strong></p>
+        <p>Problems, below, say where and why. Press Text, at the top, and mend it there: the components then stand here.</p>
+      </div>
+    );
+  }
   return (
     <div className="empty">
-      <p><strong>{loaded ? "This deployment has no components yet." : "Reading the deployment …"}</strong></p>
-      {loaded && <p>Choose a model on the left and press Enter, or drag it here. Then drag a wire from an output to an input.</p>}
-      {loaded && <p>To begin with what another file has, such as a robot, press Text and write <code>include: robot.yaml</code>.</p>}
+      <p className="invitation">Drag a model here</p>
+      <p>or press <kbd>Enter</kbd> in the list on the left. Then drag wires from outputs, on the right of a box, to inputs, on its left.</p>
+      <p>A robot or a controller of another file? Include it: under Included files, on the right.</p>
     </div>
   );
 }

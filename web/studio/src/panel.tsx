@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { lazy, type ReactNode, Suspense } from "react";
+import { has_nothing_yet } from "./checked.ts";
 import { CycleView } from "./cycle_view.tsx";
 import { Log } from "./log.tsx";
 import { Modes } from "./modes_view.tsx";
@@ -44,7 +45,7 @@ function on_key(event: React.KeyboardEvent<HTMLElement>): void {
 }
 
 function Count() {
-  const errors = project.use((state) => state.checked?.errors ?? 0);
+  const errors = project.use((state) => (state.checked && !has_nothing_yet(state.checked) ? state.checked.errors : 0));
   const others = project.use((state) => (state.checked?.diagnostics.length ?? 0) - (state.checked?.errors ?? 0));
   const refused = project.use((state) => (state.refusal?.diagnostics.some((one) => one.severity === "error") ? 1 : 0));
   const count = errors + Math.max(0, others) + refused;

@@ -27,10 +27,11 @@ interface Kind {
   remove: string;
   noun: string;
   hint: string;
+  example: string;
 }
 
-const kPeers: Kind = { title: "Peers", key: "peers", add: "peer", remove: "no_peer", noun: "peer", hint: "a component it may use" };
-const kSuperiors: Kind = { title: "Superiors", key: "superiors", add: "superior", remove: "no_superior", noun: "superior", hint: "a component that commands it" };
+const kPeers: Kind = { title: "Peers", key: "peers", add: "peer", remove: "no_peer", noun: "peer", hint: "components that it may use", example: "another peer" };
+const kSuperiors: Kind = { title: "Superiors", key: "superiors", add: "superior", remove: "no_superior", noun: "superior", hint: "components that command it, and that it uses nevertheless", example: "another superior" };
 
 /** Components that it knows, as chips, and a field for another one. */
 function Known({ box, kind }: { box: Box; kind: Kind }) {
@@ -45,7 +46,7 @@ function Known({ box, kind }: { box: Box; kind: Kind }) {
   };
   return (
     <section className="peers" aria-label={kind.title}>
-      <h3>{kind.title}</h3>
+      <h3>{kind.title} <small>{kind.hint}</small></h3>
       {known.length > 0 && (
         <ul className="chips">
           {known.map((one) => (
@@ -54,7 +55,7 @@ function Known({ box, kind }: { box: Box; kind: Kind }) {
         </ul>
       )}
       <form className="row" onSubmit={(event) => (event.preventDefault(), void add())}>
-        <input aria-label={`New ${kind.noun}`} placeholder={kind.hint} list={`new-${kind.key}`} value={wanted} onChange={(event) => set_wanted(event.target.value)} />
+        <input aria-label={`New ${kind.noun}`} placeholder={kind.example} list={`new-${kind.key}`} value={wanted} onChange={(event) => set_wanted(event.target.value)} />
         <button type="submit" disabled={!wanted}>Add</button>
       </form>
       <datalist id={`new-${kind.key}`}>{names?.map((one) => <option key={one.name} value={one.name} />)}</datalist>
