@@ -163,7 +163,7 @@ function options_of(names: string[], place: HTMLElement): uPlot.Options {
   const style = getComputedStyle(place);
   const axis: uPlot.Axis = { stroke: style.getPropertyValue("--soft"), grid: { stroke: style.getPropertyValue("--grid"), width: 1 }, ticks: { show: false } };
   return {
-    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
+    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, size: 30, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
     legend: { show: false }, cursor: { points: { show: false } },
     series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kColours}`), dash: kDashes[Math.floor(i / kColours)], width: 1.5, points: { show: false } }))],
   };
