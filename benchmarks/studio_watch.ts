@@ -119,6 +119,13 @@ function taken(id: number): { ticks: number; resident: number } {
   return { ticks: Number(fields[11]) + Number(fields[12]), resident: Number(kilobytes) / 1000 };
 }
 
+/** Seconds that the threads of a process were on a processor. */
+function busy(id: number): number {
+  const threads = readdirSync(`/proc/${id}/task`);
+  const times = threads.map((thread) => Number(readFileSync(`/proc/${id}/task/${thread}/schedstat`, "utf8").split(" ")[0]));
+  return times.reduce((sum, one) => sum + one, 0) / 1e9;
+}
+
 /** The run's process: `armature run` of what is in the folder. */
 function run_process(): number {
   const is_run = (id: string) => {
@@ -164,10 +171,10 @@ async function measureWatching() {
   let before = taken(studio.server.pid!);
   for (const browsers of [0, 1, kBrowsers]) {
     before = taken(studio.server.pid!);
-    const begun = taken(run).ticks;
+    const begun = busy(run);
     seen = await Promise.all(Array.from({ length: browsers }, () => watch(studio.address, items)));
     if (browsers === 0) await pause(1000 * seconds);
-    shares.push(((taken(run).ticks - begun) / kTicksPerSecond / seconds) * 100);
+    shares.push(((busy(run) - begun) / seconds) * 100);
   }
   const [alone = 0, one = 0, all = 0] = shares;
   const after = taken(studio.server.pid!);

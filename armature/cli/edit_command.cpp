@@ -286,9 +286,9 @@ void add_other_options(EditOptions options) {
                [](std::string name, std::string value) -> Change {
                  return AddParameter{std::move(name), std::move(value)};
                });
-  options.one("--include", "NAME", "includes a file",
+  options.one("--include", "FILE", "includes a file",
               [](const std::string& name) -> Change { return AddInclude{name}; });
-  options.one("--no-include", "NAME", "includes a file no longer",
+  options.one("--no-include", "FILE", "includes a file no longer",
               [](const std::string& name) -> Change { return RemoveInclude{name}; });
   options.one("--library", "NAME", "adds a component library",
               [](const std::string& name) -> Change { return AddLibrary{name}; });

@@ -26,7 +26,8 @@ const kMostWithoutMap = 10;
 const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
-const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.4 };
+/** Beside the buttons at the left. */
+const kFit = { padding: { left: "56px", right: "20px", y: "20px" } as const, maxZoom: 1, minZoom: 0.4 };
 const kFitInside = { ...kFit, padding: { x: "64px", y: "24px" } as const };  ///< ports tell what they are connected with outside
 const kFitLanes = { ...kFit, padding: 0.12 };
 const node_types = { box: BoxNode };

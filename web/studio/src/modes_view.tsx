@@ -17,7 +17,7 @@ export function Modes() {
   const rows = useMemo(() => rows_of(texts, modes), [texts, modes]);
   return (
     <div className="modes scroll" tabIndex={0} aria-label="Modes">
-      <p className="hint">A mode is a set of components that run together; the application is in one mode at a time. What no mode names runs in all of them.</p>
+      <p className="hint">The components of a mode run together, those of other modes are off meanwhile. What no mode names runs in every mode.</p>
       {modes.length > 0 && (
         <table>
           <thead><tr><th scope="col">Component</th>{modes.map((mode) => <Head key={mode.name} mode={mode} />)}</tr></thead>

@@ -4,6 +4,7 @@ import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
 import { emergency_stop } from "./emergency.ts";
 import { RunSettings } from "./run_settings.tsx";
+import { counted } from "./scene.ts";
 import { SeatView } from "./seat_view.tsx";
 import { type Beside, selection } from "./selection.ts";
 
@@ -119,7 +120,7 @@ function RunTime() {
     <div className={`run-state is-${state.state}`}>
       <span role="status">{state_text(state.state, state.exit_code, paused)}</span>
       {time !== undefined && <span className="time">{`${time.toFixed(2)} s`}</span>}
-      {faults > 0 && <button type="button" className="faults" onClick={() => selection.set({ tab: "threads" })}>{`${faults} faults`}</button>}
+      {faults > 0 && <button type="button" className="faults" onClick={() => selection.set({ tab: "threads" })}>{counted(faults, "fault")}</button>}
     </div>
   );
 }
