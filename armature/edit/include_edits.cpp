@@ -103,8 +103,7 @@ std::vector<std::string> other_differences(const State& smaller, const State& la
 /// @param adds  the document after the edit has a file more, else one less
 Expectation expect_inclusion(const State& before, bool adds, const std::string& refusal) {
   return [&before, adds, refusal](const State& after, base::Diagnostics& diagnostics) {
-    const auto others =
-        adds ? other_differences(before, after) : other_differences(after, before);
+    const auto others = adds ? other_differences(before, after) : other_differences(after, before);
     if (!others.empty()) {
       diagnostics.error({before.file, 0, 0},
                         refusal + "more than that would change: " + others.front());

@@ -40,8 +40,9 @@ TEST(EditInclude, StandsBesideOthers) {
 }
 
 TEST(EditInclude, IsTakenBackWithWhatTheFileSays) {
-  EXPECT_EQ(edited(files_with("include: part.yaml\napplication: a\n"), {RemoveInclude{"part.yaml"}}),
-            "application: a\n");
+  EXPECT_EQ(
+      edited(files_with("include: part.yaml\napplication: a\n"), {RemoveInclude{"part.yaml"}}),
+      "application: a\n");
   EXPECT_EQ(edited(files_with("include: [part.yaml, more.yaml]\n"), {RemoveInclude{"part.yaml"}}),
             "include: [more.yaml]\n");
 }
@@ -55,8 +56,9 @@ TEST(EditInclude, IsRefusedWithItsReason) {
   const auto why = [](const std::string& text, const Change& change) {
     return refusal(files_with(text), change);
   };
-  EXPECT_NE(why("application: a\n", AddInclude{"nowhere.yaml"}).find("'nowhere.yaml' does not exist"),
-            std::string::npos);
+  EXPECT_NE(
+      why("application: a\n", AddInclude{"nowhere.yaml"}).find("'nowhere.yaml' does not exist"),
+      std::string::npos);
   EXPECT_NE(why("include: part.yaml\n", AddInclude{"part.yaml"}).find("is included already"),
             std::string::npos);
   EXPECT_NE(why("include: part.yaml\n", RemoveInclude{"parts.yaml"})
@@ -78,8 +80,9 @@ TEST(EditInclude, RefusesAFileByWhichAComponentHereBecomesAComposite) {
 }
 
 TEST(EditInclude, TakesAFileWithInstancesOfAComposite) {
-  Files files = files_with("composites: {Chassis: {components: {left: {model: M}}}}\n"
-                           "components: {Rover: {model: Chassis}}\n");
+  Files files = files_with(
+      "composites: {Chassis: {components: {left: {model: M}}}}\n"
+      "components: {Rover: {model: Chassis}}\n");
   files["part.yaml"] = "components: {Second: {model: Chassis}}\n";
   EXPECT_NE(edited(files, {AddInclude{"part.yaml"}}).find("include: part.yaml"), std::string::npos);
 }

@@ -260,9 +260,8 @@ TEST_F(EveryDeployment, GetsAndLosesSuperiors) {
       const AddSuperior add{written(entry), superior};
       try_edit(add, [&](auto& before, const Document& after, Tree tree) {
         const auto& peers = find(after, entry.names.front())->peers;
-        EXPECT_TRUE(std::ranges::any_of(peers, [&](const auto& peer) {
-          return peer.superior && peer.component == superior;
-        }));
+        EXPECT_TRUE(std::ranges::any_of(
+            peers, [&](const auto& peer) { return peer.superior && peer.component == superior; }));
         const Edit remove{RemoveSuperior{add.component, superior}, files_of(deployment())};
         const Outcome back = apply_edits(deployment(), {remove}, tree.reader());
         ASSERT_TRUE(back.ok()) << back.diagnostics.to_text();

@@ -62,7 +62,8 @@ auto decoded(WatchedRun::Told<T> told) {
                                   std::span<const std::byte> result) {
     T value;
     if (code != ride::Code::kNone) return told(base::Error{std::string(text)});
-    if (!ride::Decoder(result).take(value)) return told(base::Error{"the run's answer is malformed"});
+    if (!ride::Decoder(result).take(value))
+      return told(base::Error{"the run's answer is malformed"});
     told(std::move(value));
   };
 }

@@ -184,8 +184,7 @@ void WatchUnion::take_refusal(std::size_t group, bool wished, const std::string&
   told(base::Error{why});
 }
 
-void WatchUnion::watched(WatchedRun& run, std::int32_t handle,
-                         Told<remote::WatchedValues> told) {
+void WatchUnion::watched(WatchedRun& run, std::int32_t handle, Told<remote::WatchedValues> told) {
   std::optional<base::Result<remote::WatchedValues>> answer;
   std::shared_ptr<Question> question;
   {
@@ -207,10 +206,9 @@ void WatchUnion::watched(WatchedRun& run, std::int32_t handle,
     }
   }
   if (answer) return told(*answer);
-  run.watched(question->of->handle,
-              [self = shared_from_this(), question](const auto& sample) {
-                self->take_sample(question, sample);
-              });
+  run.watched(question->of->handle, [self = shared_from_this(), question](const auto& sample) {
+    self->take_sample(question, sample);
+  });
 }
 
 void WatchUnion::take_sample(const std::shared_ptr<Question>& question,

@@ -19,8 +19,8 @@
 
 namespace armature::studio::internal {
 
-/// Where the numbers of the items stand among those that a watch gives: `Sensor.sensor` has those of
-/// `Sensor.sensor[1]`, `Sensor.sensor[2]`, and so on.
+/// Where the numbers of the items stand among those that a watch gives: `Sensor.sensor` has those
+/// of `Sensor.sensor[1]`, `Sensor.sensor[2]`, and so on.
 std::vector<std::size_t> places_of(const std::vector<std::string>& items,
                                    const std::vector<remote::WatchedItem>& given);
 

@@ -110,8 +110,7 @@ class Watched : public ::testing::Test {
   TestRun run_;
   base::Time now_{};
   std::string refusal_;
-  std::shared_ptr<WatchUnion> pages_ =
-      std::make_shared<WatchUnion>([] {}, [this] { return now_; });
+  std::shared_ptr<WatchUnion> pages_ = std::make_shared<WatchUnion>([] {}, [this] { return now_; });
 };
 
 TEST_F(Watched, EachPageHasItsOwnNumbersOfOneWatch) {
@@ -213,8 +212,8 @@ TEST_F(Watched, APageHasABoundedNumber) {
 }
 
 TEST(Places, AreThoseOfTheItemAndItsParts) {
-  const std::vector<remote::WatchedItem> given = {
-      {"S.v[1]", ""}, {"S.v[2]", ""}, {"S.v[2]", ""}, {"S.vw", ""}, {"S.p.x", ""}, {"S.p.y", ""}};
+  const std::vector<remote::WatchedItem> given = {{"S.v[1]", ""}, {"S.v[2]", ""}, {"S.v[2]", ""},
+                                                  {"S.vw", ""},   {"S.p.x", ""},  {"S.p.y", ""}};
   EXPECT_THAT(places_of({"S.v"}, given), ElementsAre(0, 1));
   EXPECT_THAT(places_of({"S.v[2]"}, given), ElementsAre(1));
   EXPECT_THAT(places_of({"S.p", "S.vw"}, given), ElementsAre(4, 5, 3));

@@ -112,7 +112,7 @@ page_test("the canvas shows what is off in a mode, and a run starts in the chose
   await page.getByRole("group", { name: "rest" }).getByRole("button", { name: "Start in it" }).click();
   assert.equal(await page.getByLabel("Mode", { exact: true }).inputValue(), "rest");
   await page.getByRole("button", { name: "Run", exact: true }).click();
-  await page.getByText("running").waitFor();
+  await page.getByText("running", { exact: true }).waitFor();
   assert.equal(await page.evaluate(() => window.mock.workbench.orders[0].mode), "rest");
 });
 

@@ -123,9 +123,8 @@ Expectation expect_calls(const State& before, const Targets& targets,
 }
 
 bool has_calls(const Targets& targets, const Document& document) {
-  return std::any_of(
-      document.components.begin(), document.components.end(),
-      [&](const auto& one) { return targets.has(one.name) && !one.calls.empty(); });
+  return std::any_of(document.components.begin(), document.components.end(),
+                     [&](const auto& one) { return targets.has(one.name) && !one.calls.empty(); });
 }
 
 }  // namespace
