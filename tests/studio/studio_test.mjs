@@ -253,7 +253,7 @@ studio_test("calls, superiors, included files and modes are changed in the file,
   await page.getByLabel("New superior").fill("Begin");
   await page.keyboard.press("Enter");
   await page.getByRole("button", { name: "Remove the superior Begin" }).waitFor();
-  await page.keyboard.press("Control+z");
+  await page.getByRole("button", { name: "Undo", exact: true }).click();
   await page.getByRole("button", { name: "Remove the superior Begin" }).waitFor({ state: "detached" });
   await page.locator(".react-flow__pane").click({ position: { x: 300, y: 8 } });
   await page.getByLabel("File to include").fill("lamp.yaml");
