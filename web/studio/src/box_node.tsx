@@ -23,8 +23,9 @@ export type BoxNodeType = Node<BoxData, "box">;
 export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
   const { box, ports, lane, errors, off } = data;
   const state = run.use((all) => boxes_state(box, all.components));
+  const dashed = off && !["is-running", "is-faulty"].includes(state_class(state));  // what the run says comes first
   const stacked = box.names.length > 1;
-  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state), off && "is-off", box.components[0]!.unknown && "is-unknown"];
+  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state), dashed && "is-off", box.components[0]!.unknown && "is-unknown"];
   return (
     <div className={classes.filter(Boolean).join(" ")} data-lane={lane}>
       <header title={box_title(box)}>
@@ -32,7 +33,7 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
         {stacked && <span className="count">{`×${box.names.length}`}</span>}
         {errors > 0 && <span className="mistakes" title={`${errors} problems`}>!</span>}
         <small>{subtitle(box)}</small>
-        {(state || off) && <em className="state">{off ? "off" : state}</em>}
+        {(state || off) && <em className="state">{state || "off"}</em>}
       </header>
       {box.inputs.map((port) => <PortRow key={port.id} box={box} port={port} shown={ports} />)}
       {box.outputs.map((port) => <PortRow key={port.id} box={box} port={port} shown={ports} />)}

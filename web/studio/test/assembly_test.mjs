@@ -171,3 +171,11 @@ for (const dark of [false, true]) {
     }, { dark });
   }
 }
+
+page_test("what a run says of a box comes before what the shown mode says", "vision", async (page) => {
+  await page.getByLabel("Mode shown").selectOption("look");
+  await page.locator(".box.is-off", { hasText: "Dial" }).waitFor();
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await node(page, "Dial").locator(".box.is-running", { hasText: "Running" }).waitFor();
+  assert.equal(await page.locator(".box.is-off").count(), 0);
+});
