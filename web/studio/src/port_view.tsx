@@ -36,7 +36,7 @@ export function PortView({ box, port }: { box: Box; port: BoxPort }) {
       {wires.length === 0 && <p className="hint">Not connected.</p>}
       <p className="actions">
         <button type="button" onClick={(event) => void open(event)}>Connect …</button>
-        {has_numbers(port) && <button type="button" aria-pressed={plotted} onClick={() => toggle_plotted(port_name(box, port), port.ends)}>{port.ends.length > 1 ? `Plot all ${port.ends.length}` : "Plot"}</button>}
+        {has_numbers(port) && <button type="button" aria-pressed={plotted} title={port.ends.length > 1 ? `Draws all ${port.ends.length}` : "Draws its last 60 s"} onClick={() => toggle_plotted(port_name(box, port), port.ends)}>Plot</button>}
       </p>
     </>
   );

@@ -119,7 +119,7 @@ page_test("the canvas shows what is off in a mode, and a run starts in the chose
 page_test("a stacked box is plotted with all its members, which the legend names", "arm", async (page) => {
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await node(page, "Joint\\{1..7\\}").locator(".port.out", { hasText: "Position" }).click();
-  await page.getByRole("button", { name: "Plot all 7" }).click();
+  await page.getByRole("button", { name: "Plot", exact: true }).click();
   const legend = page.getByRole("list", { name: "Curves of Joint{1..7}.Position" });
   await eventually(() => legend.locator("li").allTextContents(), [1, 2, 3, 4, 5, 6, 7].map((i) => `Joint${i}`));
   assert.match(await page.locator(".diagram").getAttribute("aria-label"), /^Curves of Joint1\.Position, .*Joint7\.Position, the last 60 s$/);
@@ -134,7 +134,7 @@ page_test("curves beyond the most that are drawn are counted", "arm", async (pag
   await page.getByRole("button", { name: "Run", exact: true }).click();
   for (const port of ["Position", "Velocity", "Armed"]) {
     await node(page, "Joint\\{1..7\\}").locator(".port.out", { hasText: port }).click();
-    await page.getByRole("button", { name: "Plot all 7" }).click();
+    await page.getByRole("button", { name: "Plot", exact: true }).click();
   }
   await page.getByText("3 more are not drawn: 18 are the most.").waitFor();
   await eventually(() => page.locator(".legend li").count(), 18);
@@ -159,7 +159,7 @@ for (const dark of [false, true]) {
     ["a plot", "arm", async (page) => {
       await page.getByRole("button", { name: "Run", exact: true }).click();
       await node(page, "Joint\\{1..7\\}").locator(".port.out", { hasText: "Position" }).click();
-      await page.getByRole("button", { name: "Plot all 7" }).click();
+      await page.getByRole("button", { name: "Plot", exact: true }).click();
       await page.locator(".legend li").nth(6).waitFor();
     }],
   ]) {
