@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * What browsers cost that watch a run through the studio: 200 numbers at 60 Hz in four of them, the
- * server's share of a core and its memory, and the cycles of the Janus head with and without them.
+ * server's share of a core and its memory, what four of them cost the run beside one, and the cycles of
+ * the Janus head with and without them.
  * A browser here is a connection of its own in Node.js, which asks as the page does.
  *
  * usage: studio_watch.mjs PROGRAM ROBOTS [--seconds N] [--rounds N]
@@ -9,7 +10,7 @@
  * Prints entries in the form of scripts/bench --json.
  */
 import { type ChildProcess, spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { connect, type Peer } from "@armature/ride/tcp";
@@ -118,6 +119,26 @@ function taken(id: number): { ticks: number; resident: number } {
   return { ticks: Number(fields[11]) + Number(fields[12]), resident: Number(kilobytes) / 1000 };
 }
 
+/** Seconds that the threads of a process were on a processor. */
+function busy(id: number): number {
+  const threads = readdirSync(`/proc/${id}/task`);
+  const times = threads.map((thread) => Number(readFileSync(`/proc/${id}/task/${thread}/schedstat`, "utf8").split(" ")[0]));
+  return times.reduce((sum, one) => sum + one, 0) / 1e9;
+}
+
+/** The run's process: `armature run` of what is in the folder. */
+function run_process(): number {
+  const is_run = (id: string) => {
+    try {
+      const words = readFileSync(`/proc/${id}/cmdline`, "utf8").split("\0");
+      return words.includes("run") && words.some((word) => word.startsWith(folder));
+    } catch {
+      return false;  // it has ended
+    }
+  };
+  return Number(readdirSync("/proc").filter((id) => /^\d+$/.test(id)).find(is_run));
+}
+
 function entry(name: string, value: number, unit: string, reference: number | null = null) {
   const ratio = reference === null ? null : value / reference;
   return { name, value, unit, reference, ratio, allocations: null };
@@ -144,8 +165,18 @@ async function measureWatching() {
   const studio = await open(file);
   await start(studio.workbench);
   const items = Array.from({ length: kNumbers / 2 }, (_, i) => [`Adder${i}.Out`, `Limit${i}.Out`]).flat();
-  const before = taken(studio.server.pid!);
-  const seen = await Promise.all(Array.from({ length: kBrowsers }, () => watch(studio.address, items)));
+  const shares: number[] = [];
+  const run = run_process();
+  let seen: Seen[] = [];
+  let before = taken(studio.server.pid!);
+  for (const browsers of [0, 1, kBrowsers]) {
+    before = taken(studio.server.pid!);
+    const begun = busy(run);
+    seen = await Promise.all(Array.from({ length: browsers }, () => watch(studio.address, items)));
+    if (browsers === 0) await pause(1000 * seconds);
+    shares.push(((busy(run) - begun) / seconds) * 100);
+  }
+  const [alone = 0, one = 0, all = 0] = shares;
   const after = taken(studio.server.pid!);
   await stop(studio.workbench);
   await close(studio);
@@ -156,6 +187,7 @@ async function measureWatching() {
     entry("studio/watch_200_at_60hz/age_p99", 1000 * percentile(seen.flatMap((one) => one.ages), 0.99), "ms"),
     entry("studio/server_cpu", 100 * load, "%"),
     entry("studio/server_resident", after.resident, "MB"),
+    entry("studio/run_cpu_of_4_browsers", all - alone, "%", one - alone),
   ];
 }
 

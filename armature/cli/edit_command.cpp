@@ -182,6 +182,22 @@ void add_component_options(EditOptions options) {
                });
 }
 
+void add_relation_options(EditOptions options) {
+  using namespace edit;
+  options.pair("--superior", "NAME=SUPERIOR", "gives a component a peer that commands it",
+               [](std::string component, std::string superior) -> Change {
+                 return AddSuperior{std::move(component), std::move(superior)};
+               });
+  options.pair("--no-superior", "NAME=SUPERIOR", "takes a superior from a component",
+               [](std::string component, std::string superior) -> Change {
+                 return RemoveSuperior{std::move(component), std::move(superior)};
+               });
+  options.pair("--calls", "NAME=LIST", "says what a Sequence or Request calls: 'Go=[Vision.start]'",
+               [](std::string component, std::string calls) -> Change {
+                 return SetCalls{std::move(component), std::move(calls)};
+               });
+}
+
 /// `A,B,C` as its parts.
 std::vector<std::string> split_list(const std::string& list) {
   std::vector<std::string> parts;
@@ -270,6 +286,10 @@ void add_other_options(EditOptions options) {
                [](std::string name, std::string value) -> Change {
                  return AddParameter{std::move(name), std::move(value)};
                });
+  options.one("--include", "FILE", "includes a file",
+              [](const std::string& name) -> Change { return AddInclude{name}; });
+  options.one("--no-include", "FILE", "includes a file no longer",
+              [](const std::string& name) -> Change { return RemoveInclude{name}; });
   options.one("--library", "NAME", "adds a component library",
               [](const std::string& name) -> Change { return AddLibrary{name}; });
   options.one("--no-library", "NAME", "removes a component library",
@@ -285,6 +305,7 @@ void add_edit(const CommandLine& to) {
   arguments->command = command;
   command->add_option("file", arguments->file, "the deployment, YAML")->required();
   add_component_options(EditOptions(*arguments));
+  add_relation_options(EditOptions(*arguments));
   add_composite_options(EditOptions(*arguments));
   add_binding_options(EditOptions(*arguments));
   add_mode_options(EditOptions(*arguments));

@@ -25,6 +25,15 @@ std::string text_of(const AddPeer& one) { return "peer " + one.peer + " of " + o
 std::string text_of(const RemovePeer& one) {
   return "remove peer " + one.peer + " of " + one.component;
 }
+std::string text_of(const AddSuperior& one) {
+  return "superior " + one.superior + " of " + one.component;
+}
+std::string text_of(const RemoveSuperior& one) {
+  return "remove superior " + one.superior + " of " + one.component;
+}
+std::string text_of(const SetCalls& one) { return "set calls of " + one.component; }
+std::string text_of(const AddInclude& one) { return "include " + one.file; }
+std::string text_of(const RemoveInclude& one) { return "remove include " + one.file; }
 std::string text_of(const AddParameter& one) { return "add parameter " + one.name; }
 std::string text_of(const AddLibrary& one) { return "add library " + one.name; }
 std::string text_of(const RemoveLibrary& one) { return "remove library " + one.name; }

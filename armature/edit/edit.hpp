@@ -110,6 +110,35 @@ struct RemovePeer {
   std::string peer;
 };
 
+/// A peer that commands the component, and that it uses nevertheless.
+struct AddSuperior {
+  std::string component;
+  std::string superior;
+};
+
+/// It is a superior no longer; `superior` is its name in the file.
+struct RemoveSuperior {
+  std::string component;
+  std::string superior;
+};
+
+/// What a component calls that calls what it is told. Calls that are there already stay as they are
+/// written, with their comments.
+struct SetCalls {
+  std::string component;
+  std::string calls;  ///< YAML: a list, or one call; `[]`: none
+};
+
+/// A file whose entries are the deployment's, too; relative to the file that includes it.
+struct AddInclude {
+  std::string file;
+};
+
+/// With what that file says, and no other does.
+struct RemoveInclude {
+  std::string file;  ///< as it is named
+};
+
 /// A parameter that no file has yet.
 struct AddParameter {
   std::string name;
@@ -151,8 +180,9 @@ struct RenameMode {
 
 using Change =
     std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Split, Group, Dissolve, Connect,
-                 Disconnect, SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddParameter,
-                 AddLibrary, RemoveLibrary, AddToMode, RemoveFromMode, RemoveMode, RenameMode>;
+                 Disconnect, SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddSuperior,
+                 RemoveSuperior, SetCalls, AddInclude, RemoveInclude, AddParameter, AddLibrary,
+                 RemoveLibrary, AddToMode, RemoveFromMode, RemoveMode, RenameMode>;
 
 /// For messages: `set Filter.Weight`.
 std::string to_text(const Change& change);

@@ -3,6 +3,7 @@
 
 #include "armature/edit/internal/element_text.hpp"
 #include "armature/edit/internal/layout.hpp"
+#include "armature/edit/internal/scalar_text.hpp"
 
 namespace armature::edit::internal {
 namespace {
@@ -69,6 +70,17 @@ void Layout::add_item_texts(const Node& list, const std::vector<std::string>& te
   }
   if (in_brackets) return add_in_flow(list, all);
   add_in_block(list, elements_of(list).back(), all);
+}
+
+void Layout::insert_item(const Node& list, std::size_t index, const document::Value& value) {
+  const std::vector<Element> elements = elements_of(list);
+  if (index >= elements.size()) return add_item(list, value);
+  const std::size_t at = elements[index].begin;
+  if (list.flow) return put(at, at, written_in_flow(value) + separator_behind(list));
+  const std::string margin = margin_of(file_.column(list.begin)) + "- ";
+  const std::string text = written_in_block(value);
+  if (index > 0) return add_line_behind(elements[index - 1].end, margin + text);
+  put(at, at, text + std::string(file_.end_of_line()) + margin);
 }
 
 void Layout::add_section_text(const Node& key, const std::string& text) {

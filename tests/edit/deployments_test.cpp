@@ -252,5 +252,73 @@ TEST_F(EveryDeployment, GetsAndLosesPeersAndLibraries) {
   EXPECT_LT(refused(), made() / 4) << reasons();
 }
 
+TEST_F(EveryDeployment, GetsAndLosesSuperiors) {
+  each([&](const Document& document, const SourceMap& map) {
+    for (const Entry& entry : entries_to_try(map)) {
+      if (find(document, entry.names.front()) == nullptr || !entry.composite.empty()) continue;
+      const std::string superior = document.components.back().name;
+      const AddSuperior add{written(entry), superior};
+      try_edit(add, [&](auto& before, const Document& after, Tree tree) {
+        const auto& peers = find(after, entry.names.front())->peers;
+        EXPECT_TRUE(std::ranges::any_of(
+            peers, [&](const auto& peer) { return peer.superior && peer.component == superior; }));
+        const Edit remove{RemoveSuperior{add.component, superior}, files_of(deployment())};
+        const Outcome back = apply_edits(deployment(), {remove}, tree.reader());
+        ASSERT_TRUE(back.ok()) << back.diagnostics.to_text();
+        tree.apply(back);
+        EXPECT_EQ(yaml(tree.load(deployment())), yaml(before));
+      });
+    }
+  });
+  EXPECT_GT(made(), 300u);
+  EXPECT_LT(refused(), made() / 4) << reasons();
+}
+
+TEST_F(EveryDeployment, CallsWhatItIsToldAndThenNothing) {
+  each([&](const Document& document, const SourceMap& map) {
+    for (const Entry& entry : entries_to_try(map)) {
+      const auto* component = find(document, entry.names.front());
+      if (component == nullptr || !entry.composite.empty() || !component->calls.empty()) continue;
+      const std::string other = document.components.back().name;
+      const SetCalls set{written(entry),
+                         "[" + other + ".go, {call: " + other + ".turn, with: {by: 2 rad}}]"};
+      try_edit(set, [&](auto& before, const Document& after, Tree tree) {
+        for (const std::string& name : entry.names) EXPECT_EQ(find(after, name)->calls.size(), 2u);
+        const Edit none{SetCalls{set.component, "[]"}, files_of(deployment())};
+        const Outcome back = apply_edits(deployment(), {none}, tree.reader());
+        ASSERT_TRUE(back.ok()) << back.diagnostics.to_text();
+        tree.apply(back);
+        EXPECT_EQ(yaml(tree.load(deployment())), yaml(before));
+      });
+    }
+  });
+  EXPECT_GT(made(), 300u);
+  EXPECT_LT(refused(), made() / 10) << reasons();
+}
+
+TEST_F(EveryDeployment, IncludesAFileAndDoesSoNoLonger) {
+  std::size_t taken_out = 0;
+  each([&](const Document&, const SourceMap& map) {
+    Tree tree;
+    const auto reader = [read = tree.reader()](const std::string& path) {
+      const bool added = path.ends_with("added_by_a_test.yaml");
+      return added ? base::Result<std::string>("components: {Newcomer: {model: Watcher}}\n")
+                   : read(path);
+    };
+    const std::string file = "added_by_a_test.yaml";
+    const Outcome added = apply_edits(deployment(), {{AddInclude{file}}}, reader);
+    ASSERT_TRUE(added.ok()) << deployment() << added.diagnostics.to_text();
+    const Outcome both =
+        apply_edits(deployment(), {{AddInclude{file}}, {RemoveInclude{file}}}, reader);
+    ASSERT_TRUE(both.ok()) << deployment() << both.diagnostics.to_text();
+    for (const Node* item : items_of(find_value(map.main().root(), "include"))) {
+      const Outcome out = apply_edits(deployment(), {{RemoveInclude{item->text}}}, reader);
+      EXPECT_TRUE(out.ok() || out.diagnostics.to_text().find(" is refused: ") != std::string::npos);
+      taken_out += out.ok() ? 1 : 0;
+    }
+  });
+  EXPECT_GT(taken_out, 10u);
+}
+
 }  // namespace
 }  // namespace armature::edit::tests

@@ -250,6 +250,31 @@ TEST_F(Opened, ACycleOfARunIsRecordedForWhoAsks) {
   EXPECT_LE(cycle.steps.front().begin + cycle.steps.front().length, cycle.length + 0.01);
 }
 
+TEST_F(Opened, WhatPagesWatchIsOneWatchOfTheRun) {
+  start();
+  ride::Node other;
+  remote::InspectorPlaceholder second(other.connect("unix:" + (folder_ / "s").string()), "run");
+  std::vector<std::int32_t> handles;
+  for (int i = 0; i < 12; ++i) {  // of its own the run has 16 at most
+    for (remote::InspectorPlaceholder* page : {&*run_, &second}) {
+      const auto watch = page->watch({"Source.Position", "Source.Frequency"}, 0.01, kPatient);
+      ASSERT_TRUE(watch) << watch.error();
+      EXPECT_EQ(watch.value().items.at(1).item, "Source.Frequency");
+      handles.push_back(watch.value().handle);
+    }
+  }
+  until([&] { return run_->watched(handles[0], kPatient).value().values.at(1) > 0.0; });
+  for (const std::int32_t handle : handles) {
+    if (handle != handles.back()) EXPECT_TRUE(run_->end_watch(handle, kPatient).value());
+  }
+  EXPECT_FALSE(run_->watched(handles[0], kPatient)) << "it has ended";
+  until([&] {
+    const auto values = second.watched(handles.back(), kPatient);
+    return values && values.value().values.at(1) > 0.0;
+  });
+  EXPECT_THAT(run_->watch({"Nobody.x"}, 0.01, kPatient).error(), HasSubstr("Nobody"));
+}
+
 TEST_F(Opened, WhatIsSetForARunIsInIt) {
   const auto standing = workbench_->start({true, 1.0, "", {"Source.Frequency=7"}}, kPatient);
   ASSERT_FALSE(standing);

@@ -223,3 +223,51 @@ studio_test("a robot is armed from the seat, jogged, stopped by somebody else, a
   await other.getByText("ended", { exact: true }).waitFor();
   await end("SIGTERM");
 });
+
+const kCalling = `# Prepares.
+application: calling
+libraries: [controls]
+modes:
+  day: [Begin]  # all day
+components:
+  Begin: {model: Button, activity: triggered}
+  Dial: {model: Slider, activity: {periodic: 100 ms}, properties: {High: 5}}
+  Prepare: {model: Sequence, activity: {periodic: 100 ms}}
+connections:
+  - Begin.Pressed -> Prepare.run
+`;
+
+studio_test("calls, superiors, included files and modes are changed in the file, and nothing else", async () => {
+  const { address, end, content } = await studio("calling.yaml", kCalling);
+  await studio("lamp.yaml", "components:\n  Lamp: {model: Number}\n").then(({ end: close }) => close("SIGTERM"));
+  const page = await user(address);
+  await box(page, "Prepare").locator("header").click();
+  const calls = page.getByRole("region", { name: "Calls" });
+  await calls.getByLabel("New call").fill("Dial.move");
+  await page.keyboard.press("Enter");
+  await calls.getByLabel("Call 1", { exact: true }).waitFor();
+  const value = calls.locator(".field").nth(1).locator("input");
+  await value.fill("2");
+  await value.press("Enter");
+  await page.getByText("No problems").waitFor();
+  await page.getByLabel("New superior").fill("Begin");
+  await page.keyboard.press("Enter");
+  await page.getByRole("button", { name: "Remove the superior Begin" }).waitFor();
+  await page.getByRole("button", { name: "Undo", exact: true }).click();
+  await page.getByRole("button", { name: "Remove the superior Begin" }).waitFor({ state: "detached" });
+  await page.locator(".react-flow__pane").click({ position: { x: 300, y: 8 } });
+  await page.getByLabel("File to include").fill("lamp.yaml");
+  await page.keyboard.press("Enter");
+  await box(page, "Lamp").waitFor();
+  await page.getByRole("tab", { name: "Modes" }).click();
+  await page.getByLabel("Begin stands in day").waitFor();
+  await page.getByLabel("Dial stands in day").click();
+  await until(() => page.getByLabel("Dial stands in day").isChecked(), "Dial runs by day");
+  await page.keyboard.press("Control+s");
+  await page.locator(".top-bar .saved").waitFor({ state: "attached" });
+  await until(() => content().includes("include"), "it is saved");
+  const expected = kCalling.replace("# Prepares.\n", "# Prepares.\ninclude: lamp.yaml\n").replace("[Begin]", "[Begin, Dial]")
+    .replace("Prepare: {model: Sequence, activity: {periodic: 100 ms}}", "Prepare: {model: Sequence, activity: {periodic: 100 ms}, calls: [{call: Dial.move, with: {value: 2}}]}");
+  assert.equal(content(), expected);
+  await end("SIGTERM");
+});

@@ -32,6 +32,9 @@ class Layout {
   /// Behind the last item of a list.
   void add_item(const Node& list, const document::Value& value);
 
+  /// Before the item at that index, or behind the last one.
+  void insert_item(const Node& list, std::size_t index, const document::Value& value);
+
   /// What follows a key that has nothing yet.
   void fill(const Node& empty, const document::Value& value, int levels);
 

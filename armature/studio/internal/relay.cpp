@@ -55,16 +55,46 @@ constexpr std::size_t kAtOnce = 8;
 constexpr std::tuple<> kNothing;
 constexpr ride::Priority kUrgent{255};
 
+/// What decodes a result for `told`, or has it told why there is none.
+template <typename T>
+auto decoded(WatchedRun::Told<T> told) {
+  return [told = std::move(told)](ride::Code code, std::string_view text,
+                                  std::span<const std::byte> result) {
+    T value;
+    if (code != ride::Code::kNone) return told(base::Error{std::string(text)});
+    if (!ride::Decoder(result).take(value))
+      return told(base::Error{"the run's answer is malformed"});
+    told(std::move(value));
+  };
+}
+
 }  // namespace
 
-Relay::Connection::Connection(const std::string& address)
-    : inspector(node.connect(address), remote::Inspector::kName, remote::kInspector) {}
+Relay::Connection::Connection(const std::string& address, const std::function<void()>& wake)
+    : watches(std::make_shared<WatchUnion>(wake, platform::monotonic_now)),
+      inspector(node.connect(address), remote::Inspector::kName, remote::kInspector) {}
+
+void Relay::Connection::watch(const std::vector<std::string>& items, double interval,
+                              Told<remote::Watch> told) {
+  inspector.ask(number_of("watch"), {}, ride::Fields(std::tie(items, interval)),
+                decoded<remote::Watch>(std::move(told)));
+}
+
+void Relay::Connection::watched(std::int32_t handle, Told<remote::WatchedValues> told) {
+  inspector.ask(number_of("watched"), {}, ride::Fields(std::tie(handle)),
+                decoded<remote::WatchedValues>(std::move(told)));
+}
+
+void Relay::Connection::end_watch(std::int32_t handle) {
+  inspector.ask(number_of("end_watch"), {}, ride::Fields(std::tie(handle)),
+                [](ride::Code, std::string_view, std::span<const std::byte>) {});
+}
 
 Relay::Relay(std::string name, Seat& seat, std::function<void()> wake)
     : Service(remote::kInspector), name_(std::move(name)), seat_(seat), wake_(std::move(wake)) {}
 
 void Relay::connect(const std::string& address) {
-  auto made = std::make_shared<Connection>(address);
+  auto made = std::make_shared<Connection>(address, wake_);
   const std::scoped_lock lock(mutex_);
   connection_.swap(made);
 }
@@ -95,6 +125,7 @@ std::optional<std::vector<std::string>> Relay::to_disarm() const {
 void Relay::learn() {
   const auto run = connection();
   if (run == nullptr || !run->inspector.found()) return;
+  run->watches->advance(*run);
   std::vector<std::string> missing;
   {
     const std::scoped_lock lock(run->learned->mutex);
@@ -142,6 +173,7 @@ void Relay::cancel_lost(base::Time now) {
   const auto run = connection();
   if (run == nullptr || !run->inspector.found()) return;
   const auto learned = run->learned;
+  run->watches->end_lost();
   for (const std::int32_t handle : learned->begun.lost(now)) {
     ask_about(*run, "cancel", handle, kUrgent, [learned, handle](const auto& status) {
       if (status) learned->begun.end(handle);
@@ -205,10 +237,14 @@ ride::Executed Relay::execute(ride::Number operation, ride::Decoder& parameters,
   if (run == nullptr) throw ride::Failure("nothing runs");
   const Encoded asked{parameters.take_rest()};
   const ride::Origin origin = reply.origin();
-  if (!may_pass(*run->learned, name_in(declaration->canonical), asked.body, origin)) {
+  const std::string_view name = name_in(declaration->canonical);
+  if (!may_pass(*run->learned, name, asked.body, origin)) return ride::Executed::kMalformed;
+  if (name == "watch" || name == "watched" || name == "end_watch") {
+    if (serve_watch(*run, name, asked.body, reply)) return ride::Executed::kDone;
+    leave(*run->learned, origin);
     return ride::Executed::kMalformed;
   }
-  const bool begins = name_in(declaration->canonical) == "begin";
+  const bool begins = name == "begin";
   const auto owed = std::make_shared<ride::PendingReply>(reply.keep());
   const auto hand_back = [owed, learned = run->learned, origin, begins](
                              ride::Code code, std::string_view text,
@@ -220,6 +256,33 @@ ride::Executed Relay::execute(ride::Number operation, ride::Decoder& parameters,
   };
   run->inspector.ask(operation, {}, ride::Fields(std::tie(asked)), hand_back);
   return ride::Executed::kDone;
+}
+
+/// Of the one watch that the run has for all pages.
+/// @return false if the body is not the operation's
+bool Relay::serve_watch(Connection& run, std::string_view operation,
+                        std::span<const std::byte> body, ride::Reply& reply) {
+  ride::Decoder from(body);
+  std::vector<std::string> items;
+  double interval = 0.0;
+  std::int32_t handle = 0;
+  const bool begins = operation == "watch";
+  if (begins && (!from.take(items) || !from.take(interval))) return false;
+  if (!begins && !from.take(handle)) return false;
+  const auto owed = std::make_shared<ride::PendingReply>(reply.keep());
+  const auto answered = [owed, learned = run.learned, origin = reply.origin()](const auto& result) {
+    leave(*learned, origin);
+    if (!result) return owed->fail(result.error());
+    owed->put(result.value());
+  };
+  if (begins) {
+    run.watches->watch(run, std::move(items), interval, reply.origin(), answered);
+  } else if (operation == "watched") {
+    run.watches->watched(run, handle, answered);
+  } else {
+    answered(base::Result<bool>(run.watches->end(handle)));
+  }
+  return true;
 }
 
 /// A request of it waits no more.

@@ -20,6 +20,7 @@
 #include "armature/studio/internal/begun_commands.hpp"
 #include "armature/studio/internal/operators_acts.hpp"
 #include "armature/studio/internal/seat.hpp"
+#include "armature/studio/internal/watch_union.hpp"
 
 namespace armature::studio::internal {
 
@@ -27,7 +28,7 @@ namespace armature::studio::internal {
 /// run takes the studio for its user, so what a page may do is looked at here. Of what is called,
 /// begun or written the names are looked at: an act of the operator is handed on from the
 /// operator's seat only, operations and commands while the key is held; what the run has not
-/// described is not handed on. The rest passes unseen.
+/// described is not handed on. What pages watch is one watch of the run. The rest passes unseen.
 class Relay final : public ride::Service {
  public:
   /// So many requests of one client, and of all together, wait for the run's answers: fewer than
@@ -46,9 +47,10 @@ class Relay final : public ride::Service {
   void disconnect();
   /// There is one; it has been found, and has described its components.
   bool ready() const;
-  /// Asks for descriptions that are missing: after each answer, and now and then.
+  /// Asks for descriptions that are missing, and for what pages watch: after each answer, and now
+  /// and then.
   void learn();
-  /// Cancels the commands of those who have gone. Some ten times a second.
+  /// Cancels the commands, and ends the watches, of those who have gone. Some ten times a second.
   void cancel_lost(base::Time now);
 
   /// Told whether an operation was done, and why not.
@@ -77,9 +79,15 @@ class Relay final : public ride::Service {
     BegunCommands begun;                ///< has a mutex of its own
   };
   /// A run, as long as it can be asked.
-  struct Connection {
-    explicit Connection(const std::string& address);
+  struct Connection final : WatchedRun {
+    Connection(const std::string& address, const std::function<void()>& wake);
+    void watch(const std::vector<std::string>& items, double interval,
+               Told<remote::Watch> told) override;
+    void watched(std::int32_t handle, Told<remote::WatchedValues> told) override;
+    void end_watch(std::int32_t handle) override;
+
     const std::shared_ptr<Learned> learned = std::make_shared<Learned>();
+    const std::shared_ptr<WatchUnion> watches;
     ride::Node node;
     Inspector inspector;
   };
@@ -87,6 +95,8 @@ class Relay final : public ride::Service {
   ride::Executed execute(ride::Number operation, ride::Decoder& parameters,
                          ride::Reply& reply) override;
   std::shared_ptr<Connection> connection() const;
+  static bool serve_watch(Connection& run, std::string_view operation,
+                          std::span<const std::byte> body, ride::Reply& reply);
   bool may_pass(Learned& learned, std::string_view operation, std::span<const std::byte> body,
                 const ride::Origin& origin);
   void let_through(Act act, const std::string& what, bool with_key, const ride::Origin& origin);

@@ -15,15 +15,17 @@ export interface BoxData extends Record<string, unknown> {
   ports: boolean;
   lane: number;      ///< of its thread; -1: several, or none
   errors: number;
+  off: boolean;      ///< in the mode that is shown
 }
 
 export type BoxNodeType = Node<BoxData, "box">;
 
 export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
-  const { box, ports, lane, errors } = data;
+  const { box, ports, lane, errors, off } = data;
   const state = run.use((all) => boxes_state(box, all.components));
+  const dashed = off && !["is-running", "is-faulty"].includes(state_class(state));  // what the run says comes first
   const stacked = box.names.length > 1;
-  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state)];
+  const classes = ["box", selected && "selected", stacked && "stacked", box.composite && "composite", state_class(state), dashed && "is-off", box.components[0]!.unknown && "is-unknown"];
   return (
     <div className={classes.filter(Boolean).join(" ")} data-lane={lane}>
       <header title={box_title(box)}>
@@ -31,7 +33,7 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
         {stacked && <span className="count">{`×${box.names.length}`}</span>}
         {errors > 0 && <span className="mistakes" title={`${errors} problems`}>!</span>}
         <small>{subtitle(box)}</small>
-        {state && <em className="state">{state}</em>}
+        {(state || off) && <em className="state">{state || "off"}</em>}
       </header>
       {box.inputs.map((port) => <PortRow key={port.id} box={box} port={port} shown={ports} />)}
       {box.outputs.map((port) => <PortRow key={port.id} box={box} port={port} shown={ports} />)}
@@ -41,6 +43,8 @@ export const BoxNode = memo(({ data, selected }: NodeProps<BoxNodeType>) => {
 
 function subtitle(box: Box): string {
   if (box.opened) return "an event that commands";
+  if (box.components[0]!.unknown) return `${box.model || "no model"} · has a mistake`;
+  if (!box.model) return "switches modes";
   if (box.composite) return `${box.model} · ${box.components.length} parts`;
   return `${box.model} · ${activity_text(box.components[0]!.activity)}`;
 }

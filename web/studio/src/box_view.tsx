@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
+import { takes_calls } from "./calls.ts";
+import { Calls } from "./calls_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
 import { Field } from "./field.tsx";
 import type { Box } from "./graph.ts";
@@ -18,12 +20,14 @@ export function BoxView({ box }: { box: Box }) {
     <>
       <h2>{box.title}{box.names.length > 1 && <span className="count">{`×${box.names.length}`}</span>}</h2>
       <p className="lead"><b>{box.model}</b>{model?.doc && ` ${model.doc}`}</p>
+      {is_unknown(box) && <p className="error">The check says nothing of it, because of a mistake: see Problems, or mend it in the text.</p>}
       <Live box={box} />
       <Name box={box} />
       {is_range(box) && <SplitField box={box} />}
-      {!box.composite && <ActivityField box={box} />}
+      {!box.composite && !is_unknown(box) && <ActivityField box={box} />}
       {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
-      {!box.composite && <Requirements box={box} />}
+      {!box.composite && takes_calls(box) && <Calls box={box} />}
+      {!box.composite && !is_unknown(box) && <Requirements box={box} />}
       <p className="actions">
         <ConnectByName boxes={[box.id]} />
         {box.file && <button type="button" onClick={() => show_text(box.file!, box.line, box.column)}>Show in the text</button>}
@@ -42,6 +46,8 @@ function Name({ box }: { box: Box }) {
   };
   return <Field label="Name" about={`${box.id} name`} value={box.title} take={rename} />;
 }
+
+const is_unknown = (box: Box): boolean => box.components[0]!.unknown ?? false;
 
 /** A box of a range as the file has it, not of all instances of a composite. */
 const is_range = (box: Box): boolean => box.names.length > 1 && box.title.includes("..");

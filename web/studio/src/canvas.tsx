@@ -8,9 +8,12 @@ import { WireEdge } from "./wire_edge.tsx";
 import { BoxNode, type BoxData, type BoxNodeType } from "./box_node.tsx";
 import { Breadcrumb } from "./breadcrumb.tsx";
 import { port_place, size_of } from "./geometry.ts";
+import { has_nothing_yet } from "./checked.ts";
 import type { Box, Graph, Wire } from "./graph.ts";
 import type { Lane } from "./lanes.ts";
 import { on_grid, type Point } from "./layout.ts";
+import { is_off } from "./modes.ts";
+import { ShownMode, useShownMode } from "./modes_view.tsx";
 import { kMostWithPorts, lanes_of, places_of } from "./placing.ts";
 import { change, edit, project } from "./project.ts";
 import { arrange, arrangements } from "./remembered.ts";
@@ -23,7 +26,8 @@ const kMostWithoutMap = 10;
 const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
-const kFit = { padding: 0.06, maxZoom: 1, minZoom: 0.4 };
+/** Beside the buttons at the left. */
+const kFit = { padding: { left: "56px", right: "20px", y: "20px" } as const, maxZoom: 1, minZoom: 0.4 };
 const kFitInside = { ...kFit, padding: { x: "64px", y: "24px" } as const };  ///< ports tell what they are connected with outside
 const kFitLanes = { ...kFit, padding: 0.12 };
 const node_types = { box: BoxNode };
@@ -70,6 +74,7 @@ function Flow() {
           <ControlButton onClick={arrange} title="Lay out anew all boxes that nobody moved" aria-label="Arrange">⇶</ControlButton>
           <ControlButton onClick={() => selection.set({ lanes: !in_lanes })} title="Threads as lanes: places of boxes stay as they are" aria-label="Threads as lanes" aria-pressed={in_lanes}>☰</ControlButton>
         </Controls>
+        <ShownMode />
         {graph.boxes.length > kMostWithoutMap && <MiniMap pannable zoomable ariaLabel="Overview" />}
       </ReactFlow>
       {graph.boxes.length === 0 && <Empty />}
@@ -90,12 +95,22 @@ function LaneBands({ lanes }: { lanes: Lane[] }) {
 }
 
 function Empty() {
+  const checked = project.use((state) => state.checked);
   const loaded = project.use((state) => state.loaded);
+  if (!loaded || !checked) return <div className="empty"><p><strong>Reading the deployment …</strong></p></div>;
+  if (!has_nothing_yet(checked)) {
+    return (
+      <div className="empty">
+        <p><strong>The text cannot be read as it is.</strong></p>
+        <p>Problems, below, say where and why. Press Text, at the top, and mend it there: the components then stand here.</p>
+      </div>
+    );
+  }
   return (
     <div className="empty">
-      <p><strong>{loaded ? "This deployment has no components yet." : "Reading the deployment …"}</strong></p>
-      {loaded && <p>Choose a model on the left and press Enter, or drag it here. Then drag a wire from an output to an input.</p>}
-      {loaded && <p>To begin with what another file has, such as a robot, press Text and write <code>include: robot.yaml</code>.</p>}
+      <p className="invitation">Drag a model here</p>
+      <p>or press <kbd>Enter</kbd> in the list on the left. Then drag wires from outputs, on the right of a box, to inputs, on its left.</p>
+      <p>A robot or a controller of another file? Include it: under Included files, on the right.</p>
     </div>
   );
 }
@@ -109,12 +124,13 @@ function useNodes(graph: Graph) {
   const ports = !far && graph.boxes.length <= kMostWithPorts;
   const [moved, set_moved] = useState<ReadonlyMap<string, Point>>(new Map());
   useEffect(() => set_moved(new Map()), [places, graph]);
+  const { modes, mode } = useShownMode();
   const arranged = arrangements.use((state) => state.count);
   const in_lanes = selection.use((state) => state.lanes);
   const laid = useMemo(() => (in_lanes ? lanes_of(graph) : { places: places_of(graph, places), lanes: [] }), [graph, places, arranged, in_lanes]);
   const all = useMemo(
-    () => graph.boxes.map((box) => node_of(box, moved.get(box.id) ?? laid.places.get(box.id)!, ports, chosen.includes(box.id), lane_of(box), errors_of(box, diagnostics))),
-    [graph, moved, laid, ports, chosen, diagnostics],
+    () => graph.boxes.map((box) => node_of(moved.get(box.id) ?? laid.places.get(box.id)!, chosen.includes(box.id), { box, ports, lane: lane_of(box), errors: errors_of(box, diagnostics), off: is_off(box, modes, mode) })),
+    [graph, moved, laid, ports, chosen, diagnostics, modes, mode],
   );
   const changed = useCallback((changes: NodeChange<BoxNodeType>[]) => {
     select_nodes(changes);
@@ -133,9 +149,9 @@ function place_in(nodes: BoxNodeType[], id: string): [string, Point] {
   return [id, [on_grid(x), on_grid(y)]];
 }
 
-function node_of(box: Box, [x, y]: Point, ports: boolean, selected: boolean, lane: number, errors: number): BoxNodeType {
+function node_of([x, y]: Point, selected: boolean, data: BoxData): BoxNodeType {
+  const { box, ports, off } = data;
   const size = size_of(box, ports);
-  const data: BoxData = { box, ports, lane, errors };
   const handles = [...box.inputs, ...box.outputs].map((port) => {
     const at = port_place(box, port, ports);
     const source = is_source(port);
@@ -144,7 +160,7 @@ function node_of(box: Box, [x, y]: Point, ports: boolean, selected: boolean, lan
       x: at.x - 5, y: at.y - 5, width: 10, height: 10,
     };
   });
-  const label = `${box.title}, ${box.model}${box.names.length > 1 ? `, ${box.names.length} of them` : ""}`;
+  const label = `${box.title}, ${box.model}${box.names.length > 1 ? `, ${box.names.length} of them` : ""}${off ? ", off in this mode" : ""}`;
   return { id: box.id, type: "box", position: { x, y }, ...size, measured: size, selected, data, handles, ariaLabel: label, domAttributes: { "aria-roledescription": "box" } };
 }
 

@@ -106,6 +106,7 @@ export interface Component extends Place, Members {
   model: string;
   activity: Activity;
   thread?: string;
+  unknown?: boolean;   ///< the check says nothing of it: its model is not known, or the entry has a mistake
 }
 
 export interface Connection extends Place {
@@ -128,6 +129,10 @@ export interface Checked {
   threads: { name: string; activity: Activity; order: string[] }[];
   modes: { name: string; initial: boolean }[];
 }
+
+/** What the check says of a file that has no components yet, and of nothing else. */
+export const has_nothing_yet = ({ components, errors, diagnostics }: Checked): boolean =>
+  components.length === 0 && errors === 1 && diagnostics.some(({ severity, message }) => severity === "error" && message === "the file has no components");
 
 export interface Model extends Members {
   name: string;

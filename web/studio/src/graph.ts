@@ -2,6 +2,7 @@
 // What the canvas shows: a box per entry as written, a wire per written connection.
 import { type Checked, type Component, type Connection, kEventCommand, type Place, split_member } from "./checked.ts";
 import { ports_of_opened } from "./event_command.ts";
+import { unknown_components } from "./unknown.ts";
 import { ports_of_component, ports_of_parts } from "./ports.ts";
 import {
   type Composite, composites_of, ends_at, entries_of, indexed, is_made_by, key_at, model_of, type Texts, type WrittenEntry,
@@ -83,7 +84,10 @@ class Builder {
   private readonly entries: WrittenEntry[];
   private readonly composites: Composite[];
 
-  constructor(private readonly checked: Checked, private readonly texts: Texts, private readonly opened: readonly string[]) {
+  private readonly checked: Checked;
+
+  constructor(checked: Checked, private readonly texts: Texts, private readonly opened: readonly string[]) {
+    this.checked = { ...checked, components: [...checked.components, ...unknown_components(checked, texts)] };
     this.entries = entries_of(texts);
     this.composites = composites_of(texts);
   }

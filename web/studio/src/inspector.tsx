@@ -4,6 +4,7 @@ import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
 import { CommandView } from "./command_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
+import { Includes } from "./includes_view.tsx";
 import { project } from "./project.ts";
 import { group_selected, may_group } from "./grouping.ts";
 import { box_called, counted, port_of, remove_selected, useScene } from "./scene.ts";
@@ -56,13 +57,15 @@ function Application() {
   return (
     <>
       <h2>{shown.application || "Application"}</h2>
-      <p>{`${counted(shown.components.length, "component")}, ${counted(shown.connections.filter((one) => one.kind === "data").length, "connection")}`}</p>
+      {shown.components.length === 0 && <p className="hint">Nothing is in it yet.</p>}
+      {shown.components.length > 0 && <p>{`${counted(shown.components.length, "component")}, ${counted(shown.connections.filter((one) => one.kind === "data").length, "connection")}`}</p>}
       {shown.threads.length > 0 && <h3>Threads</h3>}
       <ul className="lanes">
         {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
       </ul>
       {shown.components.length > 1 && <p className="actions"><ConnectByName /></p>}
-      <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>
+      <Includes />
+      {shown.components.length > 0 && <p className="hint">Select a box, a port or a wire to see what it is and to change it.</p>}
     </>
   );
 }

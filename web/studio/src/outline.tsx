@@ -4,6 +4,7 @@ import { useMemo, useRef, useState } from "react";
 import type { Box, BoxPort, Graph } from "./graph.ts";
 import { change, edit } from "./project.ts";
 import { connect_by_name, look_for_ends, remove_selected, useScene } from "./scene.ts";
+import { port_name } from "./port_value.tsx";
 import { open_composite, select_box, select_port, selection, toggle_plotted } from "./selection.ts";
 
 interface Row {
@@ -93,7 +94,7 @@ function action_of(event: React.KeyboardEvent, row: Row, moves: Moves): (() => v
     case "F2": return moves.rename;
     case "Delete": return () => remove(row);
     case "c": case "C": return () => void (port ? open_menu(event.currentTarget, box, port) : connect_by_name([box.id]));
-    case "p": case "P": return port ? () => toggle_plotted(port.ends[0]!) : undefined;
+    case "p": case "P": return port ? () => toggle_plotted(port_name(box, port), port.ends) : undefined;
     default: return undefined;
   }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { lazy, type ReactNode, Suspense } from "react";
+import { has_nothing_yet } from "./checked.ts";
 import { CycleView } from "./cycle_view.tsx";
 import { Log } from "./log.tsx";
+import { Modes } from "./modes_view.tsx";
 import { Operate } from "./operate.tsx";
 import { Problems } from "./problems.tsx";
 import { project } from "./project.ts";
@@ -10,10 +12,10 @@ import { Threads } from "./threads.tsx";
 
 const Plot = lazy(() => import("./plot.tsx"));
 
-const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["cycle", "Cycle"], ["plot", "Plot"], ["operate", "Operate"]];
+const kTabs: [Tab, string][] = [["problems", "Problems"], ["log", "Log"], ["threads", "Threads"], ["cycle", "Cycle"], ["plot", "Plot"], ["modes", "Modes"], ["operate", "Operate"]];
 
 const views: Record<Tab, () => ReactNode> = {
-  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, cycle: () => <CycleView />, operate: () => <Operate />,
+  problems: () => <Problems />, log: () => <Log />, threads: () => <Threads />, cycle: () => <CycleView />, operate: () => <Operate />, modes: () => <Modes />,
   plot: () => <Suspense fallback={<p className="hint">Opening the plot …</p>}><Plot /></Suspense>,
 };
 
@@ -43,7 +45,7 @@ function on_key(event: React.KeyboardEvent<HTMLElement>): void {
 }
 
 function Count() {
-  const errors = project.use((state) => state.checked?.errors ?? 0);
+  const errors = project.use((state) => (state.checked && !has_nothing_yet(state.checked) ? state.checked.errors : 0));
   const others = project.use((state) => (state.checked?.diagnostics.length ?? 0) - (state.checked?.errors ?? 0));
   const refused = project.use((state) => (state.refusal?.diagnostics.some((one) => one.severity === "error") ? 1 : 0));
   const count = errors + Math.max(0, others) + refused;

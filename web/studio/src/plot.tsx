@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last 60 s of chosen items. It comes with uPlot, so it is loaded when it is opened.
-import { useEffect, useRef } from "react";
+import { useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import { run } from "./run.ts";
-import { selection, toggle_plotted } from "./selection.ts";
+import { type Plotted, selection, toggle_plotted } from "./selection.ts";
 import { watch } from "./values.ts";
 
 const kWindow = 60;       ///< [s]
 const kMostSamples = 60 * 60;
-const kMostCurves = 6;
+const kColours = 6;
+const kDashes = [undefined, [8, 4], [2, 3]];  ///< of as many curves as there are colours
+const kMostCurves = kColours * kDashes.length;
 const kRedraw = 50;       ///< [ms]
 
 /** Curves in one time; each has a value at each time, or null. */
@@ -48,36 +50,65 @@ class Curves {
 
 export default function Plot() {
   const plotted = selection.use((state) => state.plotted);
+  const [curves, set_curves] = useState<string[]>([]);
+  const items = plotted.flatMap((one) => one.items);
+  const drawn = curves.slice(0, kMostCurves);
   return (
     <div className="plot">
       {plotted.length === 0
         ? <p className="hint">Choose what is drawn: Plot in the inspector of a port, or the key P on a port in the outline.</p>
-        : <Diagram items={plotted} />}
-      <ul className="chips">
-        {plotted.map((item, i) => <li key={item} data-lane={i % kMostCurves}>{item}<button type="button" aria-label={`Plot ${item} no more`} onClick={() => toggle_plotted(item)}>×</button></li>)}
-      </ul>
+        : <Diagram items={items.slice(0, kMostCurves)} tell={set_curves} />}
+      <div className="legend scroll">
+        {plotted.map((one) => (
+          <div key={one.name}>
+            <span className="chips"><span>{one.name}<button type="button" aria-label={`Plot ${one.name} no more`} onClick={() => toggle_plotted(one.name)}>×</button></span></span>
+            <ul aria-label={`Curves of ${one.name}`}>
+              {drawn.map((curve, i) => one.items.includes(item_of(curve)) && <li key={curve} data-lane={i % kColours} data-dash={Math.floor(i / kColours)}>{short_name(curve, one)}</li>)}
+            </ul>
+          </div>
+        ))}
+        {left_out(items, curves) > 0 && <p className="hint">{`${left_out(items, curves)} more are not drawn: ${kMostCurves} are the most.`}</p>}
+      </div>
     </div>
   );
 }
 
-function Diagram({ items }: { items: string[] }) {
+/** Of elements of a vector, the vector. */
+const item_of = (curve: string): string => curve.replace(/\[\d+\]$/, "");
+
+/** What tells a curve from the others of its port: `Joint3`, `[2]`. */
+function short_name(curve: string, { items }: Plotted): string {
+  const item = item_of(curve);
+  const component = items.length > 1 ? item.slice(0, item.lastIndexOf(".")) : "";
+  const is_alone = new Set(items.map((one) => one.slice(one.lastIndexOf(".")))).size === 1;
+  return `${is_alone ? component : item}${curve.slice(item.length)}` || item.slice(item.lastIndexOf(".") + 1);
+}
+
+const left_out = (items: string[], curves: string[]): number => Math.max(items.length, curves.length) - Math.min(kMostCurves, Math.max(items.length, curves.length));
+
+function Diagram({ items, tell }: { items: string[]; tell(curves: string[]): void }) {
   const place = useRef<HTMLDivElement>(null);
   const key = items.join("\n");
-  useEffect(() => draw(key.split("\n"), place.current!), [key]);
+  useEffect(() => draw(key.split("\n"), place.current!, tell), [key]);
   return <div className="diagram" ref={place} role="img" aria-label={`Curves of ${items.join(", ")}, the last 60 s`} />;
 }
 
-function draw(items: string[], place: HTMLElement): () => void {
+/** @param tell  told which curves there are, whenever that changes */
+function draw(items: string[], place: HTMLElement, tell: (curves: string[]) => void): () => void {
   const curves = new Curves();
   const ends = items.map((item) => watch(item, (numbers) => {
-    numbers.slice(0, kMostCurves).forEach((value, i) => curves.take(numbers.length > 1 ? `${item}[${i + 1}]` : item, value));
+    numbers.forEach((value, i) => curves.take(numbers.length > 1 ? `${item}[${i + 1}]` : item, value));
   }));
   let chart: uPlot | undefined;
+  let told = 0;
   const redraw = () => {
     const now = time_now();
     if (now === undefined) return;
     curves.sample(now);
-    chart = shown(curves, chart, items, place);
+    const names = names_of(curves, items);
+    if (names.length !== told) tell(names);
+    told = names.length;
+    chart = shown(curves, chart, names.slice(0, kMostCurves), place);
   };
   const timer = setInterval(redraw, kRedraw);
   const sized = new ResizeObserver(() => chart?.setSize(size_of(place)));
@@ -88,6 +119,12 @@ function draw(items: string[], place: HTMLElement): () => void {
     sized.disconnect();
     chart?.destroy();
   };
+}
+
+/** In the order of their items. */
+function names_of(curves: Curves, items: string[]): string[] {
+  const known = [...curves.values.keys()];
+  return items.flatMap((item) => known.filter((name) => item_of(name) === item));
 }
 
 /** The application's time, which is asked for a few times a second, carried on between. */
@@ -102,11 +139,9 @@ function time_now(): number | undefined {
   return seen.time + (here - seen.at) * rate;
 }
 
-const size_of = (place: HTMLElement) => ({ width: place.clientWidth, height: Math.max(80, place.clientHeight - (place.querySelector(".u-legend")?.clientHeight ?? 0)) });
+const size_of = (place: HTMLElement) => ({ width: place.clientWidth, height: Math.max(80, place.clientHeight) });
 
-function shown(curves: Curves, chart: uPlot | undefined, items: string[], place: HTMLElement): uPlot | undefined {
-  const known = [...curves.values.keys()];
-  const names = items.flatMap((item) => known.filter((name) => name.replace(/\[\d+\]$/, "") === item));
+function shown(curves: Curves, chart: uPlot | undefined, names: string[], place: HTMLElement): uPlot | undefined {
   if (names.length === 0) return chart;
   const data: uPlot.AlignedData = [curves.times, ...names.map((name) => curves.values.get(name)!)];
   if (chart && chart.series.length === names.length + 1) {
@@ -114,7 +149,7 @@ function shown(curves: Curves, chart: uPlot | undefined, items: string[], place:
     return chart;
   }
   chart?.destroy();
-  return new uPlot(options_of(names, names.length > items.length, place), data, place);
+  return new uPlot(options_of(names, place), data, place);
 }
 
 /** Constant values stand in the middle. */
@@ -124,13 +159,12 @@ function with_room(_: uPlot, low: number | null, high: number | null): [number, 
   return [least - room, most + room];
 }
 
-/** @param legend  of vectors, whose elements are told by it */
-function options_of(names: string[], legend: boolean, place: HTMLElement): uPlot.Options {
+function options_of(names: string[], place: HTMLElement): uPlot.Options {
   const style = getComputedStyle(place);
   const axis: uPlot.Axis = { stroke: style.getPropertyValue("--soft"), grid: { stroke: style.getPropertyValue("--grid"), width: 1 }, ticks: { show: false } };
   return {
-    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
-    legend: { show: legend, live: false }, cursor: { points: { show: false } },
-    series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kMostCurves}`), width: 1.5, points: { show: false } }))],
+    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, size: 30, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
+    legend: { show: false }, cursor: { points: { show: false } },
+    series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kColours}`), dash: kDashes[Math.floor(i / kColours)], width: 1.5, points: { show: false } }))],
   };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect, useRef } from "react";
-import type { BoxPort } from "./graph.ts";
+import type { Box, BoxPort } from "./graph.ts";
 import { age_text, numbers_text, truth_text, watch } from "./values.ts";
 
 const kMostEnds = 16;
@@ -9,6 +9,9 @@ const kOld = 1;  ///< from this age on a value is shown as old [s]
 /** Whether a port's values are numbers, which can be watched. */
 export const has_numbers = (port: BoxPort): boolean =>
   (port.kind === "input" || port.kind === "output") && /double|float|int|bool|Vector|number|long|short|byte/i.test(port.type);
+
+/** The port of the only component, or of all that the box stands for. */
+export const port_name = (box: Box, port: BoxPort): string => (port.ends.length > 1 ? `${box.id}.${port.name}` : port.ends[0]!);
 
 /** The numbers of a port, as they come. */
 export function PortValue({ port }: { port: BoxPort }) {

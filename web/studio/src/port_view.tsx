@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Box, BoxPort } from "./graph.ts";
-import { has_numbers, PortValue } from "./port_value.tsx";
+import { has_numbers, port_name, PortValue } from "./port_value.tsx";
 import { is_up, run } from "./run.ts";
 import { is_source, look_for_ends, useScene } from "./scene.ts";
 import { select_box, select_wire, selection, toggle_plotted } from "./selection.ts";
@@ -8,7 +8,7 @@ import { select_box, select_wire, selection, toggle_plotted } from "./selection.
 export function PortView({ box, port }: { box: Box; port: BoxPort }) {
   const graph = useScene();
   const live = run.use((all) => is_up(all.state));
-  const plotted = selection.use((state) => state.plotted.includes(port.ends[0]!));
+  const plotted = selection.use((state) => state.plotted.some(({ name }) => name === port_name(box, port)));
   const wires = graph.wires.filter(({ from, to }) => [from, to].some((end) => end.box === box.id && end.port === port.id));
   const open = async (event: React.MouseEvent) => {
     const { left, bottom } = event.currentTarget.getBoundingClientRect();
@@ -36,7 +36,7 @@ export function PortView({ box, port }: { box: Box; port: BoxPort }) {
       {wires.length === 0 && <p className="hint">Not connected.</p>}
       <p className="actions">
         <button type="button" onClick={(event) => void open(event)}>Connect …</button>
-        {has_numbers(port) && <button type="button" aria-pressed={plotted} onClick={() => toggle_plotted(port.ends[0]!)}>Plot</button>}
+        {has_numbers(port) && <button type="button" aria-pressed={plotted} title={port.ends.length > 1 ? `Draws all ${port.ends.length}` : "Draws its last 60 s"} onClick={() => toggle_plotted(port_name(box, port), port.ends)}>Plot</button>}
       </p>
     </>
   );

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Diagnostic } from "./checked.ts";
+import { type Diagnostic, has_nothing_yet } from "./checked.ts";
 import { apply_fix, clear_refusal, project } from "./project.ts";
 import { scene } from "./scene.ts";
 import { select_box, selection, show_text } from "./selection.ts";
@@ -9,7 +9,8 @@ export function Problems() {
   const checked = project.use((state) => state.checked);
   const refusal = project.use((state) => state.refusal);
   const behind = project.use((state) => state.state.checked < state.state.version);
-  const found = checked?.diagnostics ?? [];
+  const empty = checked !== undefined && has_nothing_yet(checked);
+  const found = empty ? [] : checked?.diagnostics ?? [];
   return (
     <div className="problems scroll" tabIndex={0} aria-label="Problems">
       {refusal && refusal.diagnostics.map((one, i) => (
@@ -20,7 +21,7 @@ export function Problems() {
         </div>
       ))}
       {found.map((one, i) => <Problem key={i} problem={one} />)}
-      {found.length === 0 && <p className="hint">{checked ? "No problems: the application can run." : "Being checked …"}</p>}
+      {found.length === 0 && <p className="hint">{empty ? "Nothing to check yet: mistakes are told here as soon as there are components." : checked ? "No problems: the application can run." : "Being checked …"}</p>}
       {behind && checked && <p className="hint" role="status">Being checked …</p>}
     </div>
   );

@@ -3,45 +3,63 @@
 import { useState } from "react";
 import type { Requirement } from "./checked.ts";
 import { Field } from "./field.tsx";
+import { items_of, map_of, said_in, unquoted } from "./flow_text.ts";
 import type { Box } from "./graph.ts";
 import { change, edit, project } from "./project.ts";
-import { peers_of } from "./written.ts";
+import { Refused } from "./refused.tsx";
 
 export function Requirements({ box }: { box: Box }) {
   const requirements = box.components[0]!.requirements ?? [];
   return (
     <>
-      <Peers box={box} />
+      <Known box={box} kind={kPeers} />
+      <Known box={box} kind={kSuperiors} />
       {requirements.length > 0 && <h3>Calls and hears</h3>}
       {requirements.map((one) => <Binding key={one.name} box={box} requirement={one} />)}
     </>
   );
 }
 
-function Peers({ box }: { box: Box }) {
+interface Kind {
+  title: string;
+  key: "peers" | "superiors";
+  add: string;
+  remove: string;
+  noun: string;
+  hint: string;
+  example: string;
+}
+
+const kPeers: Kind = { title: "Peers", key: "peers", add: "peer", remove: "no_peer", noun: "peer", hint: "components that it may use", example: "another peer" };
+const kSuperiors: Kind = { title: "Superiors", key: "superiors", add: "superior", remove: "no_superior", noun: "superior", hint: "components that command it, and that it uses nevertheless", example: "another superior" };
+
+/** Components that it knows, as chips, and a field for another one. */
+function Known({ box, kind }: { box: Box; kind: Kind }) {
   const texts = project.use((state) => state.texts);
   const names = project.use((state) => state.shown?.components);
   const [wanted, set_wanted] = useState("");
-  const peers = box.file && box.line ? peers_of(texts, { name: box.title, file: box.file, line: box.line }) : [];
-  const about = { field: `${box.id} peers`, file: box.file };
+  const written = box.file && box.line ? said_in(texts, { name: box.title, file: box.file, line: box.line }, kind.key) : "";
+  const known = items_of(written).flatMap((item) => (item.startsWith("{") ? [...map_of(item).keys()] : [unquoted(item)]));
+  const about = { field: `${box.id} ${kind.key}`, file: box.file };
   const add = async () => {
-    if (wanted && (await edit([change("peer", box.edited, wanted)], about))) set_wanted("");
+    if (wanted && (await edit([change(kind.add, box.edited, wanted)], about))) set_wanted("");
   };
-  const refusal = project.use((state) => (state.refusal?.about === about.field ? state.refusal : undefined));
   return (
-    <section className="peers" aria-label="Peers">
-      <h3>Peers</h3>
-      <ul className="chips">
-        {peers.map((peer) => (
-          <li key={peer}>{peer}<button type="button" aria-label={`Remove the peer ${peer}`} onClick={() => void edit([change("no_peer", box.edited, peer)], about)}>×</button></li>
-        ))}
-      </ul>
+    <section className="peers" aria-label={kind.title}>
+      <h3>{kind.title} <small>{kind.hint}</small></h3>
+      {known.length > 0 && (
+        <ul className="chips">
+          {known.map((one) => (
+            <li key={one}>{one}<button type="button" aria-label={`Remove the ${kind.noun} ${one}`} onClick={() => void edit([change(kind.remove, box.edited, one)], about)}>×</button></li>
+          ))}
+        </ul>
+      )}
       <form className="row" onSubmit={(event) => (event.preventDefault(), void add())}>
-        <input aria-label="New peer" placeholder="a component it may use" list="components" value={wanted} onChange={(event) => set_wanted(event.target.value)} />
+        <input aria-label={`New ${kind.noun}`} placeholder={kind.example} list={`new-${kind.key}`} value={wanted} onChange={(event) => set_wanted(event.target.value)} />
         <button type="submit" disabled={!wanted}>Add</button>
       </form>
-      <datalist id="components">{names?.map((one) => <option key={one.name} value={one.name} />)}</datalist>
-      {refusal?.diagnostics.map((one, i) => <p key={i} className={one.severity} role="alert">{one.message}</p>)}
+      <datalist id={`new-${kind.key}`}>{names?.map((one) => <option key={one.name} value={one.name} />)}</datalist>
+      <Refused about={about.field} />
     </section>
   );
 }

@@ -3,7 +3,7 @@
 import type { Argument, End, Fitting } from "./checked.ts";
 import { Store } from "./store.ts";
 
-export type Tab = "problems" | "log" | "threads" | "cycle" | "plot" | "operate";
+export type Tab = "problems" | "log" | "threads" | "cycle" | "plot" | "modes" | "operate";
 
 export type Beside = "" | "text" | "robot";
 
@@ -33,6 +33,12 @@ export interface Commanding {
   parameters: Argument[];
 }
 
+/** A port whose curves are drawn: one of each component that it stands for. */
+export interface Plotted {
+  name: string;
+  items: string[];  ///< of the run: `Joint1.Position`
+}
+
 export interface Selection {
   path: string[];       ///< composites that are open
   boxes: string[];
@@ -42,17 +48,18 @@ export interface Selection {
   menu?: FitMenu;
   beside: Beside;       ///< what stands beside the canvas
   opened: string[];     ///< connections from events to commands that are shown with their parameters
+  mode: string;         ///< that the canvas shows; empty: the one that runs, or all
   lanes: boolean;       ///< boxes are in lanes of their threads
   commanding?: Commanding;
   textPlace?: { file: string; line: number; column: number; ask: number };
   tab: Tab;
   reveal?: { box: string; ask: number };  ///< the canvas moves there
-  plotted: string[];    ///< items of the run
+  plotted: Plotted[];
   told: string;         ///< a short message; empty: none
 }
 
 export const selection = new Store<Selection>({
-  path: [], boxes: [], wires: [], beside: "", opened: [], lanes: false, tab: "problems", plotted: [], told: "",
+  path: [], boxes: [], wires: [], beside: "", opened: [], mode: "", lanes: false, tab: "problems", plotted: [], told: "",
 });
 
 let asks = 0;
@@ -86,10 +93,10 @@ export function tell(told: string): void {
   telling = setTimeout(() => selection.set({ told: "" }), 6000);
 }
 
-export function toggle_plotted(item: string): void {
+export function toggle_plotted(name: string, items: string[] = [name]): void {
   const { plotted } = selection.get();
-  const without = plotted.filter((one) => one !== item);
-  selection.set({ plotted: without.length < plotted.length ? without : [...plotted, item], tab: "plot" });
+  const without = plotted.filter((one) => one.name !== name);
+  selection.set({ plotted: without.length < plotted.length ? without : [...plotted, { name, items }], tab: "plot" });
 }
 
 /** Shows the parameters of a connection from an event to a command as pins of a box, or no more. */

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+import { has_nothing_yet } from "./checked.ts";
 import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
 import { emergency_stop } from "./emergency.ts";
 import { RunSettings } from "./run_settings.tsx";
+import { counted } from "./scene.ts";
 import { SeatView } from "./seat_view.tsx";
 import { type Beside, selection } from "./selection.ts";
 
@@ -68,6 +70,7 @@ function RunControls() {
   const { state, simulated, pace, now } = run.use((all) => all);
   const saved = project.use((all) => is_saved(all.state));
   const errors = project.use((all) => all.checked?.errors ?? 0);
+  const empty = project.use((all) => all.checked !== undefined && has_nothing_yet(all.checked));
   const going = is_going(state);
   const live_sim = is_up(state) && state.simulated;
   return (
@@ -84,7 +87,7 @@ function RunControls() {
       <ModeChoice going={going} />
       <RunSettings going={going} />
       <button type="button" className="primary" disabled={going || errors > 0} onClick={() => void start()}
-        title={errors > 0 ? "Mend the errors below first" : "Starts the application"}>
+        title={empty ? "Add a component first" : errors > 0 ? "Mend the errors below first" : "Starts the application"}>
         {saved ? "Run" : "Save and run"}
       </button>
       <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
@@ -117,7 +120,7 @@ function RunTime() {
     <div className={`run-state is-${state.state}`}>
       <span role="status">{state_text(state.state, state.exit_code, paused)}</span>
       {time !== undefined && <span className="time">{`${time.toFixed(2)} s`}</span>}
-      {faults > 0 && <button type="button" className="faults" onClick={() => selection.set({ tab: "threads" })}>{`${faults} faults`}</button>}
+      {faults > 0 && <button type="button" className="faults" onClick={() => selection.set({ tab: "threads" })}>{counted(faults, "fault")}</button>}
     </div>
   );
 }

@@ -125,12 +125,13 @@ export function number_text(value: number): string {
 /** `true` while it is one, or all, of several. */
 export const truth_text = (numbers: number[]): string => (numbers.every((one) => one > 0) ? "true" : numbers.some((one) => one > 0) ? "some" : "false");
 
-/** One number, or the least and the greatest of several. */
+/** One number, or the least and the greatest of several; once if they read the same. */
 export function numbers_text(numbers: number[]): string {
   if (numbers.length === 0) return "";
   if (numbers.length <= 2) return numbers.map(number_text).join(", ");
   const short = (value: number) => number_text(Number(value.toPrecision(2)));
-  return `${short(Math.min(...numbers))} … ${short(Math.max(...numbers))}`;
+  const [least, greatest] = [short(Math.min(...numbers)), short(Math.max(...numbers))];
+  return least === greatest ? least : `${least} … ${greatest}`;
 }
 
 /** `12.3 us`, `1.25 ms`. */

@@ -176,7 +176,7 @@ function add_flow(flow: string, to: Map<string, string>): void {
 }
 
 /** The lines of an entry. */
-function text_of(texts: Texts, entry: WrittenEntry): string {
+export function text_of_entry(texts: Texts, entry: WrittenEntry): string {
   const lines = (texts.get(entry.file) ?? "").split("\n").slice(entry.line - 1);
   const indent = /^ */.exec(lines[0] ?? "")![0].length;
   const end = lines.findIndex((line, i) => i > 0 && line.trim() !== "" && /^ */.exec(line)![0].length <= indent);
@@ -185,14 +185,8 @@ function text_of(texts: Texts, entry: WrittenEntry): string {
 
 /** The model that an entry names; empty if it is not to be seen. */
 export function model_of(texts: Texts, entry: WrittenEntry): string {
-  const text = text_of(texts, entry);
+  const text = text_of_entry(texts, entry);
   return /\bmodel:\s*["']?([\w.]+)/.exec(text)?.[1] ?? /^[^:\n]*:\s*([\w.]+)\s*(?:#.*)?$/m.exec(text)?.[1] ?? "";
-}
-
-/** The peers that an entry names, as written. */
-export function peers_of(texts: Texts, entry: WrittenEntry): string[] {
-  const list = /\bpeers:\s*\[([^\]]*)\]/.exec(text_of(texts, entry))?.[1] ?? "";
-  return list.split(",").map((peer) => unquoted(peer.trim())).filter((peer) => peer !== "");
 }
 
 /** Whether `name` is one of those that the written `pattern`, `Joint{1..7}`, makes. */

@@ -88,3 +88,13 @@ test("a text that does not have the key any more shows names", () => {
   const all = graph_of(checked, new Map(), []);
   assert.ok(all.boxes.some((one) => one.id === "Joint3"));
 });
+
+test("an entry of which the check says nothing has a box, too", () => {
+  const texts = new Map(Object.entries(kDeployments["wrong"]!));
+  const graph = graph_of(check("wrong.yaml", texts, kModels), texts, []);
+  const filter = graph.boxes.find((box) => box.title === "Filter")!;
+  assert.equal(filter.model, "LowPas");
+  assert.equal(filter.components[0]!.unknown, true);
+  assert.equal(filter.line, 5);
+  assert.deepEqual(graph.boxes.filter((box) => box.components[0]!.unknown).map((box) => box.title), ["Filter"]);
+});

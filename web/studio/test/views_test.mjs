@@ -112,7 +112,7 @@ page_test("a run begins in the mode and with the values that were set for it", "
   await page.keyboard.press("Enter");
   assert.equal(await page.getByLabel("Name 1").count(), 0, "Enter closes it");
   await page.getByRole("button", { name: "Run", exact: true }).click();
-  await page.getByText("running").waitFor();
+  await page.getByText("running", { exact: true }).waitFor();
   const orders = await page.evaluate(() => window.mock.workbench.orders);
   assert.deepEqual(orders, [{ simulated: true, pace: 1, mode: "work", overrides: ["Joint1.MaxVelocity=2 rad/s"] }]);
   assert.deepEqual(await edits(page), [], "the file stays as it is");

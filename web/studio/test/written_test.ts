@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { composites_of, ends_at, entries_of, is_made_by, key_at, model_of, parameters_of, peers_of, settings_at } from "../src/written.ts";
+import { composites_of, ends_at, entries_of, is_made_by, key_at, model_of, parameters_of, settings_at } from "../src/written.ts";
 
 const kText = `libraries: [a]
 components:
@@ -53,11 +53,10 @@ test("settings are what else a connection says", () => {
   assert.equal(settings_at(texts, "a.yaml", line_of("Joint{i}.Pos"), 5), "");
 });
 
-test("entries have their names, models and peers", () => {
+test("entries have their names and models", () => {
   const entries = entries_of(texts);
   assert.deepEqual(entries.map((one) => one.name), ["Joint{1..${joints}}", "Quoted", "Short"]);
   assert.deepEqual(entries.map((one) => model_of(texts, one)), ["Joint", "Card", "Wave"]);
-  assert.deepEqual(peers_of(texts, entries[0]!), ["card{i}", "Sampler"]);
 });
 
 test("composites have their exports, by the path inside", () => {

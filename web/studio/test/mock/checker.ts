@@ -47,6 +47,8 @@ class Check {
       for (const error of document.errors) this.error(this.place(file, error.pos[0]), error.message.split("\n")[0]!);
     }
     if (this.diagnostics.length === 0) this.read(documents.map(({ file, document }) => ({ file, map: document.contents as YAMLMap | null })));
+    const has_mistakes = this.diagnostics.length > 0;
+    if (this.components.length === 0 && !has_mistakes) this.diagnostics.push({ severity: "error", message: "the file has no components", hint: "add them under components:", file: this.file });
     const errors = this.diagnostics.filter((one) => one.severity === "error").length;
     return {
       file: this.file, application: this.application, ok: errors === 0, errors, diagnostics: this.diagnostics, components: this.components,

@@ -81,6 +81,14 @@ export const kModels: Model[] = [
   model("Arming", "robot", "lets the robot move, by its operator", {
     operations: [{ ...operation("arm", "lets the joints move from now on", [], true), by_operator: true }, operation("disarm", "effort 0, brakes applied")],
   }),
+  model("Sequence", "controls", "does calls one after the other", { operations: [operation("run", "does them", [], true)], events: [event("Done", "all are done")] }),
+  model("Request", "controls", "asks an operation and writes its result", { operations: [operation("ask", "asks once")], outputs: [port("Result", "the last answer")] }),
+  model("Camera", "vision", "sees", {
+    operations: [
+      operation("initialize", "gets ready"), operation("setThreshold", "of what is bright", [["int", "low"], ["double", "far [m]"]]),
+      operation("start", "begins to look", [], true), { ...operation("arm", "only the operator does that", [], true), by_operator: true },
+    ],
+  }),
   model("Button", "controls", "something to press", { operations: [operation("press", "as a finger does")], events: [event("Pressed", "somebody pressed it")] }),
   model("Switch", "controls", "something to turn on and off", {
     properties: [property("Initially", "bool", "false", "whether it is on at the start")], outputs: [port("On", "whether it is on", "", "bool")],

@@ -81,6 +81,28 @@ connections:
   - PID{i}.Out -> Joint{i}.Voltage
 `,
   },
+  vision: {
+    "vision.yaml": `include: lamp.yaml
+application: vision
+libraries: [controls, vision]
+modes:
+  look: [Vision, Prepare]
+  rest:
+    - Dial  # is turned meanwhile
+components:
+  Vision: {model: Camera}
+  Prepare:
+    model: Sequence
+    activity: {periodic: 100 ms}
+    superiors: [Dial]
+    calls:
+      - Vision.initialize  # first of all
+      - {call: Vision.setThreshold, with: {low: 10, far: Dial.Out}}
+  Ask: {model: Request, activity: {periodic: 100 ms}, calls: Vision.start}
+  Dial: {model: Slider, activity: {periodic: 100 ms}}
+`,
+    "lamp.yaml": "components:\n  Lamp: {model: Light}\n",
+  },
   empty: { "new.yaml": "application: new\n" },
   wrong: {
     "wrong.yaml": `application: wrong

@@ -173,6 +173,12 @@ export class MockWorkbench implements Workbench {
     else if (edit === "dissolve") document.deleteIn(["components", a]);
     else if (edit === "split") return this.split(document, a, b);
     else if (edit === "peer") add_to(document, ["components", a, "peers"], b);
+    else if (edit === "superior") add_to(document, ["components", a, "superiors"], b);
+    else if (edit === "no_superior") remove_from(document, ["components", a, "superiors"], b);
+    else if (edit === "calls") document.setIn(["components", a, "calls"], parseDocument(b).contents);
+    else if (edit === "include") add_to(document, ["include"], a);
+    else if (edit === "no_include") document.deleteIn(["include"]);
+    else return change_modes(document, edit, a, b);
     return "";
   }
 
@@ -314,6 +320,25 @@ function set(document: Document, owner: string, member: string, value: string): 
 function add_to(document: Document, path: string[], item: unknown): void {
   if (document.hasIn(path)) document.addIn(path, item);
   else document.setIn(path, document.createNode([item]));
+}
+
+function remove_from(document: Document, path: string[], item: string): void {
+  const rest = (document.getIn(path) as { toJSON(): string[] }).toJSON().filter((one) => one !== item);
+  if (rest.length > 0) document.setIn(path, document.createNode(rest, { flow: true }));
+  else document.deleteIn(path);
+}
+
+/** @return why it is refused; empty: it is made */
+function change_modes(document: Document, edit: string, a: string, b: string): string {
+  const modes = document.get("modes") as unknown as { items: { key: { value: string } }[] } | undefined;
+  if (edit === "to_mode") add_to(document, ["modes", a], b);
+  else if (edit === "no_mode") document.deleteIn(["modes", a]);
+  else if (edit === "rename_mode") modes!.items.find((one) => one.key.value === a)!.key.value = b;
+  else if (edit === "from_mode") {
+    if ((document.getIn(["modes", a]) as { items: unknown[] }).items.length === 1) return "the mode would have no component";
+    remove_from(document, ["modes", a], b);
+  }
+  return "";
 }
 
 type Items = { items: { value?: string; get?(key: string): unknown }[] };
