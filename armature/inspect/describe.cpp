@@ -7,6 +7,7 @@
 #include "armature/base/alternatives.hpp"
 #include "armature/component/author.hpp"
 #include "armature/component/interface.hpp"
+#include "armature/component/operations/calls_by_name.hpp"
 #include "armature/component/ports/port_array.hpp"
 #include "armature/inspect/internal/snapshot.hpp"
 #include "armature/types/elements.hpp"
@@ -226,6 +227,9 @@ ComponentDescription describe(const Component& component, std::string model, Val
   description.name = component.name();
   description.state = component.state();
   description.reason = component.reason();
+  if (const auto* caller = dynamic_cast<const component::CallsByName*>(&component)) {
+    description.most_calls = caller->most_calls();
+  }
   return description;
 }
 

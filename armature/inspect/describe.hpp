@@ -179,6 +179,7 @@ struct ComponentDescription : ComponentStatus {
   std::vector<RequirementDescription> requirements;
   std::vector<MachineDescription> machines;
   std::vector<FieldDescription> fields;
+  std::size_t most_calls = 0;  ///< that its deployment may give it under `calls` (here)
 
   bool operator==(const ComponentDescription&) const = default;
 };

@@ -127,6 +127,7 @@ void add_members(const ComponentDescription& description, const char* value_key,
   to["requirements"] = list(description.requirements);
   to["state_machines"] = list(description.machines);
   to["fields"] = list(description.fields);
+  if (description.most_calls > 0) to["most_calls"] = description.most_calls;
 }
 
 }  // namespace armature::inspect::internal

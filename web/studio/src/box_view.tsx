@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Activity, activity_text, duration_text, type Property } from "./checked.ts";
-import { takes_calls } from "./calls.ts";
 import { Calls } from "./calls_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
 import { Field } from "./field.tsx";
@@ -19,14 +18,14 @@ export function BoxView({ box }: { box: Box }) {
   return (
     <>
       <h2>{box.title}{box.names.length > 1 && <span className="count">{`×${box.names.length}`}</span>}</h2>
-      <p className="lead"><b>{box.model}</b>{model?.doc && ` ${model.doc}`}</p>
+      <p className="lead"><b>{box.model}</b>{model?.doc && ` ${model.doc}`}{model && <em>{model.granularity}</em>}</p>
       {is_unknown(box) && <p className="error">The check says nothing of it, because of a mistake: see Problems, or mend it in the text.</p>}
       <Live box={box} />
       <Name box={box} />
       {is_range(box) && <SplitField box={box} />}
       {!box.composite && !is_unknown(box) && <ActivityField box={box} />}
       {box.composite ? <Parts box={box} /> : <Properties box={box} defaults={model?.properties ?? []} />}
-      {!box.composite && takes_calls(box) && <Calls box={box} />}
+      {!box.composite && model?.most_calls !== undefined && <Calls box={box} most={model.most_calls} />}
       {!box.composite && !is_unknown(box) && <Requirements box={box} />}
       <p className="actions">
         <ConnectByName boxes={[box.id]} />

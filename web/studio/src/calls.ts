@@ -11,13 +11,6 @@ export interface Call {
   with: string;  ///< its parameters, as written: `{low: 10}`; empty: none
 }
 
-/** Models that call, and how many calls they take. */
-const kMostCalls: Record<string, number | undefined> = { Sequence: Infinity, Request: 1 };
-
-export const takes_calls = ({ model }: Box): boolean => kMostCalls[model] !== undefined;
-
-export const most_calls = ({ model }: Box): number => kMostCalls[model] ?? Infinity;
-
 export function calls_of(texts: Texts, { file, line, title }: Box): Call[] {
   if (!file || !line) return [];
   return items_of(said_in(texts, { name: title, file, line }, "calls")).map(call_of);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a Sequence or a Request calls, in its order.
 import { useState } from "react";
-import { type Call, callable, calls_of, calls_text, most_calls, moved, parameters_of_call } from "./calls.ts";
+import { type Call, callable, calls_of, calls_text, moved, parameters_of_call } from "./calls.ts";
 import { with_parameter } from "./event_command.ts";
 import { Field } from "./field.tsx";
 import { map_of } from "./flow_text.ts";
@@ -9,7 +9,7 @@ import type { Box } from "./graph.ts";
 import { change, edit, project } from "./project.ts";
 import { Refused } from "./refused.tsx";
 
-export function Calls({ box }: { box: Box }) {
+export function Calls({ box, most }: { box: Box; most: number }) {
   const texts = project.use((state) => state.texts);
   const shown = project.use((state) => state.shown);
   const calls = calls_of(texts, box);
@@ -17,7 +17,7 @@ export function Calls({ box }: { box: Box }) {
   const offers = callable(shown, box);
   const about = `${box.id} calls`;
   const write = (all: readonly Call[], field = about) => edit([change("calls", box.edited, calls_text(all))], { field, file: box.file });
-  const several = most_calls(box) > 1;
+  const several = most > 1;
   return (
     <section className="calls" aria-label="Calls">
       <h3>{several ? "Calls, one after the other" : "Asks"}</h3>
@@ -32,7 +32,7 @@ export function Calls({ box }: { box: Box }) {
           </li>
         ))}
       </ol>
-      {calls.length < most_calls(box) && <Another offers={offers} add={(to) => write([...calls, { to, with: "" }])} />}
+      {calls.length < most && <Another offers={offers} add={(to) => write([...calls, { to, with: "" }])} />}
       <Refused about={about} />
     </section>
   );

@@ -134,10 +134,16 @@ export interface Checked {
 export const has_nothing_yet = ({ components, errors, diagnostics }: Checked): boolean =>
   components.length === 0 && errors === 1 && diagnostics.some(({ severity, message }) => severity === "error" && message === "the file has no components");
 
+/** How large a part of an application a model is (paper 4, II.A). */
+export type Granularity = "application" | "composite" | "algorithm" | "atomic";
+
 export interface Model extends Members {
   name: string;
   library: string;
   doc: string;
+  granularity: Granularity;
+  face: string;         ///< how it is drawn while it runs; empty: as its box
+  most_calls?: number;  ///< that it takes under `calls`; absent: none
 }
 
 /** An end that a connection could lead to. */

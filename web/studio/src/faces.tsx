@@ -2,7 +2,7 @@
 // How the components of the library `controls` are drawn and operated (docs/controls.md).
 import { type ReactNode, useEffect, useRef, useState } from "react";
 import { message_of } from "./backend.ts";
-import type { Component } from "./checked.ts";
+import type { Component, Model } from "./checked.ts";
 import { inspector } from "./run.ts";
 import { tell, toggle_plotted } from "./selection.ts";
 import { number_text, watch } from "./values.ts";
@@ -107,6 +107,12 @@ const PlotFace: Face = ({ component }) => (
   <button type="button" onClick={() => component.inputs.forEach((port) => toggle_plotted(`${component.name}.${port.name}`))}>Plot its inputs</button>
 );
 
-export const faces: Record<string, Face | undefined> = {
-  Button: ButtonFace, Switch: SwitchFace, Slider: SliderFace, Light: LightFace, Number: NumberFace, Text: TextFace, Plot: PlotFace,
+const faces: Record<string, Face | undefined> = {
+  button: ButtonFace, switch: SwitchFace, slider: SliderFace, light: LightFace, number: NumberFace, text: TextFace, plot: PlotFace,
 };
+
+/** How a model is drawn that says so. Of an application elsewhere, whose libraries are not here, models have the names of controls. */
+export function face_of(models: readonly Model[], name: string): Face | undefined {
+  const model = models.find((one) => one.name === name);
+  return faces[model ? model.face : name.toLowerCase()];
+}

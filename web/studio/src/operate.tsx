@@ -3,8 +3,8 @@ import { useState } from "react";
 import { message_of } from "./backend.ts";
 import type { Component, Property } from "./checked.ts";
 import { HeldAct } from "./held_act.tsx";
+import { face_of } from "./faces.tsx";
 import { project } from "./project.ts";
-import { faces } from "./faces.tsx";
 import { Jog, jogs } from "./jog.tsx";
 import { Call, Operations } from "./operations.tsx";
 import { inspector, is_up, run } from "./run.ts";
@@ -34,7 +34,8 @@ export function Operate() {
   const components = project.use((state) => state.shown?.components);
   const box = useSelectedBox();
   if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
-  const controls = (components ?? []).filter((one) => faces[one.model]);
+  const models = project.use((state) => state.models);
+  const controls = (components ?? []).filter((one) => face_of(models, one.model));
   const armed = (components ?? []).filter((one) => arms(one) || words_of(one).length > 0);
   const jogged = (components ?? []).filter(jogs);
   return (
@@ -49,7 +50,7 @@ export function Operate() {
         ))}
         {jogged.map((one) => <Jog key={one.name} component={one} />)}
         {controls.map((one) => {
-          const Face = faces[one.model]!;
+          const Face = face_of(models, one.model)!;
           return <fieldset key={one.name}><legend>{one.name}</legend><Face component={one} /></fieldset>;
         })}
         {controls.length + jogged.length + armed.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useMemo, useState } from "react";
 import { drag_model } from "./canvas.tsx";
-import type { Model } from "./checked.ts";
+import type { Granularity, Model } from "./checked.ts";
 import { project } from "./project.ts";
 import { add_model, without_range } from "./scene.ts";
 import { composites_of } from "./written.ts";
@@ -9,9 +9,13 @@ import { composites_of } from "./written.ts";
 interface Offer {
   name: string;
   doc: string;
+  granularity: Granularity;
 }
 
-/** Models by library, and the composites of the deployment. */
+/** From what gives tasks to what touches hardware. */
+const kOrder: readonly Granularity[] = ["application", "composite", "algorithm", "atomic"];
+
+/** Models by library and granularity, and the composites of the deployment. */
 export function Palette() {
   const models = project.use((state) => state.models);
   const texts = project.use((state) => state.texts);
@@ -40,15 +44,17 @@ function add_first(groups: [string, Offer[]][], range: string): void {
 function found(models: Model[], composites: string[], sought: string): [string, Offer[]][] {
   const groups = new Map<string, Offer[]>();
   const word = sought.trim().toLowerCase();
-  const offer = (library: string, { name, doc }: Offer) => {
+  const offer = (library: string, { name, doc, granularity }: Offer) => {
     if (!`${name} ${doc}`.toLowerCase().includes(word)) return;
-    groups.set(library, [...(groups.get(library) ?? []), { name, doc }]);
+    groups.set(library, [...(groups.get(library) ?? []), { name, doc, granularity }]);
   };
-  for (const name of composites) offer("This deployment", { name, doc: "a composite" });
+  for (const name of composites) offer("This deployment", { name, doc: "of this deployment", granularity: "composite" });
   for (const model of models) offer(model.library || "Armature", model);
-  for (const offers of groups.values()) offers.sort((a, b) => rank(a, word) - rank(b, word) || a.name.localeCompare(b.name));
+  for (const offers of groups.values()) offers.sort((a, b) => rank(a, word) - rank(b, word) || level(a) - level(b) || a.name.localeCompare(b.name));
   return [...groups].sort(([, a], [, b]) => (word ? rank(a[0]!, word) - rank(b[0]!, word) : 0));
 }
+
+const level = ({ granularity }: Offer): number => kOrder.indexOf(granularity);
 
 /** Names that begin so come first, then those that have it in them. */
 function rank({ name }: Offer, word: string): number {
@@ -62,11 +68,11 @@ function Group({ library, offers, open }: { library: string; offers: Offer[]; op
     <details open={open || used}>
       <summary>{library}<span className="count">{offers.length}</span></summary>
       <ul>
-        {offers.map(({ name, doc }) => (
+        {offers.map(({ name, doc, granularity }) => (
           <li key={name}>
-            <button type="button" draggable onDragStart={(event) => drag_model(event, name)} title={`${doc}\nEnter adds one; or drag it`}
+            <button type="button" draggable onDragStart={(event) => drag_model(event, name)} title={`${doc} (${granularity})\nEnter adds one; or drag it`}
               onClick={(event) => event.detail === 0 && void add_model(name)} onDoubleClick={() => void add_model(name)}>
-              <span>{name}</span><small>{doc}</small>
+              <span>{name}{granularity !== "algorithm" && <em>{granularity}</em>}</span><small>{doc}</small>
             </button>
           </li>
         ))}

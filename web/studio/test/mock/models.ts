@@ -13,8 +13,10 @@ const operation = (name: string, doc: string, args: [string, string][] = [], com
 const event = (name: string, doc: string) => ({ name, doc, signature: "void()", arguments: [] });
 
 function model(name: string, library: string, doc: string, members: Partial<Model>): Model {
-  return { name, library, doc, properties: [], inputs: [], outputs: [], port_arrays: [], operations: [], events: [], requirements: [], ...members };
+  return { name, library, doc, granularity: "algorithm", face: kFaces.has(name) ? name.toLowerCase() : "", properties: [], inputs: [], outputs: [], port_arrays: [], operations: [], events: [], requirements: [], ...members };
 }
+
+const kFaces = new Set(["Button", "Switch", "Slider", "Light", "Number", "Text", "Plot"]);
 
 const unit = property("Unit", "string", "", "of the number and of all bounds");
 const numbered = (name: string, count: number, doc: string, of_unit: string): Port[] =>
@@ -81,8 +83,8 @@ export const kModels: Model[] = [
   model("Arming", "robot", "lets the robot move, by its operator", {
     operations: [{ ...operation("arm", "lets the joints move from now on", [], true), by_operator: true }, operation("disarm", "effort 0, brakes applied")],
   }),
-  model("Sequence", "controls", "does calls one after the other", { operations: [operation("run", "does them", [], true)], events: [event("Done", "all are done")] }),
-  model("Request", "controls", "asks an operation and writes its result", { operations: [operation("ask", "asks once")], outputs: [port("Result", "the last answer")] }),
+  model("Sequence", "controls", "does calls one after the other", { granularity: "application", most_calls: 100, operations: [operation("run", "does them", [], true)], events: [event("Done", "all are done")] }),
+  model("Request", "controls", "asks an operation and writes its result", { most_calls: 1, operations: [operation("ask", "asks once")], outputs: [port("Result", "the last answer")] }),
   model("Camera", "vision", "sees", {
     operations: [
       operation("initialize", "gets ready"), operation("setThreshold", "of what is bright", [["int", "low"], ["double", "far [m]"]]),
