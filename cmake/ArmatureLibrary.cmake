@@ -277,7 +277,7 @@ endfunction()
 # armature_fuzz_target(NAME fuzz_yaml SOURCES fuzz_yaml.cpp USES deploy)
 #
 # A libFuzzer target with its corpus in the folder corpus/<NAME> beside it. With ARMATURE_FUZZ the
-# test of that name fuzzes for a minute from a fixed seed (a change is not refused for what another
+# test of that name fuzzes for 40 seconds from a fixed seed (a change is not refused for what another
 # seed would have found before it; scripts/fuzz takes any), and keeps what it finds in
 # build/asan/fuzz/<NAME>.found; without, it replays the corpus.
 function(armature_fuzz_target)
@@ -295,7 +295,7 @@ function(armature_fuzz_target)
     set(found ${folder}/${arg_NAME}.found)
     file(MAKE_DIRECTORY ${found})
     add_test(NAME ${arg_NAME} COMMAND ${arg_NAME} ${found} ${corpus} -artifact_prefix=${found}/
-                                      -seed=1 -max_total_time=60 -timeout=10 -print_final_stats=1)
+                                      -seed=1 -max_total_time=40 -timeout=10 -print_final_stats=1)
     set_tests_properties(${arg_NAME} PROPERTIES LABELS fuzz)
   else()
     target_sources(${arg_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/fuzz/replay.cpp)
