@@ -173,6 +173,7 @@ Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics) {
   load(folder, content);
   for (const std::string& inner : content.folders) load(inner, content_of(inner, diagnostics));
   runs.cycle_json = load_json(fs::path(folder) / kCycleFile, diagnostics);
+  runs.figures_json = load_json(fs::path(folder) / kFiguresFile, diagnostics);
   const fs::path goals = fs::path(folder) / kGoalsFile;
   runs.goals = parse_goals(load_json(goals, diagnostics), goals.string(), diagnostics);
   if (runs.runs.empty() && diagnostics.ok()) {
