@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -47,6 +46,8 @@ constexpr Vector kLight{-0.36, 0.48, 0.8};
 /// Of 256: in the shadow, and what full light adds.
 constexpr int kAmbient = 150;
 constexpr double kDiffuse = 106.0;
+/// Beyond that nothing is seen, and no body is [m].
+constexpr double kFarthest = 1e6;
 
 /// Those of one axis in which a ball is seen; some too many, never one too few.
 /// @param aside  of its middle, in the picture's direction
@@ -138,7 +139,7 @@ void RayCamera::Impl::scan(const Shape& shape, const Thing& thing, const Sight& 
 }
 
 void RayCamera::Impl::render_row(int row) {
-  std::fill(depth.begin(), depth.end(), std::numeric_limits<double>::infinity());
+  std::fill(depth.begin(), depth.end(), kFarthest);
   std::fill(colour.begin(), colour.end(), kSky);
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const Sight& sight = sights[i];
@@ -196,7 +197,7 @@ base::Result<RayCamera> RayCamera::parse(const std::string& mjcf, const std::str
   impl->options = options;
   const double focal = 0.5 * options.height / std::tan(0.5 * impl->scene.field_of_view);
   impl->focal = std::floor(focal * kFocalSteps + 0.5) / kFocalSteps;
-  impl->noise_step = static_cast<int>(options.noise / kNoiseDeviation * 65536.0 + 0.5);
+  impl->noise_step = static_cast<int>(std::lround(options.noise / kNoiseDeviation * 65536.0));
   impl->sights.resize(impl->scene.things.size());
   impl->depth.resize(static_cast<std::size_t>(options.width));
   impl->colour.resize(static_cast<std::size_t>(options.width));
@@ -209,8 +210,14 @@ std::optional<std::size_t> RayCamera::find_body(std::string_view name) const {
   return static_cast<std::size_t>(body);
 }
 
-void RayCamera::place(std::size_t body, const Pose& pose) {
+bool RayCamera::place(std::size_t body, const Pose& pose) {
+  const auto near = [](double length) { return std::abs(length) <= kFarthest; };
+  const auto& [w, x, y, z] = pose.orientation;
+  const double length = w * w + x * x + y * y + z * z;
+  const bool turned = length > 0.5 && length < 2.0;
+  if (!turned || !std::all_of(pose.position.begin(), pose.position.end(), near)) return false;
   impl_->scene.bodies[body] = internal::snapped(pose);
+  return true;
 }
 
 std::size_t RayCamera::size() const {

@@ -52,8 +52,11 @@ class RayCamera {
   std::optional<std::size_t> find_body(std::string_view name) const;
   /// From the next image on; until then it is where the description has it. Bodies that it carries
   /// stay where they are: each is placed by itself.
+  /// @param pose  within 1000 km of the world's middle; else, or if it is no number, it is not
+  /// taken
+  /// @return false if it was not taken
   /// @rt nonblocking, no allocation
-  void place(std::size_t body, const Pose& pose);
+  bool place(std::size_t body, const Pose& pose);
 
   /// @param frame  number of the image: each has noise of its own
   /// @param image  red, green, blue of each pixel, row 0 on top; gets `size()` bytes

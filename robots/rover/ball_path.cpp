@@ -17,8 +17,8 @@ constexpr double kEightX = 1.5;        // half its length [m]
 constexpr double kEightY = 0.8;        // half its width [m]
 constexpr double kCarrySpeed = 2.0;    // [m/s]
 constexpr double kCarryHeight = 0.9;   // [m]
-constexpr BallPoint kBeforeScreen{0.1, 1.5, kBallRadius};
-constexpr BallPoint kBehindScreen{1.5, 1.5, kBallRadius};
+constexpr BallPoint kBesideScreen{2.45, -0.7, kBallRadius};
+constexpr BallPoint kBehindScreen{2.45, 0.7, kBallRadius};
 
 double distance(const BallPoint& a, const BallPoint& b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) +
@@ -47,7 +47,7 @@ void BallPath::go(BallWay way, const Config& config) {
       target_ = on_curve(angle_);
       return;
     case BallWay::kHide:
-      target_ = kBeforeScreen;
+      target_ = kBesideScreen;
       return;
     case BallWay::kCarry:
       phase_ = Phase::kLift;

@@ -13,7 +13,7 @@ enum class BallWay : std::uint8_t {
   kLine,    ///< rolls 2 m, and rests for 2 s after the first
   kCircle,  ///< a circle of 1.5 m about the arena's middle, to the left, without end
   kEight,   ///< an eight about the arena's middle, without end
-  kHide,    ///< to the screen's left end, then behind the screen to its right end
+  kHide,    ///< to the right of the screen, then behind it to its left
   kCarry,   ///< carried by a hand, above the camera's view, to where it is told
   kPorts,   ///< where the inputs X and Y say
 };

@@ -74,9 +74,10 @@ TEST_F(BallTest, RollsAnEightWithinTheArenaAtItsSpeed) {
 
 TEST_F(BallTest, HidesBehindTheScreen) {
   begin("hide");
-  const BallPoint point = after(20.0);
-  EXPECT_EQ(point.x, 1.5);
-  EXPECT_GT(point.y, 1.2) << "the screen's place";
+  EXPECT_EQ(after(12.0).x, 2.45) << "behind the screen, which is at 2.1 m";
+  EXPECT_LT(ball.output<BallPoint>("Point").y, 0.0);
+  EXPECT_EQ(after(8.0).x, 2.45);
+  EXPECT_EQ(ball.output<BallPoint>("Point").y, 0.7);
 }
 
 TEST_F(BallTest, IsCarriedBehindTheRoverAboveItsView) {

@@ -69,6 +69,26 @@ TEST_F(CameraTest, SeesWithTheRoversHeading) {
   static_cast<void>(unused);
 }
 
+TEST_F(CameraTest, TheScreenHidesTheBallForMoreThanASecond) {
+  begin();
+  int hidden = 0;
+  for (double y = -0.7; y <= 0.7; y += 0.3 * 0.05) {
+    const auto [x, unused] = spot(next({1.45, 0.0, 0.0}, {2.45, y, kBallRadius}));
+    static_cast<void>(unused);
+    hidden += std::isnan(x) ? 1 : 0;
+  }
+  EXPECT_GE(hidden, 24) << "images of 20 a second, at 0.3 m/s";
+  EXPECT_LE(hidden, 36);
+}
+
+TEST_F(CameraTest, APlaceThatIsNoNumberLeavesItWhereItWas) {
+  begin();
+  const Image before = next({0.5, 0.0, 0.0}, {1.5, 0.0, kBallRadius});
+  const double nan = std::nan("");
+  EXPECT_EQ(before, next({nan, 0.0, nan}, {1.5, nan, kBallRadius}));
+  EXPECT_EQ(before, next({1e300, 0.0, 0.0}, {1.5, 0.0, kBallRadius}));
+}
+
 TEST_F(CameraTest, AnImageForEachCycleOfTheSizeThatIsAskedFor) {
   camera.set("ImageWidth", 160);
   camera.set("ImageHeight", 120);

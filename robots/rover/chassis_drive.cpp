@@ -30,6 +30,30 @@ void ChassisDrive::on_check(component::Check& check) const {
   if (wheels_ != 2 && wheels_ != 4) check.error("Wheels is 3, expected 2 or 4", "set Wheels");
 }
 
+std::vector<controllers::DrivenJoint> ChassisDrive::joints(const component::Check& check) {
+  std::vector<controllers::DrivenJoint> all;
+  for (std::size_t wheel = 0; wheel < reference_.size(); ++wheel) {
+    for (const controllers::DrivenJoint& joint :
+         controllers::joints_behind(reference_[wheel], check)) {
+      all.push_back(joint);
+    }
+  }
+  return all;
+}
+
+/// A speed that a joint's limiter cuts would be a wheel that does not follow.
+std::string ChassisDrive::objection(const std::vector<controllers::DrivenJoint>& joints,
+                                    double speed, double radius) {
+  for (const controllers::DrivenJoint& joint : joints) {
+    if (speed / radius <= joint.max_velocity) continue;
+    return "MaxSpeed is " + controllers::figure(speed) + " m/s, which " + joint.name +
+           " makes with " + controllers::figure(speed / radius) +
+           " rad/s, expected at most its MaxVelocity of " +
+           controllers::figure(joint.max_velocity) + " rad/s";
+  }
+  return {};
+}
+
 Outcome ChassisDrive::on_start() {
   if (changes_.take()) {
     if (Outcome outcome = set_up(); !outcome) return outcome;

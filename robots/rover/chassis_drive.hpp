@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "armature/component/author.hpp"
 #include "armature/control/arming/gathering.hpp"
 #include "armature/controllers/base/changes.hpp"
+#include "armature/controllers/base/checked_gains.hpp"
 #include "armature/controllers/base/missing_answers.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 #include "robots/rover/odometry.hpp"
@@ -45,6 +47,10 @@ class ChassisDrive final : public component::Component {
   component::Outcome on_start() override;
   void on_check(component::Check& check) const override;
   component::Outcome set_up();
+
+  std::vector<controllers::DrivenJoint> joints(const component::Check& check);
+  static std::string objection(const std::vector<controllers::DrivenJoint>& joints, double speed,
+                               double radius);
 
   // A cycle.
   void on_sample();
@@ -167,6 +173,13 @@ class ChassisDrive final : public component::Component {
   component::Attribute<StopReason> stop_reason_{this, "stop_reason", StopReason(),
                                                 "why it came to rest last"};
 
+  controllers::CheckedGains limits_{
+      this, [this](const component::Check& check) { return joints(check); },
+      [this](const std::vector<controllers::DrivenJoint>& joints, double /*period_s*/,
+             const controllers::CheckedGains::Wanted& wanted) {
+        return objection(joints, wanted.value_of(max_speed_), wanted.value_of(wheel_radius_));
+      },
+      max_speed_, wheel_radius_};
   controllers::Changes changes_{wheels_,           wheel_radius_,      track_,
                                 max_acceleration_, stop_deceleration_, period_.property()};
   std::optional<control::Gathering> gathering_;

@@ -20,7 +20,7 @@ constexpr std::string_view kArena = R"(
     <geom name="south" type="plane" size="3 0.25 1" pos="0 -2 0.25" zaxis="0 1 0" rgba="0.70 0.74 0.78 1"/>
     <geom name="post" type="cylinder" size="0.05 0.30" pos="2.4 1.4 0.30" rgba="0.95 0.50 0.05 1"/>
     <geom name="box" type="box" size="0.15 0.15 0.15" pos="2.2 -1.4 0.15" rgba="0.10 0.20 0.80 1"/>
-    <geom name="screen" type="box" size="0.18 0.01 0.25" pos="0.8 1.20 0.25" rgba="0.85 0.85 0.85 1"/>
+    <geom name="screen" type="box" size="0.01 0.16 0.25" pos="2.1 0 0.25" rgba="0.85 0.85 0.85 1"/>
     <body name="ball" pos="{ball_x} 0 {ball_radius}">
       <geom type="sphere" size="{ball_radius}" rgba="0.85 0.08 0.10 1" contype="0" conaffinity="0"/>
     </body>

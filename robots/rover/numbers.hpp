@@ -16,7 +16,7 @@ constexpr double kBallRadius = 0.05;       ///< [m]
 constexpr double kBeginX = -1.5;
 constexpr double kCameraAhead = 0.08;   ///< of the middle of the front axle [m]
 constexpr double kCameraHeight = 0.30;  ///< above the floor [m]
-constexpr double kBallRestX = kBeginX + kCameraAhead + 1.0;
+constexpr double kBallRestX = -0.42;
 
 /// Of each wheel; the friction is the description's.
 constexpr control::DcMotor::Config kMotor{.resistance_ohm = 4.0,

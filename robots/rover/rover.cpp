@@ -17,7 +17,7 @@ ARMATURE_COMPONENT_LIBRARY(rover, registry) {
   registry.add<SimulatedRover>("SimulatedRover",
                                "the simulated rover in its arena, with its drives",
                                Granularity::kAtomic);
-  registry.add<Wheel>("Wheel", "a wheel with its motor and encoder: the hardware of a joint",
+  registry.add<Wheel>("RoverWheel", "a wheel with its motor and encoder: the hardware of a joint",
                       Granularity::kAtomic);
   registry.add<Camera>("Camera", "the images of the camera on the rover's mast",
                        Granularity::kAtomic);

@@ -23,7 +23,7 @@ struct WheelSample {
 ARMATURE_STRUCT(WheelSample, counts, fresh, on);
 
 /// The simulated rover in its arena (MODEL.md), in simulated or real time, as the application is
-/// run. The components Wheel reach their drives by its operations; a Camera sees by `Place`.
+/// run. The components RoverWheel reach their drives by its operations; a Camera sees by `Place`.
 ///
 /// Time passes for it when it is read or driven, and at each Sample. What breaks in it is set by
 /// properties, for tests of faults.

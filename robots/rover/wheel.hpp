@@ -6,9 +6,10 @@
 
 namespace armature::rover {
 
-/// A wheel: the hardware of a joint that turns without end, with motor, encoder and drive. Its peer
-/// has the drives (SimulatedRover). DisplacementSensor is of the motor's axis, so its Joint has the
-/// gear, and needs `Continuous`. It has no brake: the motor brakes itself while the drive is off.
+/// The model `RoverWheel`: the hardware of a joint that turns without end, with motor, encoder and
+/// drive. Its peer has the drives (SimulatedRover). DisplacementSensor is of the motor's axis, so
+/// its Joint has the gear, and needs `Continuous`. It has no brake: the motor brakes itself while
+/// the drive is off.
 ///
 /// It faults, and so stops its joint, when the drive stopped by itself, as it does 100 ms after the
 /// last effort.

@@ -232,6 +232,37 @@ TEST_P(Broken, WheelsWhoseChassisIsGoneStopTogether) {
   EXPECT_TRUE(robot.rests());
 }
 
+TEST_P(Broken, ADriveThatStopsByItselfTakesTheOthersAlong) {
+  robot.plant().switch_off(1, robot.application().now());
+  robot.run_for(30ms);
+  EXPECT_EQ(robot.reason("Chassis.Wheel2"),
+            "the drive stopped by itself: no effort came for 100 ms");
+  robot.run_for(600ms);
+  expect_all_rest();
+  EXPECT_FALSE(robot.value<bool>("Arming", "armed"));
+}
+
+TEST_P(Broken, RecoveredItRestsUntilTheOperatorArms) {
+  robot.set("Rover", "SilentEncoder", types::Value::of(1));
+  robot.run_for(1s);
+  robot.set("Rover", "SilentEncoder", types::Value::of(0));
+  for (int number = 1; number <= static_cast<int>(robot.plant().wheels()); ++number) {
+    for (const char* part : {"Chassis.Wheel", "Chassis.Joint", "Chassis.PID"}) {
+      static_cast<void>(robot.application().start_component(part + std::to_string(number)));
+    }
+  }
+  ASSERT_TRUE(robot.application().reset_component("Chassis.Drive"));
+  ASSERT_TRUE(robot.application().start_component("Chassis.Drive"));
+  ASSERT_TRUE(robot.application().start_component("Arming"));
+  robot.run_for(200ms);
+  EXPECT_THAT(robot.set_velocity(0.5F, 0.5F), HasSubstr("not armed"));
+  robot.run_for(500ms);
+  EXPECT_TRUE(robot.rests());
+  robot.arm();
+  robot.drive(0.3F, 0.3F, 1s);
+  EXPECT_NEAR(robot.speed(0), 0.3, 0.02);
+}
+
 TEST_P(Broken, AWheelThatStopsTakesTheOthersAlong) {
   ASSERT_TRUE(robot.application().stop_component("Chassis.Wheel2"));
   robot.run_for(50ms);
@@ -281,6 +312,20 @@ TEST(RoverBody, BreaksNoRuleOfRealTime) {
 TEST(RoverBody, GainsThatWouldShakeAWheelAreRefused) {
   const auto wild = Robot::load(by_script(), {"Chassis.PID1.Kp=20"});
   EXPECT_THAT(wild.diagnostics.to_text(), HasSubstr("Chassis.Joint1: shakes at "));
+}
+
+TEST(RoverBody, ATopSpeedThatItsJointsWouldCutIsRefusedAtCheckAndAtRunTime) {
+  const auto fast = Robot::load(by_script(), {"Chassis.Drive.MaxSpeed=1.2 m/s"});
+  EXPECT_THAT(fast.diagnostics.to_text(),
+              HasSubstr("'Chassis.Drive': MaxSpeed is 1.2 m/s, which Chassis.Joint1 makes with 24 "
+                        "rad/s, expected at most its MaxVelocity of 20 rad/s"));
+  Robot robot(by_script());
+  robot.start_armed();
+  EXPECT_FALSE(
+      robot.application().set_property("Chassis.Drive", "MaxSpeed", types::Value::of(1.2)));
+  EXPECT_TRUE(robot.application().set_property("Chassis.Drive", "MaxSpeed", types::Value::of(0.4)));
+  robot.drive(0.6F, 0.6F, 1s);
+  EXPECT_NEAR(robot.speed(0), 0.4, 0.02);
 }
 
 }  // namespace

@@ -33,11 +33,8 @@ struct JointSettings {
   double holding_alternation = 0.4;
 
   /// Where the joint ends; a continuous one does not.
-  double lowest() const { return continuous ? -kNoEnd : lower; }
-  double highest() const { return continuous ? kNoEnd : upper; }
-
- private:
-  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  double lowest() const { return continuous ? -std::numeric_limits<double>::infinity() : lower; }
+  double highest() const { return continuous ? std::numeric_limits<double>::infinity() : upper; }
 };
 
 /// They are the properties of a Joint.

@@ -80,10 +80,12 @@ class Scene {
   template <typename Inside>
   static double share_of_pixel(int column, int row, const Inside& inside) {
     int covered = 0;
-    for (int i = 0; i < kSamples * kSamples; ++i) {
-      const double x = column + (i % kSamples + 0.5) / kSamples;
-      const double y = row + (static_cast<double>(i / kSamples) + 0.5) / kSamples;
-      if (inside(x, y)) ++covered;
+    for (int down = 0; down < kSamples; ++down) {
+      for (int right = 0; right < kSamples; ++right) {
+        const double x = column + (right + 0.5) / kSamples;
+        const double y = row + (down + 0.5) / kSamples;
+        if (inside(x, y)) ++covered;
+      }
     }
     return static_cast<double>(covered) / (kSamples * kSamples);
   }
