@@ -67,8 +67,8 @@ struct Obstacle {
   Point a;
   Point b;
 };
-constexpr std::array<Obstacle, 6> kObstacles{{{{0.62, 1.19}, {0.98, 1.19}},
-                                              {{0.62, 1.21}, {0.98, 1.21}},
+constexpr std::array<Obstacle, 6> kObstacles{{{{2.09, -0.16}, {2.09, 0.16}},
+                                              {{2.11, -0.16}, {2.11, 0.16}},
                                               {{2.35, 1.4}, {2.45, 1.4}},
                                               {{2.4, 1.35}, {2.4, 1.45}},
                                               {{2.05, -1.55}, {2.35, -1.25}},
