@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // usage: rover_figures FOLDER
 //
-// The figures of the ball-tracking rover, of the recordings that `scripts/demo rover` leaves in FOLDER: p and pi, the experiment with both
-// control programs, and realtime. Beside them 10 000 images without a ball, which nobody is to see one in. Prints JSON, which `armature
-// report` shows if it is figures.json in the folder of the runs.
+// The figures of the ball-tracking rover, of the recordings that `scripts/demo rover` leaves in
+// FOLDER: p and pi, the experiment with both control programs, and realtime. Beside them 10 000
+// images without a ball, which nobody is to see one in. Prints JSON, which `armature report` shows
+// if it is figures.json in the folder of the runs.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -44,16 +45,14 @@ std::optional<std::pair<double, double>> after(const Signal* signal, double time
   if (signal == nullptr) return std::nullopt;
   const auto next = std::ranges::lower_bound(signal->time_s, time_s - 1e-9);
   if (next == signal->time_s.end() || *next > time_s + kOnePeriod) return std::nullopt;
-  return std::pair(*next,
-                   signal->values[static_cast<std::size_t>(next - signal->time_s.begin())]);
+  return std::pair(*next, signal->values[static_cast<std::size_t>(next - signal->time_s.begin())]);
 }
 
 View view_at(const Run& run, double time_s) {
   const auto part = [&](const char* name) {
     return at(run.signals.find(std::string("Camera.View.") + name), time_s).value_or(0.0);
   };
-  return {part("x"),      part("y"),      part("heading"),
-          part("ball_x"), part("ball_y"), part("ball_z")};
+  return {part("x"), part("y"), part("heading"), part("ball_x"), part("ball_y"), part("ball_z")};
 }
 
 std::vector<Sight> sights_of(const Run& run) {
@@ -87,19 +86,23 @@ Json json_of(const Recognition& all) {
   const auto share = [](std::size_t some, std::size_t of) -> Json {
     return of == 0 ? Json() : Json(static_cast<double>(some) / static_cast<double>(of));
   };
-  return {{"whole_in_sight", all.whole}, {"found", all.found},
+  return {{"whole_in_sight", all.whole},
+          {"found", all.found},
           {"found_share", share(all.found, all.whole)},
-          {"out_of_sight", all.none},    {"claimed", all.claimed},
-          {"rms_px", all.rms_px},        {"p99_px", all.p99_px}};
+          {"out_of_sight", all.none},
+          {"claimed", all.claimed},
+          {"rms_px", all.rms_px},
+          {"p99_px", all.p99_px}};
 }
 
-/// When the ball is to be seen again: it is whole beyond the screen, or lies on the floor once more.
+/// When the ball is to be seen again: it is whole beyond the screen, or lies on the floor once
+/// more.
 std::optional<double> back_at(const std::vector<Sight>& sights, int phase) {
   bool away = false;
   for (const Sight& sight : sights) {
     if (sight.phase != phase) continue;
-    const bool gone = phase == kHidden ? in_sight(sight.view) == InSight::kNothing
-                                       : sight.view.ball_z > 0.06;
+    const bool gone =
+        phase == kHidden ? in_sight(sight.view) == InSight::kNothing : sight.view.ball_z > 0.06;
     if (away && !gone) return sight.time_s;
     away = away || gone;
   }

@@ -75,8 +75,11 @@ class Eye {
  public:
   Eye()
       : camera_(sim::RayCamera::parse(description(2), "rover",
-                                      {.camera = "eye", .width = kShape.width,
-                                       .height = kShape.height, .noise = 2.0, .seed = 7})
+                                      {.camera = "eye",
+                                       .width = kShape.width,
+                                       .height = kShape.height,
+                                       .noise = 2.0,
+                                       .seed = 7})
                     .value()),
         finder_(BallFinder::make({.shape = kShape}).value()) {}
 
@@ -84,7 +87,8 @@ class Eye {
     const double half = 0.5 * heading;
     camera_.place(*camera_.find_body("rover"),
                   {{x, y, kWheelRadius}, {std::cos(half), 0.0, 0.0, std::sin(half)}});
-    camera_.place(*camera_.find_body("ball"), {{ball_x, ball_y, kBallRadius}, {1.0, 0.0, 0.0, 0.0}});
+    camera_.place(*camera_.find_body("ball"),
+                  {{ball_x, ball_y, kBallRadius}, {1.0, 0.0, 0.0, 0.0}});
     camera_.render(++frame_, image_);
     const auto begin = std::chrono::steady_clock::now();
     ball_ = finder_.find(view());
@@ -123,8 +127,7 @@ Json without_ball(Eye& eye) {
 }
 
 void add_image(Json& figures, const std::string& title, const vision::Image& image) {
-  figures["pictures"].push_back(
-      {{"title", title}, {"png", base64(vision::png_of(image.view()))}});
+  figures["pictures"].push_back({{"title", title}, {"png", base64(vision::png_of(image.view()))}});
 }
 
 /// Three images with the ball marked, and the stages of the first (paper 4, figure 5).
@@ -133,10 +136,9 @@ void add_images(Eye& eye, Json& figures) {
     const char* title;
     double x, y, heading, ball_x, ball_y;
   };
-  constexpr Place kPlaces[] = {
-      {"1 m away, post and box behind it", 0.6, 0.1, 0.1, 1.68, 0.2},
-      {"2.5 m away, beside the screen", -1.0, 0.2, 0.45, 1.25, 1.3},
-      {"0.5 m away", 0.0, 0.0, 0.0, 0.57, 0.1}};
+  constexpr Place kPlaces[] = {{"1 m away, post and box behind it", 0.6, 0.1, 0.1, 1.68, 0.2},
+                               {"2.5 m away, beside the screen", -1.0, 0.2, 0.45, 1.25, 1.3},
+                               {"0.5 m away", 0.0, 0.0, 0.0, 0.57, 0.1}};
   for (const Place& place : kPlaces) {
     eye.look(place.x, place.y, place.heading, place.ball_x, place.ball_y);
     add_image(figures, place.title, vision::ball_image(eye.view(), eye.finder(), eye.ball()));

@@ -27,8 +27,8 @@ constexpr double kSettled = 10.0;
 /// Adds `curves` and `ways` of a run.
 void add_curves(const std::string& run, const std::vector<Sight>& sights,
                 nlohmann::ordered_json& figures);
-/// Looks at images of the arena: 10 000 without a ball, and some with one, which `pictures` has with
-/// what was seen in them. Adds how long a look takes, too.
+/// Looks at images of the arena: 10 000 without a ball, and some with one, which `pictures` has
+/// with what was seen in them. Adds how long a look takes, too.
 void add_pictures(nlohmann::ordered_json& figures);
 
 }  // namespace armature::rover

@@ -46,9 +46,9 @@ struct Run {
 
 /// Everything that a folder of runs has.
 struct Runs {
-  std::string name;        ///< the folder's
-  std::vector<Run> runs;   ///< of the folder itself, or of those in it, by their names
-  std::string cycle_json;  ///< the content of kCycleFile; empty: none
+  std::string name;            ///< the folder's
+  std::vector<Run> runs;       ///< of the folder itself, or of those in it, by their names
+  std::string cycle_json;      ///< the content of kCycleFile; empty: none
   std::string figures_json{};  ///< the content of kFiguresFile; empty: none
   std::vector<Goal> goals{};
   Phases phases{};

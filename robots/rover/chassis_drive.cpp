@@ -87,8 +87,9 @@ Outcome ChassisDrive::set_up() {
 void ChassisDrive::on_sample() {
   const Gathering::Round round = gathering_->begin();
   if (round.missing > 0) {
-    missing_.note(*gathering_,
-                  [this](std::size_t wheel) { return controllers::writer_of(face(position_[wheel])); });
+    missing_.note(*gathering_, [this](std::size_t wheel) {
+      return controllers::writer_of(face(position_[wheel]));
+    });
   }
   if (round.overdue != Gathering::kNobody) {
     fail(round.overdue, "its encoder does not answer");

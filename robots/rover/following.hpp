@@ -10,7 +10,8 @@
 // How well the rover follows the ball, by what an image showed and what was seen in it.
 namespace armature::rover {
 
-/// Where the camera wants the ball: its distance on the floor when it is in the picture's middle [m].
+/// Where the camera wants the ball: its distance on the floor when it is in the picture's middle
+/// [m].
 constexpr double kWantedDistance = 1.0;
 
 /// A point of the picture, from its lower left corner [px].

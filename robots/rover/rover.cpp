@@ -14,9 +14,8 @@ using armature::component::Granularity;
 // To other programs a component has the interface of its model's name: table 4 of the paper says VS
 // and Chassis.
 ARMATURE_COMPONENT_LIBRARY(rover, registry) {
-  registry.add<SimulatedRover>("SimulatedRover",
-                               "the simulated rover in its arena, with its drives",
-                               Granularity::kAtomic);
+  registry.add<SimulatedRover>(
+      "SimulatedRover", "the simulated rover in its arena, with its drives", Granularity::kAtomic);
   registry.add<Wheel>("RoverWheel", "a wheel with its motor and encoder: the hardware of a joint",
                       Granularity::kAtomic);
   registry.add<Camera>("Camera", "the images of the camera on the rover's mast",

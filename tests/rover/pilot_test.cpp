@@ -241,7 +241,8 @@ TEST_F(PilotFault, AVisionThatStopsEndsInASmoothStop) {
 TEST_F(PilotFault, AWheelThatFailsStopsBothAndArmsNothing) {
   rover.robot.set("Rover", "SilentEncoder", types::Value::of(1));
   EXPECT_LE(rover.time_to_rest(), 1.0);
-  EXPECT_THAT(rover.robot.reason("Chassis.Drive"), HasSubstr("wheel 1 (Chassis.Joint1) has failed"));
+  EXPECT_THAT(rover.robot.reason("Chassis.Drive"),
+              HasSubstr("wheel 1 (Chassis.Joint1) has failed"));
   rover.robot.set("Rover", "SilentEncoder", types::Value::of(0));
   rover.robot.run_for(5s);
   EXPECT_LT(rover.fastest(), 0.01);

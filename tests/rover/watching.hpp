@@ -24,7 +24,7 @@ class Watched {
     ASSERT_TRUE(done) << done.error();
   }
   void turn(double by) {
-    const Plant::Place at = robot.plant().place();
+    const Place at = robot.plant().place();
     const auto done = robot.application().call(
         "Rover", "put",
         {types::Value::of(at.x), types::Value::of(at.y), types::Value::of(at.heading + by)});
@@ -38,7 +38,8 @@ class Watched {
       time_s_ += 0.05;
       Sight sight{.time_s = time_s_, .view = robot.value<View>("Camera", "View"), .judged = true};
       if (robot.value<bool>("Vision", "Seen")) {
-        sight.seen = PicturePoint{robot.value<double>("Vision", "X"), robot.value<double>("Vision", "Y")};
+        sight.seen =
+            PicturePoint{robot.value<double>("Vision", "X"), robot.value<double>("Vision", "Y")};
       }
       sights.push_back(sight);
     }
@@ -53,9 +54,7 @@ class Watched {
     }
     return past;
   }
-  double fastest() {
-    return std::max(std::abs(robot.speed(0)), std::abs(robot.speed(1)));
-  }
+  double fastest() { return std::max(std::abs(robot.speed(0)), std::abs(robot.speed(1))); }
 
   Robot robot;
 

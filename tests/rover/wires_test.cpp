@@ -179,8 +179,9 @@ TEST_F(PilotTest, WithoutPositionsItSaysZeroAndThenSearches) {
   ASSERT_TRUE(pilot.serve_until([&] { return prepared(); }));
   EXPECT_TRUE(pilot.serve_until([&] {
     const auto told = robot_.wheels.told();
-    return std::ranges::any_of(
-        told, [](const Wheels::Speeds& speeds) { return speeds.left == -speeds.right && speeds.left != 0.0F; });
+    return std::ranges::any_of(told, [](const Wheels::Speeds& speeds) {
+      return speeds.left == -speeds.right && speeds.left != 0.0F;
+    });
   }));
   EXPECT_EQ(robot_.wheels.told().front().left, 0.0F);
 }

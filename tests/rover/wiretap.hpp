@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -17,6 +11,12 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "armature/ride/wire.hpp"
 
@@ -33,7 +33,8 @@ struct Passed {
 class Wiretap {
  public:
   /// @param port  of the robot
-  explicit Wiretap(std::uint16_t port) : robot_(port), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  explicit Wiretap(std::uint16_t port)
+      : robot_(port), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in here = local(0);
     static_cast<void>(::bind(listener_, reinterpret_cast<sockaddr*>(&here), sizeof here));
     static_cast<void>(::listen(listener_, 8));
@@ -107,7 +108,8 @@ class Wiretap {
     std::array<std::byte, 4096> bytes{};
     const ssize_t count = ::recv(to_robot ? line.from : line.to, bytes.data(), bytes.size(), 0);
     const auto size = static_cast<std::size_t>(count > 0 ? count : 0);
-    if (count <= 0 || ::send(to_robot ? line.to : line.from, bytes.data(), size, MSG_NOSIGNAL) < 0) {
+    if (count <= 0 ||
+        ::send(to_robot ? line.to : line.from, bytes.data(), size, MSG_NOSIGNAL) < 0) {
       ::close(std::exchange(line.from, -1));
       ::close(std::exchange(line.to, -1));
       return;
