@@ -60,7 +60,9 @@ std::vector<Sight> sights_of(const Run& run) {
   const Signal* const images = run.signals.find("Camera.View.x");
   if (images == nullptr) return sights;
   for (const double time_s : images->time_s) {
-    Sight sight{.time_s = time_s, .view = view_at(run, time_s)};
+    Sight sight;
+    sight.time_s = time_s;
+    sight.view = view_at(run, time_s);
     sight.phase = static_cast<int>(at(run.signals.find("Phase.Out"), time_s).value_or(0.0));
     const auto seen = after(run.signals.find("Vision.Seen"), time_s);
     sight.judged = seen.has_value();

@@ -171,7 +171,8 @@ Recognition recognition(std::span<const Sight> sights) {
 }
 
 Following following(std::span<const Sight> sights) {
-  Following worst{.nearest_m = 1e9};
+  Following worst;
+  worst.nearest_m = 1e9;
   for (const Sight& sight : sights) {
     const double away = distance(sight.view);
     worst.distance_error_m = std::max(worst.distance_error_m, std::abs(away - kWantedDistance));

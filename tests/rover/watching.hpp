@@ -36,7 +36,10 @@ class Watched {
     for (base::Duration past{}; past < duration; past += kImage) {
       robot.run_for(kImage);
       time_s_ += 0.05;
-      Sight sight{.time_s = time_s_, .view = robot.value<View>("Camera", "View"), .judged = true};
+      Sight sight;
+      sight.time_s = time_s_;
+      sight.view = robot.value<View>("Camera", "View");
+      sight.judged = true;
       if (robot.value<bool>("Vision", "Seen")) {
         sight.seen =
             PicturePoint{robot.value<double>("Vision", "X"), robot.value<double>("Vision", "Y")};

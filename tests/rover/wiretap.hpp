@@ -122,7 +122,9 @@ class Wiretap {
     while (pending.size() >= ride::Header::kSize) {
       const auto header = ride::read_header(pending.data());
       if (!header || pending.size() < header->length) return;
-      Passed message{.header = *header, .to_robot = to_robot};
+      Passed message;
+      message.header = *header;
+      message.to_robot = to_robot;
       for (std::size_t k = 0; k < 4 && header->length >= ride::Header::kSize + 4; ++k) {
         message.first |= std::to_integer<ride::Number>(pending[ride::Header::kSize + k]) << 8 * k;
       }
