@@ -120,15 +120,15 @@ Json found_again(const std::vector<Sight>& sights, int phase) {
 
 Json experiment(const std::vector<Sight>& sights) {
   Json all;
-  all["rest"] = json_of(of_phase(sights, kResting, 3.0));
+  all["rest"] = json_of(of_phase(sights, kResting, 2.0));
   const std::vector<Sight> turned = of_phase(sights, kTurned, 0.05);
   if (!turned.empty()) {
     const StepAnswer step = step_answer(turned);
     all["step"] = {{"after_1_s_deg", step.after_1_s_rad * kDegrees}, {"overshoot", step.overshoot}};
   }
   all["line"] = json_of(of_phase(sights, kLine));
-  all["circle"] = json_of(of_phase(sights, kCircle, kSettled));
-  all["eight"] = json_of(of_phase(sights, kEight, kSettled));
+  all["circle"] = json_of(of_phase(sights, kCircle, kSettledOnCircle));
+  all["eight"] = json_of(of_phase(sights, kEight, kSettledOnEight));
   all["hidden_found_s"] = found_again(sights, kHidden);
   all["carried_found_s"] = found_again(sights, kCarried);
   all["nearest_m"] = sights.empty() ? Json() : json_of(sights)["nearest_m"];

@@ -48,7 +48,7 @@ TEST(Pilot, FollowsACircle) {
   Watched rover;
   rover.start();
   rover.go(BallWay::kCircle);
-  const std::vector<Sight> sights = rover.watch(25s);
+  const std::vector<Sight> sights = rover.watch(45s);
   const Following on_circle = following(last(sights, 300));
   EXPECT_LE(on_circle.distance_error_m, 0.35);
   EXPECT_LE(on_circle.bearing_rad, 8 * kDegree);
@@ -65,7 +65,7 @@ TEST(Pilot, WithIntegratorsFollowsACircleWithoutALag) {
   Watched rover({}, "rover_pi.yaml");
   rover.start();
   rover.go(BallWay::kCircle);
-  const Following on_circle = following(last(rover.watch(30s), 300));
+  const Following on_circle = following(last(rover.watch(45s), 300));
   EXPECT_LE(on_circle.distance_error_m, 0.05);
   EXPECT_LE(on_circle.bearing_rad, 1.5 * kDegree);
 }
@@ -79,7 +79,7 @@ TEST(Pilot, StandsBackFromABallThatIsTooNear) {
 }
 
 TEST(Pilot, DrivesAtMostAsFastAsTheSliderSays) {
-  Watched rover({"Ball.BeginX=2"});
+  Watched rover({"Ball.BeginX=1.9"});
   rover.start();
   ASSERT_TRUE(rover.robot.application().call("TopSpeed", "move", {types::Value::of(0.2)}));
   rover.watch(2s);
@@ -93,7 +93,7 @@ TEST(Pilot, WithFourWheelsIsTheSame) {
   Watched rover({"wheels=4"});
   rover.start();
   rover.go(BallWay::kCircle);
-  const Following on_circle = following(last(rover.watch(25s), 300));
+  const Following on_circle = following(last(rover.watch(45s), 300));
   EXPECT_LE(on_circle.distance_error_m, 0.35);
   EXPECT_LE(on_circle.bearing_rad, 8 * kDegree);
 }
@@ -175,7 +175,7 @@ TEST(Pilot, UnarmedNothingMoves) {
 }
 
 TEST(Pilot, HaltsAndGoesAgain) {
-  Watched rover({"Ball.BeginX=2", "K2.Value=0.02"});
+  Watched rover({"Ball.BeginX=1.9", "K2.Value=0.02"});
   rover.start();
   rover.watch(2s);
   ASSERT_GT(rover.fastest(), 0.5);
@@ -201,7 +201,7 @@ TEST(Pilot, ShowsWhereTheBallIs) {
 // --- faults, from 0.6 m/s --------------------------------------------------------------------
 
 struct PilotFault : public ::testing::Test {
-  PilotFault() : rover({"Ball.BeginX=2.5", "K2.Value=0.02"}) {
+  PilotFault() : rover({"Ball.BeginX=1.9", "K2.Value=0.02"}) {
     rover.start();
     rover.watch(2s);
     EXPECT_NEAR(rover.fastest(), 0.6, 0.03);
