@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 
+#include "robots/rover/numbers.hpp"
 #include "tests/rover/watching.hpp"
 
 namespace armature::rover {
@@ -154,13 +155,15 @@ TEST(Pilot, TurnsUntilItFindsABallThatWasCarriedBehindIt) {
   EXPECT_LE(*found, 14.0);
 }
 
-TEST(Pilot, GivesUpABallThatIsNowhereWithARedLight) {
-  Watched rover({"Ball.BeginX=-2.9", "Ball.Way=ports"});
+TEST(Pilot, SearchesABallThatIsNowhereAndGivesUpWithARedLight) {
+  Watched rover({"Ball.BeginX=2.5"});  // behind the screen
   rover.start();
   rover.robot.run_for(3s);
-  EXPECT_NEAR(0.5 * rover.fastest() / 0.0375, 1.0, 0.2) << "it turns";
+  EXPECT_NEAR(rover.robot.speed(1) - rover.robot.speed(0), 0.5 * kTrack, 0.02);
   EXPECT_FALSE(rover.robot.value<bool>("GivenUp", "Above"));
-  rover.robot.run_for(20s);
+  rover.robot.run_for(14s);
+  EXPECT_TRUE(rover.robot.value<bool>("GivenUp", "Above"));
+  EXPECT_TRUE(rover.robot.rests());
 }
 
 // --- it is told ------------------------------------------------------------------------------
