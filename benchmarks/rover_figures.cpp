@@ -104,7 +104,7 @@ std::optional<double> back_at(const std::vector<Sight>& sights, int phase) {
   for (const Sight& sight : sights) {
     if (sight.phase != phase) continue;
     const bool gone =
-        phase == kHidden ? in_sight(sight.view) == InSight::kNothing : sight.view.ball_z > 0.06;
+        phase == kHidden ? in_sight(sight.view) == InSight::kNothing : is_in_a_hand(sight.view);
     if (away && !gone) return sight.time_s;
     away = away || gone;
   }
@@ -120,7 +120,7 @@ Json found_again(const std::vector<Sight>& sights, int phase) {
 
 Json experiment(const std::vector<Sight>& sights) {
   Json all;
-  all["rest"] = json_of(of_phase(sights, kResting, 2.0));
+  all["rest"] = json_of(of_phase(sights, kResting, 1.5));
   const std::vector<Sight> turned = of_phase(sights, kTurned, 0.05);
   if (!turned.empty()) {
     const StepAnswer step = step_answer(turned);

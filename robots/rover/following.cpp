@@ -170,10 +170,13 @@ Recognition recognition(std::span<const Sight> sights) {
   return all;
 }
 
+bool is_in_a_hand(const View& view) { return view.ball_z > 1.2 * kBallRadius; }
+
 Following following(std::span<const Sight> sights) {
   Following worst;
   worst.nearest_m = 1e9;
   for (const Sight& sight : sights) {
+    if (is_in_a_hand(sight.view)) continue;
     const double away = distance(sight.view);
     worst.distance_error_m = std::max(worst.distance_error_m, std::abs(away - kWantedDistance));
     worst.bearing_rad = std::max(worst.bearing_rad, std::abs(bearing(sight.view)));

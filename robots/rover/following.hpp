@@ -50,7 +50,10 @@ struct Recognition {
 };
 Recognition recognition(std::span<const Sight> sights);
 
-/// Of a stretch of the experiment.
+/// The ball is not on the floor.
+bool is_in_a_hand(const View& view);
+
+/// Of a stretch of the experiment, while nobody carries the ball.
 struct Following {
   double distance_error_m = 0.0;  ///< the largest, without sign
   double bearing_rad = 0.0;       ///< likewise

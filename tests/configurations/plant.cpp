@@ -269,7 +269,7 @@ RobotUnderTest rover() {
   return {.name = "rover",
           .deployments = {{folder + "by_script.yaml"},
                           {folder + "by_script.yaml", {"wheels=4"}},
-                          {folder + "rover.yaml"}},
+                          {folder + "rover.yaml", {"Ball.Way=circle"}}},
           .most_speed = 0.6 * 1.25,  // [m/s] with what a wheel's controller overshoots
           .lower = {},
           .upper = {},
