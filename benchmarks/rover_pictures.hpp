@@ -23,7 +23,7 @@ enum Phase : int {
 };
 /// Until what rolls steadily is followed steadily, with the way to where it begins [s].
 constexpr double kSettledOnCircle = 20.0;
-constexpr double kSettledOnEight = 4.0;
+constexpr double kSettledOnEight = 8.0;
 
 /// Adds `curves` and `ways` of a run.
 void add_curves(const std::string& run, const std::vector<Sight>& sights,

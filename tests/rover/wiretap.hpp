@@ -56,6 +56,26 @@ class Wiretap {
   Wiretap& operator=(const Wiretap&) = delete;
 
   std::string address() const { return "tcp://127.0.0.1:" + std::to_string(port_); }
+  /// Sends a command with this number to a component of this identifier, which nobody may have.
+  void send_command(std::uint32_t component, ride::Number operation) const {
+    const int line = ::socket(AF_INET, SOCK_STREAM, 0);
+    const sockaddr_in here = local(port_);
+    std::array<std::byte, ride::Header::kSize + 4> message{};
+    ride::Header header;
+    header.type = ride::Type::kCommand;
+    header.length = static_cast<std::uint16_t>(message.size());
+    header.identifier = component;
+    ride::write_header(message.data(), header);
+    for (std::size_t k = 0; k < 4; ++k) {
+      message[ride::Header::kSize + k] = static_cast<std::byte>(operation >> 8 * k & 0xFFU);
+    }
+    if (::connect(line, reinterpret_cast<const sockaddr*>(&here), sizeof here) == 0) {
+      static_cast<void>(::send(line, message.data(), message.size(), MSG_NOSIGNAL));
+      std::array<std::byte, 256> answer{};
+      static_cast<void>(::recv(line, answer.data(), answer.size(), 0));
+    }
+    ::close(line);
+  }
   std::vector<Passed> passed() const {
     const std::scoped_lock lock(mutex_);
     return passed_;
