@@ -4,6 +4,7 @@
 set(source "#include \"armature/report/internal/page_parts.hpp\"\n\nnamespace armature::report::internal {\n")
 foreach(part IN ITEMS "kReportHtml|${PAGE}/report.html" "kReportCss|${PAGE}/report.css"
                       "kReportJs|${PAGE}/report.js" "kCurvesJs|${PAGE}/curves.js" "kElementsJs|${PAGE}/elements.js"
+                      "kFoundJs|${PAGE}/found.js"
                       "kUplotCss|${UPLOT}/dist/uPlot.min.css"
                       "kUplotJs|${UPLOT}/dist/uPlot.iife.min.js" "kUplotLicense|${UPLOT}/LICENSE")
   string(REPLACE "|" ";" part "${part}")

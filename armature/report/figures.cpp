@@ -72,6 +72,10 @@ Json cycle_of(const Runs& runs) {
   return runs.cycle_json.empty() ? Json() : Json::parse(runs.cycle_json, nullptr, false);
 }
 
+Json found_of(const Runs& runs) {
+  return runs.figures_json.empty() ? Json() : Json::parse(runs.figures_json, nullptr, false);
+}
+
 }  // namespace internal
 
 namespace {
@@ -161,6 +165,10 @@ Json report_of(const Runs& runs) {
                                        {"joints", std::move(joints)}};
   }
   if (Json cycle = cycle_of(runs); !cycle.is_null()) report["io"] = std::move(cycle);
+  if (Json found = found_of(runs); found.is_object()) {
+    for (const char* const shown : kShownOnly) found.erase(shown);
+    report["figures"] = std::move(found);
+  }
   for (const Run& run : runs.runs) {
     if (run.phase_computing_us.empty()) continue;
     report["runs"][run.name]["phases"] = phases_of(run, runs.phases, report);

@@ -154,6 +154,11 @@ std::string page_with(const Runs& runs, const Points& points) {
             {"runs", Json::array()},
             {"io", internal::cycle_of(runs)}};
   for (const Run& run : runs.runs) page["runs"].push_back(page_of(run, points));
+  if (const Json found = internal::found_of(runs); found.is_object()) {
+    for (const char* const shown : internal::kShownOnly) {
+      if (found.contains(shown)) page[shown] = found[shown];
+    }
+  }
   if (!runs.goals.empty() || !runs.phases.all.empty()) add_figures(runs, page);
   const std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string safe;

@@ -26,6 +26,7 @@ std::string make_page(const Runs& runs) {
                         {"{{uplot.js}}", std::string(internal::kUplotJs)},
                         {"{{elements.js}}", std::string(internal::kElementsJs)},
                         {"{{curves.js}}", std::string(internal::kCurvesJs)},
+                        {"{{found.js}}", std::string(internal::kFoundJs)},
                         {"{{report.js}}", std::string(internal::kReportJs)}};
   std::string page;
   std::string_view rest = internal::kReportHtml;

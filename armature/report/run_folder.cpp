@@ -91,7 +91,9 @@ void add_limits(const std::string& summary, Signals& signals) {
   }
 }
 
-void load_recording(const std::string& path, Run& run, base::Diagnostics& diagnostics) {
+/// @param has_figures  another program found figures: positions are not all that there is to show
+void load_recording(const std::string& path, bool has_figures, Run& run,
+                    base::Diagnostics& diagnostics) {
   run.recording = path;
   const auto loaded = record::load_mcap(path, record::Unclosed::kReadToLastChunk);
   if (!loaded) {
@@ -112,7 +114,7 @@ void load_recording(const std::string& path, Run& run, base::Diagnostics& diagno
   run.velocities = velocities_of(run.signals, run.joints);
   run.efforts = efforts_of(run.signals);
   run.moments = moments_of(run.summary, run.signals, zero_s);
-  if (run.joints.empty()) {
+  if (run.joints.empty() && !has_figures) {
     diagnostics.warning({path, 0, 0},
                         std::string("no positions to show; looked for ") + what_is_looked_for(),
                         "record them: name them in the Reporter's property `what`");
@@ -141,7 +143,7 @@ std::string name_of(const fs::path& folder) {
   return whole.filename().empty() ? folder.string() : whole.filename().string();
 }
 
-std::optional<Run> load_run(const fs::path& folder, const Content& content, const Phases& phases,
+std::optional<Run> load_run(const fs::path& folder, const Content& content, const Runs& runs,
                             base::Diagnostics& diagnostics) {
   Run run;
   run.name = name_of(folder);
@@ -153,8 +155,10 @@ std::optional<Run> load_run(const fs::path& folder, const Content& content, cons
         "a second recording of one run; the report shows the first, " + content.recordings[0],
         "give each run a folder of its own");
   }
-  if (!content.recordings.empty()) load_recording(content.recordings[0], run, diagnostics);
-  load_trace(folder / kTraceFile, phases, run, diagnostics);
+  if (!content.recordings.empty()) {
+    load_recording(content.recordings[0], !runs.figures_json.empty(), run, diagnostics);
+  }
+  load_trace(folder / kTraceFile, runs.phases, run, diagnostics);
   return run;
 }
 
@@ -164,10 +168,11 @@ Runs load_runs(const std::string& folder, base::Diagnostics& diagnostics) {
   Runs runs;
   runs.name = name_of(folder);
   const Content content = content_of(folder, diagnostics);
+  runs.figures_json = load_json(fs::path(folder) / kFiguresFile, diagnostics);
   const fs::path phases = fs::path(folder) / kPhasesFile;
   runs.phases = parse_phases(load_json(phases, diagnostics), phases.string(), diagnostics);
   const auto load = [&](const fs::path& from, const Content& has) {
-    auto run = load_run(from, has, runs.phases, diagnostics);
+    auto run = load_run(from, has, runs, diagnostics);
     if (run) runs.runs.push_back(std::move(*run));
   };
   load(folder, content);

@@ -21,6 +21,8 @@ namespace armature::report {
 inline constexpr const char* kTraceFile = "trace.json";
 /// The time of a cycle on the bus, in the folder of the runs.
 inline constexpr const char* kCycleFile = "io.json";
+/// What another program found of the runs, in their folder.
+inline constexpr const char* kFiguresFile = "figures.json";
 /// What the runs are to reach, in their folder.
 inline constexpr const char* kGoalsFile = "to_reach.json";
 /// The phases of a cycle, in that folder, too.
@@ -44,10 +46,11 @@ struct Run {
 
 /// Everything that a folder of runs has.
 struct Runs {
-  std::string name;        ///< the folder's
-  std::vector<Run> runs;   ///< of the folder itself, or of those in it, by their names
-  std::string cycle_json;  ///< the content of kCycleFile; empty: none
-  std::vector<Goal> goals;
+  std::string name;            ///< the folder's
+  std::vector<Run> runs;       ///< of the folder itself, or of those in it, by their names
+  std::string cycle_json;      ///< the content of kCycleFile; empty: none
+  std::string figures_json{};  ///< the content of kFiguresFile; empty: none
+  std::vector<Goal> goals{};
   Phases phases{};
 };
 

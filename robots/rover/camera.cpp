@@ -36,24 +36,32 @@ Outcome Camera::on_start() {
 void Camera::on_update() {
   if (fault_ == CameraFault::kGone) return;
   if (fault_ != CameraFault::kFrozen) {
-    place_bodies();
+    view_.write(place_bodies());
     images_.assign(images_ + 1);
     camera_->render(static_cast<std::uint64_t>(images_.get()), picture_);
   }
   image_.write(picture_);
 }
 
-void Camera::place_bodies() {
+View Camera::place_bodies() {
+  View view;
   const auto rover = rover_.read();
   if (rover) {
+    view.x = rover.value.x;
+    view.y = rover.value.y;
+    view.heading = rover.value.heading;
     const double half = 0.5 * rover.value.heading;
     camera_->place(rover_body_, {{rover.value.x, rover.value.y, kWheelRadius},
                                  {std::cos(half), 0.0, 0.0, std::sin(half)}});
   }
   const auto ball = ball_.read();
   if (ball) {
+    view.ball_x = ball.value.x;
+    view.ball_y = ball.value.y;
+    view.ball_z = ball.value.z;
     camera_->place(ball_body_, {{ball.value.x, ball.value.y, ball.value.z}, {1.0, 0.0, 0.0, 0.0}});
   }
+  return view;
 }
 
 }  // namespace armature::rover

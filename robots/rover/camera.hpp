@@ -20,6 +20,18 @@ enum class CameraFault : std::uint8_t {
 };
 ARMATURE_ENUM(CameraFault, kNone, kFrozen, kGone);
 
+/// Of an image: where rover and ball were. Whoever judges what was seen compares with it.
+struct View {
+  double x = 0.0;
+  double y = 0.0;
+  double heading = 0.0;
+  double ball_x = 0.0;
+  double ball_y = 0.0;
+  double ball_z = 0.0;
+};
+ARMATURE_STRUCT(View, (x, "m", "of the rover, as of Place"), (y, "m"), (heading, "rad"),
+                (ball_x, "m", "of the ball's middle"), (ball_y, "m"), (ball_z, "m"));
+
 /// The camera on the rover's mast: an image in each of its cycles, of where rover and ball were
 /// said to be last (sim::RayCamera). Give it an activity of its own, `{periodic: 50 ms}` without
 /// priority: an image takes milliseconds, in which nobody else waits.
@@ -34,7 +46,7 @@ class Camera final : public component::Component {
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
   void on_update() override;
-  void place_bodies();
+  View place_bodies();
 
   component::Property<int> width_{
       this, "ImageWidth", 320, "pixels of a row", "", component::range(16, 4096)};
@@ -57,6 +69,7 @@ class Camera final : public component::Component {
                                         component::on_lost(component::Reaction::kHold)};
   component::OutputPort<std::vector<std::uint8_t>> image_{
       this, "Image", "red, green, blue of each pixel, row 0 on top"};
+  component::OutputPort<View> view_{this, "View", "where rover and ball were in the image"};
   component::Attribute<int> images_{this, "images", 0, "since the start"};
 
   std::optional<sim::RayCamera> camera_;

@@ -34,7 +34,7 @@ std::vector<controllers::DrivenJoint> ChassisDrive::joints(const component::Chec
   std::vector<controllers::DrivenJoint> all;
   for (std::size_t wheel = 0; wheel < reference_.size(); ++wheel) {
     for (const controllers::DrivenJoint& joint :
-         controllers::joints_behind(reference_[wheel], check)) {
+         controllers::joints_behind(face(reference_[wheel]), check)) {
       all.push_back(joint);
     }
   }

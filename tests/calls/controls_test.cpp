@@ -12,6 +12,7 @@
 #include "armature/deploy/deployment.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/general/controls/displays.hpp"
+#include "armature/general/controls/latch.hpp"
 #include "armature/general/controls/request.hpp"
 #include "armature/general/controls/sequence.hpp"
 #include "armature/general/controls/timer.hpp"
@@ -116,6 +117,7 @@ deploy::Deployment deployment(const std::string& more) {
     models.add<Vision>("Vision", "sees", {});
     models.add<Log>("Log", "counts", {});
     models.add<general::Timer>("Timer", "", {});
+    models.add<general::Latch>("Latch", "", {});
     models.add<general::Number>("Number", "", {});
     models.add<general::Sequence>("Sequence", "", {});
     models.add<general::Request>("Request", "", {});
@@ -264,6 +266,29 @@ connections:
   - Ask.Failed -> Log.note
   - Ask.Result -> Show.Value
 )";
+
+constexpr const char* kLatched = R"(
+  Ask: {model: Request, activity: {periodic: 10 ms}, calls: Vision.distance, properties: {Unit: m}}
+  Again: {model: Timer, activity: {periodic: 10 ms}, properties: {Period: 0.1}}
+  Last: {model: Latch, activity: {periodic: 10 ms}, properties: {Unit: ""}}
+  Show: {model: Number}
+connections:
+  - {on: Again.Tick, do: Ask.ask, name: Asked}
+  - {on: Ask.Answered, do: Last.set}
+  - Last.Out -> Show.Value
+)";
+
+TEST(Latch, MakesAValueOfAMemberOfAnEvent) {
+  Running robot(kLatched);
+  robot.run_for(350ms);
+  EXPECT_EQ(robot.text_of("Show", "Value"), "2.5");
+}
+
+TEST(Latch, TakesMembersOfItsUnitOnly) {
+  std::string other(kLatched);
+  other.replace(other.find("Unit: \"\""), 8, "Unit: rad");
+  EXPECT_THAT(mistakes(other), HasSubstr("'value' of 'Last.set' is double in 'rad'"));
+}
 
 TEST(Request, WritesWhatIsAnsweredEachTimeThatItAsks) {
   Running robot(kAsk);

@@ -203,6 +203,7 @@ TEST(ShippedConfigurations, OfTheWamStandHoldMoveAndStop) {
   try_what_is_shipped(wam7());
 }
 TEST(ShippedConfigurations, OfAnOwnRobotStandHoldMoveAndStop) { try_what_is_shipped(own_robot()); }
+TEST(ShippedConfigurations, OfTheRoverStandDriveAndStop) { try_what_is_shipped(rover()); }
 
 TEST(MutantConfigurations, OfJanusAreRefusedOrMoveWithinBounds) { try_mutants(janus()); }
 TEST(MutantConfigurations, OfTheWamWithFourJointsAreRefusedOrMoveWithinBounds) {
@@ -211,6 +212,7 @@ TEST(MutantConfigurations, OfTheWamWithFourJointsAreRefusedOrMoveWithinBounds) {
 TEST(MutantConfigurations, OfTheWamWithSevenJointsAreRefusedOrMoveWithinBounds) {
   try_mutants(wam7());
 }
+TEST(MutantConfigurations, OfTheRoverAreRefusedOrMoveWithinBounds) { try_mutants(rover()); }
 TEST(MutantConfigurations, OfAnOwnRobotAreRefusedOrMoveWithinBounds) { try_mutants(own_robot()); }
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include "armature/component/interface.hpp"
 #include "robots/janus/simulated_janus.hpp"
+#include "robots/rover/numbers.hpp"
+#include "robots/rover/simulated_rover.hpp"
 #include "robots/wam/wam_hardware.hpp"
 
 namespace armature::configurations {
@@ -68,6 +70,29 @@ class WamArm final : public Plant {
  private:
   wam::EmulatedLink& link_;
   wam::Emulator& emulator_;
+};
+
+class RoverOnFloor final : public Plant {
+ public:
+  explicit RoverOnFloor(rover::Plant& plant) : plant_(plant) {}
+
+  void advance_to(base::Time now) override { plant_.advance_to(now); }
+  Vector positions() override {
+    Vector ways;
+    for (std::size_t i = 0; i < plant_.wheels(); ++i) {
+      ways.push_back(rover::kWheelRadius * plant_.wheel_angle(i));
+    }
+    return ways;
+  }
+  bool driven() override {
+    for (std::size_t i = 0; i < plant_.wheels(); ++i) {
+      if (plant_.is_on(i)) return true;
+    }
+    return false;
+  }
+
+ private:
+  rover::Plant& plant_;
 };
 
 /// The drives of examples/07_own_robot: what their encoders tell is where they are.
@@ -157,6 +182,9 @@ std::vector<std::unique_ptr<Plant>> plants_of(const document::Document& document
     } else if (each.model == "WamHardware") {
       wam::EmulatedLink* const link = static_cast<wam::WamHardware&>(*found).emulated();
       if (link != nullptr) plants.push_back(std::make_unique<WamArm>(*link));
+    } else if (each.model == "SimulatedRover") {
+      rover::Plant& plant = static_cast<rover::SimulatedRover&>(*found).plant();
+      plants.push_back(std::make_unique<RoverOnFloor>(plant));
     } else if (each.model == "Servo") {
       servos->add(*found);
     }
@@ -234,6 +262,20 @@ RobotUnderTest own_robot() {
           .upper = {1.58, 1.58, 1.58},
           .step = {0.3, -0.3, 0.3},
           .sinking = 0.1};
+}
+
+RobotUnderTest rover() {
+  const std::string folder = SOURCE "/robots/rover/deployments/";
+  return {.name = "rover",
+          .deployments = {{folder + "by_script.yaml"},
+                          {folder + "by_script.yaml", {"wheels=4"}},
+                          {folder + "rover.yaml", {"Ball.Way=circle"}}},
+          .most_speed = 0.6 * 1.25,  // [m/s] with what a wheel's controller overshoots
+          .lower = {},
+          .upper = {},
+          .step = {0.4, 0.4},
+          .sinking = 0.02,
+          .braking = 1.0};
 }
 
 }  // namespace armature::configurations

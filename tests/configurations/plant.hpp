@@ -45,8 +45,9 @@ struct RobotUnderTest {
   double most_speed;  ///< [rad/s] by its description, with what tracking adds
   Vector lower;       ///< [rad] by its description; empty: it has none
   Vector upper;
-  Vector step;     ///< [rad] of the motion that is asked for
-  double sinking;  ///< [rad/s] once let go; brakes: nearly none
+  Vector step;           ///< [rad] of the motion that is asked for
+  double sinking;        ///< [rad/s] once let go; brakes: nearly none
+  double braking = 0.5;  ///< [s] in which what is let go of in motion is as slow as it sinks
 };
 
 /// The same deployment on the simulated robot; nothing if it is of that already.
@@ -61,5 +62,7 @@ RobotUnderTest janus();
 RobotUnderTest wam4();
 RobotUnderTest wam7();
 RobotUnderTest own_robot();
+/// Its joints are the ways of its wheels [m].
+RobotUnderTest rover();
 
 }  // namespace armature::configurations

@@ -25,8 +25,8 @@ using namespace std::chrono_literals;
 using component::State;
 
 constexpr base::Duration kStep = 2ms;
-/// In which what is let go of in motion is as slow as it sinks.
-constexpr base::Duration kBraking = 500ms;
+/// In which a speed that is commanded has to be said again.
+constexpr base::Duration kRenewal = 100ms;
 /// [rad/s] by which a joint may become faster while its motor gives way to its brake.
 constexpr double kGive = 0.3;
 
@@ -111,6 +111,7 @@ class Trial {
 
   void run_for(base::Duration duration) {
     for (base::Duration done{}; done < duration; done += kStep) {
+      if (done % kRenewal == base::Duration::zero()) renew_speed();
       application_->run_for(kStep);
       observe();
       note_faults();
@@ -170,6 +171,7 @@ class Trial {
   }
 
   Bounds to_stand() const {
+    if (drives_itself()) return in_motion();
     const bool is_weightless = std::ranges::any_of(
         document_.modes, [](const document::Mode& mode) { return mode.name == "weightless"; });
     return is_weightless ? weightless() : held();
@@ -188,7 +190,7 @@ class Trial {
     if (!let_go_at_) {
       const bool driven = is_driven();
       if (was_armed_ && std::exchange(was_driven_, driven) && !driven) let_go();
-    } else if (!sinks_ && application_->now() - *let_go_at_ >= kBraking) {
+    } else if (!sinks_ && application_->now() - *let_go_at_ >= base::from_seconds(robot_.braking)) {
       sinks_ = true;
       Bounds bounds = in_motion();
       bounds.speed = robot_.sinking;
@@ -250,8 +252,25 @@ class Trial {
     return std::string(model);
   }
 
+  /// What has wheels is told speeds, as long as it is to drive.
+  bool has_wheels() const {
+    return name_of_model("ChassisDrive") != "ChassisDrive" || name_of_model("Chassis") != "Chassis";
+  }
+  bool drives_itself() const { return name_of_model("Latch") != "Latch"; }
+  void renew_speed() {
+    if (application_->now() >= drives_until_) return;
+    static_cast<void>(application_->call("Chassis.Drive", "setVelocity",
+                                         {types::Value::of(speed_), types::Value::of(speed_)}));
+  }
+  void drive_to(const char* phase, double way, double time) {
+    speed_ = static_cast<float>(way / time);
+    drives_until_ = application_->now() + base::from_seconds(time);
+    begin(phase, in_motion());
+  }
+
   /// What is refused leaves it standing.
   void move_to(const char* phase, const Vector& positions, double time) {
+    if (has_wheels()) return drive_to(phase, positions[0] - this->positions()[0], time);
     const auto begun = application_->begin(name_of_model("nAxesGeneratorPos"), "moveTo",
                                            {types::Value::of(positions), types::Value::of(time)});
     begin(phase, begun ? in_motion(positions, time) : at_the_end());
@@ -271,7 +290,7 @@ class Trial {
       has_moved_ = has_moved_ || std::abs(end[i] - start_[i]) > 0.1;
     }
     if (!ok()) return;
-    begin("at the end of a motion", at_the_end());
+    begin("at the end of a motion", drives_itself() ? in_motion() : at_the_end());
     run_for(1s);
   }
   void ask_for_too_much() {
@@ -315,7 +334,9 @@ class Trial {
   std::string phase_ = "start";
   std::string problem_;
   std::string first_fault_;
-  Vector start_;  ///< of its motions
+  float speed_ = 0.0F;         ///< of what has wheels [m/s]
+  base::Time drives_until_{};  ///< so long
+  Vector start_;               ///< of its motions
   bool was_armed_ = false;
   bool was_driven_ = false;
   std::optional<base::Time> let_go_at_;  ///< its motors are off

@@ -80,6 +80,19 @@ TEST(Limit, KeepsAValueWithinItsBounds) {
   EXPECT_FALSE(limit.output<bool>("Clipped"));
 }
 
+TEST(Limit, KeepsAValueWithinWhatIsTheMost) {
+  auto limit = bench<Limit>();
+  ASSERT_TRUE(limit.start());
+  limit.write("Most", 0.25);
+  limit.write("In", 0.5);
+  EXPECT_EQ(limit.output<double>("Out"), 0.25);
+  limit.write("In", -0.5);
+  EXPECT_EQ(limit.output<double>("Out"), -0.25);
+  limit.write("Most", 5.0);
+  limit.write("In", 3.0);
+  EXPECT_EQ(limit.output<double>("Out"), 1.0) << "Low and High hold besides";
+}
+
 TEST(Limit, DoesNotPassOnWhatIsNoNumber) {
   auto limit = bench<Limit>();
   ASSERT_TRUE(limit.start());

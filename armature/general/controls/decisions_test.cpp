@@ -138,5 +138,35 @@ TEST(Timer, ThatDoesNotRepeatRaisesItOnceUntilItIsRestarted) {
   EXPECT_EQ(ticks.size(), 2u);
 }
 
+TEST(Timer, ThatWaitsCountsFromRestartUntilStop) {
+  auto timer = bench<Timer>(100ms);
+  timer.set("Period", 0.2);
+  timer.set("Waits", true);
+  ASSERT_TRUE(timer.start());
+  const auto& ticks = timer.record<>("Tick");
+  timer.run_cycles(10);
+  EXPECT_EQ(ticks.size(), 0u);
+  ASSERT_TRUE(timer.call("restart"));
+  timer.run_cycles(5);
+  EXPECT_EQ(ticks.size(), 2u);
+  ASSERT_TRUE(timer.call("stop"));
+  timer.run_cycles(10);
+  EXPECT_EQ(ticks.size(), 2u);
+}
+
+TEST(Timer, ThatIsRestartedAgainAndAgainNeverRings) {
+  auto timer = bench<Timer>(100ms);
+  timer.set("Period", 0.3);
+  ASSERT_TRUE(timer.start());
+  const auto& ticks = timer.record<>("Tick");
+  for (int k = 0; k < 20; ++k) {
+    timer.run_cycles(2);
+    ASSERT_TRUE(timer.call("restart"));
+  }
+  EXPECT_EQ(ticks.size(), 0u);
+  timer.run_cycles(3);
+  EXPECT_EQ(ticks.size(), 1u);
+}
+
 }  // namespace
 }  // namespace armature::general

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/general/controls/button.hpp"
+#include "armature/general/controls/latch.hpp"
 #include "armature/general/controls/slider.hpp"
 #include "armature/general/controls/switch.hpp"
 #include "armature/testing/harness.hpp"
@@ -102,6 +103,24 @@ TEST(Slider, AfterARestartIsAtRest) {
   ASSERT_TRUE(slider.start());
   slider.run_cycles(1);
   EXPECT_EQ(slider.output<double>("Out"), 0.5);
+}
+
+TEST(Latch, PassesOnTheLastNumberThatItWasToldOnce) {
+  auto latch = bench<Latch>();
+  ASSERT_TRUE(latch.start());
+  latch.run_cycles(3);
+  EXPECT_EQ(latch.writes("Out"), 0u);
+  ASSERT_TRUE(latch.call("set", 2.5));
+  EXPECT_EQ(latch.output<double>("Out"), 2.5);
+  latch.run_cycles(3);
+  EXPECT_EQ(latch.writes("Out"), 1u) << "its reader sees how old the number is";
+}
+
+TEST(Latch, IsToldNumbersOnly) {
+  auto latch = bench<Latch>();
+  ASSERT_TRUE(latch.start());
+  EXPECT_FALSE(latch.call("set", std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(latch.writes("Out"), 0u);
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ Json moments_of(const Moments& moments);
 Json summary_of(const Run& run);
 /// The time of a cycle on the bus; null: nobody measured it.
 Json cycle_of(const Runs& runs);
+/// What another program found; null: nothing.
+Json found_of(const Runs& runs);
+/// What of that is for the page alone, and not in report.json.
+inline constexpr const char* kShownOnly[] = {"curves", "ways", "pictures"};
 /// All of report.json.
 Json report_of(const Runs& runs);
 

@@ -9,6 +9,7 @@ namespace armature::report::internal {
 extern const std::string_view kReportHtml;
 extern const std::string_view kReportCss;
 extern const std::string_view kElementsJs;
+extern const std::string_view kFoundJs;
 extern const std::string_view kCurvesJs;
 extern const std::string_view kReportJs;
 extern const std::string_view kUplotCss;

@@ -382,6 +382,7 @@
 
   begin();
   toReach();
+  Found.show(data, section);
   if (tracked.length > 0) { errors(); figures(); positions(); }
   velocities();
   efforts();
