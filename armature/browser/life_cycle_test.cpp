@@ -54,6 +54,7 @@ class SlowRobot final : public inspect::View {
   inspect::WatchedValues watched(std::int32_t) override { return {}; }
   void end_watch(std::int32_t) override {}
   inspect::Cycle cycle(const std::string&, const Which&) override { return {}; }
+  inspect::LogLines log(std::uint64_t, const Which&) override { return {}; }
   exec::Pace pace() override { return {}; }
   exec::Pace set_pace(const exec::Pace& pace) override { return pace; }
   exec::Pace step() override { return {}; }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "armature/component/component.hpp"
+#include "armature/component/internal/inside.hpp"
 
 namespace armature::component {
 
@@ -18,6 +19,16 @@ class InputPortBase;
 class OperationBase;
 class OperationCallerBase;
 class OutputPortBase;
+template <typename T>
+class InputPort;
+template <typename T>
+class OutputPort;
+template <typename Function>
+class OperationCaller;
+template <typename... Args>
+class CommandCaller;
+template <typename... Args>
+class EventHandler;
 
 /// Given to `Component::on_check` and to each `Checked` when names, peers, connections and periods
 /// are known and properties have their values. Nothing is configured, nothing is connected: whoever
@@ -48,6 +59,28 @@ class Check {
   virtual const OperationBase* target_of(const OperationCallerBase& caller) const = 0;
   /// The event that a handler handles; nullptr: none.
   virtual const EventBase* source_of(const EventHandlerBase& handler) const = 0;
+
+  /// The same of the component's own members.
+  template <typename T>
+  auto writers_of(const InputPort<T>& input) const {
+    return writers_of(internal::Inside::face(input));
+  }
+  template <typename T>
+  auto readers_of(const OutputPort<T>& output) const {
+    return readers_of(internal::Inside::face(output));
+  }
+  template <typename Function>
+  auto target_of(const OperationCaller<Function>& caller) const {
+    return target_of(internal::Inside::face(caller));
+  }
+  template <typename... Args>
+  auto target_of(const CommandCaller<Args...>& caller) const {
+    return target_of(internal::Inside::face(caller));
+  }
+  template <typename... Args>
+  auto source_of(const EventHandler<Args...>& handler) const {
+    return source_of(internal::Inside::face(handler));
+  }
 
   /// Works out an answer once for all who ask while the deployment is checked: what is behind a
   /// port is asked by each component that leads there. Who asks the same while it is worked out, as

@@ -258,6 +258,8 @@ void Application::mourn(const void* workplace, std::string reason) {
   parts_->death_notice.send(workplace, std::move(reason));
 }
 
+const LogHistory& Application::log_history() const { return parts_->outlets.history(); }
+
 void Application::drain_logs() { parts_->outlets.drain(); }
 
 // ---- How it fares

@@ -15,6 +15,7 @@
 #include "armature/component/operations/command.hpp"
 #include "armature/exec/application_options.hpp"
 #include "armature/exec/blueprint.hpp"
+#include "armature/exec/observing/log_history.hpp"
 #include "armature/exec/plan.hpp"
 #include "armature/exec/recorded_cycle.hpp"
 #include "armature/exec/run_end.hpp"
@@ -156,6 +157,9 @@ class Application final {
   base::Result<RecordedCycle> cycle(std::string_view thread);
 
   std::vector<ThreadStatistics> thread_statistics() const;
+
+  /// The newest lines of the log.
+  const LogHistory& log_history() const;
 
   /// Hands log lines and the timeline to their sinks; `run_for` does it too.
   void drain_logs();

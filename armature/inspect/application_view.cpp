@@ -255,6 +255,23 @@ Cycle ApplicationView::cycle(const std::string& thread, const Which& which) {
   return cycle;
 }
 
+LogLines ApplicationView::log(std::uint64_t after, const Which& which) {
+  LogLines found;
+  std::uint64_t next = after + 1;
+  for (const exec::LogLine& line : application_.log_history().lines()) {
+    if (found.lines.size() == kMostLogLines) break;
+    if (line.number <= after) continue;
+    found.left_out += line.number - next;
+    next = line.number + 1;
+    if (which(line.component)) {
+      found.lines.push_back(line);
+    } else {
+      ++found.left_out;
+    }
+  }
+  return found;
+}
+
 ItemValue ApplicationView::write(const std::string& text, const std::string& value) {
   const Item item = answer_of(find_item(application_, text));
   const Member& member = item.member;

@@ -27,6 +27,8 @@ class ApplicationView final : public View {
   static constexpr std::size_t kMostCommands = 256;
   /// Numbers of a watch.
   static constexpr std::size_t kMostNumbers = 4096;
+  /// How many log lines one answer has.
+  static constexpr std::size_t kMostLogLines = 100;
 
   /// @param application  outlives it
   /// @param caller       on whose behalf it writes, calls and begins
@@ -47,6 +49,8 @@ class ApplicationView final : public View {
   void end_watch(std::int32_t handle) override;
   using View::cycle;
   Cycle cycle(const std::string& thread, const Which& which) override;
+  using View::log;
+  LogLines log(std::uint64_t after, const Which& which) override;
   ItemValue write(const std::string& item, const std::string& value) override;
   CallResult call(const std::string& component, const std::string& operation,
                   const std::vector<std::string>& arguments) override;

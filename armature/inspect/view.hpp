@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/base/time.hpp"
+#include "armature/exec/observing/log_history.hpp"
 #include "armature/exec/pace.hpp"
 #include "armature/inspect/describe.hpp"
 #include "armature/inspect/status.hpp"
@@ -95,6 +96,14 @@ struct Cycle {
   bool operator==(const Cycle&) const = default;
 };
 
+/// Lines of a log, one after the other.
+struct LogLines {
+  std::vector<exec::LogLine> lines;
+  std::uint64_t left_out = 0;  ///< before the first: too old, or not asked for
+
+  bool operator==(const LogLines&) const = default;
+};
+
 /// A step in a component's life.
 enum class LifeCycleChange : std::uint8_t { kStart, kStop, kReset, kRecover, kCleanup };
 ARMATURE_ENUM(LifeCycleChange, kStart, kStop, kReset, kRecover, kCleanup);
@@ -146,6 +155,13 @@ class View {
   /// @param which  components whose steps have their names
   virtual Cycle cycle(const std::string& thread, const Which& which) = 0;
   Cycle cycle(const std::string& thread) { return cycle(thread, everyone); }
+
+  /// Lines of the log that were written after the one with the number `after`; 0: as far back as
+  /// they are kept. At most 100: the oldest of them, so that who asks again from the last one
+  /// misses none.
+  /// @param which  whose lines: components', threads', the `application`'s
+  virtual LogLines log(std::uint64_t after, const Which& which) = 0;
+  LogLines log(std::uint64_t after) { return log(after, everyone); }
 
   /// Sets a property. A number may have a unit, which is converted to the property's.
   /// @return what it is now

@@ -229,6 +229,16 @@ class Inspector::Service final : public InspectorService {
     });
   }
 
+  void log(std::uint64_t after, ReplyOf<LogLines> reply) override {
+    in_control(reply, [this, after, readable = readable(reply)] {
+      const std::vector<std::string> names = view_.component_names();
+      const std::set<std::string_view> components(names.begin(), names.end());
+      return to_wire(view_.log(after, [&](const std::string& writer) {
+        return !components.contains(writer) || readable(writer);
+      }));
+    });
+  }
+
   void pace(ReplyOf<Pace> reply) override {
     in_control(reply, [this] { return to_wire(view_.pace()); });
   }

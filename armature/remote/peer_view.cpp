@@ -231,6 +231,13 @@ inspect::Cycle PeerView::cycle(const std::string& thread, const Which& which) {
   return cycle;
 }
 
+inspect::LogLines PeerView::log(std::uint64_t after, const Which& which) {
+  inspect::LogLines log = told_by(client_->inspector.log(after, kPatient));
+  log.left_out +=
+      std::erase_if(log.lines, [&](const exec::LogLine& line) { return !which(line.component); });
+  return log;
+}
+
 exec::Pace PeerView::pace() { return told_by(client_->inspector.pace(kPatient)); }
 
 exec::Pace PeerView::set_pace(const exec::Pace& pace) {

@@ -49,6 +49,8 @@ class PeerView final : public inspect::View {
   void end_watch(std::int32_t handle) override;
   using View::cycle;
   inspect::Cycle cycle(const std::string& thread, const Which& which) override;
+  using View::log;
+  inspect::LogLines log(std::uint64_t after, const Which& which) override;
   exec::Pace pace() override;
   exec::Pace set_pace(const exec::Pace& pace) override;
   exec::Pace step() override;

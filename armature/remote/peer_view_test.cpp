@@ -53,6 +53,8 @@ class Witness final : public Component {
  public:
   using Component::Component;
 
+  void say(int number) { log_warning("says {}", number); }
+
  private:
   void note(int) {}
 
@@ -383,6 +385,33 @@ TEST_F(Views, HaveTheSameCycleOfAThread) {
   EXPECT_EQ(here(nameless).steps.front().component, "");
   EXPECT_EQ(there(nameless).steps.front().component, "");
   EXPECT_THAT(refusal([](View& view) { view.cycle("Axi"); }), HasSubstr("did you mean 'Axis'?"));
+}
+
+TEST_F(Views, HaveTheSameLog) {
+  there([](View& view) { return view.change("Axis", inspect::LifeCycleChange::kStop); });
+  exec::Application& application = robot_.application();
+  for (int i = 0; i < 150; ++i) {
+    auto& witness = static_cast<Witness&>(*application.find("Witness"));
+    application.run_in_thread_of(witness, [&] { witness.say(i); });
+    application.drain_logs();
+  }
+  pass(20ms);
+  const inspect::LogLines all = here([](View& view) { return view.log(0); });
+  ASSERT_EQ(all.lines.size(), 100u);
+  EXPECT_EQ(all.left_out, 0u);
+  EXPECT_EQ(there([](View& view) { return view.log(0); }), all);
+  const std::uint64_t last = all.lines.back().number;
+  const inspect::LogLines rest = there([&](View& view) { return view.log(last); });
+  ASSERT_FALSE(rest.lines.empty());
+  EXPECT_EQ(rest.lines.front().number, last + 1);
+  EXPECT_EQ(rest.lines.back().text, "says 149");
+  EXPECT_EQ(rest.lines.back().component, "Witness");
+  EXPECT_EQ(rest.lines.back().level, rt::LogLevel::kWarning);
+  const auto silent = [&](View& view) {
+    return view.log(last, [](const std::string& one) { return one != "Witness"; });
+  };
+  EXPECT_EQ(here(silent), there(silent));
+  EXPECT_EQ(here(silent).left_out, rest.lines.size());
 }
 
 TEST_F(Views, SeveralAttendOneApplicationEachWithItsOwnCommands) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
 namespace armature::wam {
@@ -21,7 +22,7 @@ void ActuatorWam::actuate(const std::vector<double>& act) {
 
 std::vector<controllers::DrivenJoint> ActuatorWam::joints_behind(
     const component::InputPortBase* /*input*/, const component::Check& check) {
-  return controllers::joints_behind(torque_, check);
+  return controllers::joints_behind(face(torque_), check);
 }
 
 }  // namespace armature::wam

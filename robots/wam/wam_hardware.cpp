@@ -12,6 +12,7 @@
 #include "armature/base/seconds.hpp"
 #include "armature/can/bus_link.hpp"
 #include "armature/can/make_bus.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 #include "robots/wam/arm_parts.hpp"
 #include "robots/wam/driver/arm_connection.hpp"
@@ -63,9 +64,9 @@ Outcome WamHardware::on_configure() {
 
 std::vector<controllers::DrivenJoint> WamHardware::joints_behind(
     const component::InputPortBase* input, const component::Check& /*check*/) {
-  if (input != &torque_reference_ && input != &added_torques_) return {};
+  if (input != &face(torque_reference_) && input != &face(added_torques_)) return {};
   std::vector<controllers::DrivenJoint> joints = arm_check_.driven();
-  if (input == &torque_reference_) return joints;
+  if (input == &face(torque_reference_)) return joints;
   for (controllers::DrivenJoint& joint : joints) {  // somebody else holds the weight
     joint.holds_weight = controllers::HoldsWeight::kHardware;
   }
@@ -218,7 +219,7 @@ Outcome WamHardware::on_start() {
   waits_for_.assign({});
   lost_answers_.assign(0);
   cycles_without_command_.assign(0);
-  arming_ = arm_.bound() ? &arm_.source()->owner() : nullptr;
+  arming_ = arm_.bound() ? &face(arm_).source()->owner() : nullptr;
   return component::accepted();
 }
 

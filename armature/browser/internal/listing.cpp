@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/browser/internal/listing.hpp"
 
+#include <array>
+#include <cstdio>
 #include <optional>
 #include <vector>
 
+#include "armature/base/seconds.hpp"
 #include "armature/browser/internal/spelled_view.hpp"
 #include "armature/component/component.hpp"
 
@@ -129,6 +132,18 @@ std::string list_threads(const Paper& paper, const std::vector<ThreadStatus>& th
             wrapped(paper, statistics_text(thread), 2, 2);
   }
   return text;
+}
+
+std::string list_log(const Paper& paper, std::span<const exec::LogLine> lines) {
+  std::string text;
+  for (const exec::LogLine& line : lines) {
+    std::array<char, 32> time{};
+    std::snprintf(time.data(), time.size(), "%.6f ", base::to_seconds(line.time - base::Time{}));
+    text += (text.empty() ? "" : "\n") + std::string(time.data()) +
+            std::string(rt::name_of(line.level)) + " " + inked(paper, Ink::kName, line.component) +
+            ": " + line.text;
+  }
+  return text.empty() ? "the log has no line yet" : text;
 }
 
 std::string list_faults(const Paper& paper, const inspect::Faults& faults) {

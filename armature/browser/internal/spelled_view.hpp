@@ -44,6 +44,7 @@ class SpelledView {
   exec::Pace step() { return view_.step(); }
   std::vector<inspect::ComponentStatus> components() { return view_.components(); }
   inspect::Faults faults() { return view_.faults(); }
+  inspect::LogLines log(std::uint64_t after) { return view_.log(after); }
   /// A component with its values.
   inspect::ComponentDescription look_at(const std::string& component);
   /// A component without them: asks no thread of the application.

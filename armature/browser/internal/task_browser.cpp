@@ -6,6 +6,8 @@
 #include <chrono>
 #include <iterator>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "armature/base/seconds.hpp"
 #include "armature/browser/internal/help.hpp"
@@ -17,6 +19,7 @@ namespace {
 
 /// An older value is told with its age.
 constexpr base::Duration kOld = std::chrono::seconds(1);
+constexpr double kLogLines = 20;
 
 std::string_view first_word(std::string_view line) {
   return line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
@@ -113,6 +116,7 @@ const TaskBrowser::Command* TaskBrowser::find_command(std::string_view name) {
       {"watch", "watch", &TaskBrowser::watch},
       {"threads", "threads", &TaskBrowser::threads},
       {"faults", "faults", &TaskBrowser::faults},
+      {"log", "log", &TaskBrowser::log},
       {"start", "start", &TaskBrowser::start},
       {"stop", "stop", &TaskBrowser::stop_components},
       {"reset", "reset", &TaskBrowser::reset},
@@ -200,6 +204,21 @@ void TaskBrowser::threads(const Words& arguments) {
   if (takes_nothing("threads", arguments)) {
     answers_.say(list_threads(paper(), view_.status().threads));
   }
+}
+
+/// The newest lines, of as many as are kept.
+void TaskBrowser::log(const Words& arguments) {
+  const auto wanted = arguments.empty() ? std::optional(kLogLines) : number_in(arguments.front());
+  if (arguments.size() > 1 || !wanted || *wanted < 1) {
+    return answers_.mistake("log takes a number of lines above 0: log 50");
+  }
+  std::vector<exec::LogLine> lines;
+  for (inspect::LogLines more = view_.log(0); !more.lines.empty();) {
+    lines.insert(lines.end(), more.lines.begin(), more.lines.end());
+    more = view_.log(lines.back().number);
+  }
+  const auto shown = std::min(static_cast<double>(lines.size()), *wanted);
+  answers_.say(list_log(paper(), std::span(lines).last(static_cast<std::size_t>(shown))));
 }
 
 void TaskBrowser::faults(const Words& arguments) {

@@ -51,6 +51,7 @@ class TaskBrowser final : public LineTaker {
   void list(const Words& names);
   void help(const Words& subjects);
   void threads(const Words& arguments);
+  void log(const Words& arguments);
   void faults(const Words& arguments);
   void start(const Words& names) { life_cycle_.start(names); }
   void stop_components(const Words& names) { life_cycle_.stop(names, vocabulary().quitting); }

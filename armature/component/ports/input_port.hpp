@@ -240,7 +240,10 @@ class InputPort final : private InputPortBase {
   static_assert(PortData<T>, ARMATURE_INTERNAL_PORT_DATA_TEXT);
 
  public:
+  using InputPortBase::ages;
   using InputPortBase::connected;
+  using InputPortBase::counters;
+  using InputPortBase::max_age;
   using InputPortBase::name;
   using InputPortBase::operator new;
   using InputPortBase::operator delete;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
 namespace armature::controllers {
@@ -26,7 +27,7 @@ std::vector<DrivenJoint> ActuatorNDemux::joints_behind(const component::InputPor
                                                        const component::Check& check) {
   std::vector<DrivenJoint> all;
   for (std::size_t i = 0; i < voltage_.size(); ++i) {
-    const std::vector<DrivenJoint>& joints = controllers::joints_behind(voltage_[i], check);
+    const std::vector<DrivenJoint>& joints = controllers::joints_behind(face(voltage_[i]), check);
     if (joints.size() != 1) return {};
     all.push_back(joints.front());
   }

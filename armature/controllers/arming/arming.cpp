@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/missing_answers.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
@@ -92,7 +93,7 @@ void Arming::wait_for_joints() {
     moved_at_ = time();
     arm_.complete();
   } else if (out_of_patience(joint_patience_)) {
-    component::Reason why(writer_of(joint_armed_[missing]));
+    component::Reason why(writer_of(face(joint_armed_[missing])));
     give_up(why.append(" did not arm; its log line says why"));
   }
 }
@@ -107,7 +108,7 @@ void Arming::joint_does_not_arm(const ComponentName& joint, const component::Rea
 void Arming::watch() {
   const std::size_t lost = first_disarmed();
   if (lost == joints()) return watch_reference();
-  log_error("{} is disarmed, so all are", writer_of(joint_armed_[lost]));
+  log_error("{} is disarmed, so all are", writer_of(face(joint_armed_[lost])));
   disarm();
 }
 

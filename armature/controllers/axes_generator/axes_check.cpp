@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/controllers/axes_generator/axes_check.hpp"
 
+#include "armature/component/face.hpp"
 #include "armature/control/per_joint.hpp"
 
 namespace armature::controllers {
@@ -21,7 +22,7 @@ AxesCheck::AxesCheck(component::Component* owner, const component::Property<int>
 }
 
 void AxesCheck::check(component::Check& check) const {
-  joints_ = joints_behind(limits_.desired, check);
+  joints_ = joints_behind(face(limits_.desired), check);
   const auto axes = static_cast<std::size_t>(axes_.get());
   if (joints_.size() % axes != 0) joints_.clear();
   if (const std::string wrong = objection({}); !wrong.empty()) check.error(wrong);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "armature/component/face.hpp"
 #include "armature/control/per_joint.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
@@ -162,7 +163,7 @@ bool AxesGeneratorPos::may_move() {
     if (answer.status != component::CallStatus::kWouldWait) return answer && answer.value;
   }
   if (!arm_.bound()) return true;
-  return armed_ && arm_.source()->owner().state() == component::State::kRunning;
+  return armed_ && face(arm_).source()->owner().state() == component::State::kRunning;
 }
 
 void AxesGeneratorPos::PeersLimit::resize(std::size_t axes) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 
 namespace armature::controllers {
@@ -62,7 +63,7 @@ void Controller::take_over() {
   hand_over_.reset();
   lately_.reset();
   has_successors_ = std::ranges::any_of(
-      act_.readers(), [](const auto* reader) { return reader->writers().size() > 1; });
+      face(act_).readers(), [](const auto* reader) { return reader->writers().size() > 1; });
   const std::vector<double>* const present = act_.taken_over();
   takes_over_ = present != nullptr;
   if (!takes_over_) return;
@@ -74,9 +75,9 @@ void Controller::take_over() {
 
 /// Whoever wrote what is taken over; nullptr if that is no Controller.
 const Controller* Controller::predecessor() const {
-  for (const component::InputPortBase* const reader : act_.readers()) {
+  for (const component::InputPortBase* const reader : face(act_).readers()) {
     for (const component::OutputPortBase* const writer : reader->writers()) {
-      if (writer == &act_ || writer->current() != act_.taken_over()) continue;
+      if (writer == &face(act_) || writer->current() != act_.taken_over()) continue;
       return dynamic_cast<const Controller*>(&writer->owner());
     }
   }
@@ -175,18 +176,18 @@ void Controller::begin_to_brake(const std::vector<double>& last) {
 
 std::vector<DrivenJoint> Controller::joints_behind(const component::InputPortBase* input,
                                                    const component::Check& check) {
-  return input == &reference_ ? acted_joints(check) : std::vector<DrivenJoint>{};
+  return input == &face(reference_) ? acted_joints(check) : std::vector<DrivenJoint>{};
 }
 
 std::vector<DrivenJoint> Controller::driven_joints(const component::Check& check) const {
   std::vector<DrivenJoint> joints = acted_joints(check);
-  answer_later(joints, cycles_late(sensor_, check), base::to_seconds(period()));
+  answer_later(joints, cycles_late(face(sensor_), check), base::to_seconds(period()));
   return joints;
 }
 
 const std::vector<DrivenJoint>& Controller::acted_joints(const component::Check& check) const {
   static const std::vector<DrivenJoint> kUnknown;
-  const std::vector<DrivenJoint>& joints = controllers::joints_behind(act_, check);
+  const std::vector<DrivenJoint>& joints = controllers::joints_behind(face(act_), check);
   return joints.size() == static_cast<std::size_t>(joints_.get()) ? joints : kUnknown;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "armature/component/face.hpp"
 #include "armature/component/interface.hpp"
 
 namespace armature::controllers {
@@ -59,7 +60,7 @@ void ControllerOfPids::answer(std::size_t member, double value) {
 }
 
 std::string_view ControllerOfPids::name_of(std::size_t member) {
-  return member < out_.size() ? writer_of(out_[member]) : name_of_other(member);
+  return member < out_.size() ? writer_of(face(out_[member])) : name_of_other(member);
 }
 
 void ControllerOfPids::note_missing() {
@@ -73,7 +74,7 @@ std::vector<DrivenJoint> ControllerOfPids::joints_behind(const component::InputP
   // Of the PID's samples, the PID itself knows how late they are.
   const std::vector<DrivenJoint>& joints = acted_joints(check);
   for (std::size_t i = 0; i < out_.size() && i < joints.size(); ++i) {
-    if (&out_[i] == input) return {joints[i]};
+    if (&face(out_[i]) == input) return {joints[i]};
   }
   return Controller::joints_behind(input, check);
 }

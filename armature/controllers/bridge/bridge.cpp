@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "armature/component/face.hpp"
+
 namespace armature::controllers {
 
 component::Outcome Bridge::on_configure() {
@@ -33,9 +35,9 @@ void Bridge::on_desired(const Vector& desired) {
 std::vector<DrivenJoint> Bridge::joints_behind(const component::InputPortBase* input,
                                                const component::Check& check) {
   std::vector<DrivenJoint> all;
-  if (input != &desired_) return all;
+  if (input != &face(desired_)) return all;
   for (std::size_t i = 0; i < ref_.size(); ++i) {
-    const std::vector<DrivenJoint>& joints = controllers::joints_behind(ref_[i], check);
+    const std::vector<DrivenJoint>& joints = controllers::joints_behind(face(ref_[i]), check);
     if (joints.size() != 1) return {};
     all.push_back(joints.front());
   }

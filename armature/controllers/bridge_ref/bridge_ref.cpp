@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "armature/component/face.hpp"
+
 namespace armature::controllers {
 
 using component::Outcome;
@@ -36,8 +38,8 @@ void BridgeRef::take(Part part, const std::vector<double>& desired) {
 
 std::vector<DrivenJoint> BridgeRef::joints_behind(const component::InputPortBase* input,
                                                   const component::Check& check) {
-  return input == &position_ ? controllers::joints_behind(reference_, check)
-                             : std::vector<DrivenJoint>{};
+  return input == &face(position_) ? controllers::joints_behind(face(reference_), check)
+                                   : std::vector<DrivenJoint>{};
 }
 
 }  // namespace armature::controllers

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/component/face.hpp"
 #include "armature/control/per_joint.hpp"
 
 namespace armature::controllers {
@@ -109,7 +110,7 @@ std::optional<std::array<double, 3>> ControllerNPIDFF::gravity_held(
 }
 
 std::string_view ControllerNPIDFF::name_of_other(std::size_t /*member*/) const {
-  return writer_of(out_model_);
+  return writer_of(face(out_model_));
 }
 
 void ControllerNPIDFF::ask_others(const std::vector<double>& reference) {

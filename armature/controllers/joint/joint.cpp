@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/component/stand_in.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
@@ -50,7 +51,7 @@ Outcome Joint::on_start() {
   if (sampler_ && !voltage_.connected()) {
     return component::refused("input Voltage has no writer (connect it, or set Sampler: false)");
   }
-  arming_ = arm_handler_.bound() ? &arm_handler_.source()->owner() : nullptr;
+  arming_ = arm_handler_.bound() ? &face(arm_handler_).source()->owner() : nullptr;
   if (dynamic_cast<const component::StandIn*>(arming_) != nullptr) {
     return component::refused("the event Arm comes from '" + arming_->name() +
                               "' in another process: let an Arming in its own process arm it");
@@ -148,7 +149,7 @@ std::vector<DrivenJoint> Joint::joints_behind(const component::InputPortBase* /*
   if (!joint) return {};
   std::vector<DrivenJoint> joints{*joint};
   for (const component::InputPortBase* const hardware : check.readers_of(voltage_actuator_)) {
-    if (!check.delayed(voltage_actuator_, *hardware)) continue;
+    if (!check.delayed(face(voltage_actuator_), *hardware)) continue;
     answer_later(joints, 1, base::to_seconds(period()));
     break;
   }

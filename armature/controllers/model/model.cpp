@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
@@ -27,7 +28,7 @@ Outcome Model::on_configure() {
 void Model::on_check(component::Check& check) const {
   const auto is_zero = [](double number) { return number == 0.0; };
   if (std::ranges::all_of(description_.gravity(), is_zero)) return;
-  for (const DrivenJoint& joint : joints_behind(out_, check)) {
+  for (const DrivenJoint& joint : joints_behind(face(out_), check)) {
     if (std::ranges::all_of(joint.gravity, is_zero)) continue;  // nobody knows how it is mounted
     const std::string wrong = objection_to_gravity(joint, description_.gravity());
     if (wrong.empty()) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
@@ -76,17 +77,17 @@ std::vector<DrivenJoint> Pid::joints(const component::Check& check) {
   const component::OperationBase* const target = check.target_of(motor_set_);
   std::vector<DrivenJoint> joints;
   if (target == nullptr) {
-    joints = controllers::joints_behind(output_, check);
+    joints = controllers::joints_behind(face(output_), check);
   } else if (auto* const joint = dynamic_cast<DrivesJoints*>(&target->owner())) {
     joints = joint->joints_behind(nullptr, check);
   }
-  answer_later(joints, cycles_late(measured_, check), base::to_seconds(period()));
+  answer_later(joints, cycles_late(face(measured_), check), base::to_seconds(period()));
   return joints;
 }
 
 std::vector<DrivenJoint> Pid::joints_behind(const component::InputPortBase* input,
                                             const component::Check& check) {
-  return input == &reference_ ? joints(check) : std::vector<DrivenJoint>{};
+  return input == &face(reference_) ? joints(check) : std::vector<DrivenJoint>{};
 }
 
 /// With a joint of its own it is to measure that one, and to follow something else.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "armature/component/face.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
@@ -49,7 +50,7 @@ void SensorNMux::take(std::size_t joint, double value, std::size_t place) {
 
 void SensorNMux::refuse(std::size_t joint, double value, std::size_t place) {
   const auto& input = place == kPosition ? position_[joint] : displacement_[joint];
-  component::Reason why(writer_of(input));
+  component::Reason why(writer_of(face(input)));
   why.append(" measured ").append(input.name()).append(" = ");
   fault(append_number(why, value).append(", expected a finite number"));
 }

@@ -31,7 +31,7 @@ void LogPump::tell_losses(base::Time now) {
   for (Source& source : sources_) {
     const std::uint64_t dropped = source.engine->log().dropped();
     const std::uint64_t before = std::exchange(source.told_losses, dropped);
-    if (dropped == before || !sink_) continue;
+    if (dropped == before) continue;
     rt::LogRecord record;
     record.level = rt::LogLevel::kWarning;
     record.time = now;
@@ -54,6 +54,7 @@ void LogPump::say(std::string_view text, base::Time now) {
 }
 
 void LogPump::tell(const rt::LogRecord& record) noexcept {
+  history_.add(record);
   if (!sink_) return;
   try {
     sink_(record);

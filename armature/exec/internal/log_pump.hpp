@@ -9,11 +9,12 @@
 
 #include "armature/base/time.hpp"
 #include "armature/exec/engine.hpp"
+#include "armature/exec/observing/log_history.hpp"
 
 namespace armature::exec::internal {
 
-/// Carries log lines from the engines' queues to a sink, which may be empty. A sink that throws
-/// gets no more of them.
+/// Carries log lines from the engines' queues to a sink, which may be empty, and keeps the newest.
+/// A sink that throws gets no more of them.
 class LogPump {
  public:
   using Sink = std::function<void(const rt::LogRecord&)>;
@@ -32,6 +33,7 @@ class LogPump {
   void say(std::string_view text, base::Time now);
   /// What the sink threw; empty if it did not.
   const std::string& failure() const { return failure_; }
+  const LogHistory& history() const { return history_; }
 
  private:
   struct Source {
@@ -42,6 +44,7 @@ class LogPump {
   void tell(const rt::LogRecord& record) noexcept;
 
   Sink sink_;
+  LogHistory history_;
   std::string failure_;
   std::vector<Source> sources_;
   base::Time told_at_{};

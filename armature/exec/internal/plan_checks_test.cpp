@@ -83,11 +83,11 @@ TEST(PlanChecks, AComponentSeesItsPeriodPeersAndWiring) {
     EXPECT_EQ(checking.period(), 2ms);
     EXPECT_EQ(check.components().size(), 3U);
     EXPECT_THAT(check.peers(), ElementsAre(&gain, &counter));
-    EXPECT_THAT(check.writers_of(face(checking.in)), ElementsAre(&face(counter.count)));
-    EXPECT_THAT(check.readers_of(face(checking.out)), ElementsAre(&face(gain.in)));
-    EXPECT_THAT(check.writers_of(face(gain.in)), ElementsAre(&face(checking.out)));
-    EXPECT_EQ(check.target_of(face(checking.scale)), &face(gain.scale));
-    EXPECT_EQ(check.source_of(face(checking.tick)), &face(counter.tick));
+    EXPECT_THAT(check.writers_of(checking.in), ElementsAre(&face(counter.count)));
+    EXPECT_THAT(check.readers_of(checking.out), ElementsAre(&face(gain.in)));
+    EXPECT_THAT(check.writers_of(gain.in), ElementsAre(&face(checking.out)));
+    EXPECT_EQ(check.target_of(checking.scale), &face(gain.scale));
+    EXPECT_EQ(check.source_of(checking.tick), &face(counter.tick));
   };
   EXPECT_EQ(problems_of(blueprint), "");
   EXPECT_EQ(looks, 1);
@@ -98,10 +98,10 @@ TEST(PlanChecks, WhatIsNotConnectedIsSeenAsSuch) {
   Checking& checking = blueprint.add<Checking>("Checking");
   checking.look = [&](Check& check) {
     EXPECT_TRUE(check.peers().empty());
-    EXPECT_TRUE(check.writers_of(face(checking.in)).empty());
-    EXPECT_TRUE(check.readers_of(face(checking.out)).empty());
-    EXPECT_EQ(check.target_of(face(checking.scale)), nullptr);
-    EXPECT_EQ(check.source_of(face(checking.tick)), nullptr);
+    EXPECT_TRUE(check.writers_of(checking.in).empty());
+    EXPECT_TRUE(check.readers_of(checking.out).empty());
+    EXPECT_EQ(check.target_of(checking.scale), nullptr);
+    EXPECT_EQ(check.source_of(checking.tick), nullptr);
   };
   EXPECT_EQ(problems_of(blueprint), "");
 }

@@ -40,6 +40,14 @@ CommandStage stage_named(const std::string& name) {
       .value_or(CommandStage::kFree);
 }
 
+/// An unknown one is taken for a grave one.
+rt::LogLevel level_named(const std::string& name) {
+  for (const auto level : {rt::LogLevel::kDebug, rt::LogLevel::kInfo, rt::LogLevel::kWarning}) {
+    if (rt::name_of(level) == name) return level;
+  }
+  return rt::LogLevel::kError;
+}
+
 inspect::ThreadStatus told(const ThreadStatus& from) {
   return {from.name,
           from.activity,
@@ -215,6 +223,15 @@ inspect::Cycle from_wire(const Cycle& from) {
                [&](const CycleStep& one) {
                  return inspect::CycleStep{one.component, from_microseconds(one.begin),
                                            from_microseconds(one.length)};
+               }),
+          from.left_out};
+}
+
+inspect::LogLines from_wire(const LogLines& from) {
+  return {each(from.lines,
+               [](const LogLine& one) {
+                 return exec::LogLine{one.number, base::Time{} + duration_of(one.time),
+                                      level_named(one.level), one.component, one.text};
                }),
           from.left_out};
 }

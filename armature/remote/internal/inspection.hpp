@@ -24,6 +24,7 @@ CommandStatus to_wire(const inspect::CommandStatus& from);
 Watch to_wire(const inspect::Watch& from);
 WatchedValues to_wire(const inspect::WatchedValues& from);
 Cycle to_wire(const inspect::Cycle& from);
+LogLines to_wire(const inspect::LogLines& from);
 Pace to_wire(const exec::Pace& from);
 
 inspect::ApplicationStatus from_wire(const ApplicationStatus& from);
@@ -36,6 +37,7 @@ inspect::CommandStatus from_wire(const CommandStatus& from);
 inspect::Watch from_wire(const Watch& from);
 inspect::WatchedValues from_wire(const WatchedValues& from);
 inspect::Cycle from_wire(const Cycle& from);
+inspect::LogLines from_wire(const LogLines& from);
 exec::Pace from_wire(const Pace& from);
 
 /// `all`, each by `convert`.

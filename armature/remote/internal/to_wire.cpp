@@ -173,6 +173,15 @@ Cycle to_wire(const inspect::Cycle& from) {
           from.left_out};
 }
 
+LogLines to_wire(const inspect::LogLines& from) {
+  return {each(from.lines,
+               [](const exec::LogLine& one) {
+                 return LogLine{one.number, base::to_seconds(one.time - base::Time{}),
+                                std::string(rt::name_of(one.level)), one.component, one.text};
+               }),
+          from.left_out};
+}
+
 Pace to_wire(const exec::Pace& from) { return {from.rate, from.paused}; }
 
 }  // namespace armature::remote::internal

@@ -29,6 +29,7 @@ class Outlets {
   void drain_after_turn(Engine& engine);
   /// The controlling thread's own line. Empty texts say nothing.
   void say(const std::string& text);
+  const LogHistory& history() const { return logs_.history(); }
   void tell_losses_now_and_then() { logs_.tell_losses_now_and_then(clock_.now()); }
   /// Writes what led to a fault, if it is time.
   void write_black_boxes(Incidents& incidents);
