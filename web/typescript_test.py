@@ -47,7 +47,8 @@ def check(node, source, folder, files):
         "compilerOptions": {
             "noEmit": True, "emitDeclarationOnly": False, "declaration": False, "rootDir": "/",
             "rewriteRelativeImportExtensions": False,
-            "paths": {"@armature/ride": [str(source / "web/ride/src/ride.ts")]},
+            "paths": {"@armature/ride": [str(source / "web/ride/src/ride.ts")],
+                      "@armature/ride/service": [str(source / "web/ride/src/service.ts")]},
         },
         "include": [str(file) for file in files],
     }
@@ -69,7 +70,7 @@ def main():
             done = subprocess.run([rcidl, definition, "--typescript", "--out", folder], capture_output=True, text=True)
             assert done.returncode == 0, done.stderr
         generated = sorted(folder.glob("*.ts"))
-        assert len(generated) == len(definitions), generated
+        assert len(generated) == 2 * len(definitions), generated
         check(node, source, folder, [*generated, *sorted((source / "idl/testdata/golden").glob("*.ts")),
                                      *sorted((source / "web/ride/test").glob("*.ts"))])
         # What the test would say if it could not tell: a use with a wrong type is refused.

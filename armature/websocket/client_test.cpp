@@ -406,8 +406,10 @@ TEST_F(EncryptedNode, BothSidesAreKnownByTheirCertificatesAsOverTls) {
   const auto near = client(&anna, authority_)->connect(listening.value()->address());
   ASSERT_TRUE(near.ok()) << near.error();
   ASSERT_EQ(problem_of(*near.value()), "");
-  const auto far = listening.value()->accept();
-  ASSERT_NE(far, nullptr);
+  std::unique_ptr<ride::Connection> far;
+  auto poller = std::move(platform::Poller::make()).value();
+  poller->add(listening.value()->handle(), 0, {true, false});
+  while ((far = listening.value()->accept()) == nullptr) poller->wait(base::Duration::max());
   EXPECT_EQ(near.value()->identity(), "robot");
   EXPECT_EQ(far->identity(), "anna@tls");
 }
@@ -426,8 +428,9 @@ TEST_F(EncryptedNode, ACertificateOfAnotherAuthorityLetsNobodyIn) {
   options.certificate = files.certificate;
   options.key = files.key;
   options.authority = files.authority;
-  EXPECT_THAT(problem_at(*transport_with(options), {"wss", "127.0.0.1", port_}),
-              HasSubstr("it refuses the certificate of this side"));
+  // It says so, or resets the connection before that is read.
+  EXPECT_NE(problem_at(*transport_with(options), {"wss", "127.0.0.1", port_}), "");
+  EXPECT_EQ(node_->statistics().connections, 0u);
 }
 
 TEST_F(EncryptedNode, TheCertificateThereHasToBeForTheNameThatIsDialledAndOfTheAuthority) {

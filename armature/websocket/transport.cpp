@@ -56,6 +56,9 @@ class WebTransport final : public Transport {
     if (!pages_) {
       return base::Error{"'" + address.text() + "': there is no folder of pages to serve"};
     }
+    if (encrypted() && options_.certificate.empty()) {
+      return base::Error{"'" + address.text() + "': there is no certificate to encrypt with"};
+    }
     if (!safe(address)) {
       return base::Error{"'" + address.text() +
                          "': without encryption pages are served to this machine only; listen at "
