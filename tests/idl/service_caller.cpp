@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <future>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -132,8 +133,8 @@ TEST_F(TypescriptServices, ExecuteCommandsAndRaiseEvents) {
 
 TEST_F(TypescriptServices, TellOfACommandThatFails) {
   std::promise<std::string> failed;
-  const auto told = echo_.on_failed([&](const std::string& command, const std::string& why) {
-    failed.set_value(command + ": " + why);
+  const auto told = echo_.on_failed([&](const ride::Failed& event) {
+    failed.set_value(event.operation + ": " + event.text);
   });
   EXPECT_TRUE(echo_.echo_bool(true, kPatient).ok());  // behind the subscription
   EXPECT_EQ(echo_.request_("fail", 0.5f), ride::Sent::kYes);
@@ -206,7 +207,7 @@ TEST_F(TypescriptServices, AreToldOfTheEndOfAConnection) {
     ASSERT_TRUE(there.wait_until_connected(20s).ok());
     chassis::ChassisPlaceholder waiting(there, "wheels");
     EXPECT_EQ(waiting.whereItStands(60.0, {.deadline = 50ms, .priority = {}}).code(),
-              ride::Code::kTimeout);
+              ride::Code::kDeadline);
   }
   double after = before;
   while (after == before) after = wheels_.where(kPatient).value().heading;
