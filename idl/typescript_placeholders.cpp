@@ -82,7 +82,7 @@ class PlaceholderWriter {
 }  // namespace
 
 std::vector<std::string> documentation_of(const Operation& operation,
-                                        const std::vector<std::string>& names) {
+                                          const std::vector<std::string>& names) {
   std::vector<std::string> lines = operation.doc;
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::string all;

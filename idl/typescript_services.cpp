@@ -30,7 +30,9 @@ class TypescriptServiceWriter {
     for (const EventName& each : interface_.events) {
       events += (events.empty() ? "" : ", ") + event_type(each);
     }
-    std::string text = "  constructor() {\n" + list(4, "super(", {literal(interface_.name), number, "[" + events + "]"}, ");");
+    std::string text =
+        "  constructor() {\n" +
+        list(4, "super(", {literal(interface_.name), number, "[" + events + "]"}, ");");
     for (const Operation& operation : interface_.operations) text += defined(operation);
     return text + "  }\n";
   }

@@ -109,9 +109,10 @@ void add_browse(const CommandLine& to) {
                    "the authority that must have signed the other side's certificate")
       ->type_name("FILE");
   command
-      ->add_option("--tokens", arguments->tokens,
-                   "lets this side in at ws:// and wss://: addresses of pages with their tokens, as "
-                   "applications say them, one a line")
+      ->add_option(
+          "--tokens", arguments->tokens,
+          "lets this side in at ws:// and wss://: addresses of pages with their tokens, as "
+          "applications say them, one a line")
       ->type_name("FILE");
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program that connects to a WebSocket: to those of nodes, and to what is none.
+#include "armature/websocket/internal/client.hpp"
+
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -10,13 +12,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <openssl/evp.h>
 
 #include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/node.hpp"
 #include "armature/testing/transport_conformance.hpp"
-#include "armature/tls/internal/test_certificates.hpp"
-#include "armature/websocket/internal/client.hpp"
 #include "armature/websocket/internal/handshake.hpp"
+#include "armature/websocket/internal/test_authority.hpp"
 #include "armature/websocket/internal/test_page.hpp"
 #include "armature/websocket/internal/test_site.hpp"
 #include "armature/websocket/internal/tokens.hpp"
@@ -26,9 +28,8 @@
 namespace armature::ride {
 namespace {
 
-using tls::internal::Folder;
-using tls::internal::Issued;
 using websocket::internal::Site;
+using websocket::internal::TestAuthorities;
 
 std::shared_ptr<websocket::Transport> made(const websocket::Options& options) {
   base::Diagnostics diagnostics;
@@ -40,7 +41,8 @@ std::shared_ptr<websocket::Transport> made(const websocket::Options& options) {
 /// Both ends: one listens, and the other is told its token.
 class BothEnds final : public Transport {
  public:
-  explicit BothEnds(websocket::Options options, std::shared_ptr<const Folder> files = nullptr)
+  explicit BothEnds(websocket::Options options,
+                    std::shared_ptr<const TestAuthorities> files = nullptr)
       : files_(std::move(files)), options_(std::move(options)) {
     options_.pages = site_.folder();
     listening_ = made(options_);
@@ -54,8 +56,8 @@ class BothEnds final : public Transport {
     options.pages.clear();
     options.tokens = site_.folder() + "_tokens";
     std::ofstream(options.tokens) << listening_->pages().back() << "\n";
-    std::filesystem::permissions(options.tokens, std::filesystem::perms::owner_read |
-                                                     std::filesystem::perms::owner_write);
+    std::filesystem::permissions(
+        options.tokens, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     connecting_ = made(options);
     std::filesystem::remove(options.tokens);
     return listener;
@@ -66,7 +68,7 @@ class BothEnds final : public Transport {
 
  private:
   Site site_;
-  const std::shared_ptr<const Folder> files_;
+  const std::shared_ptr<const TestAuthorities> files_;
   websocket::Options options_;
   std::shared_ptr<websocket::Transport> listening_;
   std::shared_ptr<websocket::Transport> connecting_;
@@ -76,15 +78,8 @@ std::unique_ptr<Transport> make_ws() { return std::make_unique<BothEnds>(websock
 
 /// Both ends have one certificate.
 std::unique_ptr<Transport> make_wss() {
-  const auto folder = std::make_shared<const Folder>();
-  const Issued authority = tls::internal::make_authority();
-  const tls::Options files =
-      folder->write("robot", tls::internal::issue({}, &authority), authority);
-  websocket::Options options;
-  options.certificate = files.certificate;
-  options.key = files.key;
-  options.authority = files.authority;
-  return std::make_unique<BothEnds>(options, folder);
+  const auto files = std::make_shared<const TestAuthorities>();
+  return std::make_unique<BothEnds>(files->issue("robot"), files);
 }
 
 INSTANTIATE_TEST_SUITE_P(WebsocketClient, TransportConformance,
@@ -105,12 +100,9 @@ namespace armature::websocket {
 namespace {
 
 using internal::kPatience;
+using internal::TestAuthorities;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using tls::internal::Folder;
-using tls::internal::issue;
-using tls::internal::Issued;
-using tls::internal::make_authority;
 
 std::shared_ptr<Transport> transport_with(const Options& options) {
   base::Diagnostics diagnostics;
@@ -299,7 +291,15 @@ std::string unmasked(const std::string& frame) {
 }
 
 TEST(WebSocketClient, TakesFramesHoweverTheyAreDivided) {
-  EXPECT_EQ(hear(std::string("\x02\x02" "ab" "\x80\x01" "c" "\x82\x00" "\x82\x7e\x00\x02" "de", 16)).bytes,
+  EXPECT_EQ(hear(std::string("\x02\x02"
+                             "ab"
+                             "\x80\x01"
+                             "c"
+                             "\x82\x00"
+                             "\x82\x7e\x00\x02"
+                             "de",
+                             16))
+                .bytes,
             "abcde");
 }
 
@@ -319,7 +319,10 @@ TEST(WebSocketClient, APingIsAnsweredWithItsPayload) {
 }
 
 TEST(WebSocketClient, TheEndIsSaidAndHeardWithItsReason) {
-  EXPECT_EQ(hear("\x88\x05\x03\xe9" "bye").problem, "the other side has ended it: bye");
+  EXPECT_EQ(hear("\x88\x05\x03\xe9"
+                 "bye")
+                .problem,
+            "the other side has ended it: bye");
   const std::string last = hear("\x82\x01x").answered;
   ASSERT_EQ(last.size(), 8u);
   EXPECT_EQ(last.substr(0, 2), "\x88\x82");
@@ -351,11 +354,7 @@ TEST(WebSocketTokens, ALineThatIsNoneIsToldByItsPlaceAndNotRepeated) {
 class EncryptedNode : public ::testing::Test {
  protected:
   EncryptedNode() {
-    const tls::Options robot = folder_.write("robot", issue({}, &authority_), authority_);
-    Options options{.pages = site_.folder()};
-    options.certificate = robot.certificate;
-    options.key = robot.key;
-    options.authority = robot.authority;
+    const Options options = serving("robot");
     ride::NodeOptions node;
     node.transports.push_back(transport_with(options));
     node.allows = [](const ride::AccessQuestion&) { return true; };
@@ -365,29 +364,27 @@ class EncryptedNode : public ::testing::Test {
     port_ = listening.value().port;
   }
 
-  /// A client with the certificate `own`; none: without.
-  std::shared_ptr<Transport> client(const Issued* own, const Issued& authority) {
+  Options serving(const std::string& name) const {
+    Options options = files_.issue(name);
+    options.pages = site_.folder();
+    return options;
+  }
+  /// Who only trusts.
+  std::shared_ptr<Transport> anonymous(const std::string& authority = "authority") const {
     Options options;
-    if (own != nullptr) {
-      const tls::Options files = folder_.write("client", *own, authority);
-      options.certificate = files.certificate;
-      options.key = files.key;
-    }
-    options.authority = folder_.write("client.authority.pem", authority.certificate.get());
+    options.authority = files_.path(authority + ".pem");
     return transport_with(options);
   }
 
   internal::Site site_;
-  Folder folder_;
-  const Issued authority_ = make_authority();
+  const TestAuthorities files_;
   std::unique_ptr<ride::Node> node_;
   std::uint16_t port_ = 0;
 };
 
 TEST_F(EncryptedNode, AProgramThatHasACertificateConnectsWithoutAToken) {
-  const Issued anna = issue({.common_name = "anna"}, &authority_);
   ride::NodeOptions options;
-  options.transports.push_back(client(&anna, authority_));
+  options.transports.push_back(transport_with(files_.issue("anna")));
   ride::Node program(options);
   ride::Peer& peer = program.connect("wss://localhost:" + std::to_string(port_));
   ASSERT_TRUE(peer.wait_until_connected(kPatience).ok());
@@ -395,53 +392,40 @@ TEST_F(EncryptedNode, AProgramThatHasACertificateConnectsWithoutAToken) {
 }
 
 TEST_F(EncryptedNode, BothSidesAreKnownByTheirCertificatesAsOverTls) {
-  const Issued anna = issue({.common_name = "anna"}, &authority_);
-  Options options{.pages = site_.folder()};
-  const tls::Options files = folder_.write("other", issue({}, &authority_), authority_);
-  options.certificate = files.certificate;
-  options.key = files.key;
-  options.authority = files.authority;
-  const auto listening = transport_with(options)->listen({"wss", "127.0.0.1", 0});
+  const auto listening = transport_with(serving("other"))->listen({"wss", "127.0.0.1", 0});
   ASSERT_TRUE(listening.ok()) << listening.error();
-  const auto near = client(&anna, authority_)->connect(listening.value()->address());
+  const auto near = transport_with(files_.issue("anna"))->connect(listening.value()->address());
   ASSERT_TRUE(near.ok()) << near.error();
   ASSERT_EQ(problem_of(*near.value()), "");
   std::unique_ptr<ride::Connection> far;
   auto poller = std::move(platform::Poller::make()).value();
   poller->add(listening.value()->handle(), 0, {true, false});
   while ((far = listening.value()->accept()) == nullptr) poller->wait(base::Duration::max());
-  EXPECT_EQ(near.value()->identity(), "robot");
+  EXPECT_EQ(near.value()->identity(), "other");
   EXPECT_EQ(far->identity(), "anna@tls");
 }
 
 TEST_F(EncryptedNode, AProgramWithoutACertificateAndWithoutTheTokenIsSentAway) {
-  const auto anonymous = client(nullptr, authority_);
-  EXPECT_THAT(problem_at(*anonymous, {"wss", "127.0.0.1", port_}),
+  EXPECT_THAT(problem_at(*anonymous(), {"wss", "127.0.0.1", port_}),
               HasSubstr("lets this side not in (403)"));
 }
 
 TEST_F(EncryptedNode, ACertificateOfAnotherAuthorityLetsNobodyIn) {
-  const Issued other = make_authority("other");
-  const Issued eve = issue({.common_name = "eve"}, &other);
-  Options options;
-  const tls::Options files = folder_.write("eve", eve, authority_);
-  options.certificate = files.certificate;
-  options.key = files.key;
-  options.authority = files.authority;
+  files_.make("elsewhere");
+  const auto eve = transport_with(files_.issue("eve", "elsewhere"));
   // It says so, or resets the connection before that is read.
-  EXPECT_NE(problem_at(*transport_with(options), {"wss", "127.0.0.1", port_}), "");
+  EXPECT_NE(problem_at(*eve, {"wss", "127.0.0.1", port_}), "");
   EXPECT_EQ(node_->statistics().connections, 0u);
 }
 
 TEST_F(EncryptedNode, TheCertificateThereHasToBeForTheNameThatIsDialledAndOfTheAuthority) {
-  const Issued anna = issue({.common_name = "anna"}, &authority_);
-  ride::Address wrong{"wss", "127.0.0.1", port_, "robot.lab"};
-  auto connection = client(&anna, authority_)->connect(wrong);
+  const ride::Address wrong{"wss", "127.0.0.1", port_, "robot.lab"};
+  auto connection = anonymous()->connect(wrong);
   ASSERT_TRUE(connection.ok());
   EXPECT_THAT(problem_of(*connection.value()), HasSubstr("is not for 'robot.lab', but for"));
-  const Issued other = make_authority("other");
-  EXPECT_THAT(problem_at(*client(nullptr, other), {"wss", "127.0.0.1", port_}),
-              HasSubstr("is not the one of this side"));
+  files_.make("elsewhere");
+  EXPECT_THAT(problem_at(*anonymous("elsewhere"), {"wss", "127.0.0.1", port_}),
+              HasSubstr("its authority 'authority' is not the one of this side"));
 }
 
 TEST_F(EncryptedNode, WhoDoesNotEncryptFindsNoWebSocket) {
@@ -450,10 +434,8 @@ TEST_F(EncryptedNode, WhoDoesNotEncryptFindsNoWebSocket) {
 }
 
 TEST_F(EncryptedNode, WithoutAnAuthorityNobodyIsConnectedTo) {
-  Options options{.pages = site_.folder()};
-  const tls::Options files = folder_.write("alone", issue({}, &authority_), authority_);
-  options.certificate = files.certificate;
-  options.key = files.key;
+  Options options = serving("alone");
+  options.authority.clear();
   EXPECT_THAT(problem_at(*transport_with(options), {"wss", "127.0.0.1", port_}),
               HasSubstr("no authority is given"));
 }

@@ -104,8 +104,8 @@ ClientSide client_side(const Options& options, base::Diagnostics& diagnostics) {
   if (!is_encrypted(options)) {
     client.under = ride::make_tcp_transport();
   } else if (!options.authority.empty()) {
-    client.under = tls::make_client_transport(
-        {options.certificate, options.key, options.authority}, diagnostics);
+    client.under = tls::make_client_transport({options.certificate, options.key, options.authority},
+                                              diagnostics);
   }
   return client;
 }

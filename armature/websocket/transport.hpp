@@ -56,7 +56,8 @@ class Transport : public ride::Transport {
   virtual std::vector<std::string> pages() const = 0;
 };
 
-/// @param diagnostics  why the folder cannot be served, and every mistake in the files of TLS and of
+/// @param diagnostics  why the folder cannot be served, and every mistake in the files of TLS and
+/// of
 ///   tokens
 /// @return none after an error
 std::shared_ptr<Transport> make_transport(const Options& options, base::Diagnostics& diagnostics);

@@ -19,7 +19,7 @@ class Lift extends ElevatorService {
     const begin = this.height;
     while (this.height !== target) {
       await new Promise((resolve) => setTimeout(resolve, 10));
-      if (signal.aborted || call.signal.aborted) throw new Error("the travel was cancelled");
+      if (signal.aborted || call.signal.aborted) throw new Error("cancelled");
       this.height += Math.max(-0.01, Math.min(0.01, target - this.height));
       const time = BigInt(Date.now()) * 1_000_000n;
       this.raise_Height({ sequence: ++this.samples, time, value: this.height });

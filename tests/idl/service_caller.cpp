@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generated placeholders in C++ call generated services in TypeScript: served.ts starts this program,
-// and says in SERVICE where they are.
+// Generated placeholders in C++ call generated services in TypeScript: served.ts starts this
+// program, and says in SERVICE where they are.
 #include <chrono>
 #include <cstdlib>
 #include <future>
@@ -133,9 +133,8 @@ TEST_F(TypescriptServices, ExecuteCommandsAndRaiseEvents) {
 
 TEST_F(TypescriptServices, TellOfACommandThatFails) {
   std::promise<std::string> failed;
-  const auto told = echo_.on_failed([&](const ride::Failed& event) {
-    failed.set_value(event.operation + ": " + event.text);
-  });
+  const auto told = echo_.on_failed(
+      [&](const ride::Failed& event) { failed.set_value(event.operation + ": " + event.text); });
   EXPECT_TRUE(echo_.echo_bool(true, kPatient).ok());  // behind the subscription
   EXPECT_EQ(echo_.request_("fail", 0.5f), ride::Sent::kYes);
   auto why = failed.get_future();
@@ -187,8 +186,7 @@ TEST_F(TypescriptServices, RefuseWhatIsNoneOfAnOperationsParameters) {
     EXPECT_EQ(answer.code(), ride::Code::kMalformed);
     return answer.error();
   };
-  EXPECT_THAT(refusal("request(", std::string("most"), 0.8f),
-              HasSubstr("parameter part is 0.8"));
+  EXPECT_THAT(refusal("request(", std::string("most"), 0.8f), HasSubstr("parameter part is 0.8"));
   everything::Ranges bad = good_ranges();
   bad.later = {{0}, {2}};
   EXPECT_THAT(refusal("echo_ranges(", bad), HasSubstr("Later.bit is 2, expected 0 to 1"));

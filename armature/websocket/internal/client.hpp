@@ -64,9 +64,9 @@ class ClientConnection final : public ride::Connection {
   std::uint64_t mask_state_;
   std::vector<std::byte> piece_;  ///< a frame's header and masked bytes, as they go down
   std::array<std::byte, 8> head_{};
-  std::size_t head_size_ = 0;     ///< of the frame that has begun
+  std::size_t head_size_ = 0;  ///< of the frame that has begun
   std::size_t head_sent_ = 0;
-  std::size_t frame_left_ = 0;    ///< of its payload
+  std::size_t frame_left_ = 0;  ///< of its payload
   std::array<std::byte, 4> mask_{};
   std::size_t mask_at_ = 0;
   std::vector<std::byte> control_;  ///< a control frame that has to go before the next frame

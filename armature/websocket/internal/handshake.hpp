@@ -16,7 +16,7 @@ inline constexpr std::string_view kHttp = "HTTP/1.";
 
 /// Where a WebSocket is, and what lets this side in there.
 struct Door {
-  std::string host;   ///< with its port, as the other side knows itself: `127.0.0.1:8080`
+  std::string host;    ///< with its port, as the other side knows itself: `127.0.0.1:8080`
   std::string origin;  ///< the address of its pages, which is the only one that it lets in
   std::string token;   ///< that of its pages' address; empty: the certificate, or nothing
 };

@@ -308,7 +308,8 @@ bool Server::open(lws* page) {
   if (!bridge->watch(vhost_)) return false;
   bridges_[page] = std::move(bridge);
   const std::lock_guard lock(mutex_);
-  accepted_.push_back(ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
+  accepted_.push_back(
+      ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
   const std::byte ring{};
   std::size_t sent = 0;
   static_cast<void>(ringer_->send(std::span(&ring, 1), sent));

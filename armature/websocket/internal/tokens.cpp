@@ -22,8 +22,7 @@ std::string_view without_white(std::string_view line) {
 }
 
 bool is_token(std::string_view text) {
-  return text.size() >= 16 &&
-         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return text.size() >= 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 /// Origin and token.

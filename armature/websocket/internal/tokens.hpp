@@ -17,7 +17,8 @@ namespace armature::websocket::internal {
 class Tokens {
  public:
   /// @param path  empty: there are none
-  /// @param diagnostics  each line that is no such address; a file that others may read is warned of
+  /// @param diagnostics  each line that is no such address; a file that others may read is warned
+  /// of
   static Tokens load(const std::string& path, base::Diagnostics& diagnostics);
   static Tokens parse(std::string_view text, const std::string& file,
                       base::Diagnostics& diagnostics);

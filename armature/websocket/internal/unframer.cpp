@@ -6,7 +6,14 @@
 namespace armature::websocket::internal {
 namespace {
 
-enum Opcode : unsigned { kContinuation = 0, kText = 1, kBinary = 2, kClose = 8, kPing = 9, kPong = 10 };
+enum Opcode : unsigned {
+  kContinuation = 0,
+  kText = 1,
+  kBinary = 2,
+  kClose = 8,
+  kPing = 9,
+  kPong = 10
+};
 
 constexpr unsigned kExtended16 = 126;
 constexpr unsigned kExtended64 = 127;
