@@ -19,6 +19,7 @@
 #include "armature/testing/transport_conformance.hpp"
 #include "armature/websocket/internal/handshake.hpp"
 #include "armature/websocket/internal/test_authority.hpp"
+#include "armature/websocket/internal/test_client.hpp"
 #include "armature/websocket/internal/test_page.hpp"
 #include "armature/websocket/internal/test_site.hpp"
 #include "armature/websocket/internal/tokens.hpp"
@@ -100,37 +101,11 @@ namespace armature::websocket {
 namespace {
 
 using internal::kPatience;
-using internal::TestAuthorities;
+using internal::problem_at;
+using internal::problem_of;
+using internal::transport_with;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::shared_ptr<Transport> transport_with(const Options& options) {
-  base::Diagnostics diagnostics;
-  auto transport = make_transport(options, diagnostics);
-  EXPECT_TRUE(diagnostics.ok()) << diagnostics.to_text();
-  return transport;
-}
-
-/// Establishes a connection to its end, and says what was in the way; empty: nothing.
-std::string problem_of(ride::Connection& connection) {
-  while (true) {
-    const ride::Progress progress = connection.establish();
-    if (progress == ride::Progress::kDone) return {};
-    if (progress == ride::Progress::kGone) return connection.problem();
-    auto poller = std::move(platform::Poller::make()).value();
-    poller->add(connection.handle(), 0,
-                {progress == ride::Progress::kWantRead, progress == ride::Progress::kWantWrite});
-    while (poller->wait(base::Duration::max()).empty()) {
-    }
-  }
-}
-
-std::string problem_at(Transport& transport, const ride::Address& address) {
-  const auto numeric = transport.look_up(address);
-  if (!numeric) return numeric.error();
-  auto connection = transport.connect(numeric.value());
-  return connection ? problem_of(*connection.value()) : connection.error();
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
@@ -348,96 +323,6 @@ TEST(WebSocketTokens, ALineThatIsNoneIsToldByItsPlaceAndNotRepeated) {
   EXPECT_EQ(diagnostics.error_count(), 2u);
   EXPECT_THAT(diagnostics.to_text(), HasSubstr("t:2:1: error: the line is no address of pages"));
   EXPECT_THAT(diagnostics.to_text(), Not(HasSubstr("4a33af8c")));
-}
-
-/// A node that serves pages over TLS, and knows programs by its authority.
-class EncryptedNode : public ::testing::Test {
- protected:
-  EncryptedNode() {
-    const Options options = serving("robot");
-    ride::NodeOptions node;
-    node.transports.push_back(transport_with(options));
-    node.allows = [](const ride::AccessQuestion&) { return true; };
-    node_ = std::make_unique<ride::Node>(std::move(node));
-    const auto listening = node_->listen("wss://127.0.0.1:0");
-    EXPECT_TRUE(listening.ok()) << listening.error();
-    port_ = listening.value().port;
-  }
-
-  Options serving(const std::string& name) const {
-    Options options = files_.issue(name);
-    options.pages = site_.folder();
-    return options;
-  }
-  /// Who only trusts.
-  std::shared_ptr<Transport> anonymous(const std::string& authority = "authority") const {
-    Options options;
-    options.authority = files_.path(authority + ".pem");
-    return transport_with(options);
-  }
-
-  internal::Site site_;
-  const TestAuthorities files_;
-  std::unique_ptr<ride::Node> node_;
-  std::uint16_t port_ = 0;
-};
-
-TEST_F(EncryptedNode, AProgramThatHasACertificateConnectsWithoutAToken) {
-  ride::NodeOptions options;
-  options.transports.push_back(transport_with(files_.issue("anna")));
-  ride::Node program(options);
-  ride::Peer& peer = program.connect("wss://localhost:" + std::to_string(port_));
-  ASSERT_TRUE(peer.wait_until_connected(kPatience).ok());
-  EXPECT_TRUE(peer.components(kPatience).ok());
-}
-
-TEST_F(EncryptedNode, BothSidesAreKnownByTheirCertificatesAsOverTls) {
-  const auto listening = transport_with(serving("other"))->listen({"wss", "127.0.0.1", 0});
-  ASSERT_TRUE(listening.ok()) << listening.error();
-  const auto near = transport_with(files_.issue("anna"))->connect(listening.value()->address());
-  ASSERT_TRUE(near.ok()) << near.error();
-  ASSERT_EQ(problem_of(*near.value()), "");
-  std::unique_ptr<ride::Connection> far;
-  auto poller = std::move(platform::Poller::make()).value();
-  poller->add(listening.value()->handle(), 0, {true, false});
-  while ((far = listening.value()->accept()) == nullptr) poller->wait(base::Duration::max());
-  EXPECT_EQ(near.value()->identity(), "other");
-  EXPECT_EQ(far->identity(), "anna@tls");
-}
-
-TEST_F(EncryptedNode, AProgramWithoutACertificateAndWithoutTheTokenIsSentAway) {
-  EXPECT_THAT(problem_at(*anonymous(), {"wss", "127.0.0.1", port_}),
-              HasSubstr("lets this side not in (403)"));
-}
-
-TEST_F(EncryptedNode, ACertificateOfAnotherAuthorityLetsNobodyIn) {
-  files_.make("elsewhere");
-  const auto eve = transport_with(files_.issue("eve", "elsewhere"));
-  // It says so, or resets the connection before that is read.
-  EXPECT_NE(problem_at(*eve, {"wss", "127.0.0.1", port_}), "");
-  EXPECT_EQ(node_->statistics().connections, 0u);
-}
-
-TEST_F(EncryptedNode, TheCertificateThereHasToBeForTheNameThatIsDialledAndOfTheAuthority) {
-  const ride::Address wrong{"wss", "127.0.0.1", port_, "robot.lab"};
-  auto connection = anonymous()->connect(wrong);
-  ASSERT_TRUE(connection.ok());
-  EXPECT_THAT(problem_of(*connection.value()), HasSubstr("is not for 'robot.lab', but for"));
-  files_.make("elsewhere");
-  EXPECT_THAT(problem_at(*anonymous("elsewhere"), {"wss", "127.0.0.1", port_}),
-              HasSubstr("its authority 'authority' is not the one of this side"));
-}
-
-TEST_F(EncryptedNode, WhoDoesNotEncryptFindsNoWebSocket) {
-  EXPECT_THAT(problem_at(*transport_with({}), {"ws", "127.0.0.1", port_}),
-              HasSubstr("it answered nothing"));
-}
-
-TEST_F(EncryptedNode, WithoutAnAuthorityNobodyIsConnectedTo) {
-  Options options = serving("alone");
-  options.authority.clear();
-  EXPECT_THAT(problem_at(*transport_with(options), {"wss", "127.0.0.1", port_}),
-              HasSubstr("no authority is given"));
 }
 
 }  // namespace
