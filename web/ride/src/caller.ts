@@ -7,7 +7,7 @@ type Policy = (question: { who: string; component: string; access: Access }) => 
 /** The other side of a connection, as far as it asks for something: who it is, and what it is owed. */
 export class Caller implements Call {
   readonly who: string;
-  /** Commands and requests that have not ended. */
+  /** Calls whose promises are open. */
   owed = 0;
   /** Events and answers that it had no room for. */
   dropped = 0;

@@ -27,7 +27,7 @@ export interface HostOptions {
   silence?: number;
   /** Connections at a time; later ones are sent away. 32. */
   connections?: number;
-  /** Commands and requests of one connection that have not ended; later ones are BUSY. 1024. */
+  /** Calls of one connection whose promises are open; later ones are BUSY. 1024. */
   owed?: number;
   /** Subscriptions of one connection; 256. */
   subscriptions?: number;
@@ -150,7 +150,7 @@ export class Host implements Accepting {
     const refusal = caller.refusal(hosted.name, operation.access);
     if (refusal !== undefined) return this.refuse(caller, message, Code.notAllowed, refusal);
     if (caller.owed >= this.options.owed) return caller.refuse(message, Code.busy, "too many answers are owed");
-    void this.execute(caller, message, hosted, operation, from, call);
+    this.execute(caller, message, hosted, operation, from, call);
   }
 
   private refuse(caller: Caller, message: Message, code: number, text: string): void {
@@ -158,19 +158,24 @@ export class Host implements Accepting {
     caller.refuse(message, code, text);
   }
 
-  /** Up to the first wait all is done at once: the message's body is used no longer. */
-  private async execute(
+  /** What does not take its time has ended before the next message is looked at: its body is used no longer. */
+  private execute(
     caller: Caller, message: Message, hosted: Hosted, operation: Operation, from: Reader, call: number,
-  ): Promise<void> {
-    const begin = { ...message, body: message.body.slice(0, 8) };
-    ++caller.owed;
+  ): void {
+    const { kind, priority } = message;
+    const answer = (body: Uint8Array) => {
+      if (kind === Kind.request) caller.answer(encode(Kind.reply, priority, call, body));
+    };
     try {
-      const body = await operation.run(from, caller);
-      if (message.kind === Kind.request) caller.answer(encode(Kind.reply, message.priority, call, body));
+      const body = operation.run(from, caller);
+      if (!(body instanceof Promise)) return answer(body);
+      const begin = { ...message, body: message.body.slice(0, 8) };
+      ++caller.owed;
+      body
+        .then(answer, (error: unknown) => this.failed(caller, begin, hosted, operation, error))
+        .finally(() => --caller.owed);
     } catch (error) {
-      this.failed(caller, begin, hosted, operation, error);
-    } finally {
-      --caller.owed;
+      this.failed(caller, message, hosted, operation, error);
     }
   }
 

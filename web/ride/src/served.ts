@@ -39,13 +39,13 @@ export class Parameters {
   }
 }
 
-type Run = (from: Reader, call: Call) => Promise<Uint8Array>;
+type Run = (from: Reader, call: Call) => Uint8Array | Promise<Uint8Array>;
 
 /** An operation that others may ask for. */
 export interface Operation {
   readonly name: string;
   readonly access: Access;
-  /** Takes the parameters at once, executes it, and gives the body of the answer. */
+  /** Takes the parameters at once, executes it, and gives the body of the answer, at once if its function does. */
   readonly run: Run;
 }
 
@@ -92,11 +92,14 @@ export abstract class Service {
     service.#operations.set(number, {
       name,
       access,
-      async run(from, call) {
-        const value = await begun(run, from, call);
-        const body = new Writer();
-        result.put(body, value);
-        return body.body();
+      run(from, call) {
+        const answer = (value: T) => {
+          const body = new Writer();
+          result.put(body, value);
+          return body.body();
+        };
+        const value = begun(run, from, call);
+        return value instanceof Promise ? value.then(answer) : answer(value);
       },
     });
   }

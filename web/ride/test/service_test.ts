@@ -177,6 +177,27 @@ test("Limits of a connection hold, and others are served", async () => {
   peer.close();
 });
 
+test("However many commands come at once, what ends at once is executed", () => {
+  const lamp = new Lamp();
+  const host = new Host();
+  host.add("Lamp", lamp);
+  let events: ride.TransportEvents | undefined;
+  host.accept((given) => {
+    events = given;
+    return { send: () => assert.fail("nothing is at fault"), unsent: () => 0, close() {} };
+  }, "tcp");
+  events!.open();
+  const command = new ride.Writer();
+  command.count(set);
+  command.count(3);
+  const one = encode(Kind.command, 0, 1, command.body());
+  const many = new Uint8Array(3000 * one.length);
+  for (let i = 0; i < 3000; ++i) many.set(one, i * one.length);
+  events!.bytes(many);
+  assert.equal(lamp.calls.length, 3000);
+  events!.end("it is over");
+});
+
 test("Whose connection has ended is told so, and hears nothing any more", async () => {
   const { peer, there, lamp } = await both();
   there.on_Lit(() => {});
