@@ -7,7 +7,7 @@
 # X_types.hpp, X_client.hpp and X_service.hpp, found by whoever links the library.
 #   NAMESPACE  of all of them; otherwise each file's name
 #   JSON       writes X.json, too, beside the headers
-#   TYPESCRIPT writes X.ts, too: placeholders for pages and Node.js
+#   TYPESCRIPT writes X.ts and X_service.ts, too: placeholders and services for pages and Node.js
 #   LINK       libraries of this function whose files are imported
 # Generated anew when a file or one that it imports has changed. The target's property IDL_FOLDER
 # says where.
@@ -39,7 +39,7 @@ function(armature_idl)
       list(APPEND generated ${stem}.json)
     endif()
     if(arg_TYPESCRIPT)
-      list(APPEND generated ${stem}.ts)
+      list(APPEND generated ${stem}.ts ${stem}_service.ts)
     endif()
     list(TRANSFORM generated PREPEND ${folder}/)
     add_custom_command(

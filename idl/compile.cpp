@@ -60,7 +60,10 @@ std::string compile(const CompileOptions& options, const ReadFile& read) {
   if (!loaded.ok()) return loaded.findings();
   std::vector<OutputFile> outputs = write_cpp(loaded.program, names);
   if (options.json) outputs.push_back(write_json(loaded.program, names));
-  if (options.typescript) outputs.push_back(write_typescript(loaded.program));
+  if (options.typescript) {
+    outputs.push_back(write_typescript(loaded.program));
+    outputs.push_back(write_typescript_services(loaded.program));
+  }
   const base::Result<void> written = write(options, std::move(outputs), loaded);
   return written ? "" : "rcidl: error: " + base::visible_text(written.error()) + "\n";
 }

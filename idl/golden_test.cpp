@@ -36,7 +36,7 @@ TEST_P(Golden, IsWhatIsGenerated) {
   options.typescript = true;
   ASSERT_EQ(compile(options), "");
   for (const std::string end : {"_types.hpp", "_client.hpp", "_client.cpp", "_service.hpp",
-                                "_service.cpp", ".json", ".ts"}) {
+                                "_service.cpp", ".json", ".ts", "_service.ts"}) {
     EXPECT_EQ(content_of(output / (GetParam() + end)), content_of(golden / (GetParam() + end)));
   }
   if (!update) fs::remove_all(output);

@@ -10,5 +10,7 @@ namespace armature::idl {
 /// web/ride. What it uses of other modules it imports from theirs. The same program gives the same
 /// text. `program` has no mistake.
 OutputFile write_typescript(const Program& program);
+/// `NAME_service.ts`: frames of components for those who implement them.
+OutputFile write_typescript_services(const Program& program);
 
 }  // namespace armature::idl

@@ -59,6 +59,8 @@ TypescriptNames::TypescriptNames(const Program& program) {
     for (const Structure& each : module.structures) declared_.insert(each.name);
     for (const Interface& each : module.interfaces) declared_.insert(placeholder(each));
   }
+  std::set<std::string> services;
+  for (const Interface& each : program.main().interfaces) services.insert(service(each));
   for (const Module& module : program.modules()) {
     std::string name = module.name;
     std::ranges::replace_if(
@@ -66,7 +68,7 @@ TypescriptNames::TypescriptNames(const Program& program) {
     if (std::isdigit(static_cast<unsigned char>(name.front())) != 0) name = "_" + name;
     modules_[module.name] = free_name(name, [&](const std::string& other) {
       return is_one_of(kLanguageWords, other) || is_one_of(kTypeWords, other) ||
-             declared_.contains(other) ||
+             declared_.contains(other) || services.contains(other) ||
              std::ranges::any_of(modules_, [&](const auto& one) { return one.second == other; });
     });
   }
@@ -82,6 +84,24 @@ std::string TypescriptNames::type(const std::string& name) const {
 
 std::string TypescriptNames::placeholder(const Interface& interface) const {
   return interface.name + "Placeholder";
+}
+
+std::string TypescriptNames::service(const Interface& interface) const {
+  return interface.name + "Service";
+}
+
+std::string TypescriptNames::raiser(const Interface& interface, const std::string& event) const {
+  return free_name("raise_" + event, [&](const std::string& other) {
+    return std::ranges::any_of(interface.operations, [&](const Operation& each) {
+      return operation(interface, each.name) == other;
+    });
+  });
+}
+
+std::string TypescriptNames::call(const std::vector<std::string>& parameters) const {
+  return free_name("call", [&](const std::string& other) {
+    return std::ranges::find(parameters, other) != parameters.end();
+  });
 }
 
 std::string TypescriptNames::member(const Structure& structure, const std::string& name) const {

@@ -23,10 +23,16 @@ class TypescriptNames {
   /// A struct, event or enum, as its own module calls it.
   std::string type(const std::string& name) const;
   std::string placeholder(const Interface& interface) const;
+  std::string service(const Interface& interface) const;
   std::string member(const Structure& structure, const std::string& name) const;
   std::string operation(const Interface& interface, const std::string& name) const;
   /// The placeholder's function that subscribes to an event.
   std::string handler(const std::string& event) const;
+  /// The service's function that raises an event.
+  std::string raiser(const Interface& interface, const std::string& event) const;
+  /// The service's parameter behind all others.
+  /// @param parameters  as this class names them
+  std::string call(const std::vector<std::string>& parameters) const;
   /// Names of all parameters; those without one are `a`, `b`, `c` by their places.
   std::vector<std::string> parameters(const std::vector<Field>& parameters) const;
 

@@ -40,23 +40,10 @@ class PlaceholderWriter {
       parameters[i] += ": " + text_.type(operation.parameters[i].type);
     }
     parameters.emplace_back("options?: ride.CallOptions");
-    return TypescriptText::documentation(2, described(operation, names)) +
+    return TypescriptText::documentation(2, documentation_of(operation, names)) +
            list(2, names_.operation(interface_, operation.name) + "(", parameters,
                 "): Promise<" + text_.type(operation.result) + "> {") +
            sent(operation, names) + "  }\n";
-  }
-
-  static std::vector<std::string> described(const Operation& operation,
-                                            const std::vector<std::string>& names) {
-    std::vector<std::string> lines = operation.doc;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      std::string all;
-      for (const std::string& line : CppText::described(operation.parameters[i])) {
-        all += (all.empty() ? "" : " ") + line;
-      }
-      if (!all.empty()) lines.push_back("@param " + names[i] + "  " + all);
-    }
-    return lines;
   }
 
   std::string sent(const Operation& operation, const std::vector<std::string>& names) const {
@@ -93,6 +80,19 @@ class PlaceholderWriter {
 };
 
 }  // namespace
+
+std::vector<std::string> documentation_of(const Operation& operation,
+                                          const std::vector<std::string>& names) {
+  std::vector<std::string> lines = operation.doc;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::string all;
+    for (const std::string& line : CppText::described(operation.parameters[i])) {
+      all += (all.empty() ? "" : " ") + line;
+    }
+    if (!all.empty()) lines.push_back("@param " + names[i] + "  " + all);
+  }
+  return lines;
+}
 
 std::string write_typescript_placeholders(const TypescriptText& text) {
   std::string all;

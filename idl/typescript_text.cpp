@@ -68,7 +68,7 @@ std::string harmless(std::string line) {
 }  // namespace
 
 std::string TypescriptText::qualified(const std::string& name, const std::string& module) const {
-  const bool ours = module == program_.main().name;
+  const bool ours = !elsewhere_ && module == program_.main().name;
   return (ours ? "" : names_.module(module) + ".") + names_.type(name);
 }
 

@@ -8,6 +8,7 @@ The golden files, the examples of the tree, and a file for each role that a name
 every name that TypeScript or the generated code has already has that role.
 """
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -47,7 +48,9 @@ def check(node, source, folder, files):
         "compilerOptions": {
             "noEmit": True, "emitDeclarationOnly": False, "declaration": False, "rootDir": "/",
             "rewriteRelativeImportExtensions": False,
-            "paths": {"@armature/ride": [str(source / "web/ride/src/ride.ts")]},
+            "paths": {"@armature/ride": [str(source / "web/ride/src/ride.ts")],
+                      "@armature/ride/service": [str(source / "web/ride/src/service.ts")],
+                      "@armature/ride/tcp": [str(source / "web/ride/src/tcp.ts")]},
         },
         "include": [str(file) for file in files],
     }
@@ -61,7 +64,8 @@ def main():
     rcidl, source, node = sys.argv[1], Path(sys.argv[2]), sys.argv[3]
     with tempfile.TemporaryDirectory() as work:
         folder = Path(work)
-        definitions = [source / "armature/remote/inspection.idl", *source.glob("examples/*/*.idl")]
+        definitions = [source / "armature/remote/inspection.idl", *source.glob("examples/*/*.idl"),
+                       *(source / f"idl/testdata/{name}.idl" for name in ("chassis", "everything", "geometry"))]
         for role in ("struct", "enum", "event", "member", "enumerator", "operation", "parameter"):
             definitions.append(folder / f"{role}_names.idl")
             definitions[-1].write_text(definition_of(role, WORDS))
@@ -69,8 +73,15 @@ def main():
             done = subprocess.run([rcidl, definition, "--typescript", "--out", folder], capture_output=True, text=True)
             assert done.returncode == 0, done.stderr
         generated = sorted(folder.glob("*.ts"))
-        assert len(generated) == len(definitions), generated
-        check(node, source, folder, [*generated, *sorted((source / "idl/testdata/golden").glob("*.ts")),
+        assert len(generated) == 2 * len(definitions), generated
+        # Programs that use it: those of tests/idl, and the example's, beside what they import.
+        programs = [*(source / "tests/idl").glob("*.ts"), *(source / "examples/10_page").glob("*.ts")]
+        for program in programs:
+            shutil.copy(program, folder)
+        (folder / "generated").mkdir()
+        for file in folder.glob("elevator*.ts"):
+            shutil.copy(file, folder / "generated")
+        check(node, source, folder, [*(folder / program.name for program in programs), *generated, *sorted((source / "idl/testdata/golden").glob("*.ts")),
                                      *sorted((source / "web/ride/test").glob("*.ts"))])
         # What the test would say if it could not tell: a use with a wrong type is refused.
         (folder / "wrong.ts").write_text('import { VSPlaceholder } from "./ball.js";\n'

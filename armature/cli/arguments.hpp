@@ -36,6 +36,7 @@ struct RunArguments : runner::RunOptions {
   bool browse = false;
   std::vector<std::string> listen;  ///< addresses beside those of the deployment
   std::string policy;               ///< a file with rules beside those of the deployment
+  std::string tokens;               ///< a file of what lets in at ws:// and wss:// addresses
   std::string write_times;
   std::string trace;  ///< the timeline's file; empty: none
 };

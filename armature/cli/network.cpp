@@ -61,14 +61,15 @@ remote::Network& NetworkOnDemand::network() {
   if (network_ != nullptr) return *network_;
   remote::NetworkOptions options;
   options.tls = [](const document::Network& files, base::Diagnostics& problems) {
-    return tls::make_transport({files.certificate.name, files.key.name, files.authority.name},
-                               problems);
+    return tls::make_client_transport(
+        {files.certificate.name, files.key.name, files.authority.name}, problems);
   };
   options.web = [this](const document::Network& files, base::Diagnostics& problems) {
-    const bool encrypted = !files.certificate.name.empty();
     auto transport = websocket::make_transport({.pages = files.pages.name,
                                                 .certificate = files.certificate.name,
-                                                .key = encrypted ? files.key.name : std::string()},
+                                                .key = files.key.name,
+                                                .authority = files.authority.name,
+                                                .tokens = tokens_},
                                                problems);
     if (transport != nullptr) web_.push_back(transport);
     return transport;

@@ -19,8 +19,9 @@ class NetworkOnDemand {
  public:
   /// @param console  outlives this
   /// @param policy   a file with rules beside those of the deployment; empty: none
-  explicit NetworkOnDemand(const Console& console, std::string policy = {})
-      : console_(console), policy_(std::move(policy)) {}
+  /// @param tokens   a file of what lets this side in at others' pages; empty: none
+  explicit NetworkOnDemand(const Console& console, std::string policy = {}, std::string tokens = {})
+      : console_(console), policy_(std::move(policy)), tokens_(std::move(tokens)) {}
 
   /// For `load`: placeholders of components in other processes.
   deploy::MakePlaceholder placeholders();
@@ -45,6 +46,7 @@ class NetworkOnDemand {
 
   const Console& console_;
   const std::string policy_;
+  const std::string tokens_;
   std::vector<std::shared_ptr<websocket::Transport>> web_;
   std::unique_ptr<remote::Network> network_;
 };

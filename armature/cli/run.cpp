@@ -270,7 +270,7 @@ bool has_prompt(const deploy::Deployment& deployment) {
 
 int run(const RunArguments& arguments, Console& console) {
   if (!stand_behind_guard(arguments, console)) return kFailed;
-  NetworkOnDemand network(console, arguments.policy);
+  NetworkOnDemand network(console, arguments.policy, arguments.tokens);
   deploy::Deployment deployment = load(arguments.load, network);
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;

@@ -68,6 +68,11 @@ void add_run(const CommandLine& to) {
       ->add_option("--policy", run.policy,
                    "who else may do what, beside those whom the deployment's policy allows")
       ->type_name("FILE");
+  command
+      ->add_option("--tokens", run.tokens,
+                   "lets it in at ws:// and wss://: addresses of pages with their tokens, as other "
+                   "applications say them, one a line")
+      ->type_name("FILE");
   command->add_option("--realtime", options->realtime, "off, prefer (default) or require")
       ->check(one_of({"off", "prefer", "require"}))
       ->type_name("MODE");

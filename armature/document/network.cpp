@@ -21,19 +21,23 @@ void read_path(const Value* value, std::string_view what, const ValueReader& rea
 }
 
 /// Half of what proves who somebody is proves nothing. Pages have no certificates: an authority is
-/// needed by those that have.
+/// needed by those that have, and alone by those who only connect.
 void read_tls(const Value& value, const ValueReader& reader, Network& network) {
   Fields fields(value, reader);
-  const std::pair<const char*, Reference*> kFiles[] = {{"certificate", &network.certificate},
-                                                       {"key", &network.key},
-                                                       {"authority", &network.authority}};
-  for (const auto& [key, file] : kFiles) {
+  const auto take = [&](const char* key, Reference& file) {
     const Value* const given = fields.take(key);
-    read_path(given, std::string(key) + " of tls", reader, *file);
-    if (given == nullptr && file != &network.authority) {
-      reader.error(value.where, "tls has no '" + std::string(key) + "'",
-                   "it needs the files certificate and key, and for tls:// the authority");
-    }
+    read_path(given, std::string(key) + " of tls", reader, file);
+    return given != nullptr;
+  };
+  const bool certificate = take("certificate", network.certificate);
+  const bool key = take("key", network.key);
+  const bool authority = take("authority", network.authority);
+  const bool only_connects = authority && !certificate && !key;
+  const std::pair<const char*, bool> kOwn[] = {{"certificate", certificate}, {"key", key}};
+  for (const auto& [name, given] : kOwn) {
+    if (given || only_connects) continue;
+    reader.error(value.where, "tls has no '" + std::string(name) + "'",
+                 "it needs the files certificate and key, and for tls:// the authority");
   }
   fields.refuse_others();
 }

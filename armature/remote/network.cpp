@@ -18,8 +18,7 @@
 namespace armature::remote {
 namespace {
 
-/// Nobody is reached by what pages come over.
-const std::vector<std::string> kTransportsToOthers{"tcp", "unix", "tls"};
+const std::vector<std::string> kTransportsToOthers{"tcp", "unix", "tls", "ws", "wss"};
 
 /// Of `tcp://host:port/Name`.
 struct RemoteAddress {

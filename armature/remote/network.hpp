@@ -21,9 +21,10 @@ struct NetworkOptions {
   /// diagnostics.
   using MakeTransport =
       std::function<std::shared_ptr<ride::Transport>(const document::Network&, base::Diagnostics&)>;
-  MakeTransport tls;  ///< for `tls://`
-  MakeTransport
-      web;  ///< for `ws://`, which serves the folder of pages; with a certificate `wss://`
+  MakeTransport tls;  ///< for `tls://`; without a certificate it only connects
+  /// For `ws://`, which serves the folder of pages if there is one; with a certificate or an
+  /// authority `wss://`.
+  MakeTransport web;
   std::function<void(const rt::LogRecord&)> log;  ///< called by the controlling thread
   std::string policy{};  ///< a file with rules beside those of the deployment; empty: none
 };

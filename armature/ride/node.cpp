@@ -14,6 +14,8 @@ std::string who(const AccessQuestion& question) {
   }
   if (question.transport == "unix") return "local:" + std::string(question.identity);
   const bool page = question.transport == "ws" || question.transport == "wss";
+  // A program that comes over wss with a certificate is who it is over tls.
+  if (page && question.identity.ends_with("@tls")) return std::string(question.identity);
   return std::string(question.identity) + "@" + std::string(page ? "web" : question.transport);
 }
 

@@ -85,6 +85,14 @@ TEST(Policy, APageIsNoneOfTheOthersOfThisMachine) {
   EXPECT_THAT(mistakes_of("allow anna@web read *"), HasSubstr("page@web"));
 }
 
+TEST(Policy, AProgramThatComesLikeAPageWithACertificateIsWhoItIsOverTls) {
+  const AccessQuestion anna{"wss", "anna@tls", "Vision", Access::kRead};
+  EXPECT_EQ(who(anna), "anna@tls");
+  EXPECT_TRUE(policy_of("allow anna@tls read Vision").allows(anna));
+  EXPECT_FALSE(policy_of("allow *@web read Vision").allows(anna));
+  EXPECT_EQ(who({"tls", "anna@tls", "Vision", Access::kRead}), "anna@tls@tls");
+}
+
 TEST(Policy, AnAccountIsWhoTheKernelVouchesFor) {
   const auto from = [](std::string_view transport, std::string_view identity) {
     return AccessQuestion{transport, identity, "Vision", Access::kCommand};

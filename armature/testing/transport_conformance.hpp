@@ -45,14 +45,28 @@ class TransportConformance : public testing::TestWithParam<TransportCase> {
     auto connecting = transport_->connect(listener_->address());
     ASSERT_TRUE(connecting.ok()) << connecting.error();
     near_ = std::move(connecting).value();
-    wait_for(listener_->handle(), Progress::kWantRead);
-    far_ = listener_->accept();
-    ASSERT_NE(far_, nullptr);
     bool near_is_up = false;
     bool far_is_up = false;
+    while ((far_ = listener_->accept()) == nullptr) ASSERT_NO_FATAL_FAILURE(knock(near_is_up));
     while (!near_is_up || !far_is_up) {
       near_is_up = near_is_up || establish(*near_, far_is_up);
       far_is_up = far_is_up || establish(*far_, near_is_up);
+    }
+  }
+
+  /// Has the near end go on, and waits for either: some listeners accept nobody who has not said
+  /// what he wants.
+  void knock(bool& near_is_up) {
+    const Progress progress = near_is_up ? Progress::kDone : near_->establish();
+    ASSERT_NE(progress, Progress::kGone) << near_->problem();
+    near_is_up = progress == Progress::kDone;
+    auto poller = std::move(platform::Poller::make()).value();
+    poller->add(listener_->handle(), 0, {true, false});
+    if (!near_is_up) {
+      poller->add(near_->handle(), 1,
+                  {progress == Progress::kWantRead, progress == Progress::kWantWrite});
+    }
+    while (poller->wait(base::Duration::max()).empty()) {
     }
   }
 

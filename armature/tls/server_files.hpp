@@ -6,6 +6,8 @@
 
 #include "armature/base/diagnostic.hpp"
 
+struct ssl_st;  ///< OpenSSL's session
+
 namespace armature::tls {
 
 /// Files in PEM form by which a server proves who it is to those that have no certificate
@@ -23,5 +25,10 @@ struct ServerFiles {
 /// @thread any
 std::vector<std::string> check_server_files(const ServerFiles& files,
                                             base::Diagnostics& diagnostics);
+
+/// Who the other side of a session of another library has proven to be, as over `tls://`; empty if
+/// it has shown no certificate that was found good.
+/// @thread that of the session
+std::string proven_identity(const ssl_st* session);
 
 }  // namespace armature::tls

@@ -87,4 +87,13 @@ std::unique_ptr<ride::Transport> make_transport(const Options& options,
   return std::make_unique<TlsTransport>(std::move(context));
 }
 
+std::unique_ptr<ride::Transport> make_client_transport(const Options& options,
+                                                       base::Diagnostics& diagnostics) {
+  const bool proves_itself = !options.certificate.empty() || !options.key.empty();
+  if (proves_itself) return make_transport(options, diagnostics);
+  ContextPointer context = internal::make_context_without_own(options.authority, diagnostics);
+  if (!context) return nullptr;
+  return std::make_unique<TlsTransport>(std::move(context));
+}
+
 }  // namespace armature::tls

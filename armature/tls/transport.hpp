@@ -30,4 +30,9 @@ struct Options {
 std::unique_ptr<ride::Transport> make_transport(const Options& options,
                                                 base::Diagnostics& diagnostics);
 
+/// The same for who only connects. Certificate and key may both be left out, for servers that ask
+/// for none.
+std::unique_ptr<ride::Transport> make_client_transport(const Options& options,
+                                                       base::Diagnostics& diagnostics);
+
 }  // namespace armature::tls

@@ -17,10 +17,18 @@ namespace armature::websocket {
 
 /// What is served, and what one page, and all together, may take.
 struct Options {
-  std::string pages = {};  ///< the folder whose files are served; nothing outside of it is
-  /// Files in PEM form, with which the way to pages is encrypted: both, or none.
+  /// The folder whose files are served; nothing outside of it is. Empty: it only connects.
+  std::string pages = {};
+  /// Files in PEM form, with which the way to pages is encrypted, and which this side shows where
+  /// it connects: both, or none.
   std::string certificate = {};
   std::string key = {};
+  /// In PEM form those who sign: the servers to connect to, and programs that come with a
+  /// certificate. Empty: it connects to nobody over `wss://`, and knows pages alone.
+  std::string authority = {};
+  /// A file of what lets this side in elsewhere: addresses as other applications tell them, with
+  /// their tokens, one a line; empty: none.
+  std::string tokens = {};
   /// A file that only this account can read: what lets in stays the same at the next start, so that
   /// pages that are open come back. Empty, or with a certificate: it is new at each start.
   std::string secrets = {};
@@ -31,11 +39,15 @@ struct Options {
   base::Duration time_to_take = std::chrono::seconds(30);
 };
 
-/// The transport `ws://127.0.0.1:8080`, for ride::NodeOptions::transports, or with a certificate
-/// `wss://0.0.0.0:8443`. It listens for pages and does not connect. Without a certificate only
-/// loopback addresses are safe, since nothing on the way is encrypted; with one, pages reach it by
-/// the names that the certificate is for, and by no others.
-/// Identity of the other side: `page`, for whoever had the address that `pages` tells.
+/// The transport `ws://127.0.0.1:8080`, for ride::NodeOptions::transports, or with a certificate or
+/// an authority `wss://0.0.0.0:8443`. It listens for pages and programs, and connects to where
+/// others do. Without a certificate only loopback addresses are safe, since nothing on the way is
+/// encrypted; with one it is reached by the names that the certificate is for, and by no others.
+/// Who connects checks that the certificate there is of the authority and for the name or the
+/// address it has dialled.
+/// Identity of who connected: `page`, for whoever had the address that `pages` tells; `NAME@tls`
+/// for the common name of a certificate that the authority has signed. Of who listens: the common
+/// name of its certificate.
 class Transport : public ride::Transport {
  public:
   /// Addresses to open in a browser, one for each that is listened at. What is
@@ -44,8 +56,9 @@ class Transport : public ride::Transport {
   virtual std::vector<std::string> pages() const = 0;
 };
 
-/// @param diagnostics  why the folder cannot be served, and every mistake in the certificate's
-/// files
+/// @param diagnostics  why the folder cannot be served, and every mistake in the files of TLS and
+/// of
+///   tokens
 /// @return none after an error
 std::shared_ptr<Transport> make_transport(const Options& options, base::Diagnostics& diagnostics);
 

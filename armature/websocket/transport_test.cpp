@@ -115,12 +115,6 @@ TEST_F(WebTransport, TellsAnAddressWithATokenOfItsOwn) {
   EXPECT_NE(urls[0].substr(urls[0].size() - 32), urls[1].substr(urls[1].size() - 32));
 }
 
-TEST_F(WebTransport, DoesNotConnect) {
-  const auto refused = transport_->connect({"ws", "127.0.0.1", 1});
-  ASSERT_FALSE(refused.ok());
-  EXPECT_THAT(refused.error(), HasSubstr("only pages connect over ws"));
-}
-
 TEST(WebTransportOptions, AFolderWithoutPagesIsRefused) {
   for (const auto& [folder, text] :
        {std::pair("/nowhere", "cannot be read"), std::pair("/", "has no index.html")}) {

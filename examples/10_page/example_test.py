@@ -138,16 +138,94 @@ UPGRADE = ("GET / HTTP/1.1\nHost: HOST\nUpgrade: websocket\nConnection: Upgrade\
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\nSec-WebSocket-Version: 13\n")
 
 
-class PageTest(unittest.TestCase):
+class Lift:
+    """The elevator in Node.js."""
+
+    def __enter__(self):
+        self.process = subprocess.Popen([NODE, f"{FOLDER}/lift.mjs", "tcp://127.0.0.1:0"], stdout=subprocess.PIPE, text=True)
+        self.tcp = self.process.stdout.readline().split()[-1]
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.communicate(timeout=60)
+
+
+# An application of its own that uses an elevator elsewhere, by the interface file alone.
+HALL = """application: hall
+network: {}
+components:
+  Elevator: {remote: "ADDRESS/Elevator", interface: elevator.idl}
+"""
+RIDE_UP = """
+print("top " .. Elevator:top())
+print(select(2, wait(Elevator:travel(5))))
+print(wait(Elevator:travel(0.2)))
+stop()
+"""
+
+
+def hall(address, tokens=None):
+    """What an application prints that uses the elevator at an address."""
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copy(f"{FOLDER}/elevator.idl", folder)
+        options = []
+        for name, content in (("hall.yaml", HALL.replace("ADDRESS", address)), ("ride.lua", RIDE_UP), ("tokens", tokens)):
+            if content is not None:
+                with open(f"{folder}/{name}", "w", encoding="utf-8", opener=lambda path, flags: os.open(path, flags, 0o600)) as file:
+                    file.write(content)
+        if tokens is not None:
+            options = ["--tokens", f"{folder}/tokens"]
+        return subprocess.run([PROGRAM, "run", f"{folder}/hall.yaml", "--script", f"{folder}/ride.lua", "--for", "30s", *options],
+                              capture_output=True, text=True, timeout=120)
+
+
+class ProgramTest(unittest.TestCase):
+    def look_at(self, address):
+        done = subprocess.run([NODE, f"{FOLDER}/operator.mjs", address], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        lines = [line.split(", travel: ")[-1] for line in done.stdout.splitlines()]
+        self.assertEqual(lines[0], "the shaft ends at 3 m")
+        self.assertIn("the target is outside the shaft", lines[1])
+        self.assertEqual(lines[2], "arrived at 0.2 m")
+        self.assertTrue(lines[3].startswith("cancelled"), lines)
+
+    def ride(self, done):
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for expected in ("top 3", "the target is outside the shaft", "true"):
+            self.assertIn(expected, done.stdout, done.stderr)
+
     def test_nodejs_shows_and_commands_the_elevator(self):
         with Elevator() as elevator:
-            done = subprocess.run([NODE, f"{FOLDER}/operator.mjs", elevator.tcp], capture_output=True, text=True, timeout=120)
+            self.look_at(elevator.tcp)
+
+    def test_a_lift_in_nodejs_is_the_same_to_its_operator(self):
+        with Lift() as lift:
+            self.look_at(lift.tcp)
+
+    def test_a_deployment_uses_the_lift_in_nodejs(self):
+        with Lift() as lift:
+            self.ride(hall(lift.tcp))
+
+    def test_a_deployment_uses_the_elevator_over_a_websocket(self):
+        with Elevator() as elevator:
+            address = f"ws://127.0.0.1:{elevator.port}"
+            self.ride(hall(address, elevator.url + "\n"))
+            refused = hall(address)
+            self.assertNotIn("top", refused.stdout)
+            self.assertIn("it lets this side not in (403)", refused.stdout + refused.stderr)
+
+    def test_the_task_browser_looks_over_a_websocket(self):
+        with Elevator("allow page@web read *\n") as elevator, tempfile.NamedTemporaryFile("w") as tokens:
+            tokens.write(elevator.url)
+            tokens.flush()
+            done = subprocess.run([PROGRAM, "browse", f"ws://127.0.0.1:{elevator.port}", "--tokens", tokens.name],
+                                  input="Elevator.Top\n", capture_output=True, text=True, timeout=120)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            lines = [line.split(", travel: ")[-1] for line in done.stdout.splitlines()]
-            self.assertEqual(lines[0], "the shaft ends at 3 m")
-            self.assertIn("the target is outside the shaft", lines[1])
-            self.assertEqual(lines[2], "arrived at 0.2 m")
-            self.assertTrue(lines[3].startswith("cancelled"), lines)
+            self.assertIn("3 m", done.stdout)
+
+
+class PageTest(unittest.TestCase):
 
     def test_only_who_has_the_cookie_gets_a_socket(self):
         with Elevator() as elevator:

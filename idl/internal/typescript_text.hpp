@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "idl/internal/cpp_lines.hpp"
 #include "idl/model.hpp"
@@ -14,7 +15,9 @@ namespace armature::idl::internal {
 /// Pieces of TypeScript that types and placeholders need.
 class TypescriptText {
  public:
-  explicit TypescriptText(const Program& program) : program_(program), names_(program) {}
+  /// @param elsewhere  of a file beside that of the types, which imports them
+  explicit TypescriptText(const Program& program, bool elsewhere = false)
+      : program_(program), names_(program), elsewhere_(elsewhere) {}
 
   const Program& program() const { return program_; }
   const TypescriptNames& names() const { return names_; }
@@ -42,9 +45,16 @@ class TypescriptText {
 
   const Program& program_;
   const TypescriptNames names_;
+  const bool elsewhere_;
 };
+
+/// What there is to say of an operation and its parameters.
+std::vector<std::string> documentation_of(const Operation& operation,
+                                          const std::vector<std::string>& names);
 
 /// The interfaces' classes.
 std::string write_typescript_placeholders(const TypescriptText& text);
+/// The interfaces' frames for those who implement them.
+std::string write_typescript_services(const TypescriptText& text);
 
 }  // namespace armature::idl::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rcidl --typescript writes and what it writes in C++, beside each other: every type of the
+// What rcidl --typescript writes beside what it writes in C++, and beside itself: every type of the
 // language there and back.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -8,7 +8,7 @@ import { after, before, test } from "node:test";
 import { Code, connect, type Peer, RideError } from "@armature/ride/tcp";
 import * as everything from "./everything.js";
 
-const server = spawn(process.env["ECHO_SERVER"]!, { stdio: ["pipe", "pipe", "inherit"] });
+const server = spawn(process.env["ECHO_SERVER"]!, (process.env["ECHO_ARGUMENTS"] ?? "").split(" ").filter(Boolean), { stdio: ["pipe", "pipe", "inherit"] });
 let peer: Peer;
 let echo: everything.EchoPlaceholder;
 

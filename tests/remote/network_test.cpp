@@ -69,6 +69,7 @@ components:
   Axis: {model: Axis, activity: {periodic: 2 ms}}
   A: {model: Axis, remote: "https://127.0.0.1:443/Axis"}
   B: {model: Axis, remote: "ws://127.0.0.1:8080/Axis"}
+  C: {model: Axis, remote: "wss://robot.lab:8443/Axis"}
 )");
   base::Diagnostics diagnostics = wrong.deployment.diagnostics;
   wrong.network_->check(wrong.deployment.document, diagnostics);
@@ -76,7 +77,8 @@ components:
   EXPECT_THAT(text, HasSubstr("'http://127.0.0.1:80' has the unknown transport 'http' (known: "));
   EXPECT_THAT(text, HasSubstr("tcp, unix, tls, ws, wss"));
   EXPECT_THAT(text, HasSubstr("unknown transport 'https'"));
-  EXPECT_THAT(text, HasSubstr("unknown transport 'ws'"));  // nobody is reached by it
+  EXPECT_THAT(text, HasSubstr("tcp, unix, tls, ws, wss)\n"));
+  EXPECT_THAT(text, HasSubstr("'wss://robot.lab:8443/Axis' needs an authority"));
   EXPECT_THAT(text, HasSubstr("'tls://127.0.0.1:4243' needs certificates"));
   EXPECT_THAT(text, HasSubstr("'ws://127.0.0.1:8080' has no pages to serve"));
   EXPECT_THAT(text, HasSubstr("'wss://0.0.0.0:8443' needs a certificate"));

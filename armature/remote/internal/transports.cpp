@@ -10,7 +10,7 @@
 namespace armature::remote::internal {
 namespace {
 
-/// Pages come over the last two.
+/// Pages come over the last two, and programs, too.
 const std::vector<std::string> kTransports{"tcp", "unix", "tls", "ws", "wss"};
 
 bool has_scheme(const document::Reference& address, const std::string& scheme) {
@@ -27,7 +27,8 @@ void check_address(const document::Reference& written, const document::Network& 
     return diagnostics.error(written.where, known.error());
   }
   const bool pages = address.scheme == "ws" || address.scheme == "wss";
-  if (address.scheme == "tls" && network.authority.name.empty()) {
+  if (address.scheme == "tls" &&
+      (network.authority.name.empty() || network.certificate.name.empty())) {
     diagnostics.error(written.where, "'" + written.name + "' needs certificates",
                       "add tls: {certificate: ..., key: ..., authority: ...} to network");
   }
@@ -48,9 +49,28 @@ void check_address(const document::Reference& written, const document::Network& 
   }
 }
 
-/// For this machine, or with a certificate for others.
-void add_pages(const document::Network& network, const NetworkOptions& means,
-               ride::NodeOptions& node, base::Diagnostics& diagnostics) {
+/// Components that live where a certificate is shown, which somebody has to have signed.
+void check_remote(const document::Document& document, base::Diagnostics& diagnostics) {
+  if (!document.network.authority.name.empty()) return;
+  for (const document::Component& each : document.components) {
+    if (!has_scheme(each.remote, "wss")) continue;
+    diagnostics.error(each.remote.where,
+                      "'" + each.remote.name + "' needs an authority that signs what it shows",
+                      "add tls: {authority: ...} to network");
+  }
+}
+
+bool any_has_scheme(const document::Document& document,
+                    const std::vector<document::Reference>& addresses, const std::string& scheme) {
+  return std::ranges::any_of(addresses,
+                             [&](const auto& each) { return has_scheme(each, scheme); }) ||
+         std::ranges::any_of(document.components,
+                             [&](const auto& each) { return has_scheme(each.remote, scheme); });
+}
+
+void add_web(const document::Network& network, const NetworkOptions& means, ride::NodeOptions& node,
+             base::Diagnostics& diagnostics) {
+  if (!means.web) return;
   base::Diagnostics found;
   if (auto transport = means.web(network, found)) node.transports.push_back(std::move(transport));
   for (base::Diagnostic each : found.all()) {
@@ -81,15 +101,19 @@ void set_transports(const document::Document& document,
       node.transports.push_back(std::move(transport));
     }
   }
-  const bool encrypted = std::ranges::any_of(
-      addresses, [](const document::Reference& each) { return has_scheme(each, "wss"); });
-  if (!network.pages.name.empty() && encrypted && !network.certificate.name.empty()) {
-    add_pages(network, means, node, diagnostics);
+  const bool has_files = !network.certificate.name.empty() || !network.authority.name.empty();
+  if (has_files && any_has_scheme(document, addresses, "wss")) {
+    document::Network encrypted = network;
+    if (network.certificate.name.empty()) encrypted.pages.name.clear();
+    add_web(encrypted, means, node, diagnostics);
   }
-  if (!network.pages.name.empty()) {
-    network.certificate.name.clear();
-    add_pages(network, means, node, diagnostics);
+  if (!network.pages.name.empty() || any_has_scheme(document, addresses, "ws")) {
+    for (document::Reference* file : {&network.certificate, &network.key, &network.authority}) {
+      file->name.clear();
+    }
+    add_web(network, means, node, diagnostics);
   }
+  check_remote(document, diagnostics);
   for (const document::Reference& each : addresses) {
     check_address(each, document.network, node, diagnostics);
   }

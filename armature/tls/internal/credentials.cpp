@@ -163,6 +163,15 @@ void set_rules(SSL_CTX* context) {
                                 SSL_MODE_RELEASE_BUFFERS);
 }
 
+void tell_why_not(const std::string& path, base::Diagnostics& diagnostics) {
+  const char* const reason = ERR_reason_error_string(ERR_get_error());
+  diagnostics.error({path, 0, 0},
+                    std::string("OpenSSL rejects the certificate: ") +
+                        (reason != nullptr ? reason : "it does not say why"),
+                    "RSA needs 2048 bits at least");
+  ERR_clear_error();
+}
+
 }  // namespace
 
 ContextPointer make_context(const Options& options, base::Diagnostics& diagnostics) {
@@ -183,12 +192,23 @@ ContextPointer make_context(const Options& options, base::Diagnostics& diagnosti
     set_rules(context.get());
     return context;
   }
-  const char* const reason = ERR_reason_error_string(ERR_get_error());
-  diagnostics.error({options.certificate, 0, 0},
-                    std::string("OpenSSL rejects the certificate: ") +
-                        (reason != nullptr ? reason : "it does not say why"),
-                    "RSA needs 2048 bits at least");
-  ERR_clear_error();
+  tell_why_not(options.certificate, diagnostics);
+  return nullptr;
+}
+
+ContextPointer make_context_without_own(const std::string& authority,
+                                        base::Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.error_count();
+  Files files(diagnostics);
+  const Certificates authorities = files.certificates(authority, "the authority");
+  for (const auto& each : authorities) files.check_authority(authority, *each);
+  if (diagnostics.error_count() != before) return nullptr;
+  ContextPointer context(SSL_CTX_new(TLS_method()));
+  if (context && use_authorities(context.get(), authorities)) {
+    set_rules(context.get());
+    return context;
+  }
+  tell_why_not(authority, diagnostics);
   return nullptr;
 }
 
@@ -205,6 +225,12 @@ std::vector<std::string> check_server_files(const ServerFiles& given,
   if (!chain.empty() && key) files.check_pair(given, *chain.front(), *key);
   if (diagnostics.error_count() != before) return {};
   return files.own_names(given.certificate, *chain.front());
+}
+
+std::string proven_identity(const ssl_st* session) {
+  if (session == nullptr || SSL_get_verify_result(session) != X509_V_OK) return {};
+  const X509* const certificate = SSL_get0_peer_certificate(session);
+  return certificate == nullptr ? std::string() : internal::identity_of(*certificate);
 }
 
 }  // namespace armature::tls

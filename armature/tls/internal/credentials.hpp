@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "armature/base/diagnostic.hpp"
 #include "armature/tls/internal/openssl.hpp"
 #include "armature/tls/transport.hpp"
@@ -12,5 +14,8 @@ namespace armature::tls::internal {
 /// @param diagnostics  every mistake in the files
 /// @return none after an error
 ContextPointer make_context(const Options& options, base::Diagnostics& diagnostics);
+/// The same of a side that proves nothing itself, and only connects.
+ContextPointer make_context_without_own(const std::string& authority,
+                                        base::Diagnostics& diagnostics);
 
 }  // namespace armature::tls::internal

@@ -10,6 +10,7 @@
 
 #include "armature/platform/file.hpp"
 #include "armature/ride/socket_connection.hpp"
+#include "armature/tls/server_files.hpp"
 #include "armature/websocket/internal/request.hpp"
 
 namespace armature::websocket::internal {
@@ -52,9 +53,15 @@ std::optional<std::pair<std::string, std::string>> secrets_in(const std::string&
 
 bool is_encrypted(const Options& options) { return !options.certificate.empty(); }
 
-/// TLS 1.3 alone, and no session is taken up again. The files have been looked at.
+/// TLS 1.3 alone, and no session is taken up again. The files have been looked at. Pages come
+/// without a certificate, programs with one of the authority if there is one.
 void encrypt(const Options& options, lws_context_creation_info& info) {
   info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+  if (!options.authority.empty()) {
+    info.options |= LWS_SERVER_OPTION_REQUIRE_VALID_OPENSSL_CLIENT_CERT |
+                    LWS_SERVER_OPTION_PEER_CERT_NOT_REQUIRED;
+    info.ssl_ca_filepath = options.authority.c_str();
+  }
   info.alpn = "http/1.1";  // HTTP/2, which browsers prefer, has other headers and other sockets
   info.ssl_cert_filepath = options.certificate.c_str();
   info.ssl_private_key_filepath = options.key.c_str();
@@ -206,6 +213,8 @@ std::unique_ptr<ride::Connection> Server::accept() {
 
 int Server::told(lws* connection, lws_callback_reasons reason, void* /*user*/, void* in,
                  std::size_t size) {
+  // The library leaves the verdict to its user: OpenSSL's own is in `size`.
+  if (reason == LWS_CALLBACK_OPENSSL_PERFORM_CLIENT_CERT_VERIFICATION) return size == 1 ? 0 : 1;
   if (connection == nullptr || lws_get_context(connection) == nullptr) return 0;
   auto* const server = static_cast<Server*>(lws_context_user(lws_get_context(connection)));
   return server->told(connection, reason, in, size);
@@ -234,9 +243,18 @@ int Server::told(lws* connection, lws_callback_reasons reason, void* in, std::si
   }
 }
 
+/// Who brings the token or a certificate needs no cookie: browsers let no page send the one, and
+/// say by the origin whose page brings the other.
 bool Server::may_open(lws* page) const {
   const Visitor visitor = visitor_of(page);
-  return entry_->is_own_page(visitor) && entry_->has_pass(visitor);
+  if (!entry_->is_own_page(visitor)) return false;
+  return entry_->has_pass(visitor) || entry_->has_token(visitor) || !proven_name(page).empty();
+}
+
+/// By a certificate that the authority has signed; empty: there is none.
+std::string Server::proven_name(lws* visitor) const {
+  if (options_.authority.empty() || !is_encrypted(options_)) return {};
+  return tls::proven_identity(lws_get_ssl(visitor));
 }
 
 int Server::told_of_page(lws* page, lws_callback_reasons reason, void* in, std::size_t size) {
@@ -281,14 +299,17 @@ void Server::take_visitors() {
 bool Server::open(lws* page) {
   std::array<char, 64> address{};
   lws_get_peer_simple(page, address.data(), address.size());
-  auto pair = StreamSocket::make_pair(std::string("a page at ") + address.data());
+  const std::string name = proven_name(page);
+  const std::string kind = name.empty() ? "a page" : "'" + name + "'";
+  auto pair = StreamSocket::make_pair(kind + " at " + address.data());
   if (!pair) return false;
   auto& [inner, outer] = pair.value();
   auto bridge = std::make_unique<Bridge>(page, std::move(inner), options_);
   if (!bridge->watch(vhost_)) return false;
   bridges_[page] = std::move(bridge);
   const std::lock_guard lock(mutex_);
-  accepted_.push_back(ride::make_connection(std::move(outer), "page"));
+  accepted_.push_back(
+      ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
   const std::byte ring{};
   std::size_t sent = 0;
   static_cast<void>(ringer_->send(std::span(&ring, 1), sent));

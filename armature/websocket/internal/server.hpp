@@ -61,6 +61,7 @@ class Server final : public ride::Listener {
   int told_of_socket(lws* socket, lws_callback_reasons reason);
   void take_visitors();
   bool may_open(lws* page) const;
+  std::string proven_name(lws* visitor) const;
   bool open(lws* page);
 
   const std::unique_ptr<platform::StreamListener> listener_;

@@ -3,6 +3,8 @@ import { Code, RideError } from "./error.ts";
 import type { Message } from "./wire.ts";
 
 const kMostBodies = 16;
+/** What is kept of a body that is too large: operation and call, by which it is refused. */
+const kBegin = 8;
 
 /** In one piece of memory: a list of parts would cost more than parts of a byte each. */
 interface Unfinished {
@@ -11,7 +13,7 @@ interface Unfinished {
   dropped: boolean;
 }
 
-/** What came of a part: the whole message, nothing yet, or one that was larger than it may be. */
+/** What came of a part: the whole message, nothing yet, or the begin of one that was larger than it may be. */
 export type Assembled = { message: Message } | { tooLarge: Message } | undefined;
 
 /** Puts bodies that go on together, all of them in `limit` bytes. */
@@ -34,7 +36,7 @@ export class Assembler {
     if (message.goesOn) return undefined;
     this.bodies.delete(key);
     this.bytes -= grown.bytes;
-    if (grown.dropped) return { tooLarge: message };
+    if (grown.dropped) return { tooLarge: { ...message, body: grown.memory } };
     return { message: { ...message, body: grown.memory.subarray(0, grown.bytes) } };
   }
 
@@ -51,7 +53,8 @@ export class Assembler {
     if (body.dropped) return;
     if (this.bytes + part.length > this.limit) {
       this.bytes -= body.bytes;
-      Object.assign(body, { memory: new Uint8Array(0), bytes: 0, dropped: true });
+      const begin = body.bytes > 0 ? body.memory.subarray(0, body.bytes) : part;
+      Object.assign(body, { memory: begin.slice(0, kBegin), bytes: 0, dropped: true });
       return;
     }
     if (body.bytes + part.length > body.memory.length) {

@@ -7,11 +7,22 @@ import { type Control, decodeControl, encodeControl, Kind, type Message, Stream 
 /** So much may wait for the other side to take it. */
 const kMostUnsent = 1024 * 1024;
 
+/** What answers the commands and requests of the other side. */
+export interface Serving {
+  /** The message is good as long as the call lasts. */
+  take(link: Link, message: Message): void;
+  ended(link: Link): void;
+}
+
 export interface LinkOptions {
   name: string;
   bodyBytes: number;
   /** In ms: who is silent so long is asked whether it lives. */
   silence: number;
+  /** This side was connected to: it greets when it was greeted. */
+  accepted?: boolean;
+  /** Without: all that the other side asks for is refused. */
+  serving?: Serving | undefined;
 }
 
 /** What a link tells of the messages that came. */
@@ -38,6 +49,7 @@ export class Link {
   private heardAt = 0;
   private asked = 0;
   private opened = false;
+  private greeted = false;
   private ended = false;
 
   constructor(dial: Dial, options: LinkOptions, events: LinkEvents) {
@@ -64,6 +76,17 @@ export class Link {
     this.connection.send(message);
   }
 
+  /** What the other side has not taken yet. */
+  unsent(): number {
+    return this.connection.unsent();
+  }
+
+  /** @param why  is said to the other side */
+  shutDown(why: string): void {
+    this.control(0, Code.shuttingDown, why);
+    this.close();
+  }
+
   close(): void {
     this.stop();
     this.connection.close();
@@ -73,7 +96,7 @@ export class Link {
     this.opened = true;
     this.heardAt = Date.now();
     this.heartbeat = setInterval(() => this.beat(), this.options.silence);
-    this.control(0, Code.hello, `${this.options.name} armature-web/0.1.0`);
+    if (this.options.accepted !== true) this.greet();
     this.events.open();
   }
 
@@ -98,32 +121,40 @@ export class Link {
     if (kind === Kind.reply) return this.events.reply(identifier, body);
     if (kind === Kind.event) return this.events.event(identifier, body);
     if (kind === Kind.control) return this.takeControl(identifier, decodeControl(body));
-    this.refuse(assembled.message);
+    if (kind !== Kind.request && kind !== Kind.command) {
+      return this.refuse(assembled.message, Code.malformed, `unknown type ${kind}`);
+    }
+    if (this.options.serving !== undefined) return this.options.serving.take(this, assembled.message);
+    this.refuse(assembled.message, Code.noSuchComponent, "a page has no components");
   }
 
-  /** There are no components here: commands and requests have no recipient. */
-  private refuse({ kind, identifier, body }: Message): void {
+  /** Says what is at fault with a message. */
+  refuse({ kind, identifier, body }: Message, code: number, text: string): void {
     const isRequest = kind === Kind.request && body.length >= 8;
     const fields = new DataView(body.buffer, body.byteOffset, body.length);
-    const known = kind === Kind.request || kind === Kind.command;
-    this.control(isRequest ? fields.getUint32(4, true) : 0, known ? Code.noSuchComponent : Code.malformed,
-      known ? "a page has no components" : `unknown type ${kind}`, {
-        type: kind,
-        recipient: identifier,
-        operation: body.length >= 4 ? fields.getUint32(0, true) : 0,
-      });
+    this.control(isRequest ? fields.getUint32(4, true) : 0, code, text, {
+      type: kind,
+      recipient: identifier,
+      operation: body.length >= 4 ? fields.getUint32(0, true) : 0,
+    });
   }
 
-  private takeTooLarge({ kind, identifier }: Message): void {
-    const text = `its answer is larger than ${this.options.bodyBytes} bytes`;
-    if (kind === Kind.reply) this.events.refused(identifier, new RideError(Code.tooLarge, text));
-    if (kind === Kind.event) this.events.lost(identifier);
+  private takeTooLarge(message: Message): void {
+    const { kind, identifier } = message;
+    const most = `larger than ${this.options.bodyBytes} bytes`;
+    if (kind === Kind.reply) {
+      this.events.refused(identifier, new RideError(Code.tooLarge, `its answer is ${most}`));
+    } else if (kind === Kind.event) {
+      this.events.lost(identifier);
+    } else {
+      this.refuse(message, Code.tooLarge, `the body is ${most}`);
+    }
   }
 
   private takeControl(call: number, control: Control): void {
     if (control.code === Code.ping) return this.control(0, Code.pong, control.text);
     if (control.code === Code.pong) return;
-    if (control.code === Code.hello) return this.events.hello(control.text);
+    if (control.code === Code.hello) return this.takeHello(control.text);
     if (control.code === Code.shuttingDown) {
       this.connection.close();
       return this.end("the other side shuts down");
@@ -132,8 +163,18 @@ export class Link {
     this.events.refused(call, new RideError(control.code, text));
   }
 
+  private takeHello(text: string): void {
+    if (this.options.accepted === true && !this.greeted) this.greet();
+    this.events.hello(text);
+  }
+
+  private greet(): void {
+    this.greeted = true;
+    this.control(0, Code.hello, `${this.options.name} armature-web/0.1.0`);
+  }
+
   /** Answers of this side that nobody takes are dropped: who floods with PING fills no memory. */
-  private control(call: number, code: Code, text: string, about = { type: 0, recipient: 0, operation: 0 }): void {
+  private control(call: number, code: number, text: string, about = { type: 0, recipient: 0, operation: 0 }): void {
     if (!this.isOpen() || this.connection.unsent() > kMostUnsent) return;
     this.connection.send(encodeControl(call, { code, text, ...about }));
   }
@@ -157,8 +198,10 @@ export class Link {
   }
 
   private stop(): void {
+    if (this.ended) return;
     this.ended = true;
     clearInterval(this.heartbeat);
+    this.options.serving?.ended(this);
   }
 }
 

@@ -4,7 +4,7 @@ import { deliver, RemoteComponent, type SharedSubscription } from "./component.t
 import { ComponentEntry, Directory } from "./directory.ts";
 import { Code, nameOf, RideError } from "./error.ts";
 import { Reader, Writer } from "./fields.ts";
-import { Link } from "./link.ts";
+import { Link, type Serving } from "./link.ts";
 import { type Handler, type SubscribeOptions, Subscription } from "./subscription.ts";
 import type { Dial } from "./transport.ts";
 import { array, type EventType, int, parameter, type Parameter, string, type Type, unsignedInt } from "./types.ts";
@@ -23,6 +23,8 @@ export interface PeerOptions {
   mostPause?: number;
   /** What is dropped or refused without anybody who waits for it. */
   log?: (line: string) => void;
+  /** What answers the commands and requests of the other side; see `Host` of @armature/ride/service. */
+  serving?: Serving;
 }
 
 /** What has become of the connection. */
@@ -51,7 +53,7 @@ export class Peer {
   /** How often the connection was lost. */
   losses = 0;
   private readonly dial: Dial;
-  private readonly options: Required<PeerOptions>;
+  private readonly options: Required<Omit<PeerOptions, "serving">> & Pick<PeerOptions, "serving">;
   private readonly calls = new Calls();
   private readonly components = new Map<string, RemoteComponent>();
   private readonly subscriptions = new Map<number, SharedSubscription>();

@@ -6,12 +6,14 @@ import { websocket } from "./websocket.ts";
 
 export { Code, nameOf, RideError } from "./error.ts";
 export { Reader, Writer } from "./fields.ts";
+export { ComponentEntry, Directory } from "./directory.ts";
+export { Link, type LinkOptions, type Serving } from "./link.ts";
 export { Peer, type PeerChange, type PeerOptions } from "./peer.ts";
 export { type CallOptions, Failed, Placeholder } from "./placeholder.ts";
 export { type Handler, type SubscribeOptions, Subscription } from "./subscription.ts";
-export type { Connection, Dial, TransportEvents } from "./transport.ts";
+export type { Accepting, Connection, Dial, TransportEvents } from "./transport.ts";
 export * from "./types.ts";
-export { numberOf } from "./wire.ts";
+export { encode, Kind, type Message, numberOf } from "./wire.ts";
 export { websocket } from "./websocket.ts";
 
 /**

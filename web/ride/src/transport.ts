@@ -20,3 +20,9 @@ export interface Connection {
 
 /** Begins to connect. */
 export type Dial = (events: TransportEvents) => Connection;
+
+/** What takes the connections of a program that listens. */
+export interface Accepting {
+  /** @param transport  as addresses begin: `tcp`. False: there is no place for it */
+  accept(dial: Dial, transport: string): boolean;
+}

@@ -105,15 +105,22 @@ export const string: Type<string> = {
 /** Nothing: the result of an operation that returns `void`. */
 export const nothing: Type<void> = { put() {}, take() {} };
 
-/** Refuses to send what is outside of `low` to `high`, and NaN. */
+/** Refuses what is outside of `low` to `high`, and NaN. */
 export function within<T extends number | bigint>(type: Type<T>, low: T, high: T): Type<T> {
   const round = (value: T): T => (type === (float as Type<unknown>) ? (Math.fround(value as number) as T) : value);
+  const check = (value: T): void => {
+    if (!(round(value) >= round(low) && round(value) <= round(high))) throw unfit(value, `${low} to ${high}`);
+  };
   return {
     put(to, value) {
-      if (!(round(value) >= round(low) && round(value) <= round(high))) throw unfit(value, `${low} to ${high}`);
+      check(value);
       type.put(to, value);
     },
-    take: (from) => type.take(from),
+    take(from) {
+      const value = type.take(from);
+      check(value);
+      return value;
+    },
   };
 }
 
@@ -169,15 +176,22 @@ export const bytes: Type<Uint8Array> = {
   take: (from) => from.bytes(from.count()),
 };
 
-/** The same; refuses to send a byte outside of `low` to `high`. */
+/** The same; refuses a byte outside of `low` to `high`. */
 export function bytesWithin(low: number, high: number): Type<Uint8Array> {
+  const check = (value: Uint8Array): void => {
+    const outside = value.find((each) => each < low || each > high);
+    if (outside !== undefined) throw unfit(outside, `${low} to ${high}`);
+  };
   return {
     put(to, value) {
       bytes.put(to, value);
-      const outside = value.find((each) => each < low || each > high);
-      if (outside !== undefined) throw unfit(outside, `${low} to ${high}`);
+      check(value);
     },
-    take: (from) => bytes.take(from),
+    take(from) {
+      const value = bytes.take(from);
+      check(value);
+      return value;
+    },
   };
 }
 
@@ -223,7 +237,13 @@ export function struct<T extends object>(name: string, members: Members<T>): Typ
     },
     take(from) {
       const value = {} as T;
-      for (const [member, type] of all) value[member] = type.take(from);
+      for (const [member, type] of all) {
+        try {
+          value[member] = type.take(from);
+        } catch (error) {
+          throw of(`${name}.${String(member)}`, error);
+        }
+      }
       return value;
     },
   };
@@ -237,6 +257,15 @@ export interface EventType<T> extends Type<T> {
 
 export function event<T extends object>(name: string, number: number, members: Members<T>): EventType<T> {
   return { ...struct<T>(name, members), event: name, number };
+}
+
+/** A parameter that has come; throws a RideError that names it if it is none of the type. */
+export function taken<T>(name: string, type: Type<T>, from: Reader): T {
+  try {
+    return type.take(from);
+  } catch (error) {
+    throw of(`parameter ${name}`, error);
+  }
 }
 
 /** A parameter with its value, which is checked when it is written. */
