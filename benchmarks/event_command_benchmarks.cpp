@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/face.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/exec/event_command.hpp"
 #include "benchmarks/simulated.hpp"
@@ -69,9 +70,9 @@ exec::Blueprint speech(By by) {
     return blueprint;
   }
   exec::ComponentEntry wire;
-  wire.component = std::make_unique<exec::EventCommand>("Wire", speaker.said, listener.add_up,
-                                                        std::vector<component::CallParameter>(1),
-                                                        base::Duration::zero());
+  wire.component = std::make_unique<exec::EventCommand>(
+      "Wire", face(speaker.said), face(listener.add_up), std::vector<component::CallParameter>(1),
+      base::Duration::zero());
   wire.bindings = {{std::string(exec::EventCommand::kOn), "Speaker", "Said", {}},
                    {std::string(exec::EventCommand::kDo), "Listener", "addUp", {}}};
   wire.peers = {{"Speaker", {}}, {"Listener", {}}};
