@@ -31,10 +31,10 @@ TEST(ImageSize, FollowsWidthAndHeight) {
   auto owned = std::make_unique<Screen>("Screen");
   const Screen& screen = *owned;
   testing::Harness bench(std::move(owned));
-  EXPECT_EQ(screen.image.declared_size().value(), 36u);
+  EXPECT_EQ(face(screen.image).declared_size().value(), 36u);
   bench.set("ImageWidth", 320);
   bench.set("ImageHeight", 240);
-  EXPECT_EQ(screen.image.declared_size().value(), 320u * 240u * 3u);
+  EXPECT_EQ(face(screen.image).declared_size().value(), 320u * 240u * 3u);
 }
 
 TEST(ImageSize, IsSetByWidthAndHeightOnly) {
