@@ -137,16 +137,19 @@ Json experiment(const std::vector<Sight>& sights) {
 }
 
 /// Of a run in real time: how many of the images that were due gave a position, and how late.
-Json real_time(const Run& run) {
+Json real_time(const Run& run, Json& figures) {
   const Signal* const images = run.signals.find("Camera.View.x");
   if (images == nullptr || images->time_s.size() < 2) return nullptr;
+  std::vector<double> seen_at;
   std::vector<double> late_ms;
   for (const double time_s : images->time_s) {
     if (const auto x = after(run.signals.find("Vision.X"), time_s)) {
+      seen_at.push_back(time_s);
       late_ms.push_back(1e3 * (x->first - time_s));
     }
   }
   if (late_ms.empty()) return nullptr;
+  add_lateness(seen_at, late_ms, figures);
   std::ranges::sort(late_ms);
   const double due = std::floor(20.0 * (images->time_s.back() - images->time_s.front())) + 1.0;
   return {{"images_due", due},
@@ -172,7 +175,8 @@ int main(int argc, char** argv) {
   rover::Json figures;
   for (const report::Run& run : runs.runs) {
     if (run.name.starts_with("realtime")) {
-      figures["realtime"] = rover::real_time(run);
+      rover::Json real_time = rover::real_time(run, figures);
+      figures["realtime"] = std::move(real_time);
       continue;
     }
     const std::vector<rover::Sight> sights = rover::sights_of(run);

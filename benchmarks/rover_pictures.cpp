@@ -136,8 +136,8 @@ void add_images(Eye& eye, Json& figures) {
     const char* title;
     double x, y, heading, ball_x, ball_y;
   };
-  constexpr Place kPlaces[] = {{"1 m away, post and box behind it", 0.6, 0.1, 0.1, 1.68, 0.2},
-                               {"2.5 m away, beside the screen", -1.0, 0.2, 0.45, 1.25, 1.3},
+  constexpr Place kPlaces[] = {{"1 m away, before the screen", 0.6, 0.1, 0.1, 1.68, 0.2},
+                               {"2.5 m away, near the post", -1.0, 0.2, 0.45, 1.25, 1.3},
                                {"0.5 m away", 0.0, 0.0, 0.0, 0.57, 0.1}};
   for (const Place& place : kPlaces) {
     eye.look(place.x, place.y, place.heading, place.ball_x, place.ball_y);
@@ -173,6 +173,12 @@ void add_curves(const std::string& run, const std::vector<Sight>& sights, Json& 
   const std::string title = "Ways from above, " + run;
   add_line(figures["ways"], title, "m", way("rover", x, y));
   add_line(figures["ways"], title, "m", way("ball", ball_x, ball_y));
+}
+
+void add_lateness(const std::vector<double>& time_s, const std::vector<double>& late_ms,
+                  Json& figures) {
+  add_line(figures["curves"], "From image to position, in real time", "ms",
+           line("realtime", time_s, late_ms, 1e3));
 }
 
 void add_pictures(Json& figures) {

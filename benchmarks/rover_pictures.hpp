@@ -28,6 +28,9 @@ constexpr double kSettledOnEight = 8.0;
 /// Adds `curves` and `ways` of a run.
 void add_curves(const std::string& run, const std::vector<Sight>& sights,
                 nlohmann::ordered_json& figures);
+/// The same of how late positions came in real time.
+void add_lateness(const std::vector<double>& time_s, const std::vector<double>& late_ms,
+                  nlohmann::ordered_json& figures);
 /// Looks at images of the arena: 10 000 without a ball, and some with one, which `pictures` has
 /// with what was seen in them. Adds how long a look takes, too.
 void add_pictures(nlohmann::ordered_json& figures);

@@ -110,7 +110,9 @@ TEST(Pilot, TwiceTheSameToTheBit) {
       now.insert(now.end(), {sight.view.x, sight.view.y, sight.view.heading});
       if (sight.seen) now.insert(now.end(), {sight.seen->x, sight.seen->y});
     }
-    if (run == 1) EXPECT_EQ(now, before);
+    if (run == 1) {
+      EXPECT_EQ(now, before);
+    }
     before = now;
   }
   EXPECT_GE(before.size(), 400U);

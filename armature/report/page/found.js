@@ -22,7 +22,7 @@ const Found = (() => {
       style: `stroke: var(${strokes[i % strokes.length]}); stroke-width: 1.5px`}));
     const picture = svg('svg', {viewBox: box.join(' '), role: 'img', 'aria-label': title, style: 'width: 100%'}, ...drawn);
     const legend = el('div', {class: 'legend'}, ...lines.map((line, i) => el('span', {},
-      el('span', {class: 'dot', style: `background: var(${strokes[i % strokes.length]})`}), line.label, ' ')));
+      el('span', {style: `display: inline-block; width: 14px; height: 3px; margin: 0 6px 3px 12px; background: var(${strokes[i % strokes.length]})`}), line.label)));
     return el('div', {class: 'plot'}, el('div', {class: 'head'}, el('h3', {}, title, ' ', el('span', {class: 'unit'}, unit)), legend), picture);
   }
 
