@@ -56,7 +56,8 @@ bool is_encrypted(const Options& options) { return !options.certificate.empty();
 /// TLS 1.3 alone, and no session is taken up again. The files have been looked at. Pages come
 /// without a certificate, programs with one of the authority if there is one.
 void encrypt(const Options& options, lws_context_creation_info& info) {
-  info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+  // Whom the system trusts for the web is nobody here.
+  info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_DISABLE_OS_CA_CERTS;
   if (!options.authority.empty()) {
     info.options |= LWS_SERVER_OPTION_REQUIRE_VALID_OPENSSL_CLIENT_CERT |
                     LWS_SERVER_OPTION_PEER_CERT_NOT_REQUIRED;
