@@ -13,6 +13,8 @@ import unittest
 
 from remote_browser_test import ALL, LONG, PROGRAM, PlainNode, Robot
 
+PAGE = os.path.join(os.path.dirname(PROGRAM), "../share/armature/web/studio/index.html")
+
 
 class WrongAddresses(unittest.TestCase):
     def setUp(self):
@@ -75,6 +77,7 @@ class WrongAddresses(unittest.TestCase):
         self.assertIn("may not read 'armature'", done.stderr)
         self.assertIn("allow", done.stderr)
 
+    @unittest.skipUnless(os.path.exists(PAGE), "the page is not built")
     def test_an_application_goes_on_when_the_studio_ends(self):
         robot = self.robot(ALL)
         studio = subprocess.Popen(
