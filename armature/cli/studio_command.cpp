@@ -162,7 +162,7 @@ int run_studio(const StudioArguments& arguments, const Console& console) {
                                          "): `armature studio` finds it again");
   }
   if (options.elsewhere) {
-    console.say(rt::LogLevel::kInfo, "the application at " + arguments.file + " goes on");
+    console.say(rt::LogLevel::kInfo, "the application at " + arguments.file + " is left as it is");
   }
   return kDone;
 }

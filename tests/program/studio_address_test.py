@@ -89,7 +89,7 @@ class WrongAddresses(unittest.TestCase):
         self.wait_for(os.path.join(self.folder.name, "page"), studio)
         studio.send_signal(signal.SIGINT)
         self.assertEqual(studio.wait(timeout=LONG), 0)
-        self.assertIn(f"the application at {robot.address} goes on", studio.stderr.read())
+        self.assertIn(f"the application at {robot.address} is left as it is", studio.stderr.read())
         self.assertIsNone(robot.process.poll())
 
     def wait_for(self, path, process):

@@ -71,12 +71,15 @@ test("Janus of another process is shown, watched, operated, lost and found again
   await page.getByText("E-stop: Arming disarmed").waitFor();
   assert.equal(first.exitCode, null, "it goes on");
 
+  await page.getByRole("tab", { name: "Operate" }).click();
+  await page.getByText("Generator: jog").waitFor();
   first.kill("SIGKILL");
-  await page.getByText(/is not there/).waitFor();
+  await page.locator(".notices", { hasText: "is not there" }).waitFor();
   await page.locator(".run-state", { hasText: "not there" }).waitFor();
   await box(page, "Generator").waitFor();
   const second = await head();
-  await page.getByText(/is not there/).waitFor({ state: "detached" });
+  await page.locator(".notices", { hasText: "is not there" }).waitFor({ state: "detached" });
+  await page.getByText("Generator: jog").waitFor();
   await page.locator(".run-state", { hasText: "running" }).waitFor();
   await page.locator(".port .value:not(:empty)").first().waitFor();
 

@@ -34,10 +34,10 @@ export function Operate() {
   const up = run.use((all) => is_up(all.state));
   const elsewhere = useElsewhere();
   const components = project.use((state) => state.shown?.components);
+  const models = project.use((state) => state.models);
   const box = useSelectedBox();
   if (!up && elsewhere) return <p className="hint">The application is not there.</p>;
   if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
-  const models = project.use((state) => state.models);
   const controls = (components ?? []).filter((one) => face_of(models, one.model));
   const armed = (components ?? []).filter((one) => arms(one) || words_of(one).length > 0);
   const jogged = (components ?? []).filter(jogs);
