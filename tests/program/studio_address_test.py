@@ -6,12 +6,14 @@ usage: studio_address_test.py PROGRAM
 """
 
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
-from remote_browser_test import ALL, LONG, PROGRAM, PlainNode, Robot
+from remote_browser_test import ALL, LONG, PROGRAM, TLS, PlainNode, Robot, make_certificates
 
 PAGE = os.path.join(os.path.dirname(PROGRAM), "../share/armature/web/studio/index.html")
 
@@ -79,22 +81,32 @@ class WrongAddresses(unittest.TestCase):
 
     @unittest.skipUnless(os.path.exists(PAGE), "the page is not built")
     def test_an_application_goes_on_when_the_studio_ends(self):
-        robot = self.robot(ALL)
+        self.opens_and_leaves(self.robot(ALL))
+
+    @unittest.skipUnless(os.path.exists(PAGE) and shutil.which("openssl"),
+                         "the page is not built, or there is no openssl")
+    def test_an_encrypted_address_is_opened_by_who_its_policy_knows(self):
+        place = self.folder.name + "/"
+        make_certificates(self.folder.name)
+        robot = Robot(self.folder.name, "allow operator@tls read *\n", "tls://127.0.0.1:0", TLS)
+        self.addCleanup(robot.stop)
+        self.opens_and_leaves(robot, "--certificate", place + "operator.pem", "--key",
+                              place + "operator.key", "--authority", place + "authority.pem")
+
+    def opens_and_leaves(self, robot, *arguments):
+        page = os.path.join(self.folder.name, "page")
         studio = subprocess.Popen(
-            [PROGRAM, "studio", robot.address, "--no-open", "--listen",
-             "unix:" + os.path.join(self.folder.name, "page")],
+            [PROGRAM, "studio", robot.address, "--no-open", "--listen", "unix:" + page, *arguments],
             stderr=subprocess.PIPE, text=True,
             env={**os.environ, "XDG_STATE_HOME": self.folder.name})
         self.addCleanup(studio.stderr.close)
-        self.wait_for(os.path.join(self.folder.name, "page"), studio)
-        studio.send_signal(signal.SIGINT)
+        while not os.path.exists(page) and studio.poll() is None:
+            time.sleep(0.01)
+        if studio.poll() is None:
+            studio.send_signal(signal.SIGINT)
         self.assertEqual(studio.wait(timeout=LONG), 0)
         self.assertIn(f"the application at {robot.address} is left as it is", studio.stderr.read())
         self.assertIsNone(robot.process.poll())
-
-    def wait_for(self, path, process):
-        while not os.path.exists(path):
-            self.assertIsNone(process.poll(), "the studio ended")
 
 
 if __name__ == "__main__":

@@ -105,6 +105,9 @@ void Elsewhere::attend() {
     lock.unlock();
     try {
       ask_for_news();
+    } catch (const inspect::Refusal& busy) {
+      // It answers, and has too much to do for that: it is asked again.
+      if (!state().there) lose(busy.what());
     } catch (const inspect::NoAnswer& failure) {
       lose(failure.what());
     }
