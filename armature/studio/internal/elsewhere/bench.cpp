@@ -8,7 +8,7 @@
 namespace armature::studio::internal {
 namespace {
 
-constexpr std::size_t kLogLinesAtOnce = 500;
+constexpr std::size_t kLinesAtOnce = 500;
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void ElsewhereBench::run(ride::ReplyOf<RunState> reply) {
 }
 
 void ElsewhereBench::log(std::int32_t from, ride::ReplyOf<std::vector<std::string>> reply) {
-  reply.put(application_.log(from, kLogLinesAtOnce));
+  reply.put(application_.log(from, kLinesAtOnce));
 }
 
 void ElsewhereBench::description(const std::string& path, ride::ReplyOf<std::string> reply) {
