@@ -33,6 +33,7 @@ class SlowRobot final : public inspect::View {
   inspect::ComponentDescription describe(const std::string&, inspect::Values) override {
     return {};
   }
+  std::vector<inspect::Connection> connections(const Which&) override { return {}; }
   std::vector<inspect::ItemValue> read(const std::vector<std::string>&) override { return {}; }
   inspect::ItemValue write(const std::string&, const std::string&) override { return {}; }
   inspect::CallResult call(const std::string&, const std::string&, const Texts&) override {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/cli/application_address.hpp"
 #include "armature/cli/commands.hpp"
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/platform/child_process.hpp"
@@ -24,6 +25,7 @@ struct StudioArguments {
   std::string policy;
   std::string certificate;
   std::string key;
+  std::string authority;
   bool no_open = false;
 };
 
@@ -44,14 +46,27 @@ std::string page_folder() {
       .string();
 }
 
-studio::ServerOptions options_of(const StudioArguments& arguments, const Console& console) {
+ApplicationAddress address_of(const StudioArguments& arguments) {
+  return {arguments.file, arguments.certificate, arguments.key, arguments.authority};
+}
+
+bool listens_encrypted(const StudioArguments& arguments) {
+  return arguments.listen.starts_with("wss://");
+}
+
+studio::ServerOptions options_of(const StudioArguments& arguments, const Console& console,
+                                 base::Diagnostics& diagnostics) {
   studio::ServerOptions options;
   options.file = arguments.file;
+  options.elsewhere = is_address(arguments.file);
+  options.transports = transports_to(address_of(arguments), diagnostics);
   options.listen = arguments.listen;
   options.pages = page_folder();
   options.policy = arguments.policy;
-  options.certificate = arguments.certificate;
-  options.key = arguments.key;
+  if (listens_encrypted(arguments)) {
+    options.certificate = arguments.certificate;
+    options.key = arguments.key;
+  }
   options.folder = state_folder();
   options.program = platform::own_program();
   for (const std::string& folder : arguments.library_folders) {
@@ -89,7 +104,7 @@ void open_in_browser(const std::string& page) {
 /// others than pages and this account would let them run what they like.
 std::string refusal_of(const StudioArguments& arguments) {
   const auto& address = arguments.listen;
-  const bool encrypted = address.starts_with("wss://");
+  const bool encrypted = listens_encrypted(arguments);
   if (!encrypted && !address.starts_with("ws://") && !address.starts_with("unix:")) {
     return "'" + address +
            "' is no address for a studio: expected ws://127.0.0.1:8080, wss://0.0.0.0:8443 for "
@@ -103,21 +118,36 @@ std::string refusal_of(const StudioArguments& arguments) {
            "' is for other machines, too: say with --policy what their pages may do (whoever may "
            "configure 'workbench' loads libraries, which is running code)";
   }
-  if (!encrypted && !(arguments.certificate.empty() && arguments.key.empty())) {
-    return "a certificate is for wss:// addresses, found '" + address + "'";
+  const bool reaches_encrypted = is_encrypted(address_of(arguments));
+  if (!encrypted && !reaches_encrypted &&
+      !(arguments.certificate.empty() && arguments.key.empty())) {
+    return "a certificate is for wss:// addresses, and for an application at tls://, found '" +
+           address + "'";
+  }
+  if (!reaches_encrypted && !arguments.authority.empty()) {
+    return "--authority is for an application at a tls:// address, found '" + arguments.file + "'";
   }
   return {};
 }
 
+/// Likewise with what is to be opened. No file is called as if it were somewhere in a network.
+std::string refusal_of_subject(const StudioArguments& arguments) {
+  const bool address =
+      is_address(arguments.file) || arguments.file.find("://") != std::string::npos;
+  return address ? wrong_use(address_of(arguments)) : std::string();
+}
+
 int run_studio(const StudioArguments& arguments, const Console& console) {
-  if (const std::string refusal = refusal_of(arguments); !refusal.empty()) {
+  for (const std::string& refusal : {refusal_of_subject(arguments), refusal_of(arguments)}) {
+    if (refusal.empty()) continue;
     console.say(rt::LogLevel::kError, refusal);
     return kWrongUse;
   }
   const platform::StopSignal stop;
   base::Diagnostics diagnostics;
   studio::MakeServer* const make = make_server(diagnostics);
-  const auto server = make == nullptr ? nullptr : make(options_of(arguments, console), diagnostics);
+  const studio::ServerOptions options = options_of(arguments, console, diagnostics);
+  const auto server = diagnostics.ok() ? (*make)(options, diagnostics) : nullptr;
   console.show(diagnostics);
   if (server == nullptr) return kFailed;
   for (const std::string& page : server->pages()) {
@@ -131,6 +161,9 @@ int run_studio(const StudioArguments& arguments, const Console& console) {
     console.say(rt::LogLevel::kInfo, "the application goes on (process " + std::to_string(process) +
                                          "): `armature studio` finds it again");
   }
+  if (options.elsewhere) {
+    console.say(rt::LogLevel::kInfo, "the application at " + arguments.file + " is left as it is");
+  }
   return kDone;
 }
 
@@ -138,9 +171,14 @@ int run_studio(const StudioArguments& arguments, const Console& console) {
 
 void add_studio(const CommandLine& to) {
   CLI::App* command = to.app.add_subcommand(
-      "studio", "assembles, checks, runs and watches a deployment in a browser");
+      "studio",
+      "assembles, checks, runs and watches a deployment in a browser, or watches and operates an "
+      "application that runs elsewhere");
   const auto arguments = arguments_of(*command, to, run_studio);
-  command->add_option("file", arguments->file, "the deployment, which need not be there yet")
+  command
+      ->add_option("file", arguments->file,
+                   "the deployment, which need not be there yet; or the address of an application "
+                   "that runs: tcp://127.0.0.1:4242, unix:/run/robot.sock, tls://robot:4243")
       ->required();
   command
       ->add_option("--listen", arguments->listen,
@@ -149,10 +187,15 @@ void add_studio(const CommandLine& to) {
       ->type_name("ADDRESS");
   command
       ->add_option("--certificate", arguments->certificate,
-                   "what a wss:// address proves itself with, in PEM form; browsers reach it by "
-                   "the names that it is for")
+                   "what the studio proves itself with, in PEM form: at a wss:// address, which "
+                   "browsers reach by the names that it is for, and to an application at tls://")
       ->type_name("FILE");
   command->add_option("--key", arguments->key, "the certificate's private key")->type_name("FILE");
+  command
+      ->add_option("--authority", arguments->authority,
+                   "the authority that must have signed the certificate of an application at "
+                   "tls://")
+      ->type_name("FILE");
   command
       ->add_option("--policy", arguments->policy,
                    "who may do what; without it whoever opens the page may do everything")

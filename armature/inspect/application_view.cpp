@@ -188,6 +188,10 @@ ComponentDescription ApplicationView::describe(const std::string& name, Values v
   return description;
 }
 
+std::vector<Connection> ApplicationView::connections(const Which& which) {
+  return connections_of(application_.plan(), which);
+}
+
 std::vector<ItemValue> ApplicationView::read(const std::vector<std::string>& texts) {
   std::vector<ItemValue> values(texts.size());
   std::map<const Component*, std::vector<std::pair<Item, std::size_t>>> by_component;

@@ -43,6 +43,8 @@ class ApplicationView final : public View {
   using View::faults;
   Faults faults(const Which& which) override;
   ComponentDescription describe(const std::string& component, Values values) override;
+  using View::connections;
+  std::vector<Connection> connections(const Which& which) override;
   std::vector<ItemValue> read(const std::vector<std::string>& items) override;
   Watch watch(const std::vector<std::string>& items, base::Duration interval) override;
   WatchedValues watched(std::int32_t handle) override;

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "armature/base/severity_name.hpp"
-#include "armature/component/interface.hpp"
+#include "armature/inspect/connections.hpp"
 #include "armature/inspect/describe.hpp"
 #include "armature/inspect/internal/description_json.hpp"
 
@@ -19,8 +20,6 @@ namespace {
 using base::Diagnostic;
 using base::Location;
 using internal::Json;
-
-constexpr int kFormat = 1;  ///< changes when what is written means something else
 
 void add_place(const Location& where, Json& to) {
   if (where.file.empty()) return;
@@ -137,11 +136,6 @@ Json components(const Checked& checked, const CheckedForm& form) {
   return all;
 }
 
-template <typename Member>
-std::string path(const Member& member) {
-  return member.owner().name() + "." + std::string(member.name());
-}
-
 /// Without a plan: what the file says, right or wrong.
 Json written_connections(const Checked& checked) {
   Json all = Json::array();
@@ -155,29 +149,17 @@ Json written_connections(const Checked& checked) {
   return all;
 }
 
+/// Of the plan's connections those of data come first, in its order: they have places.
 Json planned_connections(const exec::Plan& plan) {
+  const std::vector<Connection> connections =
+      connections_of(plan, [](const std::string&) { return true; });
   Json all = Json::array();
-  const auto crosses = [&](exec::Index from, exec::Index to) {
-    return plan.thread_of[from] != plan.thread_of[to];
-  };
-  for (const exec::ConnectionPlan& one : plan.connections) {
-    Json json = {{"kind", "data"},         {"from", path(*one.output)},
-                 {"to", path(*one.input)}, {"triggers", one.triggers},
-                 {"delayed", one.delayed}, {"crosses_threads", crosses(one.from, one.to)}};
-    add_place(one.entry->where, json);
+  for (const Connection& one : connections) {
+    Json json = internal::connection_json(one);
+    if (all.size() < plan.connections.size()) {
+      add_place(plan.connections[all.size()].entry->where, json);
+    }
     all.push_back(std::move(json));
-  }
-  for (const exec::SubscriptionPlan& one : plan.subscriptions) {
-    all.push_back({{"kind", "event"},
-                   {"from", path(*one.event)},
-                   {"to", path(*one.handler)},
-                   {"crosses_threads", crosses(one.from, one.to)}});
-  }
-  for (const exec::CallPlan& one : plan.calls) {
-    all.push_back({{"kind", one.operation->is_command() ? "command" : "operation"},
-                   {"from", path(*one.requirement)},
-                   {"to", path(*one.operation)},
-                   {"crosses_threads", crosses(one.caller, one.callee)}});
   }
   return all;
 }
@@ -212,7 +194,7 @@ Json modes(const exec::Blueprint& blueprint) {
 std::string checked_as_json(const Checked& checked, const CheckedForm& form) {
   const bool ok = checked.diagnostics.ok();
   const Json json = {
-      {"format", kFormat},
+      {"format", internal::kCheckedFormat},
       {"file", checked.file},
       {"application", checked.blueprint.name},
       {"ok", ok},

@@ -10,6 +10,7 @@
 #include "armature/base/time.hpp"
 #include "armature/exec/observing/log_history.hpp"
 #include "armature/exec/pace.hpp"
+#include "armature/inspect/connections.hpp"
 #include "armature/inspect/describe.hpp"
 #include "armature/inspect/status.hpp"
 #include "armature/types/enum.hpp"
@@ -137,6 +138,10 @@ class View {
   /// @param values  kIncluded: how it stands and its values, all at one moment. kLeftOut: its
   ///                thread is not asked, and how it stood may be an earlier time's.
   virtual ComponentDescription describe(const std::string& component, Values values) = 0;
+
+  /// Those of which both ends are at components that are asked for.
+  virtual std::vector<Connection> connections(const Which& which) = 0;
+  std::vector<Connection> connections() { return connections(everyone); }
 
   /// Values by their items, `Joint1.Position`, `Sensor.sensor[2]` (counted from 1),
   /// `Settings.Gains.kp`: of each component all at one moment. What is wrong with one item is its

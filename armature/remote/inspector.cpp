@@ -135,6 +135,12 @@ class Inspector::Service final : public InspectorService {
     });
   }
 
+  void connections(ReplyOf<std::vector<ConnectionDetails>> reply) override {
+    in_control(reply, [this, readable = readable(reply)] {
+      return each(view_.connections(readable), [](const auto& one) { return to_wire(one); });
+    });
+  }
+
   void read(const std::vector<std::string>& items, ReplyOf<std::vector<ItemValue>> reply) override {
     if (items.size() > kMostItems) {
       throw Failure("at most " + std::to_string(kMostItems) + " values are read at once, not " +

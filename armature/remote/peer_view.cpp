@@ -179,6 +179,14 @@ ComponentDescription PeerView::describe(const std::string& component, inspect::V
   return with_values ? now : bare;
 }
 
+std::vector<inspect::Connection> PeerView::connections(const Which& which) {
+  auto all = all_told_by(client_->inspector.connections(kPatient));
+  std::erase_if(all, [&](const inspect::Connection& one) {
+    return !which(inspect::component_of_end(one.from)) || !which(inspect::component_of_end(one.to));
+  });
+  return all;
+}
+
 std::vector<inspect::ItemValue> PeerView::read(const std::vector<std::string>& items) {
   return all_told_by(client_->inspector.read(items, kPatient));
 }

@@ -34,6 +34,8 @@ class PeerView final : public inspect::View {
   /// Without values as it was described last, until `forget`.
   inspect::ComponentDescription describe(const std::string& component,
                                          inspect::Values values) override;
+  using View::connections;
+  std::vector<inspect::Connection> connections(const Which& which) override;
   std::vector<inspect::ItemValue> read(const std::vector<std::string>& items) override;
   inspect::ItemValue write(const std::string& item, const std::string& value) override;
   inspect::CallResult call(const std::string& component, const std::string& operation,

@@ -2,6 +2,7 @@
 // The two sources of a view are asked the same about one application.
 #include "armature/remote/peer_view.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <limits>
@@ -47,6 +48,7 @@ using inspect::Values;
 using inspect::View;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// Has one of everything that Axis and Settings have not.
 class Witness final : public Component {
@@ -202,6 +204,39 @@ TEST_F(Views, AgreeOnWhoDoesNotRunAndWhy) {
   ASSERT_EQ(faults.components.size(), 1u);
   EXPECT_EQ(faults.components.front().reason, "it smokes");
   EXPECT_EQ(there([&](View& view) { return view.faults(only_axis); }), faults);
+}
+
+TEST_F(Views, AgreeOnWhatLeadsWhere) {
+  expect_same([](View& view) { return view.connections(); });
+  const auto all = here([](View& view) { return view.connections(); });
+  const auto leads = [&](const std::string& kind, const std::string& from, const std::string& to) {
+    return std::ranges::any_of(all, [&](const inspect::Connection& one) {
+      return one.kind == kind && one.from == from && one.to == to;
+    });
+  };
+  EXPECT_TRUE(leads("data", "Axis.Position", "Witness.Place"));
+  EXPECT_TRUE(leads("operation", "Witness.sum", "Settings.sum"));
+  const auto without_axis = [](const std::string& name) { return name != "Axis"; };
+  const auto rest = [&](View& view) { return view.connections(without_axis); };
+  expect_same(rest);
+  EXPECT_LT(here(rest).size(), all.size());
+  EXPECT_THAT(here(rest), Not(IsEmpty()));
+}
+
+TEST_F(Views, TellOnlyOfWiresWhoseEndsTheSenderMayReadBoth) {
+  Inspector guarded(robot_.application(), queue_);
+  ride::NodeOptions options;
+  options.allows = [](const ride::AccessQuestion& asked) { return asked.component != "Axis"; };
+  ride::Node node(options);
+  ASSERT_TRUE(node.add(Inspector::kName, guarded.service()).ok());
+  there_.emplace(client_.connect(node.listen("tcp://127.0.0.1:0").value().text()));
+  ASSERT_TRUE(there_->wait_until_connected(20s).ok());
+  const auto told = there([](View& view) { return view.connections(); });
+  const auto without_axis = [](const std::string& name) { return name != "Axis"; };
+  EXPECT_EQ(told, here([&](View& view) { return view.connections(without_axis); }));
+  EXPECT_NE(told, here([](View& view) { return view.connections(); }));
+  there_.reset();
+  node.remove(guarded.service());
 }
 
 TEST_F(Views, AgreeOnEveryComponentWithItsValues) {

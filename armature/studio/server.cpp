@@ -2,92 +2,42 @@
 #include "armature/studio/server.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "armature/platform/clock.hpp"
-#include "armature/platform/file.hpp"
 #include "armature/platform/sockets/poller.hpp"
 #include "armature/ride/node.hpp"
-#include "armature/ride/policy.hpp"
+#include "armature/studio/internal/elsewhere/server.hpp"
+#include "armature/studio/internal/entrance.hpp"
+#include "armature/studio/internal/every.hpp"
 #include "armature/studio/internal/relay.hpp"
 #include "armature/studio/internal/workbench.hpp"
-#include "armature/websocket/transport.hpp"
 
 namespace armature::studio {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using namespace internal;
 
-constexpr const char* kRunName = "run";
 constexpr base::Duration kRunPeriod = 100ms;
 constexpr base::Duration kSeatPeriod = 250ms;
 constexpr base::Duration kDiskPeriod = 1s;
 
-/// A short name for a long path (FNV-1a).
-std::string name_for(const std::string& path) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char byte : path) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211u;
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-
-/// The folder of a deployment among those that studios have left.
-std::string folder_of(const ServerOptions& options, base::Diagnostics& diagnostics) {
-  std::error_code failure;
-  const fs::path file = fs::weakly_canonical(options.file, failure);
-  const fs::path folder = fs::path(options.folder) / name_for(file.string());
-  fs::create_directories(folder, failure);
-  if (failure) {
-    diagnostics.error({}, "cannot make the folder '" + folder.string() + "': " + failure.message());
-    return {};
-  }
-  // What lets pages in, logs of runs, and a socket by which they are commanded: for nobody else.
-  fs::permissions(folder, fs::perms::owner_all, failure);
-  if (failure) {
-    diagnostics.error({}, "cannot keep the folder '" + folder.string() +
-                              "' for this account alone: " + failure.message());
-    return {};
-  }
-  return folder.string();
-}
-
-/// Something to be done each `period`.
-class Every {
- public:
-  explicit Every(base::Duration period) : period_(period) {}
-  bool is_due(base::Time now) {
-    if (now < due_) return false;
-    due_ = now + period_;
-    return true;
-  }
-
- private:
-  const base::Duration period_;
-  base::Time due_ = base::Time::min();
-};
-
 class StudioServer final : public Server {
  public:
-  StudioServer(const ServerOptions& options, std::string folder, platform::FolderLock lock,
-               std::unique_ptr<platform::Poller> poller,
-               std::shared_ptr<websocket::Transport> transport, ride::NodeOptions node)
-      : lock_(std::move(lock)),
+  StudioServer(const ServerOptions& options, Entrance entrance,
+               std::unique_ptr<platform::Poller> poller)
+      : lock_(std::move(*entrance.lock)),
         poller_(std::move(poller)),
-        transport_(std::move(transport)),
-        desk_({options.file, options.program, options.arguments, std::move(folder)},
+        transport_(std::move(entrance.transport)),
+        desk_({options.file, options.program, options.arguments, entrance.folder},
               {[this] { project_changed_ = true; }, [this] { run_changed_ = true; }}),
         relay_(kRunName, seat_, [this] { poller_->wake(); }),
-        stops_(relay_, desk_.run()),
+        stops_(relay_, [this](const std::string&) { return desk_.run().stop(); }),
         workbench_(desk_, seat_, stops_, queue_, [this] { poller_->wake(); }),
-        node_(std::move(node)) {}
+        node_(std::move(entrance.node)) {}
 
   ~StudioServer() override {
     queue_.close();
@@ -167,41 +117,25 @@ class StudioServer final : public Server {
   ride::Node node_;
 };
 
-/// Without a policy whoever has the page's address may do all.
-std::function<bool(const ride::AccessQuestion&)> allowance(const std::string& policy_file,
-                                                           base::Diagnostics& diagnostics) {
-  if (policy_file.empty()) return [](const ride::AccessQuestion&) { return true; };
-  ride::Policy policy = ride::Policy::load(policy_file, diagnostics);
-  policy.check({Workbench::kName, kRunName}, diagnostics);
-  return [policy](const ride::AccessQuestion& question) { return policy.allows(question); };
+std::unique_ptr<Server> make_file_server(const ServerOptions& options,
+                                         base::Diagnostics& diagnostics) {
+  std::error_code unknown;
+  const auto path = std::filesystem::weakly_canonical(options.file, unknown);
+  auto entrance = make_entrance(options, path.string(), diagnostics);
+  auto poller = platform::Poller::make();
+  if (!poller) diagnostics.error({}, poller.error());
+  if (!diagnostics.ok()) return nullptr;
+  auto server =
+      std::make_unique<StudioServer>(options, std::move(*entrance), std::move(poller.value()));
+  if (!server->listen(options.listen, diagnostics)) return nullptr;
+  return server;
 }
 
 }  // namespace
 
 std::unique_ptr<Server> Server::make(const ServerOptions& options, base::Diagnostics& diagnostics) {
-  const std::string folder = folder_of(options, diagnostics);
-  if (folder.empty()) return nullptr;
-  auto lock = platform::FolderLock::take(folder);
-  if (!lock)
-    diagnostics.error({}, "another studio has '" + options.file + "' open: " + lock.error());
-  auto poller = platform::Poller::make();
-  if (!poller) diagnostics.error({}, poller.error());
-  auto transport = websocket::make_transport({.pages = options.pages,
-                                              .certificate = options.certificate,
-                                              .key = options.key,
-                                              .secrets = (fs::path(folder) / "entry").string()},
-                                             diagnostics);
-  ride::NodeOptions node;
-  node.name = "studio";
-  node.log = options.log;
-  node.allows = allowance(options.policy, diagnostics);
-  node.transports.push_back(transport);
-  if (!diagnostics.ok()) return nullptr;
-  auto server = std::make_unique<StudioServer>(options, folder, std::move(lock.value()),
-                                               std::move(poller.value()), std::move(transport),
-                                               std::move(node));
-  if (!server->listen(options.listen, diagnostics)) return nullptr;
-  return server;
+  return options.elsewhere ? make_elsewhere_server(options, diagnostics)
+                           : make_file_server(options, diagnostics);
 }
 
 }  // namespace armature::studio

@@ -9,13 +9,17 @@
 
 #include "armature/base/diagnostic.hpp"
 #include "armature/base/time.hpp"
+#include "armature/ride/transport.hpp"
 #include "armature/rt/log.hpp"
 
 namespace armature::studio {
 
 /// What a studio works on, and where it listens.
 struct ServerOptions {
-  std::string file;         ///< the deployment; it need not be there yet
+  std::string file;        ///< the deployment, which need not be there yet; or an address
+  bool elsewhere = false;  ///< it is the address of an application that runs
+  /// To reach it by, beside TCP and Unix-domain sockets.
+  std::vector<std::shared_ptr<ride::Transport>> transports;
   std::string listen;       ///< `ws://127.0.0.1:8080`, or with a certificate `wss://0.0.0.0:8443`
   std::string certificate;  ///< file in PEM form; empty: nothing is encrypted
   std::string key;          ///< its private key
@@ -28,7 +32,8 @@ struct ServerOptions {
 };
 
 /// `armature studio`: a deployment's texts, checks and runs for pages in browsers, which are peers
-/// of RIDE (workbench.idl). Checks and runs are processes of their own.
+/// of RIDE (workbench.idl), or an application that runs elsewhere. Checks and runs are processes of
+/// their own.
 class Server {
  public:
   /// Listens; nothing after an error.

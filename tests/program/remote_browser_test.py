@@ -276,24 +276,30 @@ def openssl(folder, *arguments):
     subprocess.run(["openssl", *arguments], cwd=folder, check=True, capture_output=True)
 
 
+def make_certificates(folder):
+    """Of an authority, a robot at 127.0.0.1 and its operator."""
+    key = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-noenc")
+    openssl(folder, "req", "-x509", *key, "-keyout", "authority.key", "-out", "authority.pem",
+            "-subj", "/CN=test")
+    with open(os.path.join(folder, "ext"), "w", encoding="utf-8") as file:
+        file.write("subjectAltName=IP:127.0.0.1\n")
+    for name in ("robot", "operator"):
+        openssl(folder, "req", *key, "-keyout", name + ".key", "-out", name + ".csr", "-subj",
+                "/CN=" + name)
+        openssl(folder, "x509", "-req", "-in", name + ".csr", "-CA", "authority.pem", "-CAkey",
+                "authority.key", "-CAcreateserial", "-extfile", "ext", "-out", name + ".pem")
+
+
+TLS = ", tls: {certificate: robot.pem, key: robot.key, authority: authority.pem}"
+
+
 @unittest.skipUnless(shutil.which("openssl"), "there is no openssl")
 class Tls(unittest.TestCase):
     def test_the_policy_knows_the_operator_by_the_certificate(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        key = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-noenc")
-        openssl(folder.name, "req", "-x509", *key, "-keyout", "authority.key", "-out",
-                "authority.pem", "-subj", "/CN=test")
-        with open(os.path.join(folder.name, "ext"), "w", encoding="utf-8") as file:
-            file.write("subjectAltName=IP:127.0.0.1\n")
-        for name in ("robot", "operator"):
-            openssl(folder.name, "req", *key, "-keyout", name + ".key", "-out", name + ".csr",
-                    "-subj", "/CN=" + name)
-            openssl(folder.name, "x509", "-req", "-in", name + ".csr", "-CA", "authority.pem",
-                    "-CAkey", "authority.key", "-CAcreateserial", "-extfile", "ext", "-out",
-                    name + ".pem")
-        robot = Robot(folder.name, "allow operator@tls read,command *\n", "tls://127.0.0.1:0",
-                      ", tls: {certificate: robot.pem, key: robot.key, authority: authority.pem}")
+        make_certificates(folder.name)
+        robot = Robot(folder.name, "allow operator@tls read,command *\n", "tls://127.0.0.1:0", TLS)
         self.addCleanup(robot.stop)
         place = folder.name + "/"
         done = subprocess.run(

@@ -117,6 +117,16 @@ Json list(const auto& items, const auto&... how) {
 
 }  // namespace
 
+Json connection_json(const Connection& connection) {
+  Json json = {{"kind", connection.kind}, {"from", connection.from}, {"to", connection.to}};
+  if (connection.kind == "data") {
+    json["triggers"] = connection.triggers;
+    json["delayed"] = connection.delayed;
+  }
+  json["crosses_threads"] = connection.crosses_threads;
+  return json;
+}
+
 void add_members(const ComponentDescription& description, const char* value_key, Json& to) {
   to["properties"] = list(description.properties, value_key);
   to["inputs"] = list(description.inputs);

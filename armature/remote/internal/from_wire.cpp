@@ -191,6 +191,10 @@ inspect::ComponentDescription from_wire(const ComponentDetails& from) {
   return to;
 }
 
+inspect::Connection from_wire(const ConnectionDetails& from) {
+  return {from.kind, from.from, from.to, from.triggers, from.delayed, from.crosses_threads};
+}
+
 inspect::ItemValue from_wire(const ItemValue& from) {
   return {
       from.item, from.kind, from.type, from.unit, from.value, from.written, duration_of(from.age),

@@ -135,6 +135,10 @@ ComponentDetails to_wire(const inspect::ComponentDescription& from) {
   return to;
 }
 
+ConnectionDetails to_wire(const inspect::Connection& from) {
+  return {from.kind, from.from, from.to, from.triggers, from.delayed, from.crosses_threads};
+}
+
 ItemValue to_wire(const inspect::ItemValue& from) {
   return {from.item,
           from.kind,

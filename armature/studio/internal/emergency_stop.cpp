@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "armature/studio/internal/relay.hpp"
-#include "armature/studio/internal/run.hpp"
 
 namespace armature::studio::internal {
 
@@ -68,7 +67,9 @@ void EmergencyStops::look(base::Time now) {
 /// Of one that nobody else ends any more.
 void EmergencyStops::end(Pressed& pressed, const std::string& why_stop) {
   if (why_stop.empty()) return pressed.told(pressed.outcome);
-  if (const auto stopped = run_.stop(); !stopped) return pressed.told(base::Error{stopped.error()});
+  if (const auto stopped = stop_run_(why_stop); !stopped) {
+    return pressed.told(base::Error{stopped.error()});
+  }
   Outcome outcome;
   {
     const std::scoped_lock lock(mutex_);

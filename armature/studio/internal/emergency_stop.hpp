@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/base/result.hpp"
@@ -14,11 +15,9 @@
 namespace armature::studio::internal {
 
 class Relay;
-class Run;
 
 /// Ends what a run does, by the run's own `disarm`; a run that does not confirm it in time, that
-/// has none, or that has not said what it has is stopped, the second time without order
-/// (Run::stop).
+/// has none, or that has not said what it has is stopped, if it is the studio's own.
 /// @thread any
 class EmergencyStops {
  public:
@@ -31,10 +30,13 @@ class EmergencyStops {
   };
   using Told = std::function<void(const base::Result<Outcome>&)>;
 
-  EmergencyStops(Relay& relay, Run& run) : relay_(relay), run_(run) {}
+  /// Stops the run; the error says why it cannot, and `why` it should have.
+  using StopRun = std::function<base::Result<void>(const std::string& why)>;
+
+  EmergencyStops(Relay& relay, StopRun stop_run) : relay_(relay), stop_run_(std::move(stop_run)) {}
 
   /// Acts at once.
-  /// @param told  called once, by this thread or another one; the error: nothing runs
+  /// @param told  called once, by this thread or another one; the error: the run cannot be stopped
   void press(base::Time now, Told told);
   /// Stops runs that have not confirmed in time.
   void look(base::Time now);
@@ -46,7 +48,7 @@ class EmergencyStops {
   void end(Pressed& pressed, const std::string& why_stop);
 
   Relay& relay_;
-  Run& run_;
+  const StopRun stop_run_;
   std::mutex mutex_;  ///< of the next, and of what they have
   std::vector<std::shared_ptr<Pressed>> pressed_;
 };

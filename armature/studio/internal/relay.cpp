@@ -70,9 +70,11 @@ auto decoded(WatchedRun::Told<T> told) {
 
 }  // namespace
 
-Relay::Connection::Connection(const std::string& address, const std::function<void()>& wake)
+Relay::Connection::Connection(std::unique_ptr<ride::Node> own_node, ride::Peer& peer,
+                              const std::function<void()>& wake)
     : watches(std::make_shared<WatchUnion>(wake, platform::monotonic_now)),
-      inspector(node.connect(address), remote::Inspector::kName, remote::kInspector) {}
+      node(std::move(own_node)),
+      inspector(peer, remote::Inspector::kName, remote::kInspector) {}
 
 void Relay::Connection::watch(const std::vector<std::string>& items, double interval,
                               Told<remote::Watch> told) {
@@ -94,7 +96,15 @@ Relay::Relay(std::string name, Seat& seat, std::function<void()> wake)
     : Service(remote::kInspector), name_(std::move(name)), seat_(seat), wake_(std::move(wake)) {}
 
 void Relay::connect(const std::string& address) {
-  auto made = std::make_shared<Connection>(address, wake_);
+  auto node = std::make_unique<ride::Node>();
+  ride::Peer& peer = node->connect(address);
+  take(std::make_shared<Connection>(std::move(node), peer, wake_));
+}
+
+void Relay::connect(ride::Peer& peer) { take(std::make_shared<Connection>(nullptr, peer, wake_)); }
+
+/// The one before ends without the lock.
+void Relay::take(std::shared_ptr<Connection> made) {
   const std::scoped_lock lock(mutex_);
   connection_.swap(made);
 }

@@ -43,6 +43,8 @@ class Relay final : public ride::Service {
   /// From now on it is the one at this address.
   /// @thread any but the node's own, as for those below
   void connect(const std::string& address);
+  /// Likewise the one of a peer, which outlives the connection.
+  void connect(ride::Peer& peer);
   /// There is none.
   void disconnect();
   /// There is one; it has been found, and has described its components.
@@ -80,7 +82,8 @@ class Relay final : public ride::Service {
   };
   /// A run, as long as it can be asked.
   struct Connection final : WatchedRun {
-    Connection(const std::string& address, const std::function<void()>& wake);
+    Connection(std::unique_ptr<ride::Node> own_node, ride::Peer& peer,
+               const std::function<void()>& wake);
     void watch(const std::vector<std::string>& items, double interval,
                Told<remote::Watch> told) override;
     void watched(std::int32_t handle, Told<remote::WatchedValues> told) override;
@@ -88,12 +91,13 @@ class Relay final : public ride::Service {
 
     const std::shared_ptr<Learned> learned = std::make_shared<Learned>();
     const std::shared_ptr<WatchUnion> watches;
-    ride::Node node;
+    const std::unique_ptr<ride::Node> node;  ///< none: the peer is of somebody else's
     Inspector inspector;
   };
 
   ride::Executed execute(ride::Number operation, ride::Decoder& parameters,
                          ride::Reply& reply) override;
+  void take(std::shared_ptr<Connection> made);
   std::shared_ptr<Connection> connection() const;
   static bool serve_watch(Connection& run, std::string_view operation,
                           std::span<const std::byte> body, ride::Reply& reply);

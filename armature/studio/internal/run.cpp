@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/studio/internal/run.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -99,8 +98,7 @@ base::Result<void> Run::start(const RunOrder& order) {
   simulated_ = order.simulated;
   version_ = order.version;
   exit_code_ = 0;
-  log_begin_ = log_end();
-  lines_.clear();
+  kept_.begin_anew();
   rest_.clear();
   log_read_ = 0;
   write_note();
@@ -161,21 +159,10 @@ bool Run::read_log() {
   rest_ += text;
   std::size_t begin = 0;
   for (std::size_t end = 0; (end = rest_.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    lines_.push_back(rest_.substr(begin, end - begin));
+    kept_.add(rest_.substr(begin, end - begin));
   }
   rest_.erase(0, begin);
-  while (lines_.size() > kMostLines) {
-    lines_.pop_front();
-    ++log_begin_;
-  }
   return true;
-}
-
-std::vector<std::string> Run::log(std::int32_t from, std::size_t count) const {
-  const auto first = static_cast<std::size_t>(std::clamp(from, log_begin_, log_end()) - log_begin_);
-  const std::size_t last = std::min(lines_.size(), first + count);
-  return {lines_.begin() + static_cast<std::ptrdiff_t>(first),
-          lines_.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
 }  // namespace armature::studio::internal

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "armature/base/result.hpp"
 #include "armature/platform/child_process.hpp"
+#include "armature/studio/internal/kept_lines.hpp"
 
 namespace armature::studio::internal {
 
@@ -31,8 +31,6 @@ enum class RunStage { kNone, kStarting, kRunning, kStopping, kEnded };
 /// @thread one
 class Run {
  public:
-  static constexpr std::size_t kMostLines = 10'000;
-
   /// Finds the run that an earlier studio has left.
   /// @param command  the program, and arguments for every run behind `run FILE`
   /// @param folder   for what a run leaves: its socket, its log, which process it is
@@ -63,10 +61,12 @@ class Run {
   int process() const { return id_; }
   std::string address() const { return "unix:" + socket(); }
 
-  std::int32_t log_begin() const { return log_begin_; }
-  std::int32_t log_end() const { return log_begin_ + static_cast<std::int32_t>(lines_.size()); }
+  std::int32_t log_begin() const { return kept_.begin(); }
+  std::int32_t log_end() const { return kept_.end(); }
   /// From line `from` on, at most `count`.
-  std::vector<std::string> log(std::int32_t from, std::size_t count) const;
+  std::vector<std::string> log(std::int32_t from, std::size_t count) const {
+    return kept_.lines(from, count);
+  }
 
  private:
   std::string socket() const { return folder_ + "/run.sock"; }
@@ -91,8 +91,7 @@ class Run {
   bool simulated_ = false;
   std::int32_t version_ = 0;
   int exit_code_ = 0;
-  std::deque<std::string> lines_;
-  std::int32_t log_begin_ = 0;
+  KeptLines kept_;
   std::size_t log_read_ = 0;  ///< bytes of the log's file
   std::string rest_;          ///< of a line that is not whole yet
 };

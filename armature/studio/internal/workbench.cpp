@@ -3,9 +3,7 @@
 
 #include <utility>
 
-#include "armature/base/seconds.hpp"
 #include "armature/inspect/checked_json.hpp"
-#include "armature/platform/clock.hpp"
 #include "armature/platform/file.hpp"
 #include "armature/studio/internal/description.hpp"
 
@@ -16,22 +14,7 @@ constexpr std::size_t kLogLinesAtOnce = 500;
 
 }  // namespace
 
-/// Has `work` done at the desk, with the reply that it owes.
-template <typename Result, typename Work>
-void Workbench::later(ride::ReplyOf<Result>& reply, Work work) {
-  const auto owed = std::make_shared<ride::PendingReplyOf<Result>>(reply.keep());
-  const bool taken = queue_.post([owed, work = std::move(work)] {
-    try {
-      work(*owed);
-    } catch (const ride::Failure& failure) {
-      owed->fail(failure.what());
-    }
-  });
-  if (!taken) owed->fail("the studio has too much to do: ask again");
-  wake_();
-}
-
-/// Likewise for what changes texts: the reply is what became of it.
+/// What changes texts, at the desk: the reply is what became of it.
 template <typename Work>
 void Workbench::change(ride::ReplyOf<Outcome>& reply, Work work) {
   later(reply, [this, work = std::move(work)](auto& owed) { owed.put(outcome_of(work(desk_))); });
@@ -137,16 +120,17 @@ Checker::Then Workbench::forward(ride::ReplyOf<std::string>& reply) {
 void Workbench::fitting(const std::string& component, const std::string& member,
                         ride::ReplyOf<std::string> reply) {
   // Let go of, a reply that is owed tells so.
-  [[maybe_unused]] const bool taken = queue_.post([this, component, member, then = forward(reply)] {
-    desk_.ask_fitting(component, member, then);
-  });
-  wake_();
+  [[maybe_unused]] const bool taken =
+      queue().post([this, component, member, then = forward(reply)] {
+        desk_.ask_fitting(component, member, then);
+      });
+  wake();
 }
 
 void Workbench::models(ride::ReplyOf<std::string> reply) {
   [[maybe_unused]] const bool taken =
-      queue_.post([this, then = forward(reply)] { desk_.ask_models(then); });
-  wake_();
+      queue().post([this, then = forward(reply)] { desk_.ask_models(then); });
+  wake();
 }
 
 void Workbench::places(ride::ReplyOf<std::string> reply) {
@@ -160,7 +144,7 @@ void Workbench::places(ride::ReplyOf<std::string> reply) {
 void Workbench::start(const RunSettings& settings, ride::ReplyOf<RunState> reply) {
   if (!settings.overrides.empty()) {
     reply.demand(kName, ride::Access::kConfigure);
-    const auto sits = seat_.demand(reply.origin());
+    const auto sits = seats().demand(reply.origin());
     if (!sits) throw ride::Failure("overrides are the operator's: " + sits.error());
   }
   later(reply, [this, settings](auto& owed) {
@@ -196,54 +180,6 @@ void Workbench::description(const std::string& path, ride::ReplyOf<std::string> 
     owed.put(std::move(text.value()));
   });
 }
-
-void Workbench::emergency_stop(ride::ReplyOf<EmergencyStop> reply) {
-  const auto owed = std::make_shared<ride::PendingReplyOf<EmergencyStop>>(reply.keep());
-  stops_.press(platform::monotonic_now(), [owed](const auto& outcome) {
-    if (outcome) {
-      owed->put({outcome.value().disarmed, outcome.value().stopped});
-    } else {
-      owed->fail(outcome.error());
-    }
-  });
-}
-
-void Workbench::seat(ride::ReplyOf<SeatState> reply) { reply.put(seat_state(reply)); }
-
-void Workbench::take_seat(ride::ReplyOf<SeatState> reply) {
-  seat_state(reply);  // from now on who asks is known
-  seated(seat_.take(reply.origin()), reply);
-}
-
-void Workbench::hand_over(std::int32_t guest, ride::ReplyOf<SeatState> reply) {
-  seated(seat_.hand_over(reply.origin(), guest), reply);
-}
-
-void Workbench::leave_seat(ride::ReplyOf<SeatState> reply) {
-  seated(seat_.leave(reply.origin()), reply);
-}
-
-void Workbench::hold_key(bool down, ride::ReplyOf<double> reply) {
-  const auto held = seat_.hold_key(reply.origin(), down, platform::monotonic_now());
-  if (!held) throw ride::Failure(held.error());
-  reply.put(base::to_seconds(held.value()));
-}
-
-SeatState Workbench::seat_state(const ride::ReplyOf<SeatState>& reply) {
-  const bool may_operate = reply.allows(kName, ride::Access::kCommand);
-  const Seat::State state = seat_.state(reply.origin(), may_operate);
-  SeatState told{state.you, state.holder, {}};
-  for (const auto& [number, who, may] : state.guests) told.guests.push_back({number, who, may});
-  return told;
-}
-
-void Workbench::seated(const base::Result<void>& result, ride::ReplyOf<SeatState>& reply) {
-  if (!result) throw ride::Failure(result.error());
-  wake_();
-  reply.put(seat_state(reply));
-}
-
-void Workbench::tell_seat(std::int32_t holder) { publish(SeatChanged{holder}); }
 
 void Workbench::tell_project() {
   publish(ProjectChanged{desk_.project().version(), desk_.checked()});

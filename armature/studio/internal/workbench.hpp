@@ -2,35 +2,24 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <utility>
 
-#include "armature/remote/control_queue.hpp"
 #include "armature/studio/internal/desk.hpp"
-#include "armature/studio/internal/emergency_stop.hpp"
-#include "armature/studio/internal/seat.hpp"
-#include "workbench_service.hpp"
+#include "armature/studio/internal/operators_bench.hpp"
 
 namespace armature::studio::internal {
 
-/// The desk for pages: requests wait in a queue for the thread that works at the desk. What ends a
-/// motion, and who may begin one, waits for nothing there.
-class Workbench final : public WorkbenchService {
+/// The desk for pages: requests wait in a queue for the thread that works at the desk.
+class Workbench final : public OperatorsBench {
  public:
-  /// As which pages know it, also in policies.
-  static constexpr const char* kName = "workbench";
-
-  /// @param queue  of the desk's thread
-  /// @param wake   has it look there
   Workbench(Desk& desk, Seat& seat, EmergencyStops& stops, remote::ControlQueue& queue,
             std::function<void()> wake)
-      : desk_(desk), seat_(seat), stops_(stops), queue_(queue), wake_(std::move(wake)) {}
+      : OperatorsBench(seat, stops, queue, std::move(wake)), desk_(desk) {}
 
   /// Tells pages that something is other than before.
   /// @thread the desk's
   void tell_project();
   void tell_run();
-  /// @thread any
-  void tell_seat(std::int32_t holder);
 
  private:
   void project(ride::ReplyOf<ProjectState> reply) override;
@@ -52,17 +41,7 @@ class Workbench final : public WorkbenchService {
   void run(ride::ReplyOf<RunState> reply) override;
   void log(std::int32_t from, ride::ReplyOf<std::vector<std::string>> reply) override;
   void description(const std::string& path, ride::ReplyOf<std::string> reply) override;
-  void emergency_stop(ride::ReplyOf<EmergencyStop> reply) override;
-  void seat(ride::ReplyOf<SeatState> reply) override;
-  void take_seat(ride::ReplyOf<SeatState> reply) override;
-  void hand_over(std::int32_t guest, ride::ReplyOf<SeatState> reply) override;
-  void leave_seat(ride::ReplyOf<SeatState> reply) override;
-  void hold_key(bool down, ride::ReplyOf<double> reply) override;
 
-  SeatState seat_state(const ride::ReplyOf<SeatState>& reply);
-  void seated(const base::Result<void>& result, ride::ReplyOf<SeatState>& reply);
-  template <typename Result, typename Work>
-  void later(ride::ReplyOf<Result>& reply, Work work);
   template <typename Work>
   void change(ride::ReplyOf<Outcome>& reply, Work work);
   Checker::Then forward(ride::ReplyOf<std::string>& reply);
@@ -73,10 +52,6 @@ class Workbench final : public WorkbenchService {
   Outcome outcome_of(const base::Result<void>& result) const;
 
   Desk& desk_;
-  Seat& seat_;
-  EmergencyStops& stops_;
-  remote::ControlQueue& queue_;
-  const std::function<void()> wake_;
 };
 
 }  // namespace armature::studio::internal

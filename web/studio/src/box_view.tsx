@@ -57,7 +57,7 @@ function SplitField({ box }: { box: Box }) {
 }
 
 /** How the run has it, with what can be done about that. */
-function Live({ box }: { box: Box }) {
+export function Live({ box }: { box: Box }) {
   const components = run.use((all) => all.components);
   const state = boxes_state(box, components);
   if (!state) return null;
@@ -106,7 +106,7 @@ function Properties({ box, defaults }: { box: Box; defaults: Property[] }) {
   );
 }
 
-function Parts({ box }: { box: Box }) {
+export function Parts({ box }: { box: Box }) {
   return (
     <section aria-label="Parts">
       <h3>Parts</h3>

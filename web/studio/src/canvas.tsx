@@ -9,6 +9,7 @@ import { BoxNode, type BoxData, type BoxNodeType } from "./box_node.tsx";
 import { Breadcrumb } from "./breadcrumb.tsx";
 import { port_place, size_of } from "./geometry.ts";
 import { has_nothing_yet } from "./checked.ts";
+import { is_elsewhere, useElsewhere } from "./elsewhere.ts";
 import type { Box, Graph, Wire } from "./graph.ts";
 import type { Lane } from "./lanes.ts";
 import { on_grid, type Point } from "./layout.ts";
@@ -23,6 +24,7 @@ import { open_composite, selection, tell, toggle_opened } from "./selection.ts";
 const kFar = 0.3;           ///< zoomed out further, boxes have no ports
 const kManyBoxes = 100;     ///< from here on only what is in sight is drawn
 const kMostWithoutMap = 10;
+const kDelete = ["Delete", "Backspace"];
 const kSnap: [number, number] = [8, 8];
 const kDragged = "application/x-armature-model";
 const kFitMany = { padding: 0.06, maxZoom: 1 };
@@ -52,6 +54,7 @@ function Flow() {
   const reaching = selection.use((state) => state.reach !== undefined);
   const in_lanes = selection.use((state) => state.lanes);
   const many = graph.boxes.length > kManyBoxes;
+  const fixed = useElsewhere() !== "";
   useReveal();
   useNewInSight(graph);
   const drop = useDrop();
@@ -63,10 +66,10 @@ function Flow() {
         onConnect={wire_made} onConnectStart={wire_begun} onConnectEnd={wire_end} isValidConnection={may_connect}
         connectionMode={ConnectionMode.Loose} connectionRadius={16} onNodeDoubleClick={(_, node) => open_box(node.data.box)}
         onPaneClick={() => selection.set({ boxes: [], wires: [], port: undefined, menu: undefined, commanding: undefined })}
-        onBeforeDelete={async () => (void remove_selected(), false)} deleteKeyCode={["Delete", "Backspace"]}
+        onBeforeDelete={async () => (void remove_selected(), false)} deleteKeyCode={fixed ? null : kDelete} nodesConnectable={!fixed}
         onKeyDown={open_with_key} onDrop={drop} onDragOver={(event) => event.preventDefault()} nodesDraggable={!in_lanes} snapToGrid snapGrid={kSnap} minZoom={0.05} maxZoom={2}
         fitView fitViewOptions={graph.boxes.length > kManyBoxes ? kFitMany : kFit} onlyRenderVisibleElements={many} zoomOnDoubleClick={false}
-        ariaLabelConfig={{ "node.a11yDescription.default": "Arrows move the box, Enter opens a composite, Delete removes it" }}
+        ariaLabelConfig={{ "node.a11yDescription.default": `Arrows move the box, Enter opens a composite${fixed ? "" : ", Delete removes it"}` }}
         proOptions={{ hideAttribution: false }} colorMode="system">
         <Background variant={BackgroundVariant.Dots} gap={24} size={1} />
         <LaneBands lanes={nodes.lanes} />
@@ -97,7 +100,9 @@ function LaneBands({ lanes }: { lanes: Lane[] }) {
 function Empty() {
   const checked = project.use((state) => state.checked);
   const loaded = project.use((state) => state.loaded);
+  const elsewhere = useElsewhere();
   if (!loaded || !checked) return <div className="empty"><p><strong>Reading the deployment …</strong></p></div>;
+  if (elsewhere) return <div className="empty"><p><strong>The application has no component that this studio may read.</strong></p></div>;
   if (!has_nothing_yet(checked)) {
     return (
       <div className="empty">
@@ -217,7 +222,7 @@ function wires_changed(changes: EdgeChange[]): void {
 }
 
 const wire_begun: OnConnectStart = (_, { nodeId, handleId }) => {
-  if (nodeId && handleId) void look_for_ends(nodeId, handleId);
+  if (nodeId && handleId && !is_elsewhere()) void look_for_ends(nodeId, handleId);
 };
 
 function wire_made({ source, sourceHandle, target, targetHandle }: Connection): void {

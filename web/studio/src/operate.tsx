@@ -2,6 +2,7 @@
 import { useState } from "react";
 import { message_of } from "./backend.ts";
 import type { Component, Property } from "./checked.ts";
+import { useElsewhere } from "./elsewhere.ts";
 import { HeldAct } from "./held_act.tsx";
 import { face_of } from "./faces.tsx";
 import { project } from "./project.ts";
@@ -31,10 +32,12 @@ function Word({ component, word }: { component: string; word: Property }) {
 /** Arming, jogging, the controls of the application, and the operations of what is selected. */
 export function Operate() {
   const up = run.use((all) => is_up(all.state));
+  const elsewhere = useElsewhere();
   const components = project.use((state) => state.shown?.components);
-  const box = useSelectedBox();
-  if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
   const models = project.use((state) => state.models);
+  const box = useSelectedBox();
+  if (!up && elsewhere) return <p className="hint">The application is not there.</p>;
+  if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
   const controls = (components ?? []).filter((one) => face_of(models, one.model));
   const armed = (components ?? []).filter((one) => arms(one) || words_of(one).length > 0);
   const jogged = (components ?? []).filter(jogs);
@@ -53,7 +56,7 @@ export function Operate() {
           const Face = face_of(models, one.model)!;
           return <fieldset key={one.name}><legend>{one.name}</legend><Face component={one} /></fieldset>;
         })}
-        {controls.length + jogged.length + armed.length === 0 && <p className="hint">This application has no controls. Add a Button, a Slider or a Light of the library controls.</p>}
+        {controls.length + jogged.length + armed.length === 0 && <p className="hint">{`This application has no controls.${elsewhere ? "" : " Add a Button, a Slider or a Light of the library controls."}`}</p>}
       </div>
       {box && box.components.slice(0, 1).map((one) => <Operations key={one.name} component={one} />)}
       {!box && <p className="hint">Select a box to call its operations.</p>}

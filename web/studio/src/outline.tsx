@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The canvas as a tree, for the keyboard and for screen readers.
 import { useMemo, useRef, useState } from "react";
+import { is_elsewhere, useElsewhere } from "./elsewhere.ts";
 import type { Box, BoxPort, Graph } from "./graph.ts";
 import { change, edit } from "./project.ts";
 import { connect_by_name, look_for_ends, remove_selected, useScene } from "./scene.ts";
@@ -26,6 +27,7 @@ function rows_of(graph: Graph, open: ReadonlySet<string>): Row[] {
 
 export function Outline() {
   const graph = useScene();
+  const elsewhere = useElsewhere();
   const [open, set_open] = useState<ReadonlySet<string>>(new Set());
   const [at, set_at] = useState("");
   const [renamed, set_renamed] = useState("");
@@ -64,7 +66,7 @@ export function Outline() {
                 on_key={(event) => on_key(event, row, index)} on_focus={() => set_at(row.key)} unfold={unfold} />
         ))}
       </ul>
-      {rows.length > 0 && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes <kbd>Ctrl+G</kbd> groups</p>}
+      {rows.length > 0 && !elsewhere && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes <kbd>Ctrl+G</kbd> groups</p>}
     </section>
   );
 }
@@ -78,10 +80,14 @@ interface Moves {
   open: ReadonlySet<string>;
 }
 
+/** Keys that change the deployment. */
+const kEditing = ["F2", "Delete", "c", "C"];
+
 function action_of(event: React.KeyboardEvent, row: Row, moves: Moves): (() => void) | undefined {
   const { box, port } = row;
   if (event.ctrlKey || event.metaKey || event.altKey) return undefined;
   const open = moves.open.has(box.id);
+  if (is_elsewhere() && kEditing.includes(event.key)) return undefined;
   switch (event.key) {
     case "ArrowDown": return () => moves.go(1);
     case "ArrowUp": return () => moves.go(-1);

@@ -5,6 +5,7 @@ import type { Backend } from "./backend.ts";
 import { Canvas } from "./canvas.tsx";
 import { FitMenu } from "./fit_menu.tsx";
 import { Inspector } from "./inspector.tsx";
+import { useElsewhere, why_fixed } from "./elsewhere.ts";
 import { listen_to_keys } from "./keys.ts";
 import { Notices } from "./notices.tsx";
 import { Outline } from "./outline.tsx";
@@ -31,14 +32,15 @@ export function show_page(backend: Backend): void {
 
 function Page() {
   const beside = selection.use((state) => state.beside);
+  const elsewhere = useElsewhere();
   const operating = selection.use((state) => state.tab === "operate");
   useEffect(listen_to_keys, []);
   return (
-    <div className={`studio${beside ? ` with-beside with-${beside}` : ""}${operating ? " operating" : ""}`}>
+    <div className={`studio${beside ? ` with-beside with-${beside}` : ""}${operating ? " operating" : ""}${elsewhere ? " elsewhere" : ""}`}>
       <TopBar />
       <Notices />
       <nav className="left" aria-label="Models and outline">
-        <Palette />
+        {elsewhere ? <p className="hint fixed">{why_fixed(elsewhere)}</p> : <Palette />}
         <Outline />
       </nav>
       <main aria-label="Canvas"><Guard><Canvas /></Guard></main>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { lazy, type ReactNode, Suspense } from "react";
+import { useElsewhere } from "./elsewhere.ts";
 import { has_nothing_yet } from "./checked.ts";
 import { CycleView } from "./cycle_view.tsx";
 import { Log } from "./log.tsx";
@@ -19,13 +20,21 @@ const views: Record<Tab, () => ReactNode> = {
   plot: () => <Suspense fallback={<p className="hint">Opening the plot …</p>}><Plot /></Suspense>,
 };
 
+/** What is about a file. */
+const kOfFiles: readonly Tab[] = ["problems", "modes"];
+
+const tabs_of = (elsewhere: boolean): [Tab, string][] => kTabs.filter(([tab]) => !elsewhere || !kOfFiles.includes(tab));
+
 /** Below the canvas. */
 export function Panel() {
-  const tab = selection.use((state) => state.tab);
+  const elsewhere = useElsewhere() !== "";
+  const tabs = tabs_of(elsewhere);
+  const chosen = selection.use((state) => state.tab);
+  const tab = tabs.some(([key]) => key === chosen) ? chosen : "log";
   return (
     <section className="panel" aria-label="Panel">
-      <div role="tablist" aria-label="Panel" onKeyDown={on_key}>
-        {kTabs.map(([key, label]) => (
+      <div role="tablist" aria-label="Panel" onKeyDown={(event) => on_key(event, tabs, tab)}>
+        {tabs.map(([key, label]) => (
           <button key={key} type="button" role="tab" id={`tab-${key}`} aria-selected={tab === key} aria-controls="panel-view" tabIndex={tab === key ? 0 : -1}
             onClick={() => selection.set({ tab: key })}>{label}{key === "problems" && <Count />}</button>
         ))}
@@ -35,11 +44,11 @@ export function Panel() {
   );
 }
 
-function on_key(event: React.KeyboardEvent<HTMLElement>): void {
+function on_key(event: React.KeyboardEvent<HTMLElement>, tabs: [Tab, string][], tab: Tab): void {
   const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
   if (by === 0) return;
-  const at = kTabs.findIndex(([key]) => key === selection.get().tab);
-  const [next] = kTabs[(at + by + kTabs.length) % kTabs.length]!;
+  const at = tabs.findIndex(([key]) => key === tab);
+  const [next] = tabs[(at + by + tabs.length) % tabs.length]!;
   selection.set({ tab: next });
   event.currentTarget.querySelector<HTMLElement>(`#tab-${next}`)?.focus();
 }

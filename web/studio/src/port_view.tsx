@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { useElsewhere } from "./elsewhere.ts";
 import type { Box, BoxPort } from "./graph.ts";
 import { has_numbers, port_name, PortValue } from "./port_value.tsx";
 import { is_up, run } from "./run.ts";
@@ -9,6 +10,7 @@ export function PortView({ box, port }: { box: Box; port: BoxPort }) {
   const graph = useScene();
   const live = run.use((all) => is_up(all.state));
   const plotted = selection.use((state) => state.plotted.some(({ name }) => name === port_name(box, port)));
+  const elsewhere = useElsewhere();
   const wires = graph.wires.filter(({ from, to }) => [from, to].some((end) => end.box === box.id && end.port === port.id));
   const open = async (event: React.MouseEvent) => {
     const { left, bottom } = event.currentTarget.getBoundingClientRect();
@@ -35,7 +37,7 @@ export function PortView({ box, port }: { box: Box; port: BoxPort }) {
       </ul>
       {wires.length === 0 && <p className="hint">Not connected.</p>}
       <p className="actions">
-        <button type="button" onClick={(event) => void open(event)}>Connect …</button>
+        {!elsewhere && <button type="button" onClick={(event) => void open(event)}>Connect …</button>}
         {has_numbers(port) && <button type="button" aria-pressed={plotted} title={port.ends.length > 1 ? `Draws all ${port.ends.length}` : "Draws its last 60 s"} onClick={() => toggle_plotted(port_name(box, port), port.ends)}>Plot</button>}
       </p>
     </>

@@ -3,6 +3,7 @@
 import { type Backend, type Change, kPatient, message_of, type Outcome, type ProjectState } from "./backend.ts";
 import { with_fix } from "./bytes.ts";
 import type { Checked, Diagnostic, Fix, Model } from "./checked.ts";
+import { keep_here } from "./elsewhere.ts";
 import type { Point } from "./layout.ts";
 import { Store } from "./store.ts";
 import { entries_of, type Texts } from "./written.ts";
@@ -40,7 +41,7 @@ export interface Project {
   question?: Question;
 }
 
-const kNothing: ProjectState = { file: "", version: 0, files: [], undo: "", redo: "", checked: 0, notice: "" };
+const kNothing: ProjectState = { file: "", version: 0, files: [], undo: "", redo: "", checked: 0, elsewhere: "", notice: "" };
 
 export const project = new Store<Project>({
   loaded: false, connected: true, trouble: "", state: kNothing, texts: new Map(), textsVersion: 0, shownTexts: new Map(),
@@ -93,8 +94,8 @@ async function read_all(): Promise<void> {
   const then = await workbench.project(kPatient);
   if (then.version !== state.version) again = true;
   project.set({
-    loaded: true, state, texts, textsVersion: state.version, places: new Map(Object.entries(boxes ?? {})),
-    robots: new Map(Object.entries(robots ?? {})), trouble: "",
+    loaded: true, state, texts, textsVersion: state.version, trouble: "",
+    ...(state.elsewhere ? {} : { places: new Map(Object.entries(boxes ?? {})), robots: new Map(Object.entries(robots ?? {})) }),
     ...what_is_shown(checked, texts, before),
   });
 }
@@ -130,6 +131,7 @@ export interface About {
 
 /** Makes all changes, or none. @return whether they were made */
 export async function edit(changes: Change[], about: About = {}): Promise<boolean> {
+  if (project.get().state.elsewhere && keep_here(changes)) return true;
   const inclusion = await how_to_change(about.file);
   if (inclusion === "no") return false;
   const files = inclusion === "there" ? [about.file!] : [];

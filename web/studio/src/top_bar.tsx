@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { has_nothing_yet } from "./checked.ts";
+import { useElsewhere } from "./elsewhere.ts";
 import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
 import { emergency_stop } from "./emergency.ts";
@@ -32,7 +33,8 @@ export function TopBar() {
 
 function FileState() {
   const state = project.use((all) => all.state);
-  const name = state.file.split("/").pop() || "…";
+  const name = state.elsewhere || state.file.split("/").pop() || "…";
+  if (state.elsewhere) return <div className="file"><h1 title={state.file}>{name}</h1></div>;
   const saved = is_saved(state);
   return (
     <div className="file">
@@ -44,6 +46,9 @@ function FileState() {
 
 function EditButtons() {
   const state = project.use((all) => all.state);
+  if (state.elsewhere) {
+    return <div className="group" role="group" aria-label="Edit"><button type="button" title="Asks the application anew what it is made of, and what its properties are now" onClick={() => void reload()}>Read anew</button></div>;
+  }
   return (
     <div className="group" role="group" aria-label="Edit">
       <button type="button" disabled={!state.undo} title={state.undo ? `Undo ${state.undo} (Ctrl+Z)` : "Nothing to undo"} onClick={() => void undo()}>Undo</button>
@@ -57,22 +62,57 @@ function EditButtons() {
 /** What stands beside the canvas. */
 function ViewButtons() {
   const beside = selection.use((all) => all.beside);
+  const elsewhere = useElsewhere();
   const toggle = (what: Beside) => selection.set({ beside: beside === what ? "" : what });
   return (
     <div className="group" role="group" aria-label="Beside the canvas">
-      <button type="button" aria-pressed={beside === "text"} onClick={() => toggle("text")}>Text</button>
+      {!elsewhere && <button type="button" aria-pressed={beside === "text"} onClick={() => toggle("text")}>Text</button>}
       <button type="button" aria-pressed={beside === "robot"} onClick={() => toggle("robot")}>Robot</button>
     </div>
   );
 }
 
 function RunControls() {
+  return useElsewhere() ? <FarPace /> : <OwnRun />;
+}
+
+/** Of simulated time elsewhere. */
+function FarPace() {
+  const { state } = run.use((all) => all);
+  if (!is_up(state) || !state.simulated) return null;
+  return <div className="group" role="group" aria-label="Simulated time"><Pace going /><Pausing /></div>;
+}
+
+function Pace({ going }: { going: boolean }) {
   const { state, simulated, pace, now } = run.use((all) => all);
+  const rate = now?.rate ?? pace;
+  const known = kPaces.some(([value]) => value === rate);
+  return (
+    <select aria-label="Pace of simulated time" value={String(rate)} disabled={going ? !(is_up(state) && state.simulated) : !simulated}
+      onChange={(event) => void set_pace(Number(event.target.value))}>
+      {kPaces.map(([value, label]) => <option key={label} value={String(value)}>{label}</option>)}
+      {!known && <option value={String(rate)}>{`${rate} ×`}</option>}
+    </select>
+  );
+}
+
+function Pausing() {
+  const { state, now } = run.use((all) => all);
+  const live_sim = is_up(state) && state.simulated;
+  return (
+    <>
+      <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
+      <button type="button" disabled={!live_sim || !now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
+    </>
+  );
+}
+
+function OwnRun() {
+  const { state, simulated } = run.use((all) => all);
   const saved = project.use((all) => is_saved(all.state));
   const errors = project.use((all) => all.checked?.errors ?? 0);
   const empty = project.use((all) => all.checked !== undefined && has_nothing_yet(all.checked));
   const going = is_going(state);
-  const live_sim = is_up(state) && state.simulated;
   return (
     <div className="group" role="group" aria-label="Run">
       <select aria-label="Time" value={simulated ? "simulated" : "real"} disabled={going}
@@ -80,18 +120,14 @@ function RunControls() {
         <option value="simulated">Simulated</option>
         <option value="real">Real time</option>
       </select>
-      <select aria-label="Pace of simulated time" value={String(now?.rate ?? pace)} disabled={going ? !live_sim : !simulated}
-        onChange={(event) => void set_pace(Number(event.target.value))}>
-        {kPaces.map(([value, label]) => <option key={label} value={String(value)}>{label}</option>)}
-      </select>
+      <Pace going={going} />
       <ModeChoice going={going} />
       <RunSettings going={going} />
       <button type="button" className="primary" disabled={going || errors > 0} onClick={() => void start()}
         title={empty ? "Add a component first" : errors > 0 ? "Mend the errors below first" : "Starts the application"}>
         {saved ? "Run" : "Save and run"}
       </button>
-      <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
-      <button type="button" disabled={!live_sim || !now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
+      <Pausing />
     </div>
   );
 }
@@ -127,6 +163,7 @@ function RunTime() {
 
 function state_text(state: string, exit_code: number, paused: boolean): string {
   if (state === "none") return "not run yet";
+  if (state === "lost") return "not there";
   // -1: a run that an earlier studio has started; nobody knows how it ended.
   if (state === "ended") return exit_code <= 0 ? "ended" : `ended with code ${exit_code}`;
   return paused ? "paused" : state;
@@ -135,6 +172,7 @@ function state_text(state: string, exit_code: number, paused: boolean): string {
 /** Always at the same place, and never disabled: what it does is safe at any time. */
 function StopButton() {
   const stopping = run.use((all) => all.state.state === "stopping");
+  if (useElsewhere()) return null;  // it is stopped where it runs
   return (
     <button type="button" className="stop" title="Stops the run in order; a second time at once (Shift+Esc)"
       onClick={() => void stop()}>
@@ -147,7 +185,7 @@ function StopButton() {
 function EmergencyButton() {
   return (
     <button type="button" className="emergency" aria-keyshortcuts="F8" onClick={() => void emergency_stop()}
-      title="Disarms the robot at once; where nothing can be disarmed, stops the run. F8 does it, too, wherever you are. It replaces no emergency switch.">
+      title="Disarms the robot at once; where nothing can be disarmed, stops a run of this studio. F8 does it, too, wherever you are. It replaces no emergency switch.">
       E-stop <small>F8 · replaces no switch</small>
     </button>
   );

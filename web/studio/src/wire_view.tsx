@@ -82,7 +82,7 @@ function Parameters({ between, place, written }: { between: string; place: Place
   );
 }
 
-function facts(wire: Wire): string[] {
+export function facts(wire: Wire): string[] {
   const found: string[] = [];
   if (wire.connections.length > 1) found.push(`stands for ${wire.connections.length} connections`);
   if (wire.triggers) found.push("its data runs the receiver");

@@ -83,7 +83,7 @@ export class MockWorkbench implements Workbench {
     const files = [...this.texts].map(([path, text]) => ({ path, changed: this.saved.get(path) !== text }));
     const undo = this.past.at(-1)?.what ?? "";
     const redo = this.future.at(-1)?.what ?? "";
-    return { file: this.file, version: this.version, files, undo, redo, checked: this.version, notice: "" };
+    return { file: this.file, version: this.version, files, undo, redo, checked: this.version, elsewhere: "", notice: "" };
   }
 
   text = async (path: string): Promise<string> => this.texts.get(path) ?? "";
