@@ -31,8 +31,8 @@ std::shared_ptr<ride::Transport> transport_to(const ApplicationAddress& applicat
                                               base::Diagnostics& diagnostics) {
   const std::string& address = application.address;
   if (address.starts_with(kTls)) {
-    return tls::make_transport(
-        {application.certificate, application.key, application.authority}, diagnostics);
+    return tls::make_transport({application.certificate, application.key, application.authority},
+                               diagnostics);
   }
   if (address.starts_with(kWeb)) {
     return websocket::make_transport({.tokens = application.tokens}, diagnostics);

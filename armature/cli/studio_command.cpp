@@ -7,6 +7,7 @@
 
 #include "armature/cli/application_address.hpp"
 #include "armature/cli/commands.hpp"
+#include "armature/cli/deployment_in.hpp"
 #include "armature/cli/internal/command_line.hpp"
 #include "armature/platform/child_process.hpp"
 #include "armature/platform/elf/shared_object.hpp"
@@ -121,11 +122,13 @@ std::string refusal_of(const StudioArguments& arguments) {
   const bool reaches_encrypted = is_encrypted(address_of(arguments));
   if (!encrypted && !reaches_encrypted &&
       !(arguments.certificate.empty() && arguments.key.empty())) {
-    return "a certificate is for wss:// addresses, and for an application at tls://, found '" +
+    return "a certificate is for wss:// addresses, and for an application at tls:// or wss://, "
+           "found '" +
            address + "'";
   }
   if (!reaches_encrypted && !arguments.authority.empty()) {
-    return "--authority is for an application at a tls:// address, found '" + arguments.file + "'";
+    return "--authority is for an application at a tls:// or wss:// address, found '" +
+           arguments.file + "'";
   }
   return {};
 }
@@ -137,7 +140,16 @@ std::string refusal_of_subject(const StudioArguments& arguments) {
   return address ? wrong_use(address_of(arguments)) : std::string();
 }
 
-int run_studio(const StudioArguments& arguments, const Console& console) {
+int run_studio(const StudioArguments& given, const Console& console) {
+  StudioArguments arguments = given;
+  if (std::filesystem::is_directory(arguments.file)) {
+    const auto deployment = deployment_in(arguments.file);
+    if (!deployment) {
+      console.say(rt::LogLevel::kError, deployment.error());
+      return kWrongUse;
+    }
+    arguments.file = deployment.value();
+  }
   for (const std::string& refusal : {refusal_of_subject(arguments), refusal_of(arguments)}) {
     if (refusal.empty()) continue;
     console.say(rt::LogLevel::kError, refusal);
@@ -176,9 +188,11 @@ void add_studio(const CommandLine& to) {
       "application that runs elsewhere");
   const auto arguments = arguments_of(*command, to, run_studio);
   command
-      ->add_option("file", arguments->file,
-                   "the deployment, which need not be there yet; or the address of an application "
-                   "that runs: tcp://127.0.0.1:4242, unix:/run/robot.sock, tls://robot:4243")
+      ->add_option(
+          "file", arguments->file,
+          "the deployment, which need not be there yet; a folder with one deployment; or the "
+          "address of an application that runs: tcp://127.0.0.1:4242, unix:/run/robot.sock, "
+          "tls://robot:4243, ws://127.0.0.1:8080, wss://robot:8443")
       ->required();
   command
       ->add_option("--listen", arguments->listen,

@@ -47,6 +47,39 @@ class WrongAddresses(unittest.TestCase):
         self.assertIn("'http://robot:4242' is not an address: expected one such as "
                       "tcp://127.0.0.1:4242", done.stderr)
 
+    def test_a_folder_without_a_deployment_is_wrong_use(self):
+        done = self.studio(self.folder.name)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"'{self.folder.name}' has no deployment, a file with `application: NAME`: begin one by its "
+                      f"name, as in `armature studio {self.folder.name}/robot.yaml`", done.stderr)
+
+    def test_of_several_deployments_in_a_folder_one_has_to_be_named(self):
+        deployments = os.path.join(self.folder.name, "deployments")
+        os.mkdir(deployments)
+        for path, text in ((os.path.join(self.folder.name, "b.yaml"), "include: part.yaml\napplication: b\n"),
+                           (os.path.join(self.folder.name, "part.yaml"), "components: {}\n"),
+                           (os.path.join(deployments, "a.yaml"), "application: a\n")):
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        done = self.studio(self.folder.name)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"'{self.folder.name}' has several deployments: name one of them\n"
+                      f"  {self.folder.name}/b.yaml\n  {deployments}/a.yaml", done.stderr)
+
+    def test_the_only_deployment_of_a_folder_is_opened(self):
+        with open(os.path.join(self.folder.name, "head.yaml"), "w", encoding="utf-8") as file:
+            file.write("application: head\n")
+        environment = {**os.environ, "XDG_STATE_HOME": self.folder.name}
+        address = os.path.join(self.folder.name, "page")
+        opened = subprocess.Popen([PROGRAM, "studio", self.folder.name, "--no-open", "--listen", "unix:" + address],
+                                  env=environment, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60
+        while not os.path.exists(address) and opened.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.assertIsNone(opened.poll())
+        opened.send_signal(signal.SIGTERM)
+        self.assertEqual(opened.wait(60), 0)
+
     def test_tls_needs_its_files(self):
         done = self.studio("tls://robot:4243", "--key", "a")
         self.assertEqual(done.returncode, 2)
@@ -55,7 +88,7 @@ class WrongAddresses(unittest.TestCase):
     def test_an_authority_is_for_tls(self):
         done = self.studio("tcp://robot:4243", "--authority", "a")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("--authority is for an application at a tls:// address, found "
+        self.assertIn("--authority is for an application at a tls:// or wss:// address, found "
                       "'tcp://robot:4243'", done.stderr)
 
     def test_files_that_are_not_there_are_told(self):
