@@ -21,7 +21,7 @@ AT_RUN_TIME = (
     [f"cycle/{n}" for n in JOINTS]
     + [f"cycle_threaded/{n}" for n in JOINTS]
     + [f"cycle_threaded_with_work/{n}" for n in JOINTS]
-    + ["port_write_read", "port_write_read/vector", "port_write_read_across_threads", "trigger"]
+    + ["port_write_read", "port_write_read/vector", "port_write_read_across_threads", "trigger", "find_ball"]
     + [f"watched/{n}" for n in (2, 7, 64)]
     + ["operation_call", "operation_send_collect", "event/1", "event/8"]
     + ["latency_1khz/p50", "latency_1khz/p99", "latency_1khz/p99.9", "periods_exact"]

@@ -78,7 +78,7 @@ def fits(checker, rounds):
     times = []
     for _ in range(rounds):
         took, result = checker.ask(do="fitting", component="Source", member="Out", models=True)
-        assert len(result["ends"]) == 4 * ROWS and result["models"]
+        assert len(result["ends"]) == 5 * ROWS and result["models"]
         times.append(took)
     return times
 

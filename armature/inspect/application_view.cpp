@@ -262,13 +262,11 @@ Cycle ApplicationView::cycle(const std::string& thread, const Which& which) {
 LogLines ApplicationView::log(std::uint64_t after, const Which& which) {
   LogLines found;
   std::uint64_t next = after + 1;
-  for (const exec::LogLine& line : application_.log_history().lines()) {
-    if (found.lines.size() == kMostLogLines) break;
-    if (line.number <= after) continue;
+  for (exec::LogLine& line : application_.log_history().lines_after(after, kMostLogLines)) {
     found.left_out += line.number - next;
     next = line.number + 1;
     if (which(line.component)) {
-      found.lines.push_back(line);
+      found.lines.push_back(std::move(line));
     } else {
       ++found.left_out;
     }

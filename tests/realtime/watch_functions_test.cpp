@@ -7,6 +7,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/face.hpp"
 #include "armature/exec/engine.hpp"
+#include "armature/exec/observing/log_history.hpp"
 #include "armature/exec/thread_watch.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -67,6 +68,15 @@ TEST_F(WatchFunctions, EnginesTakeThemAndLetThemGo) {
     engine.detach(second);
   });
   expect_realtime("Engine::detach", [&] { engine.detach(first); });
+}
+
+TEST_F(WatchFunctions, TheLogIsKept) {
+  LogHistory history;
+  const rt::LogRecord record(rt::LogLevel::kInfo, base::Time(1ms), "Arm", "moves");
+  expect_realtime("LogHistory::add", [&] {
+    for (int i = 0; i < 10; ++i) history.add(record);
+  });
+  EXPECT_EQ(history.lines_after(0, 1000).size(), LogHistory::kCapacity);
 }
 
 TEST_F(WatchFunctions, EnginesTakeARecordForTheirNextCycle) {

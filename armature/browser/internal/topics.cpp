@@ -33,7 +33,7 @@ std::vector<Topic> lua_commands() {
        "lists how often each thread ran, how long its cycles take, and its load", ""},
       {"faults", "faults", "lists the components that do not run, and why", ""},
       {"log", "log [COUNT]", "shows the newest lines of the log, 20 unless told otherwise",
-       "log 100\nThe newest 500 lines are kept, also of an application that another process runs."},
+       "log 100\nThe newest 200 lines are kept, also of an application that another process runs."},
       {"start", "start [COMPONENT ...]", "starts a component, configuring it first if necessary",
        "start Joint1\nWithout a name: every component that does not run, writers before readers, "
        "except those that the deployment does not start."},

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/exec/observing/log_history.hpp"
 
+#include <algorithm>
+
 namespace armature::exec {
 
 void LogHistory::add(const rt::LogRecord& record) {
-  if (lines_.size() == kCapacity) lines_.pop_front();
-  lines_.push_back(
-      {++last_, record.time, record.level, std::string(record.component.view()), record.message()});
+  if (records_.size() < kCapacity) {
+    records_.push_back(record);
+  } else {
+    records_[last_ % kCapacity] = record;
+  }
+  ++last_;
+}
+
+std::vector<LogLine> LogHistory::lines_after(std::uint64_t number, std::size_t most) const {
+  std::vector<LogLine> lines;
+  const std::uint64_t before_kept = last_ - records_.size();
+  for (std::uint64_t n = std::max(number, before_kept) + 1; n <= last_ && lines.size() < most;
+       ++n) {
+    const rt::LogRecord& record = records_[(n - 1) % kCapacity];
+    lines.push_back(
+        {n, record.time, record.level, std::string(record.component.view()), record.message()});
+  }
+  return lines;
 }
 
 }  // namespace armature::exec

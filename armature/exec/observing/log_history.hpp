@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <string>
+#include <vector>
 
 #include "armature/base/time.hpp"
 #include "armature/rt/log.hpp"
@@ -22,18 +22,23 @@ struct LogLine {
   bool operator==(const LogLine&) const = default;
 };
 
-/// The newest lines of an application's log, for tools that come later or live elsewhere.
+/// The newest lines of an application's log, for tools that come later or live elsewhere. Lines
+/// become text when somebody asks for them: in simulated time the thread that adds them is the one
+/// that runs components.
 /// @thread the controlling one
 class LogHistory {
  public:
-  static constexpr std::size_t kCapacity = 500;
+  static constexpr std::size_t kCapacity = 200;
 
+  LogHistory() { records_.reserve(kCapacity); }
+
+  /// @rt nonblocking, no allocation
   void add(const rt::LogRecord& record);
-  /// In their order; the oldest are dropped.
-  const std::deque<LogLine>& lines() const { return lines_; }
+  /// Those that are kept and have a greater number, in their order; at most so many.
+  std::vector<LogLine> lines_after(std::uint64_t number, std::size_t most) const;
 
  private:
-  std::deque<LogLine> lines_;
+  std::vector<rt::LogRecord> records_;  ///< a ring once it is full; number n is at (n - 1) % size
   std::uint64_t last_ = 0;
 };
 
