@@ -34,6 +34,14 @@ class Linked {
     }
   }
 
+  ~Linked() {
+    for (auto& process : processes_) {
+      for (Elsewhere* const each : process->elsewhere) each->disconnect();
+    }
+  }
+  Linked(const Linked&) = delete;
+  Linked& operator=(const Linked&) = delete;
+
   Robot& chassis() { return *processes_.front()->robot; }
   void go(BallWay way) {
     const auto done = chassis().application().call("Ball", "go", {types::Value::of(way)});

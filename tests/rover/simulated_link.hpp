@@ -24,6 +24,7 @@
 #include "armature/component/stand_in.hpp"
 #include "armature/exec/application.hpp"
 #include "armature/remote/feed.hpp"
+#include "armature/rt/guard.hpp"
 
 namespace armature::rover {
 
@@ -111,6 +112,12 @@ class Elsewhere final : public component::StandIn {
     open_outputs(original, run);
   }
 
+  /// Before one of the applications goes.
+  void disconnect() {
+    for (Event& event : events_) event.feed.reset();
+    for (Output& output : outputs_) output.feed.reset();
+  }
+
   /// @param step  by which both applications have gone on
   void pass_time(base::Duration step) {
     look_at_events();
@@ -125,6 +132,7 @@ class Elsewhere final : public component::StandIn {
   void pass_on(component::InputPortBase&, const void*) override {}
   component::CallStatus call(component::OperationBase& operation, const void* const* arguments,
                              void* result) override {
+    const rt::PermitScope permit;
     const auto answer = there_->call(original_name_, operation.name(),
                                      values_of(operation.signature(), arguments),
                                      exec::Caller::kRemote);
@@ -137,6 +145,7 @@ class Elsewhere final : public component::StandIn {
   }
   component::Outcome begin(component::CommandBase& command,
                            const void* const* arguments) override {
+    const rt::PermitScope permit;
     Operation& operation = operation_of(command);
     ++given_;
     most_under_way_ = std::max(most_under_way_, operation.under_way->size());
