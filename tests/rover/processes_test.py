@@ -9,8 +9,10 @@ to rest are those of the simulated faults (pilot_test.cpp, chassis_test.cpp); he
 """
 
 import os
+import shutil
 import signal
 import socket
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -27,10 +29,12 @@ def free_port():
         return one.getsockname()[1]
 
 
-class Processes(unittest.TestCase):
+class Rover(unittest.TestCase):
+    SCHEME = "tcp"
+
     def setUp(self):
         self.folder = self.enterContext(tempfile.TemporaryDirectory())
-        self.robot_at, self.vision_at = (f"tcp://127.0.0.1:{free_port()}" for _ in range(2))
+        self.robot_at, self.vision_at = (f"{self.SCHEME}://127.0.0.1:{free_port()}" for _ in range(2))
 
     def run_file(self, name, *overrides):
         sets = [word for one in overrides for word in ("--set", one)]
@@ -85,13 +89,18 @@ class Processes(unittest.TestCase):
     def wait_until_it_rests(self, robot):
         wait_for(lambda: all(self.speed(robot) < 0.01 for _ in range(5)), "it rests; " + robot.text())
 
-    def test_two_processes_follow_the_ball(self):
+    def follow_in_two(self):
         robot = self.start_robot()
         pilot = self.start_pilot()
         self.arm(robot)
         self.wait_until_it_drives(robot)
         wait_for(lambda: abs(self.distance(robot) - 1.0) < 0.03, "it is 1 m before the ball; " + pilot.text())
         self.assertGreater(float(robot.ask("Rover.Place.x")), 0.5)
+
+
+class Processes(Rover):
+    def test_two_processes_follow_the_ball(self):
+        self.follow_in_two()
 
     def test_a_pilot_that_is_killed_leaves_the_chassis_at_rest_and_armed(self):
         robot = self.start_robot()
@@ -133,6 +142,53 @@ class Processes(unittest.TestCase):
         again.ask("wait(2)")
         self.assertEqual(again.ask("Arming.armed"), "false")
         self.assertLess(self.speed(again), 0.01)
+
+
+def openssl(folder, *arguments):
+    subprocess.run(["openssl", *arguments], cwd=folder, check=True, capture_output=True)
+
+
+@unittest.skipUnless(shutil.which("openssl"), "there is no openssl")
+class OverTls(Rover):
+    """The same files with certificates: who has none of the right name commands nothing."""
+
+    SCHEME = "tls"
+
+    def setUp(self):
+        super().setUp()
+        key = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-noenc")
+        openssl(self.folder, "req", "-x509", *key, "-keyout", "authority.key", "-out", "authority.pem", "-subj", "/CN=test")
+        with open(os.path.join(self.folder, "ext"), "w", encoding="utf-8") as file:
+            file.write("subjectAltName=IP:127.0.0.1\n")
+        for name in ("robot", "vision", "pilot", "stranger"):
+            openssl(self.folder, "req", *key, "-keyout", name + ".key", "-out", name + ".csr", "-subj", "/CN=" + name)
+            openssl(self.folder, "x509", "-req", "-in", name + ".csr", "-CA", "authority.pem", "-CAkey", "authority.key",
+                    "-CAcreateserial", "-extfile", "ext", "-out", name + ".pem")
+
+    def run_file(self, name, *overrides, identity=None):
+        own = identity or {"robot.yaml": "robot", "chassis.yaml": "robot", "vision.yaml": "vision", "pilot.yaml": "pilot"}[name]
+        files = {"certificate": own + ".pem", "key": own + ".key", "authority": "authority.pem"}
+        return super().run_file(name.replace(".yaml", "_tls.yaml"), *overrides,
+                                *(f"{what}={os.path.join(self.folder, file)}" for what, file in files.items()))
+
+    def test_two_processes_follow_the_ball(self):
+        self.follow_in_two()
+
+    def test_three_processes_follow_the_ball(self):
+        chassis, _ = self.start_three()
+        pilot = self.start_pilot(self.vision_at)
+        self.arm(chassis)
+        wait_for(lambda: abs(self.distance(chassis) - 1.0) < 0.03, "it is 1 m before the ball; " + pilot.text())
+        self.assertGreater(float(chassis.ask("Rover.Place.x")), 0.5)
+
+    def test_a_stranger_with_a_good_certificate_moves_nothing(self):
+        robot = self.start_robot()
+        self.arm(robot)
+        stranger = self.run_file("pilot.yaml", f"chassis={self.robot_at}", f"vision={self.robot_at}", identity="stranger")
+        robot.wait_until_it_says("stranger@tls")
+        robot.ask("wait(2)")
+        self.assertLess(self.speed(robot), 0.01)
+        self.assertIn("NOT_ALLOWED", stranger.text().upper().replace(" ", "_"))
 
 
 if __name__ == "__main__":
