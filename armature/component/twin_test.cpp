@@ -183,8 +183,7 @@ TEST_F(Twins, OfACommandEndWhenTheStandInSaysSo) {
 /// The user's command, of which several may be under way.
 struct TwinsOfSeveral : Twins {
   TwinsOfSeveral() {
-    notes.under_way =
-        std::make_unique<CommandsUnderWay>(static_cast<const CommandBase&>(*travel));
+    notes.under_way = std::make_unique<CommandsUnderWay>(static_cast<const CommandBase&>(*travel));
   }
   ~TwinsOfSeveral() override { notes.under_way.reset(); }
   CommandHandle send(double target) {
@@ -198,8 +197,7 @@ TEST_F(TwinsOfSeveral, AreBegunAsTheyComeAndEachEndsOnItsOwn) {
   const CommandHandle first = send(1.0);
   const CommandHandle second = send(2.0);
   const CommandHandle third = send(3.0);
-  EXPECT_THAT(notes.notes,
-              ElementsAre("travel 1.000000", "travel 2.000000", "travel 3.000000"));
+  EXPECT_THAT(notes.notes, ElementsAre("travel 1.000000", "travel 2.000000", "travel 3.000000"));
   EXPECT_EQ(notes.under_way->newest(), 3U);
   notes.under_way->end(2, CommandStage::kFailed, "the rope is worn");
   EXPECT_EQ(first.stage(), CommandStage::kAccepted);
@@ -216,8 +214,7 @@ TEST_F(TwinsOfSeveral, AreBegunAsTheyComeAndEachEndsOnItsOwn) {
 TEST_F(TwinsOfSeveral, AreBoundedAndTheNextIsRefusedUntilOneEnds) {
   std::vector<CommandHandle> sent;
   for (std::size_t k = 0; k < CommandsUnderWay::kMost; ++k) sent.push_back(send(1.0));
-  EXPECT_EQ(send(1.0).reason(),
-            "16 of it are under way in another process, which is the most");
+  EXPECT_EQ(send(1.0).reason(), "16 of it are under way in another process, which is the most");
   notes.under_way->end(5, CommandStage::kDone, "");
   EXPECT_EQ(send(1.0).stage(), CommandStage::kAccepted);
   EXPECT_EQ(notes.notes.size(), CommandsUnderWay::kMost + 1);

@@ -34,6 +34,9 @@ Signature of_place() {
   return signature;
 }
 
+static_assert(exec::EventCommand::kMost <= CommandsUnderWay::kMost,
+              "one connection alone is never refused by what stands for the other process");
+
 /// What a file describes.
 class Prototype final : public Component {
  public:

@@ -94,8 +94,8 @@ class Linked {
                                     std::unique_ptr<component::Component> prototype) {
       const std::string& name = written.remote.name;
       added.originals.push_back(name.substr(name.rfind('/') + 1));
-      auto made = std::make_unique<Elsewhere>(written.name, std::move(prototype),
-                                              added.originals.back());
+      auto made =
+          std::make_unique<Elsewhere>(written.name, std::move(prototype), added.originals.back());
       added.elsewhere.push_back(made.get());
       return base::Result<std::unique_ptr<component::Component>>(std::move(made));
     };

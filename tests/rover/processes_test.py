@@ -50,8 +50,8 @@ class Rover(unittest.TestCase):
         process.process.stdin.close()
         process.process.stdout.close()
 
-    # Far enough away that the rover drives for a while.
-    BALL = ("Ball.BeginX=2.0", "Ball.BeginY=0.3")
+    # Far enough away that the rover drives for a while; and a machine that others use, too, may leave out samples, which is no fault of a wheel here.
+    BALL = ("Ball.BeginX=2.0", "Ball.BeginY=0.3", "Chassis.Drive.max_missing=100")
 
     def start_robot(self):
         robot = self.run_file("robot.yaml", f"address={self.robot_at}", *self.BALL)
@@ -89,9 +89,7 @@ class Rover(unittest.TestCase):
     def wait_until_it_rests(self, robot):
         wait_for(lambda: all(self.speed(robot) < 0.01 for _ in range(5)), "it rests; " + robot.text())
 
-    def follow_in_two(self):
-        robot = self.start_robot()
-        pilot = self.start_pilot()
+    def follow(self, robot, pilot):
         self.arm(robot)
         self.wait_until_it_drives(robot)
         wait_for(lambda: abs(self.distance(robot) - 1.0) < 0.03, "it is 1 m before the ball; " + pilot.text())
@@ -100,7 +98,7 @@ class Rover(unittest.TestCase):
 
 class Processes(Rover):
     def test_two_processes_follow_the_ball(self):
-        self.follow_in_two()
+        self.follow(self.start_robot(), self.start_pilot())
 
     def test_a_pilot_that_is_killed_leaves_the_chassis_at_rest_and_armed(self):
         robot = self.start_robot()
@@ -172,14 +170,11 @@ class OverTls(Rover):
                                 *(f"{what}={os.path.join(self.folder, file)}" for what, file in files.items()))
 
     def test_two_processes_follow_the_ball(self):
-        self.follow_in_two()
+        self.follow(self.start_robot(), self.start_pilot())
 
     def test_three_processes_follow_the_ball(self):
         chassis, _ = self.start_three()
-        pilot = self.start_pilot(self.vision_at)
-        self.arm(chassis)
-        wait_for(lambda: abs(self.distance(chassis) - 1.0) < 0.03, "it is 1 m before the ball; " + pilot.text())
-        self.assertGreater(float(chassis.ask("Rover.Place.x")), 0.5)
+        self.follow(chassis, self.start_pilot(self.vision_at))
 
     def test_a_stranger_with_a_good_certificate_moves_nothing(self):
         robot = self.start_robot()

@@ -133,9 +133,9 @@ class Elsewhere final : public component::StandIn {
   component::CallStatus call(component::OperationBase& operation, const void* const* arguments,
                              void* result) override {
     const rt::PermitScope permit;
-    const auto answer = there_->call(original_name_, operation.name(),
-                                     values_of(operation.signature(), arguments),
-                                     exec::Caller::kRemote);
+    const auto answer =
+        there_->call(original_name_, operation.name(), values_of(operation.signature(), arguments),
+                     exec::Caller::kRemote);
     if (!answer) return component::CallStatus::kFailed;
     if (result != nullptr) operation.signature().result->assign(result, answer.value()->data());
     return component::CallStatus::kDone;
@@ -143,16 +143,15 @@ class Elsewhere final : public component::StandIn {
   component::CommandsUnderWay* several(const component::CommandBase& command) override {
     return operation_of(command).under_way.get();
   }
-  component::Outcome begin(component::CommandBase& command,
-                           const void* const* arguments) override {
+  component::Outcome begin(component::CommandBase& command, const void* const* arguments) override {
     const rt::PermitScope permit;
     Operation& operation = operation_of(command);
     ++given_;
     most_under_way_ = std::max(most_under_way_, operation.under_way->size());
     to_there_->send([this, &operation, run = operation.under_way->newest(),
                      values = values_of(command.signature(), arguments)] {
-      auto begun = there_->begin(original_name_, operation.twin->name(), values,
-                                 exec::Caller::kRemote);
+      auto begun =
+          there_->begin(original_name_, operation.twin->name(), values, exec::Caller::kRemote);
       if (begun) return begun_.push_back({&operation, run, std::move(begun).value()});
       answer(operation, run, component::CommandStage::kFailed, begun.error());
     });
@@ -188,8 +187,8 @@ class Elsewhere final : public component::StandIn {
     return values;
   }
   Operation& operation_of(const component::OperationBase& twin) {
-    return *std::ranges::find_if(
-        operations_, [&](const Operation& each) { return each.twin.get() == &twin; });
+    return *std::ranges::find_if(operations_,
+                                 [&](const Operation& each) { return each.twin.get() == &twin; });
   }
   void open_events(const component::Interface& original, const remote::RunInThread& run) {
     for (Event& event : events_) {
@@ -227,8 +226,8 @@ class Elsewhere final : public component::StandIn {
       if (output.feed == nullptr) continue;
       output.feed->take([&](const component::TappedSample&, const void* value) {
         to_here_->send([this, &output, copy = types::Value(output.twin->type(), value)] {
-          here_->run_in_thread_of(
-              *this, [&] { static_cast<void>(output.twin->write_from(copy.data())); });
+          here_->run_in_thread_of(*this,
+                                  [&] { static_cast<void>(output.twin->write_from(copy.data())); });
         });
       });
     }
@@ -263,8 +262,7 @@ class Elsewhere final : public component::StandIn {
   std::size_t most_under_way_ = 0;
   std::size_t given_ = 0;
   component::Event<> found_{this, "PeerFound", "the process where it lives was reached"};
-  component::Event<> lost_{this, "PeerLost",
-                           "the process where it lives can no longer be reached"};
+  component::Event<> lost_{this, "PeerLost", "the process where it lives can no longer be reached"};
 };
 
 }  // namespace armature::rover

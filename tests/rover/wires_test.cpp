@@ -197,7 +197,8 @@ std::size_t most_open(const std::vector<Passed>& all) {
         each.first == number_of_chassis("setVelocity")) {
       open.insert(each.second);
     }
-    if (!each.to_robot && each.header.type == ride::Type::kReply) open.erase(each.header.identifier);
+    if (!each.to_robot && each.header.type == ride::Type::kReply)
+      open.erase(each.header.identifier);
     most = std::max(most, open.size());
   }
   return most;

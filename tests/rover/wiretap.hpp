@@ -144,9 +144,8 @@ class Wiretap {
     auto& pending = line.pending[to_robot ? 0 : 1];
     pending.insert(pending.end(), bytes.begin(), bytes.begin() + count);
     take_messages(pending, to_robot);  // first: who gets it looks at what has passed
-    line.late.push_back({platform::monotonic_now() + delay_,
-                         to_robot,
-                         {bytes.begin(), bytes.begin() + count}});
+    line.late.push_back(
+        {platform::monotonic_now() + delay_, to_robot, {bytes.begin(), bytes.begin() + count}});
     pass_late(line);
   }
   static void pass_late(Line& line) {
