@@ -180,10 +180,12 @@ class OverTls(Rover):
         robot = self.start_robot()
         self.arm(robot)
         stranger = self.run_file("pilot.yaml", f"chassis={self.robot_at}", f"vision={self.robot_at}", identity="stranger")
-        robot.wait_until_it_says("stranger@tls")
-        robot.ask("wait(2)")
+        wait_for(lambda: stranger.ask("Chassis.PeerConnected") == "true", "it is connected; " + stranger.text())
+        answer = stranger.ask("pcall(function() return wait(Chassis:setVelocity(0.3, 0.3)) end)")
+        self.assertIn("stranger@tls may not command 'Chassis.Drive'", answer + stranger.text())
         self.assertLess(self.speed(robot), 0.01)
-        self.assertIn("NOT_ALLOWED", stranger.text().upper().replace(" ", "_"))
+        for access in ("read 'Vision'", "command 'Vision'"):
+            robot.wait_until_it_says(f"stranger@tls may not {access}")
 
 
 if __name__ == "__main__":
