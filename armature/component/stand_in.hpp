@@ -8,6 +8,7 @@
 namespace armature::component {
 
 class CommandBase;
+class CommandsUnderWay;
 class InputPortBase;
 class OperationBase;
 enum class CallStatus : std::uint8_t;
@@ -29,6 +30,12 @@ class StandIn : public Component {
   /// @param result     where it goes; nullptr if there is none
   /// @thread the component's own
   virtual CallStatus call(OperationBase& operation, const void* const* arguments, void* result) = 0;
+
+  /// Of a command that is done elsewhere before its answer is here, several may be under way: each
+  /// is begun as it comes, and what this returns is told how it ended.
+  /// @return nullptr: one at a time, whose end the twin is told
+  /// @thread the component's own
+  virtual CommandsUnderWay* several(const CommandBase& /*command*/) { return nullptr; }
 
   /// Begins the twin's original; the component says later how it ended.
   /// @thread the component's own

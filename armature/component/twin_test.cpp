@@ -9,6 +9,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
 #include "armature/component/observing/tap.hpp"
+#include "armature/component/operations/commands_under_way.hpp"
 #include "armature/component/stand_in.hpp"
 #include "armature/rt/guard.hpp"
 #include "armature/testing/test_thread.hpp"
@@ -44,6 +45,8 @@ class Notes final : public StandIn {
   using StandIn::StandIn;
   std::vector<std::string> notes;
   CallStatus answer = CallStatus::kDone;
+  bool begins = true;
+  std::unique_ptr<CommandsUnderWay> under_way;  ///< of its command; nullptr: one at a time
 
   void pass_on(InputPortBase& input, const void* value) override {
     notes.push_back(input.name() + "=" + std::to_string(*static_cast<const double*>(value)));
@@ -55,7 +58,9 @@ class Notes final : public StandIn {
     }
     return answer;
   }
+  CommandsUnderWay* several(const CommandBase& /*command*/) override { return under_way.get(); }
   Outcome begin(CommandBase& command, const void* const* arguments) override {
+    if (!begins) return refused("it cannot be reached");
     notes.push_back(std::string(command.name()) + " " +
                     std::to_string(*static_cast<const double*>(arguments[0])));
     return accepted();
@@ -71,7 +76,7 @@ class User final : public Component {
   OutputPort<double> wish{this, "Wish", ""};
   InputPort<double> position{this, "Position", ""};
   OperationCaller<double(double)> twice{this, "twice", ""};
-  CommandCaller<double> travel{this, "travel", ""};
+  CommandCaller<double> travel{this, "travel", "", outstanding(20)};
   EventHandler<int, double> reached{this, "Reached", serve<&User::note>, ""};
   std::vector<double> heard;
 
@@ -173,6 +178,75 @@ TEST_F(Twins, OfACommandEndWhenTheStandInSaysSo) {
   thread.deliver();
   EXPECT_EQ(second.stage(), CommandStage::kCancelled);
   EXPECT_THAT(notes.notes, ElementsAre("travel 2.000000", "travel 3.000000", "cancel travel"));
+}
+
+/// The user's command, of which several may be under way.
+struct TwinsOfSeveral : Twins {
+  TwinsOfSeveral() {
+    notes.under_way = std::make_unique<CommandsUnderWay>(static_cast<const CommandBase&>(*travel));
+  }
+  ~TwinsOfSeveral() override { notes.under_way.reset(); }
+  CommandHandle send(double target) {
+    CommandHandle sent = user.travel.send(target);
+    thread.deliver();
+    return sent;
+  }
+};
+
+TEST_F(TwinsOfSeveral, AreBegunAsTheyComeAndEachEndsOnItsOwn) {
+  const CommandHandle first = send(1.0);
+  const CommandHandle second = send(2.0);
+  const CommandHandle third = send(3.0);
+  EXPECT_THAT(notes.notes, ElementsAre("travel 1.000000", "travel 2.000000", "travel 3.000000"));
+  EXPECT_EQ(notes.under_way->newest(), 3U);
+  notes.under_way->end(2, CommandStage::kFailed, "the rope is worn");
+  EXPECT_EQ(first.stage(), CommandStage::kAccepted);
+  EXPECT_EQ(second.stage(), CommandStage::kFailed);
+  EXPECT_EQ(second.reason(), "the rope is worn");
+  notes.under_way->end(1, CommandStage::kDone, "");
+  notes.under_way->end(3, CommandStage::kDone, "");
+  notes.under_way->end(3, CommandStage::kFailed, "twice");
+  EXPECT_EQ(first.stage(), CommandStage::kDone);
+  EXPECT_EQ(third.stage(), CommandStage::kDone);
+  EXPECT_EQ(notes.under_way->size(), 0U);
+}
+
+TEST_F(TwinsOfSeveral, AreBoundedAndTheNextIsRefusedUntilOneEnds) {
+  std::vector<CommandHandle> sent;
+  for (std::size_t k = 0; k < CommandsUnderWay::kMost; ++k) sent.push_back(send(1.0));
+  EXPECT_EQ(send(1.0).reason(), "16 of it are under way in another process, which is the most");
+  notes.under_way->end(5, CommandStage::kDone, "");
+  EXPECT_EQ(send(1.0).stage(), CommandStage::kAccepted);
+  EXPECT_EQ(notes.notes.size(), CommandsUnderWay::kMost + 1);
+}
+
+TEST_F(TwinsOfSeveral, WhatIsCancelledEndsHereAloneAndItsAnswerIsNobodys) {
+  CommandHandle first = send(1.0);
+  const CommandHandle second = send(2.0);
+  first.cancel();
+  thread.deliver();
+  EXPECT_EQ(first.stage(), CommandStage::kCancelled);
+  EXPECT_EQ(second.stage(), CommandStage::kAccepted);
+  notes.under_way->end(1, CommandStage::kDone, "");
+  EXPECT_EQ(first.stage(), CommandStage::kCancelled);
+  EXPECT_EQ(second.stage(), CommandStage::kAccepted);
+}
+
+TEST_F(TwinsOfSeveral, AllEndWhenTheStandInStops) {
+  const CommandHandle first = send(1.0);
+  const CommandHandle second = send(2.0);
+  Host::stop(notes);
+  EXPECT_EQ(first.stage(), CommandStage::kCancelled);
+  EXPECT_EQ(second.stage(), CommandStage::kCancelled);
+  EXPECT_EQ(send(3.0).reason(), "the component is not running");
+}
+
+TEST_F(TwinsOfSeveral, WhatTheStandInRefusesEndsSo) {
+  notes.begins = false;
+  const CommandHandle refusal = send(1.0);
+  EXPECT_EQ(refusal.stage(), CommandStage::kRefused);
+  EXPECT_EQ(refusal.reason(), "it cannot be reached");
+  EXPECT_EQ(notes.under_way->size(), 0U);
 }
 
 TEST_F(Twins, OfAnEventRaiseWhatTheyAreGiven) {

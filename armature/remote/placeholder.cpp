@@ -69,13 +69,25 @@ void Placeholder::make_twins() {
         break;
       case NumberedMember::Kind::kOperation:
       case NumberedMember::Kind::kCommand:
-        operations_.push_back({original.operations[member.index]->twin(*this), member.index});
+        add_operation(*original.operations[member.index], member);
         break;
       case NumberedMember::Kind::kCancel:
       case NumberedMember::Kind::kProgress:
         break;
     }
   }
+}
+
+void Placeholder::add_operation(const component::OperationBase& original,
+                                const NumberedMember& member) {
+  Operation& added = operations_.emplace_back();
+  added.twin = original.twin(*this);
+  added.index = member.index;
+  const bool lasts = numbers_->member(NumberedMember::Kind::kCancel, member.index) != nullptr ||
+                     numbers_->member(NumberedMember::Kind::kProgress, member.index) != nullptr;
+  if (member.kind != NumberedMember::Kind::kCommand || lasts) return;
+  added.several = std::make_unique<component::CommandsUnderWay>(
+      static_cast<const component::CommandBase&>(*added.twin));
 }
 
 // --- life cycle ----------------------------------------------------------------------------------
@@ -226,11 +238,22 @@ void Placeholder::handle(Arrival& arrival) {
       auto& command = static_cast<component::CommandBase&>(*operation->twin);
       if (arrival.misfit) return count(missed);
       if (arrival.kind == Arrival::Kind::kProgress) return command.report(arrival.progress);
-      if (arrival.run != operation->run) return;  // it was cancelled here
-      if (arrival.good) return command.complete();
-      return command.fail(arrival.text);
+      return handle_end(*operation, arrival);
     }
   }
+}
+
+/// Nothing happens if it was cancelled here.
+void Placeholder::handle_end(Operation& operation, const Arrival& arrival) {
+  using component::CommandStage;
+  if (operation.several != nullptr) {
+    const CommandStage stage = arrival.good ? CommandStage::kDone : CommandStage::kFailed;
+    return operation.several->end(arrival.run, stage, arrival.text);
+  }
+  if (arrival.run != operation.run) return;
+  auto& command = static_cast<component::CommandBase&>(*operation.twin);
+  if (arrival.good) return command.complete();
+  command.fail(arrival.text);
 }
 
 /// The same sample comes again when others subscribe to the port.
@@ -320,6 +343,10 @@ component::CallStatus Placeholder::call(component::OperationBase& operation,
   return status_of(code);
 }
 
+component::CommandsUnderWay* Placeholder::several(const component::CommandBase& command) {
+  return operation_of(command).several.get();
+}
+
 component::Outcome Placeholder::begin(component::CommandBase& command,
                                       const void* const* arguments) {
   const rt::PermitScope permit;
@@ -328,7 +355,7 @@ component::Outcome Placeholder::begin(component::CommandBase& command,
                               ", in another process, which cannot be reached");
   }
   Operation& operation = operation_of(command);
-  const std::uint64_t run = ++operation.run;
+  const std::uint64_t run = operation.several ? operation.several->newest() : ++operation.run;
   const std::tuple members{OutgoingArguments{&command.signature(), arguments}};
   const NumberedMember& there = *numbers_->member(NumberedMember::Kind::kCommand, operation.index);
   link_->ask(there.number, there.priority, ride::Fields(members),

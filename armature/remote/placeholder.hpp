@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/component/operations/commands_under_way.hpp"
 #include "armature/component/stand_in.hpp"
 #include "armature/remote/interface_numbers.hpp"
 #include "armature/remote/link_to.hpp"
@@ -58,6 +59,8 @@ class Placeholder final : public component::StandIn {
   void pass_on(component::InputPortBase& input, const void* value) override;
   component::CallStatus call(component::OperationBase& operation, const void* const* arguments,
                              void* result) override;
+  /// Of commands without cancellation and progress, which are done there at once.
+  component::CommandsUnderWay* several(const component::CommandBase& command) override;
   component::Outcome begin(component::CommandBase& command, const void* const* arguments) override;
   void cancel(component::CommandBase& command) override;
 
@@ -107,9 +110,10 @@ class Placeholder final : public component::StandIn {
     bool misfit = false;  ///< one had no place here
   };
   struct Operation {
-    std::unique_ptr<component::OperationBase> twin;
-    std::size_t index;
-    std::uint64_t run = 0;  ///< of a command: counts
+    std::unique_ptr<component::OperationBase> twin{};
+    std::size_t index = 0;
+    std::uint64_t run = 0;  ///< of a command of which one is under way at a time: counts
+    std::unique_ptr<component::CommandsUnderWay> several{};  ///< of one of which several may be
   };
 
   component::Outcome on_start() override;
@@ -117,6 +121,7 @@ class Placeholder final : public component::StandIn {
   void on_cleanup() override;
 
   void make_twins();
+  void add_operation(const component::OperationBase& original, const NumberedMember& member);
   void subscribe();
   void listen(NumberedMember::Kind kind, std::size_t index, Arrival::Kind arrival);
   bool take(NumberedMember::Kind kind, std::size_t index, ride::Decoder& members,
@@ -128,6 +133,7 @@ class Placeholder final : public component::StandIn {
   void handle_sample(const Arrival& arrival);
   void note_misfit(bool& told, std::string_view member);
   Operation& operation_of(const component::OperationBase& twin);
+  void handle_end(Operation& operation, const Arrival& arrival);
   void count(component::Attribute<int>& counter, std::uint64_t more = 1);
 
   const std::unique_ptr<component::Component> prototype_;

@@ -10,6 +10,7 @@
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
 #include "armature/component/interface.hpp"
+#include "armature/component/operations/commands_under_way.hpp"
 #include "armature/component/stand_in.hpp"
 #include "armature/exec/event_command.hpp"
 #include "armature/rt/inbox.hpp"
@@ -33,6 +34,9 @@ Signature of_place() {
   return signature;
 }
 
+static_assert(exec::EventCommand::kMost <= CommandsUnderWay::kMost,
+              "one connection alone is never refused by what stands for the other process");
+
 /// What a file describes.
 class Prototype final : public Component {
  public:
@@ -49,18 +53,25 @@ class Counting final : public StandIn {
   using StandIn::StandIn;
   int passed_on = 0;
   int begun = 0;
+  std::unique_ptr<CommandsUnderWay> under_way;  ///< nullptr: one at a time
 
   void pass_on(InputPortBase&, const void*) override { ++passed_on; }
   CallStatus call(OperationBase&, const void* const*, void*) override { return CallStatus::kDone; }
+  CommandsUnderWay* several(const CommandBase&) override { return under_way.get(); }
   Outcome begin(CommandBase& command, const void* const*) override {
     ++begun;
-    command.complete();
+    if (under_way == nullptr) {
+      command.complete();
+    } else {
+      under_way->end(under_way->newest(), CommandStage::kDone, {});
+    }
     return accepted();
   }
   void cancel(CommandBase&) override {}
 };
 
-TEST(Described, EventsCommandsAndPortsCarryMadeValues) {
+/// @param several  commands may be under way
+void expect_realtime_of_made_values(bool several) {
   Prototype prototype("prototype");
   ExecutionContext here{"here"};
   ExecutionContext there{"there"};
@@ -70,10 +81,11 @@ TEST(Described, EventsCommandsAndPortsCarryMadeValues) {
   const auto where = prototype.where.twin(one);
   const auto go = prototype.go.twin(other);
   const auto wish = prototype.wish.twin(other);
+  auto& command = static_cast<CommandBase&>(*go);
+  if (several) other.under_way = std::make_unique<CommandsUnderWay>(command);
   std::vector<component::CallParameter> parameters(2);
   parameters[1].member = 1;
-  exec::EventCommand wire("wire", *seen, static_cast<CommandBase&>(*go), parameters,
-                          base::Duration::zero());
+  exec::EventCommand wire("wire", *seen, command, parameters, base::Duration::zero());
   Host::assign_context(one, here);
   Host::assign_context(wire, here);
   Host::assign_context(other, there);
@@ -108,7 +120,12 @@ TEST(Described, EventsCommandsAndPortsCarryMadeValues) {
   seen->unsubscribe_all();
   interface_of(wire).callers.front()->disconnect();
   where->disconnect_all();
+  other.under_way.reset();
 }
+
+TEST(Described, EventsCommandsAndPortsCarryMadeValues) { expect_realtime_of_made_values(false); }
+
+TEST(Described, SoDoCommandsOfWhichSeveralMayBeUnderWay) { expect_realtime_of_made_values(true); }
 
 }  // namespace
 }  // namespace armature::component

@@ -2,6 +2,8 @@
 // A deployment that uses a component of a program without Armature's runtime, by its interface
 // file alone: the program is a node with a service that rcidl made.
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -36,6 +38,23 @@ class Lift final : public lift::LiftService {
   void cancel_travel() override {}
   void stop() override { ++stops_; }
   void open(const std::vector<double>& times) override { opened_ = times.size(); }
+  /// Waits for the test at first; the third person is too heavy.
+  void enter(double weight) override {
+    std::unique_lock lock(mutex_);
+    ++waits_;
+    opens_.wait_for(lock, std::chrono::seconds(30), [this] { return is_open_; });
+    entered_.push_back(weight);
+    if (entered_.size() == 3) throw ride::Failure("it is full");
+  }
+  void open_the_door() {
+    const std::lock_guard lock(mutex_);
+    is_open_ = true;
+    opens_.notify_all();
+  }
+  std::vector<double> entered() {
+    const std::lock_guard lock(mutex_);
+    return entered_;
+  }
   void Load(double value) override { load_ = value; }
   std::int32_t add(std::int32_t a, std::int32_t b) override { return a + b; }
   std::string describe(lift::Mode mode, const std::array<double, 2>& range,
@@ -50,6 +69,13 @@ class Lift final : public lift::LiftService {
   std::atomic<int> stops_{0};
   std::atomic<std::size_t> opened_{0};
   std::atomic<double> load_{0.0};
+  std::atomic<int> waits_{0};
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable opens_;
+  bool is_open_ = false;
+  std::vector<double> entered_;
 };
 
 /// One of the application's own: raises its event when the test asks for it.
@@ -66,9 +92,10 @@ class Cabin final : public Component {
  private:
   void on_update() override {
     wish_.write(2.5);
-    weight_.write(80.0);
+    weight_.write(80.0 + presses_);
     if (press > 0) {
       --press;
+      ++presses_;
       pressed_.raise();
     }
   }
@@ -80,6 +107,7 @@ class Cabin final : public Component {
   }
   void note(double value) { height = value; }
 
+  int presses_ = 0;
   component::OutputPort<double> wish_{this, "Wish", "where to", "m"};
   component::OutputPort<double> weight_{this, "Weight", "in it", "kg"};
   component::InputPort<double> height_in_{this,
@@ -214,6 +242,31 @@ TEST_F(ByInterfaceFile, ItsFailureIsToldAndBeginsTheNext) {
   EXPECT_EQ(foreign->lift.travels_, 0);
   EXPECT_EQ(text_of("Up", "Failures"), "1");
   EXPECT_TRUE(until_logged("the rope is worn"));
+}
+
+TEST_F(ByInterfaceFile, SeveralOfACommandAreUnderWayInOrderAndTheEndOfEachIsTold) {
+  start(
+      "  - {on: Cabin.Pressed, do: Lift.enter, name: Enter, with: {weight: Cabin.Weight}}\n"
+      "  - Enter.Done -> Lift.stop\n");
+  cabin->press = 4;
+  ASSERT_TRUE(until([&] { return text_of("Enter", "Given") == "4" && foreign->lift.waits_ == 1; }));
+  EXPECT_EQ(text_of("Enter", "Refused"), "0");
+  foreign->lift.open_the_door();
+  EXPECT_TRUE(until([&] { return foreign->lift.stops_ == 3; }));
+  EXPECT_THAT(foreign->lift.entered(), testing::ElementsAre(80.0, 81.0, 82.0, 83.0));
+  EXPECT_EQ(text_of("Enter", "Failures"), "1");
+  EXPECT_TRUE(until_logged("it is full"));
+}
+
+TEST_F(ByInterfaceFile, OfACommandWithCancellationOneIsUnderWay) {
+  start(
+      "  - {on: Cabin.Pressed, do: Lift.enter, name: Enter, with: {weight: 1 kg}}\n"
+      "  - {on: Cabin.Pressed, do: Lift.travel, name: Up, with: {height: 1 m, quickly: false}}\n");
+  cabin->press = 2;
+  EXPECT_TRUE(until([&] { return text_of("Up", "Refused") == "1"; }));
+  EXPECT_TRUE(until_logged("this command does not queue from another process"));
+  foreign->lift.open_the_door();
+  EXPECT_TRUE(until([&] { return foreign->lift.travels_ == 1; }));
 }
 
 TEST_F(ByInterfaceFile, WhatIsOutOfItsRangeIsRefusedThere) {

@@ -18,15 +18,17 @@ namespace armature::rover {
 /// A deployment of the rover in simulated time, from its files.
 class Robot {
  public:
-  explicit Robot(const std::string& file, std::vector<std::string> overrides = {})
-      : deployment_(load(file, std::move(overrides))) {
+  /// @param how  components of other processes are used; none are by default
+  explicit Robot(const std::string& file, std::vector<std::string> overrides = {},
+                 deploy::DeploymentOptions how = {})
+      : deployment_(load(file, std::move(overrides), std::move(how))) {
     EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
     deployment_.options.simulated = true;
     application_ =
         std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
   }
-  static deploy::Deployment load(const std::string& file, std::vector<std::string> overrides) {
-    deploy::DeploymentOptions options;
+  static deploy::Deployment load(const std::string& file, std::vector<std::string> overrides,
+                                 deploy::DeploymentOptions options = {}) {
     options.library_folders = {LIBRARIES};
     options.document.overrides = std::move(overrides);
     return deploy::load_deployment(file, options);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -57,6 +58,15 @@ class Wheels final : public ::rover::ChassisService {
   void setVelocity(float left, float right) override {
     const std::scoped_lock lock(mutex_);
     told_.push_back({left, right});
+  }
+  /// To the left side, of those that turn to the right and are no search.
+  std::vector<float> turns() const {
+    constexpr float kSearch = 0.07F;
+    std::vector<float> turns;
+    for (const Speeds& each : told()) {
+      if (each.left > 0.0F && each.left < kSearch) turns.push_back(each.left);
+    }
+    return turns;
   }
   std::vector<Speeds> told() const {
     const std::scoped_lock lock(mutex_);
@@ -127,15 +137,19 @@ class PilotProcess {
   std::unique_ptr<exec::Application> application_;
 };
 
-ride::Number number_of_vs(std::string_view name) {
-  for (const ride::Declaration& each : ::rover::kVS.declarations) {
+ride::Number number_of(const ride::Interface& interface, std::string_view name) {
+  for (const ride::Declaration& each : interface.declarations) {
     if (each.canonical.find(name) != std::string_view::npos) return each.number();
   }
   return 0;
 }
+ride::Number number_of_vs(std::string_view name) { return number_of(::rover::kVS, name); }
+ride::Number number_of_chassis(std::string_view name) { return number_of(::rover::kChassis, name); }
 
 class PilotTest : public ::testing::Test {
  protected:
+  /// @param delay  in each direction
+  explicit PilotTest(base::Duration delay = {}) : tap_(robot_.port, delay) {}
   std::size_t count(ride::Type type, bool to_robot, ride::Number first = 0) const {
     const std::vector<Passed> all = tap_.passed();
     return static_cast<std::size_t>(std::ranges::count_if(all, [&](const Passed& each) {
@@ -146,7 +160,7 @@ class PilotTest : public ::testing::Test {
   bool prepared() const { return robot_.eye.started_ > 0; }
 
   RobotSide robot_;
-  Wiretap tap_{robot_.port};
+  Wiretap tap_;
 };
 
 TEST_F(PilotTest, RequestsAreAnsweredInTheOrderOfTheTasks) {
@@ -172,6 +186,66 @@ TEST_F(PilotTest, APositionComesAsAnEventAndSpeedsByTheFormulaGoBack) {
   };
   EXPECT_TRUE(pilot.serve_until(follows));
   EXPECT_GE(count(ride::Type::kEvent, false, number_of_vs("ObjectPositionEvent")), 1U);
+}
+
+/// Speeds that the robot was asked for and has not answered, at most.
+std::size_t most_open(const std::vector<Passed>& all) {
+  std::set<ride::Number> open;
+  std::size_t most = 0;
+  for (const Passed& each : all) {
+    if (each.to_robot && each.header.type == ride::Type::kRequest &&
+        each.first == number_of_chassis("setVelocity")) {
+      open.insert(each.second);
+    }
+    if (!each.to_robot && each.header.type == ride::Type::kReply)
+      open.erase(each.header.identifier);
+    most = std::max(most, open.size());
+  }
+  return most;
+}
+
+/// A round trip takes 300 ms, in which six positions come.
+struct PilotFarAway : PilotTest {
+  PilotFarAway() : PilotTest(150ms) {}
+  /// Raises a position each 50 ms, farther to the right each time, as long as `goes_on`.
+  void see(PilotProcess& pilot, const std::function<bool()>& goes_on) {
+    base::Time next = platform::monotonic_now();
+    EXPECT_TRUE(pilot.serve_until([&] {
+      if (platform::monotonic_now() < next) return !goes_on();
+      next += 50ms;
+      robot_.eye.raise(::rover::ObjectPositionEvent{160 + ++seen_, 120});
+      return !goes_on();
+    }));
+  }
+  std::int64_t of_follow(PilotProcess& pilot, const char* item) {
+    return *pilot.application().value_of("Follow", item).value().get_if<std::int64_t>();
+  }
+  int seen_ = 0;
+};
+
+TEST_F(PilotFarAway, GivesANewSpeedForEachPositionBeforeTheLastIsAnswered) {
+  PilotProcess pilot(tap_.address());
+  ASSERT_TRUE(pilot.serve_until([&] { return prepared(); }));
+  see(pilot, [&] { return seen_ < 40; });
+  EXPECT_TRUE(pilot.serve_until([&] {
+    const auto turns = robot_.wheels.turns();
+    return !turns.empty() && turns.back() > 0.0015F * 39.5F;
+  }));
+  EXPECT_GE(most_open(tap_.passed()), 3U);
+  EXPECT_LE(4 * of_follow(pilot, "Refused"), of_follow(pilot, "Given"));
+  const auto turns = robot_.wheels.turns();
+  EXPECT_GE(turns.size(), 20U) << "of 40 positions";
+  EXPECT_TRUE(std::ranges::is_sorted(turns)) << "they arrive in the order of the positions";
+}
+
+TEST_F(PilotFarAway, EachSpeedThatIsUnderWayFailsWhenTheConnectionIsLost) {
+  PilotProcess pilot(tap_.address());
+  ASSERT_TRUE(pilot.serve_until([&] { return prepared(); }));
+  see(pilot, [&] { return most_open(tap_.passed()) < 3; });
+  const std::int64_t given = of_follow(pilot, "Given");
+  tap_.cut();
+  EXPECT_TRUE(pilot.serve_until([&] { return of_follow(pilot, "Failures") >= 3; }));
+  EXPECT_EQ(of_follow(pilot, "Given"), given) << "nothing is sent again";
 }
 
 TEST_F(PilotTest, WithoutPositionsItSaysZeroAndThenSearches) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -18,6 +19,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "armature/base/time.hpp"
+#include "armature/platform/clock.hpp"
 #include "armature/ride/wire.hpp"
 
 namespace armature::rover {
@@ -26,15 +29,17 @@ namespace armature::rover {
 struct Passed {
   ride::Header header;
   bool to_robot = false;
-  ride::Number first = 0;  ///< the first number of its body: which operation or event it is
+  ride::Number first = 0;   ///< the first number of its body: which operation or event it is
+  ride::Number second = 0;  ///< the second one: of a request the call
 };
 
 /// Between a pilot and a robot on this machine: passes on what both say, and keeps what passed.
 class Wiretap {
  public:
-  /// @param port  of the robot
-  explicit Wiretap(std::uint16_t port)
-      : robot_(port), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  /// @param port   of the robot
+  /// @param delay  of all that passes, in each direction
+  explicit Wiretap(std::uint16_t port, base::Duration delay = {})
+      : robot_(port), delay_(delay), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in here = local(0);
     static_cast<void>(::bind(listener_, reinterpret_cast<sockaddr*>(&here), sizeof here));
     static_cast<void>(::listen(listener_, 8));
@@ -46,10 +51,7 @@ class Wiretap {
   ~Wiretap() {
     done_ = true;
     thread_.join();
-    for (const auto& line : lines_) {
-      ::close(line->from);
-      ::close(line->to);
-    }
+    for (const auto& line : lines_) close(*line);
     ::close(listener_);
   }
   Wiretap(const Wiretap&) = delete;
@@ -76,17 +78,26 @@ class Wiretap {
     }
     ::close(line);
   }
+  /// Ends all connections that there are; others may come.
+  void cut() { cuts_ = true; }
   std::vector<Passed> passed() const {
     const std::scoped_lock lock(mutex_);
     return passed_;
   }
 
  private:
+  /// What has come, and goes on when its time has.
+  struct Late {
+    base::Time due;
+    bool to_robot;
+    std::vector<std::byte> bytes;
+  };
   /// A connection: what comes from one side, until it is whole messages.
   struct Line {
     int from = -1;
     int to = -1;
     std::array<std::vector<std::byte>, 2> pending{};
+    std::deque<Late> late{};
   };
 
   static sockaddr_in local(std::uint16_t port) {
@@ -104,11 +115,13 @@ class Wiretap {
         all.push_back({line->from, POLLIN, 0});
         all.push_back({line->to, POLLIN, 0});
       }
-      if (::poll(all.data(), all.size(), 20) <= 0) continue;
+      static_cast<void>(::poll(all.data(), all.size(), 1));
       for (std::size_t i = 1; i < all.size(); ++i) {
         if (all[i].revents != 0) pass(*lines_[(i - 1) / 2], (i - 1) % 2 == 0);
       }
       if (all[0].revents != 0) accept();
+      const bool cuts = cuts_.exchange(false);
+      for (const auto& line : lines_) cuts ? close(*line) : pass_late(*line);
       std::erase_if(lines_, [](const auto& line) { return line->from < 0; });
     }
   }
@@ -127,16 +140,34 @@ class Wiretap {
   void pass(Line& line, bool to_robot) {
     std::array<std::byte, 4096> bytes{};
     const ssize_t count = ::recv(to_robot ? line.from : line.to, bytes.data(), bytes.size(), 0);
-    const auto size = static_cast<std::size_t>(count > 0 ? count : 0);
-    if (count <= 0 ||
-        ::send(to_robot ? line.to : line.from, bytes.data(), size, MSG_NOSIGNAL) < 0) {
-      ::close(std::exchange(line.from, -1));
-      ::close(std::exchange(line.to, -1));
-      return;
-    }
+    if (count <= 0) return close(line);
     auto& pending = line.pending[to_robot ? 0 : 1];
     pending.insert(pending.end(), bytes.begin(), bytes.begin() + count);
-    take_messages(pending, to_robot);
+    take_messages(pending, to_robot);  // first: who gets it looks at what has passed
+    line.late.push_back(
+        {platform::monotonic_now() + delay_, to_robot, {bytes.begin(), bytes.begin() + count}});
+    pass_late(line);
+  }
+  static void pass_late(Line& line) {
+    const base::Time now = platform::monotonic_now();
+    while (!line.late.empty() && line.late.front().due <= now) {
+      const Late& first = line.late.front();
+      const int to = first.to_robot ? line.to : line.from;
+      if (::send(to, first.bytes.data(), first.bytes.size(), MSG_NOSIGNAL) < 0) return close(line);
+      line.late.pop_front();
+    }
+  }
+  static void close(Line& line) {
+    if (line.from >= 0) ::close(std::exchange(line.from, -1));
+    if (line.to >= 0) ::close(std::exchange(line.to, -1));
+    line.late.clear();
+  }
+  static ride::Number number_at(const std::vector<std::byte>& message, std::size_t place) {
+    ride::Number number = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      number |= std::to_integer<ride::Number>(message[ride::Header::kSize + place + k]) << 8 * k;
+    }
+    return number;
   }
   void take_messages(std::vector<std::byte>& pending, bool to_robot) {
     while (pending.size() >= ride::Header::kSize) {
@@ -145,9 +176,8 @@ class Wiretap {
       Passed message;
       message.header = *header;
       message.to_robot = to_robot;
-      for (std::size_t k = 0; k < 4 && header->length >= ride::Header::kSize + 4; ++k) {
-        message.first |= std::to_integer<ride::Number>(pending[ride::Header::kSize + k]) << 8 * k;
-      }
+      if (header->length >= ride::Header::kSize + 4) message.first = number_at(pending, 0);
+      if (header->length >= ride::Header::kSize + 8) message.second = number_at(pending, 4);
       const std::scoped_lock lock(mutex_);
       passed_.push_back(message);
       pending.erase(pending.begin(), pending.begin() + header->length);
@@ -155,9 +185,11 @@ class Wiretap {
   }
 
   const std::uint16_t robot_;
+  const base::Duration delay_;
   const int listener_;
   std::uint16_t port_ = 0;
   std::atomic<bool> done_{false};
+  std::atomic<bool> cuts_{false};
   mutable std::mutex mutex_;
   std::vector<Passed> passed_;
   std::vector<std::unique_ptr<Line>> lines_;

@@ -10,6 +10,7 @@
 #include "armature/component/internal/waiting_commands.hpp"
 #include "armature/component/lanes.hpp"
 #include "armature/component/operations/command_ticket.hpp"
+#include "armature/component/operations/commands_under_way.hpp"
 #include "armature/component/stand_in.hpp"
 
 namespace armature::component {
@@ -21,6 +22,53 @@ using Noted = BlackBox::Note::Kind;
 Noted noted(CommandStage stage) {
   if (stage == CommandStage::kDone) return Noted::kDone;
   return stage == CommandStage::kFailed ? Noted::kFailed : Noted::kCancelled;
+}
+
+/// Where those of a twin are of which several may be under way; nullptr: one at a time.
+CommandsUnderWay* several_of(const CommandBase& command) {
+  if (!command.is_elsewhere()) return nullptr;
+  return static_cast<StandIn&>(command.owner()).several(command);
+}
+
+/// Why a component that does not run begins none.
+Outcome not_running(const Component& owner) {
+  Reason why("the component is not running");
+  if (!owner.reason().empty()) why.append(": ").append(owner.reason());
+  return refused(why);
+}
+
+Outcome no_more_than_the_most() {
+  char number[20];
+  const char* const end =
+      std::to_chars(number, number + sizeof number, CommandsUnderWay::kMost).ptr;
+  Reason why;
+  why.append({number, end});
+  return refused(why.append(" of it are under way in another process, which is the most"));
+}
+
+Outcome refuse(const CommandBase& command, CommandTicket* ticket, const Outcome& refusal) {
+  note(command.owner(), Noted::kRefused, command.name(), refusal.reason());
+  if (ticket != nullptr) ticket->end(CommandStage::kRefused, refusal.reason());
+  return refusal;
+}
+
+/// Has the stand-in begin one, whatever others are under way.
+Outcome begin_another(CommandBase& command, CommandsUnderWay& all, CommandTicket* ticket,
+                      const void* const* arguments) {
+  Component& owner = command.owner();
+  if (owner.state() != State::kRunning) return refuse(command, ticket, not_running(owner));
+  if (all.full()) return refuse(command, ticket, no_more_than_the_most());
+  note(owner, Noted::kBegun, command.name(), {});
+  all.add(ticket);
+  const std::uint64_t run = all.newest();
+  Outcome outcome = accepted();
+  const bool completed = Host::run(owner, Host::context(owner), [&] {
+    outcome = static_cast<StandIn&>(owner).begin(command, arguments);
+  });
+  if (!completed) outcome = refused(owner.reason());
+  if (!outcome) all.end(run, CommandStage::kRefused, outcome.reason());
+  if (ticket != nullptr && all.has(run)) ticket->accept();
+  return outcome;
 }
 
 }  // namespace
@@ -99,6 +147,9 @@ void CommandBase::prepare_from(const void* const* arguments) {
 std::size_t CommandBase::waiting() const { return waiting_ == nullptr ? 0 : waiting_->size(); }
 
 Outcome CommandBase::begin_from(CommandTicket* ticket, const void* const* arguments) {
+  if (CommandsUnderWay* const all = several_of(*this)) {
+    return begin_another(*this, *all, ticket, arguments);
+  }
   return has_to_wait() ? wait(ticket, arguments) : begin_now(ticket, arguments);
 }
 
@@ -116,6 +167,9 @@ void CommandBase::report(double progress) {
 
 void CommandBase::cancel(const CommandTicket& ticket) {
   constexpr std::string_view kReason = "cancelled by its sender";
+  if (CommandsUnderWay* const all = several_of(*this)) {
+    return all->end(ticket, CommandStage::kCancelled, kReason);
+  }
   if (ticket_ == &ticket) return cancel(kReason);
   const std::size_t place = waiting_ == nullptr ? 0 : waiting_->find(ticket);
   if (place == waiting()) return;
@@ -138,13 +192,9 @@ bool CommandBase::has_to_wait() const {
 
 Outcome CommandBase::wait(CommandTicket* ticket, const void* const* arguments) {
   const Outcome answer = may_wait_now(arguments);
-  if (answer) {
-    waiting_->add(ticket, arguments);
-    if (ticket != nullptr) ticket->wait_its_turn();
-    return answer;
-  }
-  note(owner(), Noted::kRefused, name(), answer.reason());
-  if (ticket != nullptr) ticket->end(CommandStage::kRefused, answer.reason());
+  if (!answer) return refuse(*this, ticket, answer);
+  waiting_->add(ticket, arguments);
+  if (ticket != nullptr) ticket->wait_its_turn();
   return answer;
 }
 
@@ -207,14 +257,10 @@ Outcome CommandBase::admit(CommandTicket* ticket) {
     phase_ = Phase::kBeginning;
     return accepted();
   }
-  Reason why(active() ? "the previous command is still under way, and this command does not queue"
-                      : "the component is not running");
-  if (active() && is_elsewhere()) why.append(" from another process");
-  if (!active() && !owner().reason().empty()) why.append(": ").append(owner().reason());
-  const Outcome refusal = refused(why);
-  note(owner(), Noted::kRefused, name(), refusal.reason());
-  if (ticket != nullptr) ticket->end(CommandStage::kRefused, refusal.reason());
-  return refusal;
+  if (!active()) return refuse(*this, ticket, not_running(owner()));
+  Reason why("the previous command is still under way, and this command does not queue");
+  if (is_elsewhere()) why.append(" from another process");
+  return refuse(*this, ticket, refused(why));
 }
 
 Outcome CommandBase::begun(CommandTicket* ticket, bool completed, const Outcome& outcome) {
@@ -238,6 +284,9 @@ Outcome CommandBase::begun(CommandTicket* ticket, bool completed, const Outcome&
 }
 
 void CommandBase::cancel(std::string_view reason) {
+  if (CommandsUnderWay* const all = several_of(*this)) {
+    return all->end_all(CommandStage::kCancelled, reason);
+  }
   if (phase_ != Phase::kUnderWay) {
     end(CommandStage::kCancelled, reason);
     return;
