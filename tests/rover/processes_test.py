@@ -18,7 +18,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "harness"))
-from processes import Process, wait_for
+from processes import Process, main_with_second_chances, wait_for
 
 PROGRAM, LIBRARIES, ROVER = map(os.path.abspath, sys.argv[1:4])
 
@@ -189,4 +189,4 @@ class OverTls(Rover):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    main_with_second_chances()
