@@ -62,7 +62,7 @@ function One({ call, index, box, offers, write, children }: {
 function Another({ offers, add }: { offers: string[]; add(to: string): Promise<boolean> }) {
   const [wanted, set_wanted] = useState("");
   const submit = async () => {
-    if (wanted.trim() && (await add(wanted.trim()))) set_wanted("");
+    if (wanted.trim() && (await add(wanted.trim()))) set_wanted((now) => (now === wanted ? "" : now)); // the next one may be typed already
   };
   return (
     <form className="row" onSubmit={(event) => (event.preventDefault(), void submit())}>
