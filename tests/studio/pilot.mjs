@@ -53,6 +53,9 @@ export const connections = [...program.connections, ...said_in(shipped("pilot.ya
 /** Of those that have a name, and others know them by it: they are opened, so that wires lead from what they tell. */
 export const is_opened = ({ name }) => name !== undefined && connections.some(({ from }) => from.startsWith(`${name}.`));
 
+/** The form of a command names units, too: `left [m/s]`. */
+export const labelled = (parameter) => new RegExp(`^${parameter}( \\[.*\\])?$`);
+
 /** The lines that say something. */
 export const without_comments = (text) => text.split("\n").map((line) => line.replace(/(^|\s+)#.*$/, "")).filter((line) => line !== "");
 

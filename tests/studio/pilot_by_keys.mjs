@@ -2,7 +2,7 @@
 // The rover's control program assembled by keyboard alone: F6 goes from part to part of the page, Tab from field to field, `/` to a box or port.
 import assert from "node:assert/strict";
 import { box } from "./session.mjs";
-import { components, connections, is_opened, kHeader } from "./pilot.mjs";
+import { components, connections, is_opened, kHeader, labelled } from "./pilot.mjs";
 
 const kMostStops = 60;
 
@@ -46,8 +46,9 @@ async function begin(page) {
   await press(page, text);
   await page.locator(".cm-content").waitFor();
   await go_to(page, ".beside");
-  await tab_to(page, page.locator(".cm-content"));
+  await tab_to(page, page.locator(".editor"));
   await page.keyboard.type(kHeader);
+  await page.keyboard.press("Escape"); // Tab indents until then
   await box(page, "Chassis").waitFor();
   await go_to(page, ".top-bar");
   await press(page, text);
@@ -89,7 +90,7 @@ async function give_calls(page, { name, calls }) {
   }
 }
 
-async function connect(page, { from, to, parameters, settings, name }) {
+export async function connect(page, { from, to, parameters, settings, name }) {
   await find(page, from);
   await page.keyboard.press("c");
   await page.getByRole("combobox", { name: "Connect with" }).waitFor();
@@ -98,7 +99,7 @@ async function connect(page, { from, to, parameters, settings, name }) {
   await page.keyboard.press("Enter");
   if (parameters.length > 0) {
     const form = page.getByRole("form", { name: "Parameters of the command" });
-    for (const [label, value] of parameters) await type(page, form.getByLabel(label, { exact: true }), value);
+    for (const [label, value] of parameters) await type(page, form.getByLabel(labelled(label)), value);
     await page.keyboard.press("Enter");
     await form.waitFor({ state: "detached" });
   }

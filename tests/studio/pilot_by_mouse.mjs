@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rover's control program assembled by mouse: clicks, drags, and fields that are typed.
 import { add, box, drag } from "./session.mjs";
-import { components, connections, is_opened, kHeader } from "./pilot.mjs";
+import { components, connections, is_opened, kHeader, labelled } from "./pilot.mjs";
 
 const inspector = (page) => page.locator(".inspector");
 const nothing_selected = (page) => page.locator(".react-flow__pane").click({ position: { x: 8, y: 8 } });
@@ -48,11 +48,11 @@ function pin(page, end, ...kinds) {
   return box(page, owner).locator(kinds.map((kind) => `.pin.${kind}[title^="${kind} ${member}:"]`).join(", "));
 }
 
-async function connect(page, { from, to, parameters, settings, name }) {
+export async function connect(page, { from, to, parameters, settings, name }) {
   await drag(page, pin(page, from, "output", "event"), pin(page, to, "input", "command"));
   if (parameters.length > 0) {
     const form = page.getByRole("form", { name: "Parameters of the command" });
-    for (const [label, value] of parameters) await form.getByLabel(label, { exact: true }).fill(value);
+    for (const [label, value] of parameters) await form.getByLabel(labelled(label)).fill(value);
     await form.getByRole("button", { name: "Connect" }).click();
     await form.waitFor({ state: "detached" });
   }
