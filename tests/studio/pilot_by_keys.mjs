@@ -113,6 +113,7 @@ async function give_name(page, one) {
   await go_to(page, ".inspector");
   await press(page, page.locator(".inspector").getByRole("button", { name: one.to, exact: true }));
   await set(page, "Settings", one.settings);
+  await page.locator(".inspector .lead", { hasText: `· ${one.name}` }).waitFor();
   if (!is_opened(one)) return;
   await press(page, page.getByRole("button", { name: "Parameters as pins" }));
   await box(page, one.name).waitFor();

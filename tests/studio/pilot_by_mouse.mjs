@@ -29,6 +29,7 @@ async function begin(page) {
 
 async function add_one(page, { name, model, fields }) {
   await add(page, `${name}=${model}`, model, name);
+  await inspector(page).getByRole("heading", { name, exact: true }).waitFor();
   for (const [label, value] of fields) await set(page, label, value);
 }
 
@@ -45,7 +46,7 @@ async function give_calls(page, { name, calls }) {
 function pin(page, end, ...kinds) {
   const dot = end.lastIndexOf(".");
   const [owner, member] = [end.slice(0, dot), end.slice(dot + 1)];
-  return box(page, owner).locator(kinds.map((kind) => `.pin.${kind}[title^="${kind} ${member}:"]`).join(", "));
+  return box(page, owner).locator(kinds.map((kind) => `.pin[data-handleid="${kind}:${member}"]`).join(", "));
 }
 
 export async function connect(page, { from, to, parameters, settings, name }) {
@@ -66,6 +67,7 @@ async function give_name(page, one) {
   await box(page, one.from.slice(0, dot)).locator(".port.out", { hasText: new RegExp(`^${one.from.slice(dot + 1)}`) }).click();
   await inspector(page).getByRole("button", { name: one.to, exact: true }).click();
   await set(page, "Settings", one.settings);
+  await page.locator(".inspector .lead", { hasText: `· ${one.name}` }).waitFor();
   if (!is_opened(one)) return;
   await page.getByRole("button", { name: "Parameters as pins" }).click();
   await box(page, one.name).waitFor();
