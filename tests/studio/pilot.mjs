@@ -61,7 +61,8 @@ export const without_comments = (text) => text.split("\n").map((line) => line.re
 
 /** The lines of the two files that are shipped, as the studio has them in one. */
 export function expected_lines() {
-  const [pilot, before_stop, ...others] = [shipped("pilot.yaml"), ...without_comments(shipped("control_program.yaml"))];
-  const lines = without_comments(pilot);
-  return [...without_comments(kHeader).slice(0, -1), before_stop, ...others, ...lines.slice(lines.indexOf("connections:") + 1)];
+  const lines = without_comments(shipped("control_program.yaml"));
+  const pilot = without_comments(shipped("pilot.yaml"));
+  const [last] = lines.splice(lines.indexOf("before_stop: [Vision.stop]"));
+  return [...without_comments(kHeader).slice(0, -1), ...lines, ...pilot.slice(pilot.indexOf("connections:") + 1), last];
 }
