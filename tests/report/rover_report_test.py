@@ -16,7 +16,7 @@ import tempfile
 import unittest
 
 PROGRAM, ROVER, LIBRARIES, FIGURES = map(os.path.abspath, sys.argv[1:5])
-REAL_TIME = ("/figures/realtime/", "/memory/")
+REAL_TIME = ("/figures/realtime/", "/figures/memory/")
 
 
 def run(*command):
