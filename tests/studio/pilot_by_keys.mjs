@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rover's control program assembled by keyboard alone: F6 goes from part to part of the page, Tab from field to field, `/` to a box or port.
 import assert from "node:assert/strict";
-import { box } from "./session.mjs";
+import { box, is_inspected } from "./session.mjs";
 import { components, connections, is_opened, kHeader, labelled } from "./pilot.mjs";
 
 const kMostStops = 60;
@@ -59,7 +59,7 @@ async function add_one(page, { name, model, fields }) {
   await type(page, page.getByLabel("Find a model"), `${name}=${model}`);
   await page.locator(".palette li", { hasText: new RegExp(`^${model}`) }).first().waitFor();
   await page.keyboard.press("Enter");
-  await page.locator(".inspector h2", { hasText: new RegExp(`^${name}$`) }).waitFor();
+  await is_inspected(page, name);
   for (const [label, value] of fields) await set(page, label, value);
 }
 

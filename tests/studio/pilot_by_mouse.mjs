@@ -29,7 +29,6 @@ async function begin(page) {
 
 async function add_one(page, { name, model, fields }) {
   await add(page, `${name}=${model}`, model, name);
-  await inspector(page).getByRole("heading", { name, exact: true }).waitFor();
   for (const [label, value] of fields) await set(page, label, value);
 }
 
