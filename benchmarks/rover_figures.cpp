@@ -2,12 +2,13 @@
 // usage: rover_figures FOLDER
 //
 // The figures of the ball-tracking rover, of the recordings that `scripts/demo rover` leaves in
-// FOLDER: p and pi, the experiment with both control programs, and realtime. Beside them 10 000
-// images without a ball, which nobody is to see one in. Prints JSON, which `armature report` shows
-// if it is figures.json in the folder of the runs.
+// FOLDER: p and pi, the experiment with both control programs, and realtime; with what memory.json
+// there says of processes. Beside them 10 000 images without a ball, which nobody is to see one in.
+// Prints JSON, which `armature report` shows if it is figures.json in the folder of the runs.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <iostream>
 #include <numbers>
 #include <optional>
@@ -157,6 +158,12 @@ Json real_time(const Run& run, Json& figures) {
           {"image_to_position_p99_ms", late_ms[late_ms.size() * 99 / 100]}};
 }
 
+/// What scripts/demo has measured of processes; null without it.
+Json memory_of(const std::string& folder) {
+  std::ifstream file(folder + "/memory.json");
+  return file ? Json::parse(file, nullptr, false) : Json();
+}
+
 }  // namespace
 }  // namespace armature::rover
 
@@ -183,6 +190,7 @@ int main(int argc, char** argv) {
     figures[run.name] = rover::experiment(sights);
     rover::add_curves(run.name, sights, figures);
   }
+  figures["memory"] = rover::memory_of(argv[1]);
   rover::add_pictures(figures);
   std::cout << figures.dump(1) << '\n';
   return 0;

@@ -4,7 +4,7 @@
 
 usage: rover_report_test.py PROGRAM ROVER_FOLDER LIBRARY_FOLDER ROVER_FIGURES
 
-The figures in real time are those of the machine, and not looked at here.
+The figures in real time and of memory are those of the machine, and not looked at here.
 """
 
 import json
@@ -16,7 +16,7 @@ import tempfile
 import unittest
 
 PROGRAM, ROVER, LIBRARIES, FIGURES = map(os.path.abspath, sys.argv[1:5])
-REAL_TIME = "/figures/realtime/"
+REAL_TIME = ("/figures/realtime/", "/figures/memory/")
 
 
 def run(*command):

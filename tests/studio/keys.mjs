@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same walk by keyboard alone: what is pressed goes to what has the focus, which Tab and the arrows move.
 import assert from "node:assert/strict";
-import { box, until } from "./session.mjs";
+import { is_inspected, until } from "./session.mjs";
 import { joint, kActivity, kParameters, kProperties } from "./walk.mjs";
 
 const kMostStops = 400;
@@ -36,7 +36,7 @@ async function add(page, word, model, name) {
   await type(page, page.getByLabel("Find a model"), word);
   await page.locator(".palette li", { hasText: new RegExp(`^${model}`) }).first().waitFor();
   await page.keyboard.press("Enter");
-  await box(page, name).waitFor();
+  await is_inspected(page, name);
   for (const [property, value] of Object.entries(kProperties[name] ?? {})) await set(page, property, value);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// node pictures.mjs FOLDER, with ARMATURE=the program: the pictures of docs/studio_walk.md, from a walk.
+// node pictures.mjs FOLDER, with ARMATURE=the program: the pictures of docs/studio_walk.md and docs/rover.md, from walks.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { crc32, deflateSync } from "node:zlib";
+import * as pilot from "./pilot.mjs";
+import { assemble_by_mouse } from "./pilot_by_mouse.mjs";
 import { begin, finish, studio, user } from "./session.mjs";
 import { lay_out, walk } from "./walk.mjs";
 
@@ -45,22 +47,30 @@ function png({ width, height, colours, places }) {
   return Buffer.concat([signature, chunk("IHDR", header), chunk("PLTE", Buffer.from(colours)), chunk("IDAT", deflateSync(rows, { level: 9 })), chunk("IEND", Buffer.alloc(0))]);
 }
 
+/** Walks in a new file, and keeps a picture each time that the walk shows something. @param wanted  which of them; all unless said */
+async function draw(name, file, walk, settings, wanted = () => true) {
+  const { address, end } = await studio(file);
+  const page = await user(address, settings);
+  const painter = await page.context().browser().newPage();
+  let number = 0;
+  await walk(page, async (what) => {
+    if (!wanted(what)) return;
+    const encoded = (await page.screenshot({ animations: "disabled" })).toString("base64");
+    const bytes = png(await painter.evaluate(with_palette, { encoded, most: kMostColours }));
+    const picture = `${name}_${++number}_${what}.png`;
+    writeFileSync(join(output, picture), bytes);
+    console.log(`${picture}: ${Math.round(bytes.length / 1000)} kB`);
+  });
+  await end("SIGTERM");
+}
+
 const output = process.argv[2];
 await begin();
 try {
   lay_out();
-  const { address, end } = await studio("demo/mine.yaml");
-  const page = await user(address);
-  const painter = await page.context().browser().newPage();
-  let number = 0;
-  await walk(page, async (name) => {
-    const encoded = (await page.screenshot({ animations: "disabled" })).toString("base64");
-    const bytes = png(await painter.evaluate(with_palette, { encoded, most: kMostColours }));
-    const file = `studio_walk_${++number}_${name}.png`;
-    writeFileSync(join(output, file), bytes);
-    console.log(`${file}: ${Math.round(bytes.length / 1000)} kB`);
-  });
-  await end("SIGTERM");
+  await draw("studio_walk", "demo/mine.yaml", walk);
+  pilot.lay_out();
+  await draw("rover_pilot", "rover/deployments/mine.yaml", assemble_by_mouse, { viewport: { width: 2400, height: 1500 } }, (what) => what === "wired");
 } finally {
   await finish();
 }

@@ -60,7 +60,9 @@ export async function user(address, settings = {}) {
   return page;
 }
 
-export const box = (page, name) => page.locator(".react-flow__node", { has: page.locator("header strong", { hasText: new RegExp(`^${name.replace(/[{}.]/g, "\\$&")}$`) }) });
+const escaped = (name) => name.replace(/[{}.]/g, "\\$&");
+
+export const box = (page, name) => page.locator(".react-flow__node", { has: page.locator("header strong", { hasText: new RegExp(`^${escaped(name)}$`) }) });
 
 export async function until(condition, what) {
   for (let tries = 0; !(await condition()); ++tries) {
@@ -92,7 +94,13 @@ export async function add(page, word, model, name = model) {
   await page.getByLabel("Find a model").fill(word);
   await page.locator(".palette li", { hasText: new RegExp(`^${model}`) }).first().waitFor(); // the libraries have been read
   await page.getByLabel("Find a model").press("Enter");
+  await is_inspected(page, name);
+}
+
+/** Fields are the new box's once it is selected, a moment after it stands on the canvas. */
+export async function is_inspected(page, name) {
   await box(page, name).waitFor();
+  await page.locator(".inspector h2", { hasText: new RegExp(`^${escaped(name)}(×\\d+)?$`) }).waitFor();
 }
 
 export async function sit_down(page) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // node --test walk_test.mjs, with ARMATURE=the program: docs/studio_walk.md, by mouse and by keyboard alone. Skipped without chromium.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { begin, finish, folder, program, skip, studio, user } from "./session.mjs";
+import { application } from "./application.mjs";
+import { begin, finish, folder, skip, studio, user } from "./session.mjs";
 import { assemble_by_keys } from "./keys.mjs";
 import { lay_out, walk } from "./walk.mjs";
 
@@ -13,18 +13,6 @@ before(async () => {
   lay_out();
 });
 after(finish);
-
-/** The application as the check has it, without the places where a file says it. */
-function application(file) {
-  const { ok, components, connections, threads } = JSON.parse(execFileSync(program, ["check", "--json", file], { encoding: "utf8" }));
-  const sorted = (lines) => lines.map((line) => JSON.stringify(line)).sort();
-  return {
-    ok,
-    components: sorted(components.map(({ name, model, activity, thread, properties }) => [name, model, activity, thread, properties.map((one) => [one.name, one.value])])),
-    connections: sorted(connections.map(({ kind, from, to, triggers, delayed, crosses_threads }) => [kind, from, to, triggers, delayed, crosses_threads])),
-    threads: sorted(threads.map(({ name, activity, order }) => [name, activity, [...order].sort()])),
-  };
-}
 
 function expect_the_reference(file) {
   const made = application(file);

@@ -3,6 +3,7 @@
 import { emergency_stop } from "./emergency.ts";
 import { dissolve_selected, group_selected } from "./grouping.ts";
 import { redo, save, undo } from "./project.ts";
+import { go_to_region } from "./regions.ts";
 import { stop } from "./run.ts";
 import { selection } from "./selection.ts";
 
@@ -27,6 +28,7 @@ function on_key(event: KeyboardEvent): void {
 
 function action_of(event: KeyboardEvent): (() => void) | undefined {
   if (event.key === "F8") return () => void emergency_stop();
+  if (event.key === "F6") return () => go_to_region(event.shiftKey ? -1 : 1);
   if (event.key === "Escape") return event.shiftKey ? () => void stop() : close_menu();
   if (!event.ctrlKey && !event.metaKey) return undefined;
   const key = event.key.toLowerCase();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The canvas as a tree, for the keyboard and for screen readers.
-import { useMemo, useRef, useState } from "react";
+import { useEffect, useMemo, useRef, useState } from "react";
 import { is_elsewhere, useElsewhere } from "./elsewhere.ts";
 import type { Box, BoxPort, Graph } from "./graph.ts";
 import { change, edit } from "./project.ts";
@@ -31,6 +31,8 @@ export function Outline() {
   const [open, set_open] = useState<ReadonlySet<string>>(new Set());
   const [at, set_at] = useState("");
   const [renamed, set_renamed] = useState("");
+  const [seeking, set_seeking] = useState(false);
+  const reached = useRef("");
   const tree = useRef<HTMLUListElement>(null);
   const rows = useMemo(() => rows_of(graph, open), [graph, open]);
   const current = rows.some((row) => row.key === at) ? at : rows[0]?.key;
@@ -40,6 +42,17 @@ export function Outline() {
     set_at(row.key);
     tree.current?.querySelector<HTMLElement>(`[data-key="${CSS.escape(row.key)}"]`)?.focus();
   };
+  useEffect(() => {
+    if (!reached.current || seeking) return;
+    go(rows.find((row) => row.key === reached.current));
+    reached.current = "";
+  });
+  const seek = (text?: string) => {
+    const found = text ? row_called(graph, text) : undefined;
+    if (found?.port) unfold(found.box, true);
+    reached.current = text === undefined ? "" : (found?.key ?? current ?? "");
+    set_seeking(false);
+  };
   const unfold = (box: Box, unfolded: boolean) => {
     const now = new Set(open);
     if (unfolded) now.add(box.id);
@@ -48,7 +61,7 @@ export function Outline() {
   };
   const on_key = (event: React.KeyboardEvent, row: Row, index: number) => {
     const action = action_of(event, row, { go: (by) => go(rows[index + by]), end: (last) => go(last ? rows.at(-1) : rows[0]), unfold, open,
-      rename: () => set_renamed(row.box.id), parent: () => go(rows.find((one) => one.key === row.box.id)) });
+      rename: () => set_renamed(row.box.id), seek: () => set_seeking(true), parent: () => go(rows.find((one) => one.key === row.box.id)) });
     if (!action) return;
     event.preventDefault();
     event.stopPropagation();  // the canvas hears Delete everywhere
@@ -58,6 +71,7 @@ export function Outline() {
     <section className="outline" aria-label="Outline">
       <h2>Outline</h2>
       {rows.length === 0 && <p className="hint">Components are listed here.</p>}
+      {seeking && <Seek graph={graph} done={seek} />}
       <ul role="tree" aria-label="Boxes and their ports" ref={tree} className="scroll">
         {rows.map((row, index) => (
           row.box.id === renamed && !row.port
@@ -66,7 +80,7 @@ export function Outline() {
                 on_key={(event) => on_key(event, row, index)} on_focus={() => set_at(row.key)} unfold={unfold} />
         ))}
       </ul>
-      {rows.length > 0 && !elsewhere && <p className="keys"><kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes <kbd>Ctrl+G</kbd> groups</p>}
+      {rows.length > 0 && !elsewhere && <p className="keys"><kbd>/</kbd> goes to <kbd>F2</kbd> renames <kbd>C</kbd> connects <kbd>Del</kbd> removes <kbd>Ctrl+G</kbd> groups</p>}
     </section>
   );
 }
@@ -76,6 +90,7 @@ interface Moves {
   end(last: boolean): void;
   parent(): void;
   rename(): void;
+  seek(): void;
   unfold(box: Box, unfolded: boolean): void;
   open: ReadonlySet<string>;
 }
@@ -98,12 +113,22 @@ function action_of(event: React.KeyboardEvent, row: Row, moves: Moves): (() => v
     case "Enter": return () => enter(row);
     case " ": return () => choose(row);
     case "F2": return moves.rename;
+    case "/": return moves.seek;
     case "Delete": return () => remove(row);
     case "c": case "C": return () => void (port ? open_menu(event.currentTarget, box, port) : connect_by_name([box.id]));
     case "p": case "P": return port ? () => toggle_plotted(port_name(box, port), port.ends) : undefined;
     default: return undefined;
   }
 }
+
+/** The box of a name, or `Box.Port`; else the first whose name begins so. */
+function row_called(graph: Graph, text: string): Row | undefined {
+  const all = rows_of(graph, new Set(graph.boxes.map((box) => box.id))).map((row) => ({ row, name: name_of(row).toLowerCase() }));
+  const sought = text.toLowerCase();
+  return (all.find(({ name }) => name === sought) ?? all.find(({ name }) => name.startsWith(sought)))?.row;
+}
+
+const name_of = ({ box, port }: Row): string => (port ? `${box.title}.${port.name}` : box.title);
 
 function choose({ box, port }: Row): void {
   if (port) select_port(box.id, port.id);
@@ -144,6 +169,20 @@ function RowView({ row, open, current, on_key, on_focus, unfold }: {
       <span className="name">{port ? port.name : box.title}</span>
       <small>{port ? port.unit || port.kind : box.model}</small>
     </li>
+  );
+}
+
+/** Asks where to go; with Escape nowhere. */
+function Seek({ graph, done }: { graph: Graph; done(text?: string): void }) {
+  return (
+    <>
+      <input autoFocus aria-label="Go to" placeholder="such as Sum, or Sum.Out" list="boxes" spellCheck={false} autoComplete="off" onBlur={() => done()}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") done(event.currentTarget.value.trim());
+          if (event.key === "Escape") done("");
+        }} />
+      <datalist id="boxes">{graph.boxes.map((box) => <option key={box.id} value={box.title} />)}</datalist>
+    </>
   );
 }
 

@@ -3,7 +3,7 @@ import { useMemo, useState } from "react";
 import { drag_model } from "./canvas.tsx";
 import type { Granularity, Model } from "./checked.ts";
 import { project } from "./project.ts";
-import { add_model, without_range } from "./scene.ts";
+import { add_model, asked_of } from "./scene.ts";
 import { composites_of } from "./written.ts";
 
 interface Offer {
@@ -21,24 +21,24 @@ export function Palette() {
   const texts = project.use((state) => state.texts);
   const [sought, set_sought] = useState("");
   const composites = useMemo(() => composites_of(texts), [texts]);
-  const { model, range } = without_range(sought.trim());
+  const { wanted, model, range } = asked_of(sought.trim());
   const groups = useMemo(() => found(models, composites.map((one) => one.name), model), [models, composites, model]);
   return (
     <section className="palette" aria-label="Models">
       <input type="search" placeholder="Find a model" aria-label="Find a model" value={sought}
-        onChange={(event) => set_sought(event.target.value)} onKeyDown={(event) => event.key === "Enter" && add_first(groups, range)} aria-describedby="palette-keys" />
+        onChange={(event) => set_sought(event.target.value)} onKeyDown={(event) => event.key === "Enter" && add_first(groups, wanted, range)} aria-describedby="palette-keys" />
       <div className="scroll">
         {groups.map(([library, offers]) => <Group key={library} library={library} offers={offers} open={sought !== "" || groups.length < 4} />)}
         {groups.length === 0 && <p className="hint">{models.length > 0 ? "No model is called so, nor says so." : "No models yet: libraries are being read. If none come, build a library, and start the studio with it."}</p>}
       </div>
-      <p className="keys" id="palette-keys"><kbd>Enter</kbd> adds the first; <code>PID{"{1..2}"}</code> adds two as one box</p>
+      <p className="keys" id="palette-keys"><kbd>Enter</kbd> adds the first; <code>PID{"{1..2}"}</code> adds two as one box; <code>Pan=PID</code> names it</p>
     </section>
   );
 }
 
-function add_first(groups: [string, Offer[]][], range: string): void {
+function add_first(groups: [string, Offer[]][], wanted: string, range: string): void {
   const first = groups[0]?.[1][0];
-  if (first) void add_model(first.name + range);
+  if (first) void add_model(`${wanted ? `${wanted}=` : ""}${first.name}${range}`);
 }
 
 function found(models: Model[], composites: string[], sought: string): [string, Offer[]][] {

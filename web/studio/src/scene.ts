@@ -132,16 +132,22 @@ export function taken_names(): string[] {
   return [...(shown?.components ?? []).map((one) => one.name.split(".")[0]!), ...entries_of(texts).map((entry) => without_range(entry.name).model)];
 }
 
-/** Adds a component of a model, or with `PID{1..2}` several as one box; @return its name, or undefined if that was refused. */
+/** Adds a component of a model, `PID`, several as one box, `PID{1..2}`, or by a name, `Pan=PID`; @return its name, or undefined if that was refused. */
 export async function add_model(asked: string, place?: Point, then: (name: string) => ReturnType<typeof change>[] = () => []): Promise<string | undefined> {
-  const { model, range } = without_range(asked);
-  const name = free_name(model, taken_names()) + range;
+  const { wanted, model, range } = asked_of(asked);
+  const name = free_name(wanted || model, taken_names()) + range;
   const placed = place ? [change("place", name, String(place[0]), String(place[1]))] : [];
   const library = library_to_load(model);
   const loaded = library ? [change("library", library)] : [];
   if (!(await edit([...loaded, change("add", name, model), ...then(name), ...placed], { field: "canvas" }))) return undefined;
   selection.set({ path: [], boxes: [name], wires: [], port: undefined });
   return name;
+}
+
+/** `Pan=PID{1..2}` as the name that is wanted, the model and its range. */
+export function asked_of(text: string): { wanted: string; model: string; range: string } {
+  const [, wanted = "", asked = text] = /^(\w+)\s*=\s*(.*)$/.exec(text) ?? [];
+  return { wanted, ...without_range(asked) };
 }
 
 /** `PID{1..2}` as the model and its range. */

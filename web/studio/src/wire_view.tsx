@@ -16,7 +16,7 @@ export function WireView({ wire }: { wire: Wire }) {
   const take = (text: string) => edit([change("connection", from, to, ...(text ? [text] : []))], { field: about, file: wire.file });
   return (
     <>
-      <p className="lead">{wire.kind === "data" ? "Connection" : "An event that commands"}</p>
+      <p className="lead">{wire.kind === "data" ? "Connection" : `An event that commands${wire.between ? ` · ${wire.between}` : ""}`}</p>
       <h2 className="ends"><span>{from}</span> <span aria-label="to">→</span> <span>{to}</span></h2>
       <ul className="list">{facts(wire).map((fact) => <li key={fact}>{fact}</li>)}</ul>
       <Field wide label="Settings" about={about} value={settings} take={take}

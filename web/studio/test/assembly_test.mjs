@@ -40,6 +40,41 @@ page_test("a Request asks one operation, which is changed where it stands", "vis
   await edits_are(page, ["calls Ask [Vision.initialize]"]);
 });
 
+page_test("F6 goes from part to part of the page, and Shift+F6 back", "vision", async (page) => {
+  const part = () => page.evaluate(() => [".top-bar", ".palette", ".outline", "main", ".inspector", ".panel"].findIndex((one) => document.querySelector(one).contains(document.activeElement)));
+  for (const expected of [0, 1, 2, 3, 4, 5, 0]) {
+    await page.keyboard.press("F6");
+    assert.equal(await part(), expected);
+  }
+  await page.keyboard.press("Shift+F6");
+  assert.equal(await part(), 5);
+});
+
+page_test("/ in the outline goes to a box or port by its name; Escape and an unknown name stay", "vision", async (page) => {
+  const row = page.locator('.outline [role="treeitem"]:focus .name');
+  const go = async (name) => {
+    await page.keyboard.press("/");
+    await page.getByLabel("Go to").fill(name);
+    await page.keyboard.press("Enter");
+  };
+  await page.locator('.outline [role="treeitem"][tabindex="0"]').focus();
+  await go("Prepare");
+  await eventually(() => row.textContent(), "Prepare");
+  await go("dial.out");
+  await eventually(() => row.textContent(), "Out");
+  await go("Nobody");
+  await eventually(() => row.textContent(), "Out");
+  await page.keyboard.press("/");
+  await page.keyboard.press("Escape");
+  await eventually(() => row.textContent(), "Out");
+});
+
+page_test("a model is added by the name that stands before it", "vision", async (page) => {
+  await page.getByLabel("Find a model").fill("Eye=Camera");
+  await page.keyboard.press("Enter");
+  await edits_are(page, ["add Eye Camera"]);
+});
+
 page_test("what is no caller has no calls", "vision", async (page) => {
   await inspect(page, "Dial");
   assert.equal(await page.getByRole("region", { name: "Calls" }).count(), 0);
