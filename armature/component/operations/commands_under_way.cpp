@@ -10,16 +10,16 @@ namespace armature::component {
 namespace {
 
 BlackBox::Note::Kind kind_of(CommandStage stage) {
-  using Kind = BlackBox::Note::Kind;
+  using NoteKind = BlackBox::Note::Kind;
   switch (stage) {
     case CommandStage::kDone:
-      return Kind::kDone;
+      return NoteKind::kDone;
     case CommandStage::kFailed:
-      return Kind::kFailed;
+      return NoteKind::kFailed;
     case CommandStage::kRefused:
-      return Kind::kRefused;
+      return NoteKind::kRefused;
     default:
-      return Kind::kCancelled;
+      return NoteKind::kCancelled;
   }
 }
 
