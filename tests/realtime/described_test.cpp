@@ -127,5 +127,22 @@ TEST(Described, EventsCommandsAndPortsCarryMadeValues) { expect_realtime_of_made
 
 TEST(Described, SoDoCommandsOfWhichSeveralMayBeUnderWay) { expect_realtime_of_made_values(true); }
 
+TEST(Described, SeveralRunsOfACommandEndOneByOneOrTogether) {
+  Prototype prototype("prototype");
+  Counting other("other");
+  const auto go = prototype.go.twin(other);
+  CommandsUnderWay all(static_cast<CommandBase&>(*go));
+  std::size_t left = 0;
+  expect_realtime("CommandsUnderWay", [&] {
+    while (!all.full()) all.add(nullptr);
+    all.end(all.newest() - 1, CommandStage::kFailed, "gone");
+    all.end(all.newest(), CommandStage::kDone, {});
+    left = all.has(all.newest()) ? 0 : all.size();
+    all.end_all(CommandStage::kCancelled, "another mode");
+  });
+  EXPECT_EQ(left, CommandsUnderWay::kMost - 2);
+  EXPECT_EQ(all.size(), 0u);
+}
+
 }  // namespace
 }  // namespace armature::component
