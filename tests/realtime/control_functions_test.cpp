@@ -143,7 +143,8 @@ TEST(RealtimeFunctions, JointLimiter) {
                                            .arming_time = 1s,
                                            .effort_rate = 12.0});
   auto& limiter = made.value();
-  control::JointLimiter::Limited limited;
+  control::JointLimiter::Step<control::LimitedVelocity> velocity;
+  control::JointLimiter::Step<control::LimitedPosition> position;
   control::JointLimiter::LimitedStep driven;
   expect_realtime("JointLimiter::arm", [&] { limiter.arm({0.0, 0.0}); });
   expect_realtime("JointLimiter::step_effort", [&] {
@@ -157,13 +158,13 @@ TEST(RealtimeFunctions, JointLimiter) {
   });
   EXPECT_EQ(driven.value, 10.0) << "at once";
   expect_realtime("JointLimiter::step_velocity", [&] {
-    limited = limiter.step_velocity({0.0, 0.0}, 20.0);
+    velocity = limiter.step_velocity({0.0, 0.0}, 20.0);
   });
-  EXPECT_EQ(limited.value, 1.0);
+  EXPECT_EQ(velocity.value, 1.0);
   expect_realtime("JointLimiter::step_position", [&] {
-    limited = limiter.step_position({0.0, 0.0}, 20.0);
+    position = limiter.step_position({0.0, 0.0}, 20.0);
   });
-  EXPECT_GT(limited.value, 0.5);
+  EXPECT_GT(position.value, 0.5);
   expect_realtime("JointLimiter::disarm", [&] { limiter.disarm(); });
   EXPECT_FALSE(limiter.armed());
 }

@@ -82,7 +82,10 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
                                          "rad",
                                          component::on_data<&Pid::step>,
                                          component::max_age(kMaxAge)};
-  component::OutputPort<double> output_{this, "Out", "control signal", "V"};
+  component::Property<std::string> out_unit_{this, "OutUnit", "V",
+                                             "of Out: what the drive is given"};
+  component::OutputPort<double> output_{this, "Out", "control signal", "",
+                                        component::unit_of(out_unit_)};
   component::Operation<void()> reset_{this, "reset", component::serve<&Pid::reset>,
                                       "forgets the past: the next output is Ki e",
                                       component::in_own_thread};

@@ -65,7 +65,10 @@ class VelocityPid final : public component::Component, public DrivesJoints {
                                          "rad",
                                          component::on_data<&VelocityPid::step>,
                                          component::max_age(kMaxAge)};
-  component::OutputPort<double> output_{this, "Out", "control signal", "V"};
+  component::Property<std::string> out_unit_{this, "OutUnit", "V",
+                                             "of Out: what the drive is given"};
+  component::OutputPort<double> output_{this, "Out", "control signal", "",
+                                        component::unit_of(out_unit_)};
   component::EventHandler<> arm_{this,
                                  "Arm",
                                  component::serve<&VelocityPid::reset>,
