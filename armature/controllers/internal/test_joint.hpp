@@ -109,7 +109,7 @@ class JointTest : public ::testing::Test {
   std::vector<std::string_view> calls;
   std::string_view broken;
   std::function<void()> on_read;  ///< what the hardware does at once
-  testing::Harness joint;  ///< last: it stops its hardware
+  testing::Harness joint;         ///< last: it stops its hardware
 };
 
 }  // namespace armature::controllers

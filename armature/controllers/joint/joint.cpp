@@ -228,7 +228,8 @@ void Joint::on_position(double of_motor) {
   if (!reading.jumped) return moved(reading.displacement, reading.position);
   switch_off();
   component::Reason why("PositionSensor says that it moved by ");
-  append_number(why, reading.displacement).append(" rad since the sample before, expected at most ");
+  append_number(why, reading.displacement)
+      .append(" rad since the sample before, expected at most ");
   fault(append_number(why, reading.possible).append(" rad by MaxVelocity; look at the sensor"));
 }
 
