@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/control/absolute_position.hpp"
 #include "armature/control/arming/gathering.hpp"
 #include "armature/control/arming/hand_over.hpp"
 #include "armature/control/arming/reference_brake.hpp"
@@ -20,6 +21,7 @@
 #include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/control/dynamics/quaternion.hpp"
 #include "armature/control/error_metrics.hpp"
+#include "armature/control/following_watch.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/low_pass.hpp"
 #include "armature/control/pid.hpp"
@@ -167,6 +169,26 @@ TEST(RealtimeFunctions, JointLimiter) {
   EXPECT_GT(position.value, 0.5);
   expect_realtime("JointLimiter::disarm", [&] { limiter.disarm(); });
   EXPECT_FALSE(limiter.armed());
+}
+
+TEST(RealtimeFunctions, AbsolutePosition) {
+  auto made = control::AbsolutePosition::make({.range = 6.0, .max_velocity = 1.0});
+  auto& position = made.value();
+  double sensor = 0.0;
+  control::AbsolutePosition::Reading reading;
+  expect_realtime("AbsolutePosition::reset", [&] { position.reset(); });
+  expect_realtime("AbsolutePosition::step", [&] { reading = position.step(sensor += 0.1, 0.1); });
+  EXPECT_NEAR(reading.position, 10.1, 1e-9);
+  expect_realtime("AbsolutePosition::at", [&] { sensor = position.at(1.0); });
+  EXPECT_NEAR(sensor, 1.0, 1e-9);
+}
+
+TEST(RealtimeFunctions, FollowingWatch) {
+  control::FollowingWatch watch({.max_error = 0.1, .patience = 0ms});
+  bool follows = true;
+  expect_realtime("FollowingWatch::step", [&] { follows = watch.step(0.2, base::Time{}); });
+  EXPECT_FALSE(follows);
+  expect_realtime("FollowingWatch::reset", [&] { watch.reset(); });
 }
 
 TEST(RealtimeFunctions, ErrorMetrics) {
