@@ -76,6 +76,7 @@ function Shown({ model, owner }: { model: RobotModel; owner: string }) {
           <tbody ref={table}>{model.joints.map((joint) => <Row key={joint.name} joint={joint} />)}</tbody>
         </table>
       </div>
+      {model.tip && <p className="hint">Arrows at <code>{model.tip}</code>: red is x, green y, blue z.</p>}
       {model.meshes > 0 && <p className="hint">{`${model.meshes} shapes of the description are meshes, which are not drawn.`}</p>}
     </>
   );

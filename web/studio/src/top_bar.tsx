@@ -140,7 +140,7 @@ function ModeChoice({ going }: { going: boolean }) {
   if (modes.length === 0) return null;
   const shown = going ? now : modes.find((one) => one.name === chosen)?.name;
   return (
-    <select aria-label="Mode" title="The mode in which the application starts" value={shown || modes.find((one) => one.initial)?.name} disabled={going}
+    <select aria-label="Mode" title="The mode in which the next run starts; what the file says is changed under Modes" value={shown || modes.find((one) => one.initial)?.name} disabled={going}
       onChange={(event) => run.set({ mode: event.target.value })}>
       {modes.map(({ name }) => <option key={name}>{name}</option>)}
     </select>
