@@ -92,7 +92,7 @@ function(armature_library)
     set(public INTERFACE)
   endif()
   add_library(armature::${arg_NAME} ALIAS ${target})
-  target_link_libraries(${target} ${public} ${arg_USES})
+  target_link_libraries(${target} ${public} ${arg_USES} ${ARMATURE_ATOMICS})
   target_compile_features(${target} ${public} cxx_std_20)
   target_include_directories(
     ${target} ${public} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>

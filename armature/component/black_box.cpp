@@ -45,6 +45,16 @@ void visit_bytes(const Type& type, const void* value, const Visit& visit) {
   }
 }
 
+/// What is larger, such as an image, would take the place of what led to a fault.
+constexpr std::size_t kLargestValue = 16 * 1024;
+
+std::size_t bytes_in(const OutputPortBase& port) {
+  std::size_t all = 0;
+  visit_bytes(port.type(), port.current(),
+              [&](const std::byte* /*from*/, std::size_t size) { all += size; });
+  return all;
+}
+
 /// The `count` newest of a ring in which `taken` were put, the oldest first.
 template <typename Each>
 void visit_ring(std::uint64_t taken, std::size_t count, const Each& each) {
@@ -86,6 +96,7 @@ std::string_view name_of(BlackBox::Note::Kind kind) {
 
 void BlackBox::add(const Component& component) {
   for (const OutputPortBase* port : interface_of(component).outputs) {
+    if (bytes_in(*port) > kLargestValue) continue;
     Channel channel{port, nullptr, ports_size_, {}};
     if (!port->type().fixed_size()) channel.shape.emplace(port->type(), port->current());
     channels_.push_back(std::move(channel));

@@ -60,7 +60,7 @@ class BlackBox {
     std::vector<Note> notes;          ///< the oldest first
   };
 
-  /// All output ports and events of the component, which have their shape and keep it.
+  /// The component's events, and output ports of at most 16 KiB, which have and keep their shape.
   /// @thread configuration only
   void add(const Component& component);
   /// Makes room for so many pictures, which are made no more often than that.

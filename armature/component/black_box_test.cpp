@@ -25,6 +25,7 @@ ARMATURE_STRUCT(Legs, height, forces, steps);
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::SizeIs;
 
 class Walker final : public Component {
  public:
@@ -86,6 +87,19 @@ TEST_F(BlackBoxes, APictureHasEveryPortAsItStandsAndHowOftenEventsWereRaised) {
                                   "20 {height: 2, forces: [2, 3], steps: [[2], [2, 2, 2]]}"));
   EXPECT_THAT(all(1), ElementsAre("10 false", "20 true"));
   EXPECT_THAT(all(2), ElementsAre("10 0", "20 1"));
+}
+
+TEST_F(BlackBoxes, AValueOfMoreThanSixteenKibibytesIsLeftOut) {
+  Legs many = legs(0.0);
+  many.forces.resize(4 * 1024);
+  walker_.legs.set_sample(many);
+  face(walker_.legs).prepare();
+  reserve(4, 4);
+  walker_.up.write(true);
+  picture(10);
+  EXPECT_THAT(box_.channels(), SizeIs(2));  // Up and Stumbled
+  EXPECT_THAT(all(0), ElementsAre("10 true"));
+  EXPECT_LT(box_.picture_size(), 64u);
 }
 
 TEST_F(BlackBoxes, TheNewestStayAndNoneIsMadeBeforeItIsDue) {

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "armature/component/author.hpp"
 #include "armature/controllers/base/limited_effort.hpp"
 #include "robots/rover/plant.hpp"
+#include "robots/rover/wheel_sample.hpp"
 
 namespace armature::rover {
 
 ARMATURE_STRUCT(Place, (x, "m", "to the front of where the rover began"),
                 (y, "m", "to the left of it"), (heading, "rad", "from x to y"));
-
-/// What a wheel's drive says when it is read.
-struct WheelSample {
-  std::int64_t counts = 0;  ///< of the motor, since the sample before
-  bool fresh = false;       ///< the encoder answered
-  bool on = false;          ///< the drive drives
-};
-ARMATURE_STRUCT(WheelSample, counts, fresh, on);
 
 /// The simulated rover in its arena (MODEL.md), in simulated or real time, as the application is
 /// run. The components RoverWheel reach their drives by its operations; a Camera sees by `Place`.

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "armature/controllers/base/joint_hardware.hpp"
-#include "robots/rover/simulated_rover.hpp"
+#include "robots/rover/wheel_sample.hpp"
 
 namespace armature::rover {
 
 /// The model `RoverWheel`: the hardware of a joint that turns without end, with motor, encoder and
-/// drive. Its peer has the drives (SimulatedRover). DisplacementSensor is of the motor's axis, so
-/// its Joint has the gear, and needs `Continuous`. It has no brake: the motor brakes itself while
-/// the drive is off.
+/// drive. Its peer has the drives: SimulatedRover, or a driver with the same four operations.
+/// DisplacementSensor is of the motor's axis, so its Joint has the gear, and needs `Continuous`. It
+/// has no brake: the motor brakes itself while the drive is off.
 ///
 /// It faults, and so stops its joint, when the drive stopped by itself, as it does 100 ms after the
 /// last effort.

@@ -216,8 +216,8 @@ std::string TableText::of(lua_State* lua, int index, int depth) const {
   luaL_checkstack(lua, kStackForOne, "text");
   if (lua_type(lua, index) == LUA_TTABLE && luaL_getmetafield(lua, index, "__tostring") == 0) {
     if (depth > kDeepest) return "...";
-    const std::size_t count = lua_rawlen(lua, index);
-    const bool is_list = count == entries_of(lua, index);
+    const std::size_t count = entries_of(lua, index);
+    const bool is_list = count == lua_rawlen(lua, index);
     return is_list ? list(lua, index, count, depth) : map(lua, index, depth);
   }
   if (lua_type(lua, index) == LUA_TTABLE) lua_pop(lua, 1);  // its __tostring

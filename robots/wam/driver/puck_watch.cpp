@@ -27,7 +27,10 @@ void PuckWatch::start(base::Time now, const Config& config) {
   reading_ = motor_ = 0;
   waits_ = false;
   due_ = now;
-  for (Round& round : all_) round.answers = round.rounds = 0;
+  for (Round& round : all_) {
+    round.answers = 0;
+    round.rounds = 0;
+  }
 }
 
 std::optional<can::Frame> PuckWatch::question(base::Time now) {
