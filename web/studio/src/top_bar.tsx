@@ -99,10 +99,11 @@ function Pace({ going }: { going: boolean }) {
 function Pausing() {
   const { state, now } = run.use((all) => all);
   const live_sim = is_up(state) && state.simulated;
+  if (!live_sim) return null;
   return (
     <>
-      <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
-      <button type="button" disabled={!live_sim || !now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
+      <button type="button" onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
+      <button type="button" disabled={!now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
     </>
   );
 }
