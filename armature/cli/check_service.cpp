@@ -62,6 +62,9 @@ Json json_of(const inspect::End& end) {
   Json json = {
       {"component", end.component}, {"member", end.member}, {"kind", inspect::name_of(end.kind)}};
   if (!end.fits()) json["why_not"] = end.why_not;
+  if (end.fits() && !end.names.property.empty()) {
+    json["names"] = {{"property", end.names.property}, {"unit", end.names.unit}};
+  }
   return json;
 }
 

@@ -27,6 +27,20 @@ std::string unknown_unit(const component::PortBase& port) {
          quoted(port.unit());
 }
 
+/// A port that serves any unit and was told none takes that of the other one.
+std::string hint_about_units(const OutputPortBase& output, const InputPortBase& input) {
+  const auto may_name = [](const component::PortBase& port) {
+    return port.unit_property() != nullptr && port.unit().empty();
+  };
+  const auto hint = [](const component::PortBase& port, const component::PortBase& other) {
+    return "name the unit of " + quoted(port.owner().name()) + ": " +
+           std::string(port.unit_property()->name()) + ": " + std::string(other.unit());
+  };
+  if (may_name(input)) return hint(input, output);
+  if (may_name(output)) return hint(output, input);
+  return "connect ports of the same unit, or convert in a component between them";
+}
+
 std::optional<Mismatch> mismatch_of_units(const OutputPortBase& output,
                                           const InputPortBase& input) {
   if (output.unit() == input.unit()) return std::nullopt;
@@ -37,7 +51,7 @@ std::optional<Mismatch> mismatch_of_units(const OutputPortBase& output,
                       " expects " + unit_text(input.unit()),
                   !from ? unknown_unit(output)
                   : !to ? unknown_unit(input)
-                        : "connect ports of the same unit, or convert in a component between them"};
+                        : hint_about_units(output, input)};
 }
 
 std::optional<Mismatch> mismatch_of_sizes(const OutputPortBase& output,

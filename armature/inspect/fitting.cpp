@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "armature/base/near_name.hpp"
@@ -74,6 +75,16 @@ Writers writers_of(const Blueprint& blueprint) {
   return writers;
 }
 
+/// Components that ports of others are connected to.
+std::unordered_set<std::string> connected_in(const Blueprint& blueprint) {
+  std::unordered_set<std::string> names;
+  for (const exec::ConnectionEntry& one : blueprint.connections) {
+    names.insert(one.from_component);
+    names.insert(one.to_component);
+  }
+  return names;
+}
+
 /// Finds the ends for one member, component by component.
 class Search {
  public:
@@ -82,6 +93,7 @@ class Search {
 
   std::vector<End> among(const Blueprint& blueprint) {
     may_take_turns_ = !blueprint.modes.empty();
+    connected_ = connected_in(blueprint);
     for (const exec::ComponentEntry& entry : blueprint.components) {
       look_at(component::interface_of(*entry.component));
     }
@@ -91,10 +103,14 @@ class Search {
  private:
   void look_at(const component::Interface& all) {
     if (from_.output != nullptr) {
-      for (const auto* input : all.inputs) add(*input, EndKind::kInput, why_not(*input));
+      for (const auto* input : all.inputs) {
+        add(*input, EndKind::kInput, why_not(*input), unit_to_name(*from_.output, *input));
+      }
     }
     if (from_.input != nullptr) {
-      for (const auto* output : all.outputs) add(*output, EndKind::kOutput, why_not(*output));
+      for (const auto* output : all.outputs) {
+        add(*output, EndKind::kOutput, why_not(*output), unit_to_name(*from_.input, *output));
+      }
     }
     if (from_.event != nullptr) {
       for (const auto* operation : all.operations) {
@@ -109,18 +125,29 @@ class Search {
   }
 
   template <typename Found>
-  void add(const Found& found, EndKind kind, std::string why_not) {
-    ends_.push_back({found.owner().name(), std::string(found.name()), kind, std::move(why_not)});
+  void add(const Found& found, EndKind kind, std::string why_not, UnitToName names = {}) {
+    ends_.push_back({found.owner().name(), std::string(found.name()), kind, std::move(why_not),
+                     std::move(names)});
+  }
+
+  /// A port of any unit takes that of the other one.
+  UnitToName unit_to_name(const component::PortBase& from, const component::PortBase& end) const {
+    const bool names_none = end.unit_property() != nullptr && end.unit().empty();
+    const bool free = names_none && !connected_.contains(end.owner().name());
+    if (!free || from.unit().empty() || !types::same_type(from.type(), end.type())) return {};
+    return {std::string(end.unit_property()->name()), std::string(from.unit())};
   }
 
   std::string why_not(const InputPortBase& input) const {
     const auto found = compare_(*from_.output, input);
-    return found ? found->message : has_writer(input);
+    const bool fits = !found || !unit_to_name(*from_.output, input).property.empty();
+    return fits ? has_writer(input) : found->message;
   }
 
   std::string why_not(const OutputPortBase& output) const {
     const auto found = compare_(output, *from_.input);
-    return found ? found->message : has_writer(*from_.input);
+    const bool fits = !found || !unit_to_name(*from_.input, output).property.empty();
+    return fits ? has_writer(*from_.input) : found->message;
   }
 
   static std::string why_not(const OperationBase& command) {
@@ -140,6 +167,7 @@ class Search {
   const Writers writers_;
   const Compare compare_;
   bool may_take_turns_ = false;
+  std::unordered_set<std::string> connected_;
   std::vector<End> ends_;
 };
 

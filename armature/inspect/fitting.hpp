@@ -18,19 +18,27 @@ using types::name_of;
 enum class EndKind { kInput, kOutput, kEvent, kCommand };
 ARMATURE_ENUM(EndKind, kInput, kOutput, kEvent, kCommand);
 
+/// What a component has to be told before a connection fits: `Unit: rad`.
+struct UnitToName {
+  std::string property;  ///< empty: nothing
+  std::string unit;
+};
+
 /// Where a connection from, or to, a member could end.
 struct End {
   std::string component;  ///< its full name, or that of a model
   std::string member;
   EndKind kind = EndKind::kInput;
   std::string why_not;  ///< empty: it fits
+  UnitToName names{};   ///< with which it fits
 
   bool fits() const { return why_not.empty(); }
 };
 
 /// All ends of the kind that `component.member` can be connected to: inputs for an output, outputs
 /// for an input, commands for an event, events for a command. An input with a writer fits where
-/// several may write, or where modes could have them take turns, which the check decides.
+/// several may write, or where modes could have them take turns, which the check decides. A port of
+/// any unit fits if nothing is connected to its component yet: `End::names` says what to set.
 /// The error says that there is no such member.
 /// @thread any, while the components do not run; O(ports of the application)
 base::Result<std::vector<End>> fitting(const exec::Blueprint& blueprint, std::string_view component,

@@ -127,6 +127,43 @@ TEST_F(Fitting, NamesWhatIsUnknown) {
             "'Sink' has no port, event or command 'Agle'");
 }
 
+/// Shows numbers in any unit.
+class AnyUnit final : public Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Property<std::string> unit_{this, "Unit", "", "of both"};
+  component::InputPort<double> in_{this, "In", "what", "", component::unit_of(unit_)};
+  component::OutputPort<double> out_{this, "Out", "it", "", component::unit_of(unit_)};
+};
+
+TEST_F(Fitting, APortOfAnyUnitFitsOnceItsComponentIsToldTheUnit) {
+  blueprint_.add<AnyUnit>("Any");
+  const auto end_of_any = [this] {
+    const auto ends = fitting(blueprint_, "Source", "Angle");
+    for (const End& end : ends.value()) {
+      if (end.component == "Any") return end;
+    }
+    return End{};
+  };
+  EXPECT_TRUE(end_of_any().fits());
+  EXPECT_EQ(end_of_any().names.property, "Unit");
+  EXPECT_EQ(end_of_any().names.unit, "rad");
+  blueprint_.connect("Any.Out", "Sink.Length");
+  EXPECT_EQ(end_of_any().why_not, "'Source.Angle' is in 'rad', but 'Any.In' expects plain numbers");
+}
+
+TEST_F(Fitting, AModelOfAnyUnitFits) {
+  component::Registry registry;
+  registry.add<AnyUnit>("AnyUnit", "shows");
+  const ModelPorts ports(registry);
+  const std::vector<End> ends = ports.fitting(blueprint_, "Source", "Angle");
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_EQ(ends[0].member, "In");
+  EXPECT_EQ(ends[0].names.unit, "rad");
+}
+
 TEST_F(Fitting, ModelsThatFitAreFound) {
   component::Registry registry;
   registry.add<Sink>("Sink", "reads");

@@ -271,3 +271,72 @@ studio_test("calls, superiors, included files and modes are changed in the file,
   assert.equal(content(), expected);
   await end("SIGTERM");
 });
+
+const set = async (page, label, text) => {
+  await page.getByLabel(label, { exact: true }).fill(text);
+  await page.keyboard.press("Enter");
+};
+
+studio_test("a number is given in its unit, a wire has what it leads to name the unit, and what is shown has it", async () => {
+  const { address, end, content } = await studio("units.yaml");
+  const page = await user(address);
+  await add(page, "constant", "Constant");
+  await set(page, "Value", "45 deg");
+  await page.getByText("name its unit: Unit: deg").waitFor();
+  await set(page, "Unit", "rad");
+  await page.getByText("= 0.785 rad").waitFor();
+  assert.equal(await page.getByLabel("Value", { exact: true }).inputValue(), "45 deg", "as the file has it");
+  await set(page, "Activity", "{periodic: 10 ms}");
+  await page.keyboard.press("Escape");
+  await add(page, "number", "Number");
+  await drag(page, box(page, "Constant").locator(".pin.output").first(), box(page, "Number").locator(".pin.input").first());
+  await page.getByText("No problems").waitFor();
+  await page.getByRole("button", { name: "Save and run" }).click();
+  await box(page, "Constant").getByText("0.785 rad").waitFor();
+  await box(page, "Constant").locator(".port.out").first().click();
+  await page.getByRole("button", { name: "Plot", exact: true }).click();
+  await page.locator(".legend .chips", { hasText: "Constant.Out" }).getByText("rad", { exact: true }).waitFor();
+  assert.match(content(), /Number: \{model: Number, properties: \{Unit: rad\}\}/);
+  await page.keyboard.press("Shift+Escape");
+  await page.getByText("ended", { exact: true }).waitFor();
+  await end("SIGTERM");
+});
+
+studio_test("a run that crashes is told so, and its log is a press away", async () => {
+  const { file, address, end } = await studio("crashes.yaml", kWave);
+  const page = await user(address);
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".port .value:not(:empty)").first().waitFor();
+  assert.equal(spawnSync("pkill", ["-SEGV", "-f", `run ${file}`]).status, 0);
+  await page.getByText("crashed: segmentation fault").waitFor();
+  await page.getByRole("tab", { name: "Threads" }).click();
+  await page.getByRole("button", { name: "See the log" }).click();
+  await page.getByRole("log").waitFor();
+  await end("SIGTERM");
+});
+
+studio_test("the mode in which the application starts is chosen on the page, and stands in the file", async () => {
+  const { address, end, content } = await studio("starts.yaml", `${kWave}  Watcher: {model: Watcher}\nmodes:\n  day: [Source]\n  night: [Watcher]\n`);
+  const page = await user(address);
+  await page.getByRole("tab", { name: "Modes" }).click();
+  await page.getByRole("group", { name: "night" }).getByRole("button", { name: "Start in it" }).click();
+  await page.getByRole("group", { name: "night" }).getByRole("button", { name: "Starts in it" }).waitFor();
+  await page.keyboard.press("Control+s");
+  await until(() => content().endsWith("night: [Watcher]\nmode: night\n"), content);
+  await end("SIGTERM");
+});
+
+studio_test("the arm of seven joints in 3D has its tool, and is where it is measured", async () => {
+  cpSync(new URL("../../robots/wam", import.meta.url), join(folder, "wam"), { recursive: true });
+  const { address, end } = await studio("wam/deployments/npid7.yaml");
+  const page = await user(address);
+  await page.getByRole("button", { name: "Robot", exact: true }).click();
+  await page.getByRole("application", { name: /wam7 in 3D/ }).waitFor();
+  await page.getByText("Arrows at tool").waitFor();
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  const elbow = page.getByRole("region", { name: "Joints" }).getByRole("row", { name: /joint4/ });
+  await until(async () => (await elbow.textContent()).includes("3.130 rad"), "the elbow is where it is at home");
+  await page.keyboard.press("Shift+Escape");
+  await page.getByText(/^ended/).waitFor();
+  await end("SIGTERM");
+});

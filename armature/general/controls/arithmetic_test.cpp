@@ -153,7 +153,8 @@ TEST(UnitsOfControls, PortsAreInTheUnitThatThePropertySays) {
   EXPECT_EQ(check<Adder>({{"Unit", "rad"}}), "");
   EXPECT_THAT(check<Adder>({{"Unit", "m"}}),
               HasSubstr("'Source.Out' is in 'rad', but 'Control.In1' expects 'm'"));
-  EXPECT_THAT(check<Adder>({}), HasSubstr("expects plain numbers"));
+  EXPECT_THAT(check<Adder>({}),
+              HasSubstr("expects plain numbers (name the unit of 'Control': Unit: rad)"));
 }
 
 TEST(UnitsOfControls, WhatIsNoUnitIsRefused) {

@@ -11,7 +11,7 @@ import { Requirements } from "./requirements.tsx";
 import { change_component, run } from "./run.ts";
 import { remove_selected } from "./scene.ts";
 import { open_composite, select_box, selection, show_text } from "./selection.ts";
-import { acts_of, boxes_state, reason_text, state_class } from "./states.ts";
+import { type Act, acts_of, boxes_state, reason_text, state_class } from "./states.ts";
 
 export function BoxView({ box }: { box: Box }) {
   const model = project.use((state) => state.models.find((one) => one.name === box.model));
@@ -56,21 +56,23 @@ function SplitField({ box }: { box: Box }) {
   return <Field label="Split off" about={about} value="" hint="3, or 3..5, gets a box of its own" take={(part) => split(box, part, about)} />;
 }
 
+const kActs: [Act, string, string][] = [
+  ["start", "Start", "Starts it"], ["stop", "Stop this", "Stops it alone"], ["recover", "Recover", "It runs on"], ["reset", "Reset", "Takes its fault back: it is stopped then, and may be started"],
+];
+
 /** How the run has it, with what can be done about that. */
 export function Live({ box }: { box: Box }) {
   const components = run.use((all) => all.components);
   const state = boxes_state(box, components);
   if (!state) return null;
   const reasons = [...new Set(box.components.flatMap((one) => components.get(one.name)?.reason || []))].map((one) => reason_text(state, one));
-  const acts = box.components.map((one) => acts_of(components.get(one.name)?.state ?? ""));
-  const all = (what: string) => () => box.components.forEach((one) => void change_component(one.name, what));
+  const acts = new Set(box.components.flatMap((one) => acts_of(components.get(one.name)?.state ?? "")));
+  const all = (what: Act) => box.components.forEach((one) => void change_component(one.name, what));
   return (
     <div className={`live ${state_class(state)}`}>
       <b>{state}</b> {reasons.join("; ")}
       <span className="group" role="group" aria-label="State">
-        {acts.some((one) => one.start) && <button type="button" onClick={all("start")}>Start</button>}
-        {acts.some((one) => one.stop) && <button type="button" title="Stops this component alone" onClick={all("stop")}>Stop this</button>}
-        {acts.some((one) => one.reset) && <button type="button" title="Takes the fault back; then it may be started" onClick={all("reset")}>Reset</button>}
+        {kActs.filter(([act]) => acts.has(act)).map(([act, label, title]) => <button key={act} type="button" title={title} onClick={() => all(act)}>{label}</button>)}
       </span>
     </div>
   );

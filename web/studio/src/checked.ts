@@ -153,6 +153,7 @@ export interface End {
   member: string;
   kind: "input" | "output" | "event" | "command";
   why_not?: string;
+  names?: { property: string; unit: string };   ///< it fits once that property names the unit
 }
 
 export interface Fitting {

@@ -93,11 +93,11 @@ const end_choice = (box: Box, port: BoxPort, reason: string, menu: Menu): Choice
 });
 
 function models_of(reach: Reach, menu: Menu): Choice[] {
-  return reach.models.filter((one) => !one.why_not).map(({ component, member }) => ({
-    key: `model ${component}.${member}`,
-    text: `new ${component}: ${member}`,
+  return reach.models.filter((one) => !one.why_not).map((end) => ({
+    key: `model ${end.component}.${end.member}`,
+    text: `new ${end.component}: ${end.member}${end.names ? `, in ${end.names.unit}` : ""}`,
     why_not: "",
-    choose: () => add_and_connect(menu, component, member),
+    choose: () => add_and_connect(menu, end),
   }));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files whose components are the deployment's, too.
-import { useState } from "react";
+import { Fragment, useState } from "react";
 import { items_of, section_of, unquoted } from "./flow_text.ts";
 import { change, edit, own_file, project } from "./project.ts";
 import { Refused } from "./refused.tsx";
@@ -20,7 +20,7 @@ export function Includes() {
       {included.length > 0 && (
         <ul className="chips">
           {included.map((file) => (
-            <li key={file}>{file}<button type="button" aria-label={`Include ${file} no more`} onClick={() => void edit([change("no_include", file)], { field: kAbout })}>×</button></li>
+            <li key={file}><span>{file.split("/").map((part, i) => <Fragment key={i}>{i > 0 && <>/<wbr /></>}{part}</Fragment>)}</span><button type="button" aria-label={`Include ${file} no more`} onClick={() => void edit([change("no_include", file)], { field: kAbout })}>×</button></li>
           ))}
         </ul>
       )}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The graph of what is open now, made once for all views.
 import type { Change } from "./backend.ts";
-import type { Argument, Checked, Fitting, Place } from "./checked.ts";
+import type { Argument, Checked, End, Fitting, Place } from "./checked.ts";
 import { array_of, in_array, peers_by_name, wires_by_name } from "./by_name.ts";
 import { with_parameter } from "./event_command.ts";
 import { type Box, type BoxPort, type Graph, graph_of, kNoGraph, type Wire } from "./graph.ts";
@@ -85,8 +85,18 @@ export async function connect(a: { box: string; port: string }, b: { box: string
   const [from, to] = is_source(first) ? words : words.toReversed();
   const parameters = is_source(first) ? parameters_left(first, box_called(b.box)!, second) : parameters_left(second, box_called(a.box)!, first);
   if (parameters.length > 0) return selection.set({ commanding: { from: from!, to: to!, parameters } }), true;
-  return edit([change("connect", from!, to!)], { field: "canvas" });
+  return edit([...names_units(a, first), ...names_units(b, second), change("connect", from!, to!)], { field: "canvas" });
 }
+
+/** Has the component of a port of any unit name that of the other end. */
+function names_units({ box }: { box: string }, port: BoxPort): Change[] {
+  const { reach } = selection.get();
+  const names = port.ends.map((end) => reach?.names.get(end)).find((one) => one !== undefined);
+  return names ? [names_unit(box_called(box)!.edited, names)] : [];
+}
+
+const names_unit = (component: string, { property, unit }: NonNullable<End["names"]>): Change =>
+  change("set", `${component}.${property}`, /^[\w/^*. -]+$/.test(unit) ? unit : JSON.stringify(unit));
 
 /** Of a command, those that no member of the event gives. */
 function parameters_left(event: BoxPort, box: Box, command: BoxPort): Argument[] {
@@ -173,11 +183,11 @@ function libraries_of(text: string): string[] {
 }
 
 /** Adds a model and connects one of its ports with the one that the menu was opened for. */
-export async function add_and_connect(menu: FitMenu, model: string, member: string): Promise<void> {
+export async function add_and_connect(menu: FitMenu, { component: model, member, names }: End): Promise<void> {
   const port = port_in(menu);
   if (!port) return;
   const ends = (name: string) => (is_source(port) ? [port.written, `${name}.${member}`] : [`${name}.${member}`, port.written]);
-  await add_model(model, menu.place, (name) => [change("connect", ...ends(name))]);
+  await add_model(model, menu.place, (name) => [...(names ? [names_unit(name, names)] : []), change("connect", ...ends(name))]);
 }
 
 /** Has a parameter of an opened connection from an event given by a port, a member of the event, or a constant; empty: by the event. */

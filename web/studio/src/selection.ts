@@ -13,6 +13,8 @@ export interface Reach {
   port: string;
   /** `Component.member` to why it does not fit; empty: it fits. */
   ends: Map<string, string>;
+  /** `Component.member` to what its component has to be told with the connection. */
+  names: Map<string, { property: string; unit: string }>;
   models: End[];
 }
 
@@ -82,7 +84,8 @@ export function show_text(file: string, line = 1, column = 1): void {
 
 export function reach_of(box: string, port: string, { ends, models }: Fitting): Reach {
   const all = new Map(ends.map((end) => [`${end.component}.${end.member}`, end.why_not ?? ""]));
-  return { box, port, ends: all, models: models ?? [] };
+  const names = new Map(ends.flatMap((end) => (end.names ? [[`${end.component}.${end.member}`, end.names] as const] : [])));
+  return { box, port, ends: all, names, models: models ?? [] };
 }
 
 let telling: ReturnType<typeof setTimeout> | undefined;

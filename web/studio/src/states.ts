@@ -18,10 +18,13 @@ const rank = (state: string): number => (kRanks.indexOf(state) < 0 ? kRanks.leng
 export const reason_text = (state: string, reason: string): string =>
   reason.toLowerCase().startsWith(`${state.toLowerCase()}: `) ? reason.slice(state.length + 2) : reason;
 
-/** Whether starting, stopping or a reset does something for a component in that state. */
-export function acts_of(state: string): { start: boolean; stop: boolean; reset: boolean } {
-  const faulty = state_class(state) === "is-faulty";
-  return { start: state_class(state) === "is-stopped", stop: state === "Running" || state === "RunTimeError", reset: faulty };
+/** What does something for a component in that state. */
+export type Act = "start" | "stop" | "recover" | "reset";
+
+export function acts_of(state: string): Act[] {
+  if (state === "Running") return ["stop"];
+  if (state === "RunTimeError") return ["recover", "stop"];
+  return state_class(state) === "is-faulty" ? ["reset"] : state ? ["start"] : [];
 }
 
 export function state_class(state: string): string {

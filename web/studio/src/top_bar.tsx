@@ -4,6 +4,7 @@ import { useElsewhere } from "./elsewhere.ts";
 import { is_saved, project, redo, reload, save, undo } from "./project.ts";
 import { is_going, is_up, pause, run, set_pace, start, step, stop } from "./run.ts";
 import { emergency_stop } from "./emergency.ts";
+import { end_text, has_failed } from "./run_end.ts";
 import { RunSettings } from "./run_settings.tsx";
 import { counted } from "./scene.ts";
 import { SeatView } from "./seat_view.tsx";
@@ -99,10 +100,11 @@ function Pace({ going }: { going: boolean }) {
 function Pausing() {
   const { state, now } = run.use((all) => all);
   const live_sim = is_up(state) && state.simulated;
+  if (!live_sim) return null;
   return (
     <>
-      <button type="button" disabled={!live_sim} onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
-      <button type="button" disabled={!live_sim || !now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
+      <button type="button" onClick={() => void pause(!now?.paused)}>{now?.paused ? "Go on" : "Pause"}</button>
+      <button type="button" disabled={!now?.paused} title="On to the next instant at which something is due" onClick={() => void step()}>Step</button>
     </>
   );
 }
@@ -167,23 +169,6 @@ function state_text(state: string, exit_code: number, paused: boolean): string {
   if (state === "lost") return "not there";
   if (state === "ended") return end_text(exit_code);
   return paused ? "paused" : state;
-}
-
-const has_failed = (state: string, exit_code: number): boolean => state === "ended" && exit_code > 0;
-
-const kSignals = 128;  ///< codes above are of what a signal ended
-const kCrashes = new Map([[4, "illegal instruction"], [6, "aborted"], [7, "bus error"], [8, "division by zero"], [11, "segmentation fault"]]);
-const kKilled = [9, 15];
-
-/** As docs/command_line.md has the codes. -1: a run that an earlier studio has started; nobody knows how it ended. */
-function end_text(exit_code: number): string {
-  if (exit_code <= 0) return "ended";
-  const crash = kCrashes.get(exit_code - kSignals);
-  if (crash) return `crashed: ${crash}`;
-  if (kKilled.includes(exit_code - kSignals)) return "was killed";
-  if (exit_code === 1) return "failed";
-  if (exit_code === 4) return "ended by a safety reaction";
-  return `ended with code ${exit_code}`;
 }
 
 /** Always at the same place, and never disabled: what it does is safe at any time. */

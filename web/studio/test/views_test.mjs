@@ -12,7 +12,7 @@ page_test("a robot is shown in 3D and moved by the run; its view is loaded when 
   await open_robot(page);
   assert.ok(asked.some((url) => /part-.*\.js$/.test(url)), "its code comes now");
   assert.equal((await joints(page)).length, 7);
-  assert.match((await joints(page))[0], /^joint1no value-2\.6 … 2\.6$/);
+  assert.match((await joints(page))[0], /^joint1no value-2\.6 … 2\.6 rad$/);
   await page.getByText("All joints are shown at 0.").waitFor();
   const canvas = page.locator(".stage canvas");
   await page.waitForTimeout(500);
