@@ -236,6 +236,8 @@ void add_mode_options(EditOptions options) {
                 if (component.empty()) return RemoveMode{mode};
                 return RemoveFromMode{mode, component};
               });
+  options.one("--initial-mode", "MODE", "has the application start in a mode",
+              [](const std::string& mode) -> Change { return StartInMode{mode}; });
   options.pair("--rename-mode", "OLD=NEW", "renames a mode",
                [](std::string from, std::string to) -> Change {
                  return RenameMode{std::move(from), std::move(to)};

@@ -62,7 +62,19 @@ bool JointLimiter::arm(const Measured& measured, double effort) {
   return true;
 }
 
-JointLimiter::Limited JointLimiter::step_position(const Measured& measured, double command) {
+JointLimiter::Step<LimitedPosition> JointLimiter::step_position(const Measured& measured,
+                                                                double command) {
+  const Step<double> step = position_within(measured, command);
+  return {LimitedPosition(step.value), step.status};
+}
+
+JointLimiter::Step<LimitedVelocity> JointLimiter::step_velocity(const Measured& measured,
+                                                                double command) {
+  const Step<double> step = velocity_within(measured, command);
+  return {LimitedVelocity(step.value), step.status};
+}
+
+JointLimiter::Step<double> JointLimiter::position_within(const Measured& measured, double command) {
   if (!armed_) {
     if (std::isfinite(measured.position)) position_ = measured.position;
     return {position_, Status::kDisarmed};
@@ -70,7 +82,7 @@ JointLimiter::Limited JointLimiter::step_position(const Measured& measured, doub
   // A joint that is outside may stay there.
   const Range limits{std::min(config_.lower, position_), std::max(config_.upper, position_)};
   if (!finite(measured) || !std::isfinite(command)) {
-    const Limited braked = brake();
+    const Step<double> braked = brake();
     move_to(std::clamp(position_ + braked.value * period_s_, limits.low, limits.high));
     last_command_ = position_;
     return {position_, braked.status};
@@ -88,7 +100,7 @@ JointLimiter::Limited JointLimiter::step_position(const Measured& measured, doub
   return {position_, passed ? Status::kPassed : Status::kClipped};
 }
 
-JointLimiter::Limited JointLimiter::step_velocity(const Measured& measured, double command) {
+JointLimiter::Step<double> JointLimiter::velocity_within(const Measured& measured, double command) {
   if (!armed_) return {0.0, Status::kDisarmed};
   if (!finite(measured) || !std::isfinite(command)) return brake();
   position_ = last_command_ = measured.position;
@@ -158,7 +170,7 @@ void JointLimiter::count_reasons(const Range& room, double velocity) {
   counts_.acceleration += too_sudden || catching_up ? 1 : 0;
 }
 
-JointLimiter::Limited JointLimiter::brake() {
+JointLimiter::Step<double> JointLimiter::brake() {
   ++counts_.not_finite;
   velocity_ = within_acceleration(0.0);
   return {velocity_, Status::kNotFinite};

@@ -9,21 +9,43 @@
 
 namespace armature::control {
 
-/// An effort that a JointLimiter has let through: the kind that hardware takes. Nothing else makes
-/// one that is not 0, so no way to the hardware leads around a limiter.
-class LimitedEffort {
+/// A command for a drive that a JointLimiter has let through: the kind that hardware takes. Nothing
+/// else makes one that could move a joint, so no way to the hardware leads around a limiter.
+template <typename Quantity>
+class LimitedCommand {
  public:
-  constexpr LimitedEffort() = default;
+  constexpr LimitedCommand() = default;
   constexpr operator double() const { return value_; }  // NOLINT: reads like the number it is
   /// For hardware that counts the other way.
-  constexpr LimitedEffort operator-() const { return LimitedEffort(-value_); }
+  constexpr LimitedCommand operator-() const { return LimitedCommand(-value_); }
+  /// For hardware that counts in other units, and from elsewhere.
+  constexpr LimitedCommand scaled(double ratio) const { return LimitedCommand(value_ * ratio); }
+  constexpr LimitedCommand counted(double ratio, double from) const {
+    return LimitedCommand(value_ * ratio + from);
+  }
 
  private:
   friend class JointLimiter;
-  constexpr explicit LimitedEffort(double value) : value_(value) {}
+  constexpr explicit LimitedCommand(double value) : value_(value) {}
 
-  double value_ = 0.0;
+  double value_ = Quantity::kNone;
 };
+
+/// What commands nothing: no effort, rest; of positions there is none.
+struct EffortQuantity {
+  static constexpr double kNone = 0.0;
+};
+struct VelocityQuantity {
+  static constexpr double kNone = 0.0;
+};
+struct PositionQuantity {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A voltage, a current, a torque.
+using LimitedEffort = LimitedCommand<EffortQuantity>;
+using LimitedVelocity = LimitedCommand<VelocityQuantity>;
+using LimitedPosition = LimitedCommand<PositionQuantity>;
 
 /// What has to be shown to whoever switches a motor on or opens a brake: that the joint's limiter
 /// is armed. Nothing else makes one that is valid, so energy gets into a joint by arming only.
@@ -85,17 +107,13 @@ class JointLimiter {
     kDisarmed,   ///< nothing is commanded: the measured position, velocity 0, effort 0
   };
 
-  /// What may be sent; always finite.
-  struct Limited {
-    double value = 0.0;
+  /// What may be sent, always finite, and what became of the command.
+  template <typename Command>
+  struct Step {
+    Command value;
     Status status = Status::kPassed;
   };
-
-  /// The effort that may be sent, and what became of the command.
-  struct LimitedStep {
-    LimitedEffort value;
-    Status status = Status::kPassed;
-  };
+  using LimitedStep = Step<LimitedEffort>;
 
   /// Steps whose command was clipped, for each limit that was the reason; one step may count for
   /// several.
@@ -134,12 +152,12 @@ class JointLimiter {
   /// max_acceleration. A joint that was armed outside its limits may stay there or come back, but
   /// not go further out.
   /// @rt nonblocking, no allocation
-  Limited step_position(const Measured& measured, double command);
+  Step<LimitedPosition> step_position(const Measured& measured, double command);
 
   /// Limits a velocity reference by the measured position. What is not finite brakes to rest with
   /// max_acceleration.
   /// @rt nonblocking, no allocation
-  Limited step_velocity(const Measured& measured, double command);
+  Step<LimitedVelocity> step_velocity(const Measured& measured, double command);
 
   /// Limits an effort, such as a torque or a voltage, by the measured state. What is not finite is
   /// answered by effort 0. A positive effort has to drive the joint towards `upper`.
@@ -157,12 +175,14 @@ class JointLimiter {
 
   explicit JointLimiter(const Config& config);
 
+  Step<double> position_within(const Measured& measured, double command);
+  Step<double> velocity_within(const Measured& measured, double command);
   double velocity_towards(double target) const;
   double fastest_within(double room) const;
   double within_motion(const Range& room, double velocity) const;
   double within_acceleration(double velocity) const;
   void count_reasons(const Range& room, double velocity);
-  Limited brake();
+  Step<double> brake();
   void move_to(double position);
   double effort_within_rate(double effort);
   double effort_within_motion(const Measured& measured, double effort);

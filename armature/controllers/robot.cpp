@@ -7,6 +7,8 @@
 #include "armature/controllers/bridge/bridge.hpp"
 #include "armature/controllers/bridge_ref/bridge_ref.hpp"
 #include "armature/controllers/computed_torque/controller_computed_torque.hpp"
+#include "armature/controllers/controller_following/controller_position.hpp"
+#include "armature/controllers/controller_following/controller_velocity.hpp"
 #include "armature/controllers/controller_npid/controller_npid.hpp"
 #include "armature/controllers/controller_npid_ff/controller_npid_ff.hpp"
 #include "armature/controllers/forward_kinematics/forward_kinematics.hpp"
@@ -26,10 +28,26 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<Sampler>("Sampler", "begins each sampling period");
   registry.add<Arming>("Arming", "lets the joints move, at the operator's word");
   registry.add<Joint>("Joint", "a joint, with the limiter before its hardware");
+  registry.add<JointOf<JointCommand::kCurrent>>(
+      "CurrentJoint", "a joint whose drive is given currents, with the limiter before it");
+  registry.add<JointOf<JointCommand::kTorque>>(
+      "TorqueJoint", "a joint whose drive is given torques, with the limiter before it");
+  registry.add<JointOf<JointCommand::kVelocity>>(
+      "VelocityJoint", "a joint whose drive follows velocities, with the limiter before it");
+  registry.add<JointOf<JointCommand::kPosition>>(
+      "PositionJoint", "a joint whose drive follows positions, with the limiter before it");
   registry.add<SensorNMux>("SensorNMux", "makes one vector of what N joints measured",
                            {{"Sensor#Mux", "joints"}});
   registry.add<ActuatorNDemux>("ActuatorNDemux", "hands control signals out to N joints",
                                {{"Actuator#Demux", "joints"}});
+  registry.add<ActuatorNDemuxOf<JointCommand::kCurrent>>(
+      "CurrentNDemux", "hands currents out to N joints", {{"Current#Demux", "joints"}});
+  registry.add<ActuatorNDemuxOf<JointCommand::kTorque>>(
+      "TorqueNDemux", "hands torques out to N joints", {{"Torque#Demux", "joints"}});
+  registry.add<ActuatorNDemuxOf<JointCommand::kVelocity>>(
+      "VelocityNDemux", "hands velocities out to N joints", {{"Velocity#Demux", "joints"}});
+  registry.add<ActuatorNDemuxOf<JointCommand::kPosition>>(
+      "PositionNDemux", "hands positions out to N joints", {{"Position#Demux", "joints"}});
   registry.add<Pid>("PID", "the controller of one joint");
   registry.add<VelocityPid>("VelocityPID", "the controller of one joint that follows a velocity");
   registry.add<ControllerNPID>("ControllerNPID", "an independent PID for each of N joints",
@@ -37,6 +55,12 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<ControllerNPIDFF>("ControllerNPIDFF",
                                  "N PIDs and feed-forward of the robot's dynamics",
                                  {{"Controller#PIDFF", "joints"}});
+  registry.add<ControllerNPosition>("ControllerNPosition",
+                                    "for N drives that follow positions by themselves",
+                                    {{"Controller#Position", "joints"}});
+  registry.add<ControllerNVelocity>("ControllerNVelocity",
+                                    "for N drives that follow velocities by themselves",
+                                    {{"Controller#Velocity", "joints"}});
   registry.add<ControllerComputedTorque>("ControllerComputedTorque",
                                          "torques by the robot's dynamics, as it moves now");
   registry.add<ControllerGravityPD>("ControllerGravityPD",

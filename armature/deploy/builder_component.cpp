@@ -60,6 +60,20 @@ bool shapes_ports(const component::PropertyBase& property) {
          std::any_of(interface.outputs.begin(), interface.outputs.end(), sizes);
 }
 
+/// Those that name the unit of others come first: what `45 deg` means follows from it.
+std::vector<const Property*> units_first(const std::vector<Property>& properties,
+                                         const component::Component& component) {
+  std::vector<const Property*> ordered;
+  for (const Property& given : properties) ordered.push_back(&given);
+  std::stable_partition(ordered.begin(), ordered.end(), [&](const Property* given) {
+    const auto& all = component::interface_of(component).properties;
+    return std::any_of(all.begin(), all.end(), [given](const component::PropertyBase* one) {
+      return one->unit_property() != nullptr && one->unit_property()->name() == given->name;
+    });
+  });
+  return ordered;
+}
+
 /// A mandatory property that was given, though wrongly, is not also reported as missing.
 void count_as_given(component::PropertyBase& property) {
   const types::Value present(property.type(), property.data());
@@ -323,7 +337,9 @@ bool ComponentBuilder::apply_property_file(const Component& written, const Prope
 bool ComponentBuilder::apply(const Component& written, const std::vector<Property>& properties,
                              component::Component& component) {
   bool ports_known = true;
-  for (const Property& given : properties) {
+  std::set<const component::PropertyBase*> mistaken;
+  for (const Property* one : units_first(properties, component)) {
+    const Property& given = *one;
     component::PropertyBase* const property = find_property(component, given.name);
     if (property == nullptr) {
       std::vector<std::string> names;
@@ -336,8 +352,10 @@ bool ComponentBuilder::apply(const Component& written, const std::vector<Propert
       continue;
     }
     const bool reported = given.value.kind == Value::Kind::kNone ||
+                          mistaken.contains(property->unit_property()) ||
                           !may_be_given(*property, given.value, diagnostics_);
     if (!reported && set_property(*property, given.value, diagnostics_)) continue;
+    mistaken.insert(property);
     count_as_given(*property);
     ports_known &= !shapes_ports(*property);
   }

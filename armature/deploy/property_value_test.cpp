@@ -13,6 +13,7 @@
 
 #include "armature/base/fixed_text.hpp"
 #include "armature/component/properties/property.hpp"
+#include "armature/deploy/internal/test_models.hpp"
 #include "armature/deploy/load.hpp"
 #include "armature/orocos/property_file.hpp"
 #include "armature/types/enum.hpp"
@@ -93,6 +94,61 @@ TEST(PropertyValue, APlainNumberTakesNoUnit) {
   EXPECT_EQ(refusal<double>("10 ms"),
             "test.yaml:3:8: error: property 'P' of 'C': '10 ms' has the unit 'ms', but a plain "
             "number is expected\n");
+}
+
+// --- a unit that another property names ----------------------------------------------------------
+
+/// Serves any unit.
+class Goal final : public component::Component {
+ public:
+  using Component::Component;
+  component::Property<std::string> unit{this, "Unit", "", "of the goal"};
+  component::Property<double> goal{this, "Goal", 0.0, "where to", "", component::unit_of(unit)};
+};
+
+/// A deployment of one, with these properties.
+Deployment with_goal(const std::string& properties) {
+  DeploymentOptions options;
+  options.models = [](component::Registry& models) { models.add<Goal>("Goal", "any unit"); };
+  return parse_deployment(
+      "components:\n  C: {model: Goal, activity: sequential, properties: {" + properties + "}}\n",
+      "test.yaml", options);
+}
+
+double goal_of(const std::string& properties) {
+  const Deployment deployment = with_goal(properties);
+  EXPECT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();
+  return test::get<Goal>(deployment, "C").goal;
+}
+
+std::string refusal_of_goal(const std::string& properties) {
+  const Deployment deployment = with_goal(properties);
+  EXPECT_FALSE(deployment.ok());
+  EXPECT_EQ(deployment.diagnostics.all().size(), 1u);
+  return deployment.diagnostics.to_text();
+}
+
+TEST(UnitOfAProperty, IsWhatAnotherOneSaysWhicheverIsWrittenFirst) {
+  constexpr double kQuarter = 0.78539816339744830962;
+  EXPECT_DOUBLE_EQ(goal_of("Unit: rad, Goal: 45 deg"), kQuarter);
+  EXPECT_DOUBLE_EQ(goal_of("Goal: 45 deg, Unit: rad"), kQuarter);
+  EXPECT_EQ(goal_of("Goal: 45, Unit: rad"), 45.0);
+}
+
+TEST(UnitOfAProperty, RefusesAnotherKindOfUnitAtItsPlace) {
+  EXPECT_THAT(refusal_of_goal("Unit: rad, Goal: 45 V"),
+              StartsWith("test.yaml:2:72: error: property 'Goal' of 'C': '45 V': cannot convert "
+                         "'V' to 'rad'"));
+}
+
+TEST(UnitOfAProperty, IsAskedForWhereNothingNamesIt) {
+  EXPECT_EQ(refusal_of_goal("Goal: 45 deg"),
+            "test.yaml:2:61: error: property 'Goal' of 'C': '45 deg' has the unit 'deg', but a "
+            "plain number is expected (name its unit: Unit: deg)\n");
+}
+
+TEST(UnitOfAProperty, ThatIsMistakenIsToldAndNotAlsoWhatDependsOnIt) {
+  EXPECT_THAT(refusal_of_goal("Goal: 45 deg, Unit: [rad]"), HasSubstr("property 'Unit' of 'C'"));
 }
 
 TEST(PropertyValue, AnUnknownUnitIsNamed) {

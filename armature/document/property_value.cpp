@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/base/near_name.hpp"
+#include "armature/base/unit.hpp"
 #include "armature/document/internal/number_text.hpp"
 #include "armature/document/value_tree.hpp"
 #include "armature/types/enum.hpp"
@@ -61,8 +62,10 @@ std::optional<std::vector<const Value*>> elements_of(const Value& written) {
 /// Puts what was written into the memory of a value.
 class Filler {
  public:
-  Filler(std::string_view subject, base::Diagnostics& diagnostics)
-      : subject_(subject), diagnostics_(diagnostics) {}
+  /// @param names_unit  the property that names the unit; nullptr: none does
+  Filler(std::string_view subject, base::Diagnostics& diagnostics,
+         const component::PropertyBase* names_unit = nullptr)
+      : subject_(subject), diagnostics_(diagnostics), names_unit_(names_unit) {}
 
   bool fill(const Value& written, const Type& type, std::string_view unit, void* at) {
     switch (type.kind) {
@@ -84,10 +87,18 @@ class Filler {
       return fill_text(written, type, at);
     }
     const std::string problem = parse_number(written.text, type, unit, at);
-    return problem.empty() || fail(written.where, problem);
+    return problem.empty() || fail(written.where, problem, unit_to_name(written.text, unit));
   }
 
  private:
+  /// What to do about a number with a unit where nothing names one.
+  base::Hint unit_to_name(const std::string& text, std::string_view unit) const {
+    const auto quantity = base::parse_quantity(text);
+    const bool lacks_one = names_unit_ != nullptr && unit.empty() && quantity.ok();
+    if (!lacks_one || quantity.value().unit.empty()) return {};
+    return "name its unit: " + std::string(names_unit_->name()) + ": " + quantity.value().unit;
+  }
+
   bool fill_bool(const Value& written, void* at) {
     const std::optional<bool> flag = parse_bool(written.text);
     if (!flag) {
@@ -194,6 +205,7 @@ class Filler {
 
   std::string_view subject_;
   base::Diagnostics& diagnostics_;
+  const component::PropertyBase* names_unit_;
   std::string path_;
 };
 
@@ -297,10 +309,10 @@ bool set_property(component::PropertyBase& property, const Value& written,
                   base::Diagnostics& diagnostics) {
   const std::string subject =
       "property " + in_quotes(property.name()) + " of " + in_quotes(property.owner().name());
-  const std::optional<types::Value> value = make_value(written, type_of_written(property, written),
-                                                       property.unit(), subject, diagnostics);
-  if (!value) return false;
-  const base::Result<void> set = property.set(*value);
+  types::Value value(type_of_written(property, written));
+  Filler filler(subject, diagnostics, property.unit_property());
+  if (!filler.fill(written, value.type(), property.unit(), value.data())) return false;
+  const base::Result<void> set = property.set(value);
   if (!set) diagnostics.error(written.where, set.error());
   return set.ok();
 }

@@ -42,6 +42,7 @@ std::string text_of(const RemoveFromMode& one) {
   return "remove " + one.component + " from mode " + one.mode;
 }
 std::string text_of(const RemoveMode& one) { return "remove mode " + one.name; }
+std::string text_of(const StartInMode& one) { return "start in mode " + one.name; }
 std::string text_of(const RenameMode& one) { return "rename mode " + one.from + " to " + one.to; }
 
 }  // namespace

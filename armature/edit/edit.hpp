@@ -178,11 +178,16 @@ struct RenameMode {
   std::string to;
 };
 
+/// The application starts in that mode, unless it is told otherwise.
+struct StartInMode {
+  std::string name;
+};
+
 using Change =
     std::variant<Set, Unset, AddComponent, RemoveComponent, Rename, Split, Group, Dissolve, Connect,
                  Disconnect, SetConnection, Bind, Unbind, AddPeer, RemovePeer, AddSuperior,
                  RemoveSuperior, SetCalls, AddInclude, RemoveInclude, AddParameter, AddLibrary,
-                 RemoveLibrary, AddToMode, RemoveFromMode, RemoveMode, RenameMode>;
+                 RemoveLibrary, AddToMode, RemoveFromMode, RemoveMode, RenameMode, StartInMode>;
 
 /// For messages: `set Filter.Weight`.
 std::string to_text(const Change& change);

@@ -208,6 +208,10 @@ components:
   EXPECT_EQ(edited(composite, Rename{"left", "own"}),
             changed(changed(composite, "  left: {model: M}\n  Q", "  own: {model: M}\n  Q"),
                     "Q: {model: M, peers: [left]}", "Q: {model: M, peers: [own]}"));
+  EXPECT_NE(internal::outcome_of(composite, {{Rename{"Pair.left", "Other.left"}}})
+                .diagnostics.to_text()
+                .find("'Other.left' has a dot"),
+            std::string::npos);
 }
 
 TEST(Edit, WarnsOfPropertiesThatMayNameWhatIsRenamed) {

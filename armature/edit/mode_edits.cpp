@@ -21,6 +21,12 @@ const Mode* find_mode(const Document& document, const std::string& name) {
   return found == document.modes.end() ? nullptr : &*found;
 }
 
+void refuse_unknown(const std::string& name, Workshop& shop) {
+  std::vector<std::string> known;
+  for (const Mode& mode : shop.document().modes) known.push_back(mode.name);
+  shop.refuse("unknown mode '" + name + "'", base::suggestion(name, known));
+}
+
 /// A mode in the file that has the last word on it.
 struct WrittenMode {
   const SourceText* file = nullptr;
@@ -37,9 +43,7 @@ std::optional<WrittenMode> find_written(const std::string& name, Workshop& shop)
     if (!shop.require(**file, *key, "mode '" + name + "'")) return std::nullopt;
     return WrittenMode{file->get(), key, find_value(modes, name)};
   }
-  std::vector<std::string> known;
-  for (const Mode& mode : shop.document().modes) known.push_back(mode.name);
-  shop.refuse("unknown mode '" + name + "'", base::suggestion(name, known));
+  refuse_unknown(name, shop);
   return std::nullopt;
 }
 
@@ -227,6 +231,26 @@ void draft(const RenameMode& rename, Workshop& shop) {
       if (mode.name == rename.from) mode.name = rename.to;
     }
     if (expected.mode.name == rename.from) expected.mode.name = rename.to;
+    return expected;
+  });
+}
+
+void draft(const StartInMode& start, Workshop& shop) {
+  if (find_mode(shop.document(), start.name) == nullptr) return refuse_unknown(start.name, shop);
+  const auto [file, initial] = find_initial(shop.map());
+  if (initial != nullptr && initial->text == start.name) {
+    return shop.refuse(file->place_of(*initial), "it starts in '" + start.name + "' already");
+  }
+  const bool there = initial != nullptr;
+  if (!there || (shop.overrides() && !shop.may_change(*file))) {
+    const SourceText& own = there ? shop.map().main() : shop.file_for_new();
+    shop.add_section(own, "mode", make_text(start.name), 0);
+  } else if (shop.require(*file, *initial, "the mode in which it starts")) {
+    shop.layout(*file).replace(*initial, make_text(start.name));
+  }
+  shop.expect([&before = shop.before(), start](const State&, base::Diagnostics&) {
+    Document expected = before.document;
+    expected.mode.name = start.name;
     return expected;
   });
 }

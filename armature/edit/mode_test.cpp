@@ -59,6 +59,24 @@ TEST(EditMode, IsRenamedAlsoWhereTheApplicationStartsInIt) {
             changed(changed(kModes, "  one:", "  first:"), "mode: one", "mode: first"));
 }
 
+TEST(EditMode, HasTheApplicationStartInIt) {
+  EXPECT_EQ(edited(kModes, StartInMode{"two"}), changed(kModes, "mode: one", "mode: two"));
+  const std::string silent = changed(kModes, "mode: one\n", "");
+  EXPECT_EQ(edited(silent, StartInMode{"two"}), silent + "mode: two\n");
+  EXPECT_EQ(edited(silent, StartInMode{"one"}), kModes) << "the first one, now in words";
+}
+
+TEST(EditMode, OfTheStartThatAnIncludedFileSaysIsChangedThereOrOverridden) {
+  const Files files = {{"robot.yaml", "include: arm.yaml\n"}, {"arm.yaml", kModes}};
+  EXPECT_NE(refusal(files, StartInMode{"two"}).find("--in arm.yaml"), std::string::npos);
+  const Outcome there = internal::outcome_of(files, {{StartInMode{"two"}, {"arm.yaml"}}});
+  ASSERT_EQ(there.files.size(), 1u) << there.diagnostics.to_text();
+  EXPECT_EQ(there.files[0].after, changed(kModes, "mode: one", "mode: two"));
+  const Outcome here = internal::outcome_of(files, {{StartInMode{"two"}, {}, true}});
+  ASSERT_EQ(here.files.size(), 1u) << here.diagnostics.to_text();
+  EXPECT_EQ(here.files[0].after, "include: arm.yaml\nmode: two\n");
+}
+
 TEST(EditMode, RefusesWhatIsNotThereOrStandsForOthers) {
   const auto reason = [](const Change& change) {
     return refusal(Files{{"robot.yaml", kModes}}, change);
@@ -71,6 +89,8 @@ TEST(EditMode, RefusesWhatIsNotThereOrStandsForOthers) {
   EXPECT_NE(reason(RemoveFromMode{"two", "C"}).find("would have no component"), std::string::npos);
   EXPECT_NE(reason(RemoveMode{"tow"}).find("did you mean 'two'"), std::string::npos);
   EXPECT_NE(reason(RenameMode{"one", "two"}).find("is there already"), std::string::npos);
+  EXPECT_NE(reason(StartInMode{"tow"}).find("did you mean 'two'"), std::string::npos);
+  EXPECT_NE(reason(StartInMode{"one"}).find("starts in 'one' already"), std::string::npos);
   EXPECT_NE(reason(RenameMode{"one", "{i}"}).find("not a valid name"), std::string::npos);
 }
 

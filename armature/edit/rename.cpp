@@ -68,6 +68,12 @@ std::optional<WrittenName> new_key(const Rename& rename, const Named& named, Wor
       rename.from.substr(0, std::max(rename.from.size(), old.text().size()) - old.text().size());
   const bool whole = !beside.empty() && rename.to.starts_with(beside);
   WrittenName key = WrittenName::of(whole ? rename.to.substr(beside.size()) : rename.to);
+  const bool of_component = named.file == nullptr;
+  if (of_component && (key.begin + key.end).find('.') != std::string::npos) {
+    shop.refuse("'" + rename.to + "' has a dot, which stands between a composite and its part",
+                "a component stays in its composite; give it a name without one");
+    return std::nullopt;
+  }
   const bool same = key.braces == WrittenName::of(rename.from).braces;
   if (!same) {
     shop.refuse(

@@ -17,8 +17,8 @@ namespace {
 
 /// The last of a file's sections that usually stand before that one; empty: none.
 std::string_view section_before(std::string_view section, const Node& root) {
-  constexpr std::array<std::string_view, 6> kOrder = {"include",    "application", "libraries",
-                                                      "parameters", "components",  "connections"};
+  constexpr std::array<std::string_view, 7> kOrder = {
+      "include", "application", "libraries", "parameters", "components", "connections", "modes"};
   std::string_view before;
   for (const std::string_view one : kOrder) {
     if (one == section) return before;

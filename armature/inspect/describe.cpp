@@ -21,6 +21,10 @@ std::string joined(const auto& member) {
   return member.owner().name() + "." + std::string(member.name());
 }
 
+std::string name_of_unit(const Property<std::string>* property) {
+  return property == nullptr ? std::string() : std::string(property->name());
+}
+
 /// The structs that a type has in it, each once.
 void add_fields(const types::Type& type, std::vector<FieldDescription>& fields) {
   if (types::is_list(type)) return add_fields(*type.element, fields);
@@ -79,6 +83,7 @@ class Describer {
     to.type = from.type().name;
     to.values = types::enumerator_names(from.type());
     to.unit = from.unit();
+    to.unit_property = name_of_unit(from.unit_property());
     to.range = from.limits();
     to.persistent = from.persistent();
     to.changeable_while_running = from.changeable();
@@ -97,6 +102,7 @@ class Describer {
     to.type = from.type().name;
     to.values = types::enumerator_names(from.type());
     to.unit = from.unit();
+    to.unit_property = name_of_unit(from.unit_property());
     if (from.declared_size().declared()) to.size = from.declared_size().value();
     add_fields(from.type(), description_.fields);
     if (reading == nullptr) return;

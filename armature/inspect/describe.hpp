@@ -26,6 +26,7 @@ struct PropertyDescription {
   std::string type;
   std::vector<std::string> values;  ///< of an enumeration: their names (here; else in the doc)
   std::string unit;
+  std::string unit_property;  ///< its name, where one names the unit (here)
   std::optional<component::Range> range;
   bool persistent = true;  ///< false: an attribute
   bool changeable_while_running = false;
@@ -44,6 +45,7 @@ struct PortDescription {
   std::string type;
   std::vector<std::string> values;  ///< of an enumeration: their names (here; else in the doc)
   std::string unit;
+  std::string unit_property;        ///< its name, where one names the unit (here)
   std::optional<std::size_t> size;  ///< declared number of elements of a vector
   std::vector<std::string> peers;   ///< `component.port` at the other end of each connection
   std::string value;                ///< only if asked for and written

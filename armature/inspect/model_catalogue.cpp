@@ -28,6 +28,13 @@ std::string with_notes(const std::string& doc, const std::string& notes) {
   return notes.empty() ? doc : doc + " (" + notes + ")";
 }
 
+/// The unit, or the property that names it: `(Unit)`.
+template <typename Described>
+std::string unit_of(const Described& described) {
+  const bool named = described.unit.empty() && !described.unit_property.empty();
+  return named ? "(" + described.unit_property + ")" : described.unit;
+}
+
 Row row_of(const PropertyDescription& property) {
   std::string notes;
   if (property.mandatory) {
@@ -40,7 +47,7 @@ Row row_of(const PropertyDescription& property) {
     add(notes, number(property.range->low) + " .. " + number(property.range->high));
   if (!property.persistent) add(notes, "attribute");
   if (property.changeable_while_running) add(notes, "changeable while running");
-  return {property.name, property.type, property.unit, with_notes(property.doc, notes)};
+  return {property.name, property.type, unit_of(property), with_notes(property.doc, notes)};
 }
 
 std::string port_notes(const PortDescription& port) {
@@ -57,11 +64,11 @@ Row row_of(const InputDescription& port) {
     add(notes, "at most " + base::to_text(port.max_age) + " old, else " +
                    std::string(component::name_of(port.when_stale)));
   }
-  return {port.name, port.type, port.unit, with_notes(port.doc, notes)};
+  return {port.name, port.type, unit_of(port), with_notes(port.doc, notes)};
 }
 
 Row row_of(const OutputDescription& port) {
-  return {port.name, port.type, port.unit, with_notes(port.doc, port_notes(port))};
+  return {port.name, port.type, unit_of(port), with_notes(port.doc, port_notes(port))};
 }
 
 Row row_of(const PortArrayDescription& array) {

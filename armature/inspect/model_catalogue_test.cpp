@@ -154,6 +154,28 @@ TEST(ModelCatalogue, DescribesModelsForMachines) {
   EXPECT_EQ(model["requirements"][0]["kind"], "operation");
 }
 
+class AnyUnit final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  component::Property<std::string> unit_{this, "Unit", "", "of all"};
+  component::Property<double> goal_{this, "Goal", 0.0, "where to", "", component::unit_of(unit_)};
+  component::OutputPort<double> out_{this, "Out", "it", "", component::unit_of(unit_)};
+};
+
+TEST(ModelCatalogue, NamesThePropertyThatNamesAUnit) {
+  component::Registry registry;
+  registry.add<AnyUnit>("AnyUnit", "serves any unit");
+  const std::string text = describe_model(registry, "AnyUnit").value();
+  EXPECT_THAT(text, HasSubstr("Goal  double  (Unit)  where to"));
+  EXPECT_THAT(text, HasSubstr("Out  double  (Unit)  it"));
+  const json model = json::parse(models_as_json(registry, {"AnyUnit"}).value())[0];
+  EXPECT_EQ(model["properties"][1]["unit_property"], "Unit");
+  EXPECT_EQ(model["outputs"][0]["unit_property"], "Unit");
+  EXPECT_FALSE(model["properties"][0].contains("unit_property"));
+}
+
 TEST(ModelCatalogue, AnUnknownModelIsAnsweredWithANearOne) {
   EXPECT_EQ(describe_model(registry(), "Evrything").error(),
             "unknown model 'Evrything'; did you mean 'Everything'?");

@@ -24,7 +24,7 @@ class Card final : public controllers::JointHardware {
 
  private:
   bool sensor_read() override {
-    displacement_.write(motor_.read());
+    sensor_.write(motor_.read());
     index_.write(motor_.index());
     return true;
   }

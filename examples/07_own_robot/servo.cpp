@@ -36,7 +36,7 @@ class Servo final : public armature::controllers::JointHardware {
     speed_ = braked_ ? 0.0 : speed_ + acceleration() * period_;
     const double displacement = speed_ * period_;
     angle_ += displacement;
-    displacement_.write(displacement);
+    sensor_.write(displacement);
     index_.write(std::abs(std::remainder(angle_, kTurn)) < 0.05);
     return true;
   }

@@ -40,7 +40,7 @@ bool Wheel::sensor_read() {
   }
   constexpr double kTurn = 2.0 * std::numbers::pi;
   index_.write(false);
-  displacement_.write(static_cast<double>(answer.value.counts) * kTurn / counts_per_turn_);
+  sensor_.write(static_cast<double>(answer.value.counts) * kTurn / counts_per_turn_);
   return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/controllers/base/actuator.hpp"
@@ -14,7 +16,7 @@ namespace armature::wam {
 /// @rt nonblocking, no allocation, O(joints)
 class ActuatorWam final : public controllers::Actuator, public controllers::DrivesJoints {
  public:
-  using Actuator::Actuator;
+  explicit ActuatorWam(std::string name) : Actuator(std::move(name), "Nm") {}
 
   std::vector<controllers::DrivenJoint> joints_behind(const component::InputPortBase* input,
                                                       const component::Check& check) override;
@@ -30,7 +32,7 @@ class ActuatorWam final : public controllers::Actuator, public controllers::Driv
   component::Attribute<int> unsampled_{
       this, "act_without_sample", 0,
       "values of `act` since the start that came without a Sample: nothing was handed on"};
-  component::OutputPort<std::vector<double>> torque_{this, "Torque", "of the joints", "V",
+  component::OutputPort<std::vector<double>> torque_{this, "Torque", "of the joints", "Nm",
                                                      component::size_of(joints_)};
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/controllers/base/controller.hpp"
@@ -14,7 +16,7 @@ namespace armature::wam {
 /// @rt nonblocking, no allocation, O(joints)
 class ControllerWam final : public controllers::Controller {
  public:
-  using Controller::Controller;
+  explicit ControllerWam(std::string name) : Controller(std::move(name), "Nm") {}
 
  private:
   component::Outcome on_configure() override;

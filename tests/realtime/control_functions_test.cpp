@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/control/absolute_position.hpp"
 #include "armature/control/arming/gathering.hpp"
 #include "armature/control/arming/hand_over.hpp"
 #include "armature/control/arming/reference_brake.hpp"
@@ -20,6 +21,7 @@
 #include "armature/control/dynamics/inverse_dynamics.hpp"
 #include "armature/control/dynamics/quaternion.hpp"
 #include "armature/control/error_metrics.hpp"
+#include "armature/control/following_watch.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/control/low_pass.hpp"
 #include "armature/control/pid.hpp"
@@ -143,7 +145,8 @@ TEST(RealtimeFunctions, JointLimiter) {
                                            .arming_time = 1s,
                                            .effort_rate = 12.0});
   auto& limiter = made.value();
-  control::JointLimiter::Limited limited;
+  control::JointLimiter::Step<control::LimitedVelocity> velocity;
+  control::JointLimiter::Step<control::LimitedPosition> position;
   control::JointLimiter::LimitedStep driven;
   expect_realtime("JointLimiter::arm", [&] { limiter.arm({0.0, 0.0}); });
   expect_realtime("JointLimiter::step_effort", [&] {
@@ -157,15 +160,35 @@ TEST(RealtimeFunctions, JointLimiter) {
   });
   EXPECT_EQ(driven.value, 10.0) << "at once";
   expect_realtime("JointLimiter::step_velocity", [&] {
-    limited = limiter.step_velocity({0.0, 0.0}, 20.0);
+    velocity = limiter.step_velocity({0.0, 0.0}, 20.0);
   });
-  EXPECT_EQ(limited.value, 1.0);
+  EXPECT_EQ(velocity.value, 1.0);
   expect_realtime("JointLimiter::step_position", [&] {
-    limited = limiter.step_position({0.0, 0.0}, 20.0);
+    position = limiter.step_position({0.0, 0.0}, 20.0);
   });
-  EXPECT_GT(limited.value, 0.5);
+  EXPECT_GT(position.value, 0.5);
   expect_realtime("JointLimiter::disarm", [&] { limiter.disarm(); });
   EXPECT_FALSE(limiter.armed());
+}
+
+TEST(RealtimeFunctions, AbsolutePosition) {
+  auto made = control::AbsolutePosition::make({.range = 6.0, .max_velocity = 1.0});
+  auto& position = made.value();
+  double sensor = 0.0;
+  control::AbsolutePosition::Reading reading;
+  expect_realtime("AbsolutePosition::reset", [&] { position.reset(); });
+  expect_realtime("AbsolutePosition::step", [&] { reading = position.step(sensor += 0.1, 0.1); });
+  EXPECT_NEAR(reading.position, 10.1, 1e-9);
+  expect_realtime("AbsolutePosition::at", [&] { sensor = position.at(1.0); });
+  EXPECT_NEAR(sensor, 1.0, 1e-9);
+}
+
+TEST(RealtimeFunctions, FollowingWatch) {
+  control::FollowingWatch watch({.max_error = 0.1, .patience = 0ms});
+  bool follows = true;
+  expect_realtime("FollowingWatch::step", [&] { follows = watch.step(0.2, base::Time{}); });
+  EXPECT_FALSE(follows);
+  expect_realtime("FollowingWatch::reset", [&] { watch.reset(); });
 }
 
 TEST(RealtimeFunctions, ErrorMetrics) {

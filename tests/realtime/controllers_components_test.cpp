@@ -33,14 +33,6 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// The same for what a bench does in the thread of its component; the bench itself may allocate.
-template <typename Code>
-void expect_realtime_on_bench(const char* model, Code&& code) {
-  const testing::RealtimeGuard guard;
-  for (int i = 0; i < 100; ++i) code();
-  EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();
-}
-
 void start(testing::Harness& bench) { ASSERT_TRUE(bench.start()) << bench.reason(); }
 
 TEST(RealtimeComponents, Sampler) {

@@ -2,6 +2,7 @@
 // What the models of the library `robot` have in common: their period, their samples, their
 // hardware.
 #include <chrono>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 
@@ -83,6 +84,7 @@ TEST(RealtimeFunctions, SampleWatchInTheThreadOfThePeriod) {
 /// Takes everything, and may lose a sample.
 class Motor final : public JointHardware {
  public:
+  using JointHardware::commanded;
   using JointHardware::JointHardware;
   using JointHardware::lose_position;
 
@@ -106,6 +108,19 @@ TEST(RealtimeFunctions, JointHardwareThatLosesASample) {
   EXPECT_FALSE(bench.call<bool>("positionKnown").value());
   bench.set("position_confirmed", true);
   EXPECT_TRUE(bench.call<bool>("positionKnown").value());
+}
+
+TEST(RealtimeFunctions, JointHardwareThatIsTorquesAmongOthers) {
+  using enum JointCommand;
+  testing::Harness bench(
+      std::make_unique<Motor>("Motor", std::initializer_list<JointCommand>{kVelocity, kTorque},
+                              JointHardware::Sensor::kAbsolute));
+  auto& motor = static_cast<Motor&>(bench.component());
+  EXPECT_EQ(motor.commanded(), kVelocity) << "before it is connected";
+  bench.write("TorqueActuator", control::LimitedEffort());
+  JointCommand commanded = kVelocity;
+  expect_realtime("JointHardware::commanded", [&] { commanded = motor.commanded(); });
+  EXPECT_EQ(commanded, kTorque);
 }
 
 }  // namespace

@@ -19,4 +19,13 @@ void expect_realtime(const char* function, Code&& code) {
   EXPECT_EQ(guard.violations(), 0u) << function << ": " << guard.report();
 }
 
+/// The same for what a testing::Harness does in the thread of its component; the bench itself may
+/// allocate.
+template <typename Code>
+void expect_realtime_on_bench(const char* model, Code&& code) {
+  const testing::RealtimeGuard guard;
+  for (int i = 0; i < 100; ++i) code();
+  EXPECT_EQ(guard.violations(), 0u) << model << ": " << guard.report();
+}
+
 }  // namespace armature

@@ -198,7 +198,9 @@ TEST(RobotCheck, SaysWhatOfTheRobotIsMissing) {
               HasSubstr("expected robot_description, or inertia_min and inertia_max"));
   EXPECT_THAT(own({"Robot.inertia_min=[3]"}), HasSubstr("a joint moves 3 to 0.25 kg m^2"));
   EXPECT_THAT(own({"Robot.motor_torque_constant=[]"}),
-              HasSubstr("expected motor_resistance and motor_torque_constant, or neither"));
+              HasSubstr("expected motor_torque_constant beside motor_resistance"));
+  EXPECT_THAT(own({"Robot.motor_resistance=[]"}),
+              HasSubstr("Robot needs motor_resistance: joint 1 is given voltages"));
 }
 
 TEST(RobotCheck, AJointHasBothEndsOrNone) {

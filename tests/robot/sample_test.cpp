@@ -47,7 +47,10 @@ const std::vector<Arrangement> kAll = {
     {"Wam7GravityPd", ROBOTS "/wam/deployments/gravity_pd7.yaml"},
     {"Wam4Modes", ROBOTS "/wam/deployments/modes4.yaml", {"Controller", "ControllerCT"}},
     {"Wam7Modes", ROBOTS "/wam/deployments/modes7.yaml", {"Controller", "ControllerCT"}},
-    {"OwnRobot", EXAMPLES "/07_own_robot/arm.yaml"}};
+    {"OwnRobot", EXAMPLES "/07_own_robot/arm.yaml"},
+    {"TorqueDrives", EXAMPLES "/11_drives/torque.yaml"},
+    {"VelocityDrives", EXAMPLES "/11_drives/velocity.yaml"},
+    {"PositionDrives", EXAMPLES "/11_drives/position.yaml"}};
 
 /// An arrangement in which some components have another Sampler, which fires when it is told to.
 class Robot {

@@ -127,7 +127,7 @@ class BenchArm final : public controllers::Sensor {
   component::InputPort<std::vector<double>> torque_{this,
                                                     "torque",
                                                     "of each joint",
-                                                    "V",
+                                                    "Nm",
                                                     component::on_data<&BenchArm::on_torque>,
                                                     component::size_of(joints_),
                                                     component::leads_to_nothing()};
@@ -145,12 +145,12 @@ class BenchArm final : public controllers::Sensor {
 /// Hands torques on to the arm.
 class BenchActuator final : public controllers::Actuator {
  public:
-  using Actuator::Actuator;
+  explicit BenchActuator(std::string name) : Actuator(std::move(name), "Nm") {}
 
  private:
   void actuate(const std::vector<double>& act) override { torque_.write(act); }
 
-  component::OutputPort<std::vector<double>> torque_{this, "torque", "of each joint", "V",
+  component::OutputPort<std::vector<double>> torque_{this, "torque", "of each joint", "Nm",
                                                      component::size_of(joints_)};
 };
 

@@ -53,6 +53,8 @@ std::string_view PortBase::unit() const {
   return about_->unit_property != nullptr ? about_->unit_property->get() : about_->unit;
 }
 
+const Property<std::string>* PortBase::unit_property() const { return about_->unit_property; }
+
 const types::Type& PortBase::type() const { return about_->form.type(); }
 
 const PortSize& PortBase::declared_size() const { return about_->size; }

@@ -87,13 +87,6 @@ inline PortSize size_of(const Property<int>& property, std::size_t factor = 1) {
 }
 inline PortSize fixed_size(std::size_t count) { return {nullptr, count}; }
 
-/// Option of a port, given in place of a unit that is known when the model is written: a property
-/// says it. Of components that serve any unit.
-struct UnitOf {
-  const Property<std::string>* property;
-};
-inline UnitOf unit_of(const Property<std::string>& property) { return {&property}; }
-
 /// Options of an input port, given behind its unit.
 struct MaxAge {
   base::Duration age;
@@ -153,8 +146,10 @@ class PortBase : public Entrance {
 
   const std::string& name() const;
   std::string_view doc() const;
-  /// Good as long as the property that says it, if one does, is not set anew.
+  /// Good as long as the property that names it, if one does, is not set anew.
   std::string_view unit() const;
+  /// The property that names the unit; nullptr: the model says it.
+  const Property<std::string>* unit_property() const;
   const types::Type& type() const;
   Component& owner() const { return owner_; }
   Component& component() const final { return owner_; }

@@ -47,6 +47,10 @@ std::string PropertyFollower::objection_to(const PropertyBase& /*property*/,
 
 PropertyBase::~PropertyBase() = default;
 
+std::string_view PropertyBase::unit() const {
+  return about_->unit_property != nullptr ? about_->unit_property->get() : about_->unit;
+}
+
 std::string PropertyBase::check(const types::Value& value) const {
   const std::string subject =
       "property " + quoted(about_->name) + " of " + quoted(about_->owner.name());
@@ -67,7 +71,7 @@ std::string PropertyBase::check(const types::Value& value) const {
   if (inside) return {};
   return subject + " is " + value.text() + ", outside " + number_text(about_->limits->low) +
          " .. " + number_text(about_->limits->high) +
-         (about_->unit.empty() ? "" : " " + std::string(about_->unit));
+         (unit().empty() ? "" : " " + std::string(unit()));
 }
 
 std::string PropertyBase::objection(const types::Value& value) const {

@@ -39,6 +39,16 @@ struct Sign {};
 /// It is 1 or -1; whoever sets it may also say whether it inverts: true is -1, false is 1.
 inline constexpr Sign sign{};
 
+template <typename T>
+class Property;
+
+/// Option of a property or port, given in place of a unit that is known when the model is written:
+/// another property of the component names it. Of components that serve any unit.
+struct UnitOf {
+  const Property<std::string>* property;
+};
+inline UnitOf unit_of(const Property<std::string>& property) { return {&property}; }
+
 class Tap;
 namespace internal {
 class PropertyTap;
@@ -69,7 +79,10 @@ class PropertyBase {
 
   std::string_view name() const { return about_->name; }
   std::string_view doc() const { return about_->doc; }
-  std::string_view unit() const { return about_->unit; }
+  /// Good as long as the property that names it, if one does, is not set anew.
+  std::string_view unit() const;
+  /// The property that names the unit; nullptr: the model says it.
+  const Property<std::string>* unit_property() const { return about_->unit_property; }
   const types::Type& type() const { return about_->type; }
   Component& owner() const { return about_->owner; }
   /// False for an attribute, which no file keeps.
@@ -116,6 +129,7 @@ class PropertyBase {
   void apply(Mandatory) noexcept;
   void apply(ByOperator) noexcept { about_->by_operator = true; }
   void apply(Sign) noexcept { about_->sign = true; }
+  void apply(UnitOf unit) noexcept { about_->unit_property = unit.property; }
   void tell_followers();
 
  private:
@@ -135,6 +149,7 @@ class PropertyBase {
     bool sign = false;
     bool set = false;
     std::optional<Range> limits{};
+    const Property<std::string>* unit_property = nullptr;
     std::vector<PropertyFollower*> followers{};
     std::vector<std::unique_ptr<internal::PropertyTap>> taps{};
   };

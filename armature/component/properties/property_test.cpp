@@ -52,6 +52,25 @@ TEST_F(Properties, ReadLikeTheValueTheyAre) {
   EXPECT_EQ(controller_.gains().i, 2.0);
 }
 
+/// Serves any unit.
+class Goal : public Component {
+ public:
+  using Component::Component;
+  Property<std::string> unit{this, "Unit", "", "of the goal"};
+  Property<double> goal{this, "Goal", 0.0, "where to", "", unit_of(unit), range(0.0, 2.0)};
+};
+
+TEST(Property, HasTheUnitThatAnotherOneNames) {
+  Goal component("C");
+  EXPECT_EQ(component.goal.unit(), "");
+  EXPECT_EQ(component.goal.unit_property(), &component.unit);
+  EXPECT_EQ(component.unit.unit_property(), nullptr);
+  ASSERT_TRUE(component.unit.set(types::Value::of(std::string("rad"))));
+  EXPECT_EQ(component.goal.unit(), "rad");
+  EXPECT_EQ(component.goal.set(types::Value::of(3.0)).error(),
+            "property 'Goal' of 'C' is 3, outside 0 .. 2 rad");
+}
+
 TEST_F(Properties, KnowTheirNameDocumentationUnitTypeAndFlags) {
   EXPECT_EQ(controller_.kp.name(), "Kp");
   EXPECT_EQ(controller_.kp.doc(), "proportional gain");

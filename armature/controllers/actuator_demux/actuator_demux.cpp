@@ -18,7 +18,7 @@ void ActuatorNDemux::actuate(const std::vector<double>& act) {
     fault(append_number(why, *wrong).append(", expected a finite number"));
     return;
   }
-  for (std::size_t i = 0; i < act.size(); ++i) voltage_[i].write(act[i]);
+  for (std::size_t i = 0; i < act.size(); ++i) commands_[i].write(act[i]);
   if (take_sample()) act_.raise();
 }
 
@@ -26,8 +26,8 @@ void ActuatorNDemux::actuate(const std::vector<double>& act) {
 std::vector<DrivenJoint> ActuatorNDemux::joints_behind(const component::InputPortBase* /*input*/,
                                                        const component::Check& check) {
   std::vector<DrivenJoint> all;
-  for (std::size_t i = 0; i < voltage_.size(); ++i) {
-    const std::vector<DrivenJoint>& joints = controllers::joints_behind(face(voltage_[i]), check);
+  for (std::size_t i = 0; i < commands_.size(); ++i) {
+    const std::vector<DrivenJoint>& joints = controllers::joints_behind(face(commands_[i]), check);
     if (joints.size() != 1) return {};
     all.push_back(joints.front());
   }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,7 +16,9 @@ namespace armature::controllers {
 /// The actuators of a robot with N joints (paper 1, figure 4): to be extended by what drives them.
 class Actuator : public component::Component {
  public:
-  using Component::Component;
+  /// @param unit  of its control signals; a literal
+  explicit Actuator(std::string name, std::string_view unit = "V")
+      : Component(std::move(name)), unit_(unit) {}
 
  protected:
   /// A sampling period begins; by default that is noted, for `take_sample`.
@@ -24,7 +28,7 @@ class Actuator : public component::Component {
     if (std::exchange(sampled_, true)) samples_without_act_.assign(samples_without_act_ + 1);
   }
   /// Drives the joints.
-  /// @param act  one control signal per joint [V]
+  /// @param act  one control signal per joint
   /// Runs in real time: nonblocking, no allocation.
   /// @thread the component's own
   virtual void actuate(const std::vector<double>& act) = 0;
@@ -42,10 +46,11 @@ class Actuator : public component::Component {
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
 
  private:
+  std::string_view unit_;
   component::InputPort<std::vector<double>> act_{this,
                                                  "act",
                                                  "control signals [u1..uN]",
-                                                 "V",
+                                                 unit_,
                                                  component::on_data<&Actuator::actuate>,
                                                  component::size_of(joints_),
                                                  component::max_age(kMaxAge)};

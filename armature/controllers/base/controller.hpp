@@ -39,7 +39,10 @@ namespace armature::controllers {
 /// followed now either, and the joints are braked.
 class Controller : public component::Component, public PassesSamples, public DrivesJoints {
  public:
-  using Component::Component;
+  /// @param out_unit  of `act`, where the deployment does not say another one
+  explicit Controller(std::string name, std::string out_unit = "V")
+      : Component(std::move(name)),
+        out_unit_(this, "OutUnit", std::move(out_unit), "of `act`: what the drives are given") {}
 
   std::vector<const component::InputPortBase*> samples_behind(
       const component::OutputPortBase& /*output*/) const override {
@@ -116,7 +119,12 @@ class Controller : public component::Component, public PassesSamples, public Dri
       "",
       component::size_of(joints_, 3),
       component::max_age(kMaxAge, component::Reaction::kHold)};
-  component::OutputPort<std::vector<double>> act_{this, "act", "control signals [u1..uN]", "V",
+  component::Property<std::string> out_unit_;
+  component::OutputPort<std::vector<double>> act_{this,
+                                                  "act",
+                                                  "control signals [u1..uN]",
+                                                  "",
+                                                  component::unit_of(out_unit_),
                                                   component::size_of(joints_)};
 
  private:

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/control/dynamics/inverse_dynamics.hpp"
@@ -19,8 +20,8 @@
 namespace armature::controllers {
 
 /// A controller that knows the robot's dynamics from its description, and how the joints move: to
-/// be extended by a control law. Its control signals are torques, in the unit of which the
-/// actuators take them; they are limited there.
+/// be extended by a control law. Its control signals are torques at the joints; they are
+/// limited where they are taken.
 ///
 /// A velocity is a displacement by the Period. Its error behind a low pass counts as that of the
 /// velocity: steps of encoders are smoothed, and a motion that is followed is not seen too late.
@@ -28,7 +29,7 @@ namespace armature::controllers {
 /// a fault.
 class ControllerOfModel : public Controller {
  public:
-  using Controller::Controller;
+  explicit ControllerOfModel(std::string name) : Controller(std::move(name), "Nm") {}
 
  protected:
   component::Outcome on_configure() final;

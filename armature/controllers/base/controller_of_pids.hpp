@@ -42,7 +42,7 @@ class ControllerOfPids : public Controller {
   /// Asks them, before the PIDs are asked.
   virtual void ask_others(const std::vector<double>& /*reference*/) {}
   /// All have answered, or are held: writes `act`.
-  /// @param answers  of the PIDs first [V]
+  /// @param answers  of the PIDs first
   virtual void conclude(const std::vector<double>& answers) = 0;
 
   void answer(std::size_t member, double value);
@@ -60,7 +60,8 @@ class ControllerOfPids : public Controller {
                                      "Out",
                                      joints_,
                                      "control signal of each PID",
-                                     "V",
+                                     "",
+                                     component::unit_of(out_unit_),
                                      component::on_data<&ControllerOfPids::on_out>,
                                      component::leads_to("act")};
   component::OutputPorts<double> ref_{this, "Ref", joints_, "desired position, for each PID",

@@ -12,6 +12,7 @@
 #include "armature/component/author.hpp"
 #include "armature/control/joint_limits.hpp"
 #include "armature/control/sampled_loop.hpp"
+#include "armature/controllers/base/joint_command.hpp"
 
 namespace armature::controllers {
 
@@ -68,9 +69,11 @@ class ComputesTorques {
 class DescribesRobot {
  public:
   /// One joint, behind its drive; an error says what is missing or wrong.
-  /// @param number  from 1
+  /// @param number   from 1
+  /// @param command  by which the joint is driven; of velocities and positions: the joint behind
+  ///                 torques, as a drive that follows them has it
   /// @thread configuration only; the first one takes milliseconds
-  virtual base::Result<DrivenJoint> joint(std::size_t number) const = 0;
+  virtual base::Result<DrivenJoint> joint(std::size_t number, JointCommand command) const = 0;
   /// What the description says of it; unlimited without one.
   virtual control::JointLimits limits(std::size_t number) const = 0;
 

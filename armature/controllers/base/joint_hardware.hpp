@@ -1,37 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
+#include <memory>
+#include <string>
 #include <string_view>
 
 #include "armature/component/author.hpp"
 #include "armature/component/host.hpp"
 #include "armature/component/operators_word.hpp"
+#include "armature/controllers/base/joint_command.hpp"
 #include "armature/controllers/base/limited_effort.hpp"
 
 namespace armature::controllers {
 
 /// The hardware of one joint, as Joint uses it (paper 1, section 3.1): to be extended by a driver.
 ///
-/// It takes only a LimitedEffort, which is what a joint's limiter has let through: nothing else can
-/// be connected to it. It switches on and opens its brake for a DrivePermit only, which is what an
-/// armed limiter gives; it switches off and brakes for everybody, as long as it is configured. The
-/// functions answer false if the hardware did not take or do it, and each runs in real time:
-/// nonblocking but for the wait that the hardware's answer is worth, no allocation. Whenever it
-/// stops or faults, also because the joint did: effort 0, brake applied, actuator off.
+/// It takes only what a joint's limiter has let through: a LimitedEffort, or, if it says that it
+/// does, a LimitedVelocity or a LimitedPosition. Nothing else can be connected to it, and a
+/// deployment connects one of them. It switches on and opens its brake for a DrivePermit only,
+/// which is what an armed limiter gives; it switches off and brakes for everybody, as long as it is
+/// configured. The functions answer false if the hardware did not take or do it, and each runs in
+/// real time: nonblocking but for the wait that the hardware's answer is worth, no allocation.
+/// Whenever it stops or faults, also because the joint did: effort 0, brake applied, actuator off.
 class JointHardware : public component::Component {
  public:
-  using Component::Component;
+  /// What its sensor tells: how far the axis turned, or where it is.
+  enum class Sensor { kIncremental, kAbsolute };
 
-  /// Turns that DisplacementSensor tells for one of the motor's axis, > 0: 1 if it is of that axis.
+  /// A drive that is given voltages, and whose sensor is an incremental one.
+  explicit JointHardware(const std::string& name)
+      : JointHardware(name, {JointCommand::kVoltage}, Sensor::kIncremental) {}
+  /// @param commands  that it can be given, at least one
+  JointHardware(const std::string& name, std::initializer_list<JointCommand> commands,
+                Sensor sensor);
+  ~JointHardware() override;
+
+  /// Turns that the sensor tells for one of the motor's axis, > 0: 1 if it is of that axis.
   /// @thread configuration only
   virtual double sensor_turns() const { return 1.0; }
 
  protected:
   virtual bool actuator_on() = 0;
   virtual bool actuator_off() = 0;
-  /// @param effort  to apply from now on [V]
+  /// @param effort  to apply from now on [V, A, or Nm at the motor], as commanded() says
   virtual bool actuator_set(control::LimitedEffort effort) = 0;
-  /// Reads the sensors and writes `displacement_` and `index_`.
+  /// Of hardware that takes velocities.
+  /// @param velocity  of the motor's axis from now on [rad/s]
+  virtual bool velocity_set(control::LimitedVelocity /*velocity*/) { return false; }
+  /// Of hardware that takes positions.
+  /// @param position  where the motor's axis is to be, by PositionSensor [rad]
+  virtual bool position_set(control::LimitedPosition /*position*/) { return false; }
+  /// Reads the sensors and writes `sensor_` and `index_`.
   virtual bool sensor_read() = 0;
   virtual bool brake_apply() = 0;
   virtual bool brake_release() = 0;
@@ -49,8 +69,13 @@ class JointHardware : public component::Component {
   /// hardware that hands it on.
   control::DrivePermit permit() const { return permit_; }
 
-  component::OutputPort<double> displacement_{
-      this, "DisplacementSensor", "of the motor's axis since the reading before", "rad"};
+  /// What of `commands` the deployment gives it; the first one before it is connected.
+  /// @rt nonblocking, no allocation
+  /// @thread the component's own
+  JointCommand commanded() const;
+
+  /// How far the motor's axis turned since the reading before, or where it is.
+  component::OutputPort<double> sensor_;
   component::OutputPort<bool> index_{this, "IndexSensor", "the index switch is closed"};
 
  private:
@@ -90,7 +115,8 @@ class JointHardware : public component::Component {
   };
 
   void make_safe() {
-    actuator_set({});
+    if (commanded() == JointCommand::kVelocity) velocity_set({});
+    if (is_effort(commanded())) actuator_set({});
     brake_apply();
     switch_off();
   }
@@ -106,14 +132,13 @@ class JointHardware : public component::Component {
   bool open_brake(control::DrivePermit permit) { return permit && brake_release(); }
 
   void effort_arrived(control::LimitedEffort effort) { actuator_set(effort); }
+  void velocity_arrived(control::LimitedVelocity velocity) { velocity_set(velocity); }
+  void position_arrived(control::LimitedPosition position) { position_set(position); }
 
-  component::InputPort<control::LimitedEffort> effort_{
-      this,
-      "VoltageActuator",
-      "to apply from now on",
-      "V",
-      component::on_data<&JointHardware::effort_arrived>,
-      component::leads_to_nothing()};
+  /// The inputs for what it can be given.
+  class CommandInputs;
+  std::unique_ptr<CommandInputs> commands_;
+
   component::Operation<bool(control::DrivePermit)> actuator_on_{
       this,
       "actuatorOn",
@@ -132,7 +157,7 @@ class JointHardware : public component::Component {
       "actuatorSet",
       component::serve<&JointHardware::actuator_set>,
       "applies an effort that a limiter let through",
-      component::args("effort [V]"),
+      component::args("effort"),
       component::in_own_thread};
   component::Operation<bool()> sensor_read_{
       this, "sensorRead", component::serve<&JointHardware::sensor_read>,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
 #include <type_traits>
 
 #include "armature/control/joint_limiter.hpp"
@@ -8,16 +9,30 @@
 
 namespace armature::control {
 
+namespace internal {
+
 /// So that ports and operations carry it. It is sealed: what tools, files and scripts make is no
-/// LimitedEffort, and no port of another type can be connected to one of this.
-inline const types::Type& armature_describe(const LimitedEffort*) {
-  static_assert(std::is_standard_layout_v<LimitedEffort> && sizeof(LimitedEffort) == sizeof(double),
+/// such command, and no port of another type can be connected to one of this.
+template <typename Command>
+const types::Type& sealed_number(std::string_view name) {
+  static_assert(std::is_standard_layout_v<Command> && sizeof(Command) == sizeof(double),
                 "the number is all that there is");
   static const types::Type& type = types::internal::make_sealed(
-      "LimitedEffort", types::internal::kFootprint<LimitedEffort>,
-      types::internal::kLifetime<LimitedEffort>,
+      name, types::internal::kFootprint<Command>, types::internal::kLifetime<Command>,
       types::internal::make_field("value", 0, types::type_of<double>()));
   return type;
+}
+
+}  // namespace internal
+
+inline const types::Type& armature_describe(const LimitedEffort*) {
+  return internal::sealed_number<LimitedEffort>("LimitedEffort");
+}
+inline const types::Type& armature_describe(const LimitedVelocity*) {
+  return internal::sealed_number<LimitedVelocity>("LimitedVelocity");
+}
+inline const types::Type& armature_describe(const LimitedPosition*) {
+  return internal::sealed_number<LimitedPosition>("LimitedPosition");
 }
 
 /// Sealed likewise: no tool, file, script or peer switches on or opens a brake.

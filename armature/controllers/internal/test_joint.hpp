@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -18,8 +19,11 @@ namespace armature::controllers {
 /// A joint at 1 rad whose hardware notes what it is told.
 class JointTest : public ::testing::Test {
  protected:
-  JointTest() {
-    calls.reserve(1000);  // the hardware is called in real time
+  JointTest() : JointTest(std::make_unique<Joint>("Joint1"), JointCommand::kVoltage) {}
+  /// @param limit  of what the hardware is told
+  JointTest(std::unique_ptr<component::Component> made, JointCommand way, double limit = 12.0)
+      : joint(std::move(made)) {
+    calls.reserve(10000);  // the hardware is called in real time
     joint.set("PeerName", "Card");
     joint.set("Brake", true);
     joint.set("GearRatio", 0.01);
@@ -28,7 +32,7 @@ class JointTest : public ::testing::Test {
     joint.set("PositionMax", 4.5);
     joint.set("MaxVelocity", 1.0);
     joint.set("MaxAcceleration", 5.0);
-    joint.set("MaxVoltage", 12.0);
+    joint.set(names_of(way).limit, limit);
     joint.set("Period", 0.01);
     joint.set("ArmingTime", 0.0);
     for (const char* name : {"actuatorOff", "brakeApply"}) {
@@ -39,7 +43,8 @@ class JointTest : public ::testing::Test {
         return called(permit ? name : "refused");
       });
     }
-    joint.write("Voltage", 0.0);  // connects it; before the start, so that it does not count
+    // Connects it; before the start, so that it does not count.
+    joint.write(names_of(way).command, 0.0);
     joint.serve<bool()>("sensorRead", [this] {
       calls.emplace_back("sensorRead");
       if (on_read) on_read();
@@ -103,8 +108,8 @@ class JointTest : public ::testing::Test {
 
   std::vector<std::string_view> calls;
   std::string_view broken;
-  std::function<void()> on_read;                              ///< what the hardware does at once
-  testing::Harness joint{std::make_unique<Joint>("Joint1")};  // last: it stops its hardware
+  std::function<void()> on_read;  ///< what the hardware does at once
+  testing::Harness joint;         ///< last: it stops its hardware
 };
 
 }  // namespace armature::controllers

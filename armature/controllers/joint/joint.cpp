@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "armature/base/seconds.hpp"
 #include "armature/component/face.hpp"
@@ -27,6 +28,8 @@ constexpr base::Duration kSettling = 100ms;
 constexpr base::Duration kSettlingPatience = 2s;
 /// For which a joint is watched that was let go.
 constexpr base::Duration kWatchTime = 200ms;
+/// For which a drive may be slower or faster than it was told.
+constexpr base::Duration kVelocityPatience = 100ms;
 /// Over which signs of the effort are counted.
 constexpr base::Duration kAlternationTime = 500ms;
 /// A joint that was not measured for so long, and for two periods, may have moved when it stops.
@@ -48,8 +51,12 @@ Outcome Joint::on_start() {
   if (changes_.take()) {
     if (Outcome outcome = set_up(); !outcome) return outcome;
   }
-  if (sampler_ && !voltage_.connected()) {
-    return component::refused("input Voltage has no writer (connect it, or set Sampler: false)");
+  if (sampler_ && !command_.connected()) {
+    return component::refused("input " + std::string(names_.command) +
+                              " has no writer (connect it, or set Sampler: false)");
+  }
+  if (way_ == JointCommand::kPosition && !position_sensor_.connected()) {
+    return component::refused("input PositionSensor has no writer: its drive is told where to go");
   }
   arming_ = arm_handler_.bound() ? &face(arm_handler_).source()->owner() : nullptr;
   if (dynamic_cast<const component::StandIn*>(arming_) != nullptr) {
@@ -59,6 +66,7 @@ Outcome Joint::on_start() {
   started_ = time();
   intervals_.begin(period_.duration());
   measured_since_start_ = false;
+  if (absolute_) absolute_->reset();
   switch_off();
   kept_.note_start();
   if (kept_.is_doubtful() && !succeeds(doubt_position_)) {
@@ -91,16 +99,32 @@ Outcome Joint::set_up() {
     return component::refused(
         "GearRatio must be a number above 0; set the direction with SensorSign");
   }
+  if (!is_effort(way_) && settings_->actuator_sign != 1.0) {
+    return component::refused(
+        "ActuatorSign must be 1: the drive follows its own sensor, whose direction SensorSign "
+        "says");
+  }
+  if (!is_effort(way_) && !(settings_->max_error > 0.0)) {
+    return component::refused(std::string(names_.limit) + " must be a number above 0");
+  }
   auto limiter = JointLimiter::make(limits());
   if (!limiter) return component::refused(limiter.error());
   auto sequence = control::ArmingSequence::make(arming_steps());
   if (!sequence) return component::refused(sequence.error());
   auto watch = control::HoldingWatch::make(holding());
   if (!watch) return component::refused(watch.error());
+  auto absolute = control::AbsolutePosition::make(absolute_sensor());
+  if (!absolute) return component::refused(absolute.error());
   limiter_ = limiter.value();
+  absolute_ = absolute.value();
+  following_ = control::FollowingWatch(
+      {.max_error = settings_->max_error,
+       .patience = way_ == JointCommand::kVelocity ? kVelocityPatience : base::Duration{}});
   sequence_ = sequence.value();
   watch_ = watch.value();
   sensor_ratio_ = settings_->sensor_sign * settings_->gear_ratio;
+  effort_ratio_ =
+      settings_->actuator_sign * (way_ == JointCommand::kTorque ? settings_->gear_ratio : 1.0);
   if (settings_->initial_position != initial_position_) {
     initial_position_ = settings_->initial_position;
     measured_ = {.position = initial_position_, .velocity = 0.0};
@@ -110,21 +134,31 @@ Outcome Joint::set_up() {
   return component::accepted();
 }
 
+/// Of a joint whose drive controls it: the drive has its own.
+double Joint::max_effort() const { return is_effort(way_) ? settings_->max_effort : 1.0; }
+
+control::AbsolutePosition::Config Joint::absolute_sensor() const {
+  return {.ratio = settings_->sensor_sign * settings_->gear_ratio,
+          .offset = settings_->initial_position,
+          .range = settings_->sensor_range,
+          .max_velocity = settings_->max_velocity};
+}
+
 JointLimiter::Config Joint::limits() const {
-  return {.lower = settings_->lowest(),
-          .upper = settings_->highest(),
-          .max_velocity = settings_->max_velocity,
-          .max_acceleration = settings_->max_acceleration,
-          .max_effort = settings_->max_effort,
-          .period = period_.duration(),
-          .arming_time = base::from_seconds(settings_->arming_time),
-          .effort_rate =
-              settings_->arming_time > 0.0 ? settings_->max_effort / settings_->arming_time : 0.0};
+  return {
+      .lower = settings_->lowest(),
+      .upper = settings_->highest(),
+      .max_velocity = settings_->max_velocity,
+      .max_acceleration = settings_->max_acceleration,
+      .max_effort = max_effort(),
+      .period = period_.duration(),
+      .arming_time = base::from_seconds(settings_->arming_time),
+      .effort_rate = settings_->arming_time > 0.0 ? max_effort() / settings_->arming_time : 0.0};
 }
 
 control::ArmingSequence::Config Joint::arming_steps() const {
   return {.max_motion = settings_->arming_motion,
-          .effort_tolerance = 0.02 * settings_->max_effort,
+          .effort_tolerance = 0.02 * max_effort(),
           .settling_time = kSettling,
           .patience = base::from_seconds(settings_->arming_time) + kSettlingPatience,
           .watch_time = kWatchTime};
@@ -135,7 +169,7 @@ control::HoldingWatch::Config Joint::holding() const {
           .max_motion = settings_->holding_motion,
           .max_velocity = settings_->holding_velocity,
           .sinking_velocity = 0.0,
-          .least_effort = 0.02 * settings_->max_effort,
+          .least_effort = 0.02 * max_effort(),
           .max_alternation =
               settings_->holding_alternation < 1.0 ? settings_->holding_alternation : 2.0,
           .alternation_time = kAlternationTime,
@@ -148,8 +182,8 @@ std::vector<DrivenJoint> Joint::joints_behind(const component::InputPortBase* /*
   const auto joint = model_.driven(check);
   if (!joint) return {};
   std::vector<DrivenJoint> joints{*joint};
-  for (const component::InputPortBase* const hardware : check.readers_of(voltage_actuator_)) {
-    if (!check.delayed(face(voltage_actuator_), *hardware)) continue;
+  for (const component::InputPortBase* const hardware : check.readers_of(command_output_.port())) {
+    if (!check.delayed(command_output_.port(), *hardware)) continue;
     answer_later(joints, 1, base::to_seconds(period()));
     break;
   }
@@ -181,10 +215,29 @@ bool Joint::is_in_time() {
 
 void Joint::on_displacement(double of_motor) {
   const double displacement = sensor_ratio_ * of_motor;
+  moved(displacement, measured_.position + displacement);
+}
+
+void Joint::on_position(double of_motor) {
+  if (!std::isfinite(of_motor)) {
+    switch_off();
+    component::Reason why("PositionSensor is ");
+    return fault(append_number(why, of_motor).append(", expected a finite number"));
+  }
+  const auto reading = absolute_->step(of_motor, base::to_seconds(time() - measured_at_));
+  if (!reading.jumped) return moved(reading.displacement, reading.position);
+  switch_off();
+  component::Reason why("PositionSensor says that it moved by ");
+  append_number(why, reading.displacement)
+      .append(" rad since the sample before, expected at most ");
+  fault(append_number(why, reading.possible).append(" rad by MaxVelocity; look at the sensor"));
+}
+
+void Joint::moved(double displacement, double to) {
   const double since = base::to_seconds(time() - measured_at_);
   const bool known = measured_since_start_ && since > 0.0;
   measured_.velocity = known ? displacement / since : 0.0;
-  measured_.position += displacement;
+  measured_.position = to;
   measured_at_ = time();
   measured_since_start_ = true;
   displacement_read_ = displacement;
@@ -213,25 +266,53 @@ void Joint::on_act() {
     log_error("{} is out of service, so it disarms", arming_->name());
     disarm();
   }
-  const auto voltage = voltage_.read();
-  if (is_of_this_run(voltage, started_)) apply(voltage.value);
+  const auto command = command_.read();
+  if (is_of_this_run(command, started_)) apply(command.value);
 }
 
 /// True if it was passed unchanged.
-bool Joint::apply(double voltage) {
-  const JointLimiter::LimitedStep step = limiter_->step_effort(measured_, voltage);
-  commanded_ = voltage;
-  effort_ = step.value;
-  passed_ = step.status == JointLimiter::Status::kPassed;
-  voltage_actuator_.write(settings_->actuator_sign > 0.0 ? step.value : -step.value);
-  if (step.status == JointLimiter::Status::kPassed) return true;
-  if (step.status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
-  if (step.status != JointLimiter::Status::kNotFinite) return false;
+bool Joint::apply(double command) {
+  commanded_ = command;
+  const JointLimiter::Status status = limit_and_write(command);
+  passed_ = status == JointLimiter::Status::kPassed;
+  if (passed_) return true;
+  if (status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);
+  if (status != JointLimiter::Status::kNotFinite) return false;
   switch_off();
-  component::Reason why("Voltage is ");
-  append_number(why, voltage).append(" at the position ");
+  component::Reason why(names_.command);
+  append_number(why.append(" is "), command).append(" at the position ");
   fault(append_number(why, measured_.position).append(", expected finite numbers"));
   return false;
+}
+
+JointLimiter::Status Joint::limit_and_write(double command) {
+  if (is_effort(way_)) [[likely]] {
+    const auto step = limiter_->step_effort(measured_, command);
+    sent_ = step.value;
+    command_output_.write(step.value.scaled(effort_ratio_));
+    return step.status;
+  }
+  if (way_ == JointCommand::kVelocity) {
+    const auto step = limiter_->step_velocity(measured_, command);
+    sent_ = step.value;
+    command_output_.write(step.value.scaled(1.0 / sensor_ratio_));
+    return step.status;
+  }
+  const auto step = limiter_->step_position(measured_, command);
+  sent_ = step.value;
+  command_output_.write(step.value.counted(1.0 / sensor_ratio_, absolute_->at(0.0)));
+  return step.status;
+}
+
+/// Nothing drives the joint; a drive that follows positions is told that it is where it says.
+void Joint::stand_still() {
+  sent_ = 0.0;
+  if (is_effort(way_)) return command_output_.write(control::LimitedEffort());
+  if (way_ == JointCommand::kVelocity) return command_output_.write(control::LimitedVelocity());
+  if (!absolute_->known()) return;
+  const JointLimiter::Measured here{.position = absolute_->position(), .velocity = 0.0};
+  command_output_.write(limiter_->step_position(here, here.position)
+                            .value.counted(1.0 / sensor_ratio_, absolute_->at(0.0)));
 }
 
 }  // namespace armature::controllers

@@ -4,18 +4,22 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "armature/component/author.hpp"
 #include "armature/component/face.hpp"
+#include "armature/control/absolute_position.hpp"
 #include "armature/control/arming/arming_sequence.hpp"
 #include "armature/control/arming/holding_watch.hpp"
+#include "armature/control/following_watch.hpp"
 #include "armature/control/joint_limiter.hpp"
 #include "armature/controllers/base/changes.hpp"
-#include "armature/controllers/base/limited_effort.hpp"
+#include "armature/controllers/base/joint_command.hpp"
 #include "armature/controllers/base/max_age.hpp"
 #include "armature/controllers/base/missing_answers.hpp"
 #include "armature/controllers/base/sample_watch.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
+#include "armature/controllers/joint/command_output.hpp"
 #include "armature/controllers/joint/joint_model.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
 #include "armature/controllers/joint/kept_position.hpp"
@@ -24,8 +28,16 @@ namespace armature::controllers {
 
 /// A joint, independent of its hardware, which a peer represents (paper 1, section 3.1; what the
 /// peer offers is in JointHardware). Signs, ratio and offset are here, and so is the last step
-/// before the hardware: every effort passes a control::JointLimiter, and the hardware takes nothing
-/// else.
+/// before the hardware: every command passes a control::JointLimiter, and the hardware takes
+/// nothing else.
+///
+/// A drive is given voltages, currents or torques, or follows velocities or positions by itself:
+/// each way is a model of its own (JointOf), whose ports and limits are called by it. Torques are
+/// those of the joint, behind its gear. A drive that follows is watched: a joint that is not where,
+/// or as fast as, the drive was told is braked, and faults (control::FollowingWatch).
+///
+/// The hardware tells how far its axis turned (DisplacementSensor), or where it is
+/// (PositionSensor); a jump that the joint cannot have made is a fault.
 ///
 /// After a start, also one behind a fault, the joint is disarmed: motor off, brake applied, effort
 /// 0. Only Arm, an event of the component Arming, changes that, and only if the joint was measured
@@ -42,20 +54,25 @@ namespace armature::controllers {
 /// With `autosave` it begins where the run before has left it, and is not armed before the operator
 /// has confirmed that it is there (KeptPosition).
 /// @rt nonblocking but for the hardware's answers, no allocation
-class Joint final : public component::Component,
-                    public DrivesJoints,
-                    public PassesSamples,
-                    public component::Keeps {
+class Joint : public component::Component,
+              public DrivesJoints,
+              public PassesSamples,
+              public component::Keeps {
  public:
-  using Component::Component;
+  /// Whose drive is given voltages.
+  explicit Joint(std::string name) : Joint(std::move(name), JointCommand::kVoltage) {}
 
   std::vector<DrivenJoint> joints_behind(const component::InputPortBase* input,
                                          const component::Check& check) override;
   std::vector<const component::InputPortBase*> samples_behind(
       const component::OutputPortBase& /*output*/) const override {
-    return {&face(displacement_sensor_)};
+    return {&face(displacement_sensor_), &face(position_sensor_)};
   }
   component::Keeping& keeping() override { return kept_; }
+
+ protected:
+  Joint(std::string name, JointCommand command)
+      : Component(std::move(name)), way_(command), names_(names_of(command)) {}
 
  private:
   static constexpr double kRest = 0.02;  ///< [rad/s]; what is slower rests, or is noise
@@ -72,6 +89,8 @@ class Joint final : public component::Component,
   void on_stop() override;
 
   component::Outcome set_up();
+  double max_effort() const;
+  control::AbsolutePosition::Config absolute_sensor() const;
   control::JointLimiter::Config limits() const;
   control::ArmingSequence::Config arming_steps() const;
   control::HoldingWatch::Config holding() const;
@@ -80,13 +99,18 @@ class Joint final : public component::Component,
   void on_sample();
   bool is_in_time();
   void on_displacement(double of_motor);
+  void on_position(double of_motor);
+  void moved(double displacement, double to);
   void on_index(bool closed) { index_.write(closed); }
   double sensor_read();
   bool measured_lately() const;
 
   // Driving.
   void on_act();
-  bool apply(double voltage);
+  double effort_of(double command) const { return is_effort(way_) ? command : 0.0; }
+  bool apply(double command);
+  control::JointLimiter::Status limit_and_write(double command);
+  void stand_still();
 
   // Arming: joint_arming.cpp.
   void on_arm();
@@ -100,6 +124,7 @@ class Joint final : public component::Component,
 
   // Standing: joint_arming.cpp.
   void watch();
+  void watch_drive();
   void brake_because(const control::HoldingWatch::Finding& finding);
   void on_rest();
   void on_motion() { watch_->move(); }
@@ -123,15 +148,18 @@ class Joint final : public component::Component,
     return answer.status == component::CallStatus::kDone && answer.value;
   }
 
+  const JointCommand way_;  ///< its drive is commanded in
+  const JointCommandNames& names_;
+
   component::Property<std::string> peer_name_{
       this, "PeerName", "", "the component of the joint's hardware", "", component::mandatory};
   component::Property<bool> brake_{this, "Brake", false, "the joint has a brake"};
   component::Property<bool> sampler_{this, "Sampler", true, "follows the events Sample and Act"};
 
-  JointProperties settings_{this};
+  JointProperties settings_{this, way_};
   SamplingPeriod period_{this};
 
-  JointModel model_{this, settings_};
+  JointModel model_{this, settings_, way_};
   KeptPosition kept_{this, settings_};
 
   component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
@@ -165,15 +193,15 @@ class Joint final : public component::Component,
   component::EventHandler<> act_handler_{this,
                                          "Act",
                                          component::serve<&Joint::on_act>,
-                                         "applies Voltage",
+                                         "applies the latest command",
                                          component::only_if(sampler_),
-                                         component::leads_to("VoltageActuator")};
+                                         component::leads_to(names_.actuator)};
   component::EventHandler<> arm_handler_{this, "Arm", component::serve<&Joint::on_arm>,
                                          "held by the motor, then let go",
-                                         component::leads_to("Armed", "VoltageActuator")};
+                                         component::leads_to("Armed", names_.actuator)};
   component::EventHandler<> disarm_handler_{this, "Disarm", component::serve<&Joint::disarm>,
                                             "effort 0, brake applied, motor off",
-                                            component::leads_to("Armed", "VoltageActuator")};
+                                            component::leads_to("Armed", names_.actuator)};
   component::EventHandler<> rest_handler_{this,
                                           "Rest",
                                           component::serve<&Joint::on_rest>,
@@ -195,21 +223,29 @@ class Joint final : public component::Component,
       "of the motor's axis",
       "rad",
       component::on_data<&Joint::on_displacement>,
-      component::leads_to("Displacement", "Position", "Armed", "VoltageActuator")};
+      component::may_stay_open,
+      component::leads_to("Displacement", "Position", "Armed", names_.actuator)};
+  component::InputPort<double> position_sensor_{
+      this,
+      "PositionSensor",
+      "where the motor's axis is",
+      "rad",
+      component::on_data<&Joint::on_position>,
+      component::may_stay_open,
+      component::leads_to("Displacement", "Position", "Armed", names_.actuator)};
   component::InputPort<bool> index_sensor_{this,
                                            "IndexSensor",
                                            "the index switch is closed",
                                            "",
                                            component::on_data<&Joint::on_index>,
                                            component::leads_to("Index")};
-  component::InputPort<double> voltage_{this,
-                                        "Voltage",
+  component::InputPort<double> command_{this,
+                                        names_.command,
                                         "to apply at Act; may stay open without Sampler",
-                                        "V",
+                                        names_.unit,
                                         component::max_age(kMaxAge),
                                         component::may_stay_open};
-  component::OutputPort<control::LimitedEffort> voltage_actuator_{this, "VoltageActuator",
-                                                                  "for the hardware", "V"};
+  CommandOutput command_output_{this, way_};
   component::OutputPort<double> displacement_{this, "Displacement", "since the sample before",
                                               "rad"};
   component::OutputPort<double> position_{this, "Position", "of the joint", "rad"};
@@ -232,8 +268,8 @@ class Joint final : public component::Component,
       this,
       "motorSet",
       component::serve<&Joint::apply>,
-      "applies a voltage until the next; false if the limiter did not pass it as it is",
-      component::args("voltage [V]"),
+      "applies a command until the next; false if the limiter did not pass it as it is",
+      component::args("command"),
       component::in_own_thread};
   component::Operation<double()> read_sensor_{
       this, "sensorRead", component::serve<&Joint::sensor_read>,
@@ -260,16 +296,18 @@ class Joint final : public component::Component,
   component::Attribute<double> sunk_{
       this, "sunk", 0.0, "by how much it moved since it was disarmed, against its brake [rad]"};
   component::Attribute<int> clipped_{this, "clipped", 0,
-                                     "efforts since the configuration that the limiter changed"};
+                                     "commands since the configuration that the limiter changed"};
 
   Changes changes_{settings_, period_.property()};
   const component::Component* arming_ = nullptr;  ///< who lets it move, and could take that back
   std::optional<control::JointLimiter> limiter_;
   std::optional<control::ArmingSequence> sequence_;
   std::optional<control::HoldingWatch> watch_;
+  std::optional<control::AbsolutePosition> absolute_;
+  control::FollowingWatch following_;
   Phase phase_ = Phase::kDisarmed;
   double commanded_ = 0.0;  ///< last, whatever became of it
-  double effort_ = 0.0;     ///< sent last
+  double sent_ = 0.0;       ///< of it, last, in the unit of the command
   bool passed_ = false;     ///< it is what was commanded
   control::JointLimiter::Measured measured_;
   SampleWatch intervals_;
@@ -279,9 +317,17 @@ class Joint final : public component::Component,
   bool told_of_sinking_ = false;
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
-  double sensor_ratio_ = 1.0;
+  double sensor_ratio_ = 1.0;       ///< motion of the joint for one of the motor
+  double effort_ratio_ = 1.0;       ///< effort of the motor for one of the joint
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
   double initial_position_ = 0.0;   ///< that it was set to
+};
+
+/// A joint whose drive is commanded so.
+template <JointCommand kCommand>
+class JointOf final : public Joint {
+ public:
+  explicit JointOf(std::string name) : Joint(std::move(name), kCommand) {}
 };
 
 }  // namespace armature::controllers

@@ -41,7 +41,7 @@ void Joint::on_arm() {
     return fail_to_arm("its position is not a finite number");
   }
   off_at_rest_ = false;
-  effort_ = 0.0;
+  sent_ = 0.0;
   passed_ = false;
   phase_ = Phase::kTakingLoad;
   sequence_->begin(measured_.position, time());
@@ -53,8 +53,8 @@ void Joint::on_arm() {
 /// Once a sample.
 void Joint::go_on_arming() {
   const bool waits_for_motor = !brake_ && !sequence_->let_go();
-  const double effort = waits_for_motor ? commanded_ : effort_;
-  const bool affordable = std::abs(effort) < settings_->max_effort;
+  const double effort = effort_of(waits_for_motor ? commanded_ : sent_);
+  const bool affordable = std::abs(effort) < max_effort();
   const auto next = sequence_->step({.position = measured_.position,
                                      .effort = effort,
                                      .caught_up = affordable && (passed_ || waits_for_motor)},
@@ -83,7 +83,7 @@ void Joint::let_go() {
   if (brake_) {
     limiter_->end_rate_limit();
     done = succeeds(release_brake_, limiter_->permit());
-  } else if (limiter_->arm(measured_, commanded_)) {
+  } else if (limiter_->arm(measured_, effort_of(commanded_))) {
     apply(commanded_);
     done = phase_ == Phase::kLetGo && succeeds(actuator_on_, limiter_->permit());
   }
@@ -93,6 +93,7 @@ void Joint::let_go() {
 void Joint::be_armed() {
   phase_ = Phase::kArmed;
   watch_->move();
+  following_.reset();
   armed_.write(true);
   log_info("armed");
 }
@@ -108,7 +109,7 @@ Reason Joint::not_held() const {
   Reason why("it moved by ");
   append_number(why, told(sequence_->moved())).append(" rad when ");
   why.append(brake_ ? "its brake opened at " : "its motor was switched on at ");
-  append_number(why, told(effort_)).append(" V (ArmingMotion: ");
+  append_number(why, told(sent_)).append(" ").append(names_.unit).append(" (ArmingMotion: ");
   append_number(why, settings_->arming_motion);
   why.append(brake_ ? "), so it is braked again" : "), so it is off again");
   return why.append(
@@ -125,8 +126,11 @@ Reason Joint::moved_before() const {
 
 Reason Joint::never_settled() const {
   Reason why("what is to hold it did not settle: ");
-  append_number(why, told(brake_ ? effort_ : commanded_)).append(" V of ");
-  append_number(why, settings_->max_effort).append(" V at the position ");
+  append_number(why, told(brake_ ? sent_ : commanded_)).append(" ").append(names_.unit);
+  if (is_effort(way_)) {
+    append_number(why.append(" of "), max_effort()).append(" ").append(names_.unit);
+  }
+  why.append(" at the position ");
   append_number(why, told(measured_.position));
   return why.append("; check that its reference is there, and within its limits");
 }
@@ -140,9 +144,23 @@ void Joint::on_rest() {
 void Joint::watch() {
   const auto finding = watch_->step({.position = measured_.position,
                                      .velocity = measured_.velocity,
-                                     .effort = effort_,
+                                     .effort = effort_of(sent_),
                                      .driven = true});
-  if (finding.is_alarm()) brake_because(finding);
+  if (finding.is_alarm()) return brake_because(finding);
+  if (!is_effort(way_)) watch_drive();
+}
+
+/// Whether the drive does what it was told last.
+void Joint::watch_drive() {
+  const bool by_velocity = way_ == JointCommand::kVelocity;
+  const double is = by_velocity ? measured_.velocity : measured_.position;
+  if (following_.step(is - sent_, time())) return;
+  Reason why(by_velocity ? "its drive moves it at " : "its drive has it at ");
+  append_number(why, told(is)).append(" ").append(names_.unit).append(" and was told ");
+  append_number(why, told(sent_)).append(" (").append(names_.limit).append(": ");
+  append_number(why, settings_->max_error).append("): braked. Look for what blocks it");
+  switch_off();
+  fault(why);
 }
 
 void Joint::brake_because(const HoldingWatch::Finding& finding) {
@@ -157,7 +175,7 @@ void Joint::brake_because(const HoldingWatch::Finding& finding) {
           .append(" rad/s (HoldingVelocity: ");
       break;
     default:
-      append_number(why.append("its voltage changes its sign in a share of "),
+      append_number(why.append("its effort changes its sign in a share of "),
                     told(finding.measured))
           .append(" of all samples (HoldingAlternation: ");
       break;
@@ -202,8 +220,7 @@ bool Joint::brake_at_once() {
   }
   phase_ = Phase::kDisarmed;
   limiter_->disarm();
-  effort_ = 0.0;
-  voltage_actuator_.write({});
+  stand_still();
   const bool braked = !brake_ || succeeds(apply_brake_);
   armed_.write(false);
   if (was_armed) log_info("disarmed");

@@ -232,7 +232,7 @@ TEST_F(JointTest, AnArmedJointWhoseVoltageAlternatesIsBrakedAndFaults) {
     sample();
   }
   EXPECT_EQ(joint.state(), State::kException);
-  EXPECT_THAT(joint.reason(), HasSubstr("its voltage changes its sign"));
+  EXPECT_THAT(joint.reason(), HasSubstr("its effort changes its sign"));
 }
 
 TEST_F(JointTest, ADisarmedJointThatSinksIsToldOnceAndDoesNotFault) {

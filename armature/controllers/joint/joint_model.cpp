@@ -31,15 +31,24 @@ std::string versus(const std::string& what, double found, const std::string& uni
 bool all_numbers(const JointSettings& limits) {
   return !std::isnan(limits.lower) && !std::isnan(limits.upper) &&
          !std::isnan(limits.max_velocity) && !std::isnan(limits.max_acceleration) &&
-         !std::isnan(limits.max_effort) && !std::isnan(limits.gear_ratio);
+         !std::isnan(limits.max_effort) && !std::isnan(limits.max_error) &&
+         !std::isnan(limits.gear_ratio);
+}
+
+const component::InputPortBase* input_of(const component::Component& joint, std::string_view name) {
+  const auto& inputs = component::interface_of(joint).inputs;
+  const auto found = std::find_if(inputs.begin(), inputs.end(),
+                                  [name](const auto* each) { return each->name() == name; });
+  return found == inputs.end() ? nullptr : *found;
 }
 
 }  // namespace
 
-JointModel::JointModel(component::Component* owner, JointProperties& settings)
+JointModel::JointModel(component::Component* owner, JointProperties& settings, JointCommand command)
     : Checked(owner),
       owner_(*owner),
       settings_(settings),
+      command_(command),
       number_(owner, "RobotJoint", 0, "which joint of the Robot it is, from 1", "",
               component::range(0, 100000)) {
   settings.add_follower(*this);
@@ -65,6 +74,7 @@ void JointModel::check(component::Check& check) const {
   known_.reset();
   const JointSettings& limits = settings_.get();
   check_ends(check);
+  check_sensor(check);
   if (!all_numbers(limits)) return check.error("one of its limits is not a number");
   const DescribesRobot* const model = robot(check);
   if (number_ == 0 && model == nullptr) {
@@ -100,11 +110,27 @@ void JointModel::check_ends(component::Check& check) const {
   }
 }
 
+/// One sensor tells; a drive that is told where to go has to say where it is.
+void JointModel::check_sensor(component::Check& check) const {
+  const bool turned = !check.writers_of(*input_of(owner_, "DisplacementSensor")).empty();
+  const bool placed = !check.writers_of(*input_of(owner_, "PositionSensor")).empty();
+  if (turned && placed) {
+    check.error("both DisplacementSensor and PositionSensor have a writer",
+                "connect the one that its hardware has");
+  } else if (turned && command_ == JointCommand::kPosition) {
+    check.error("its drive is told where to go, so PositionSensor has to say where it is",
+                "connect PositionSensor; with DisplacementSensor alone command velocities");
+  } else if (!turned && !placed) {
+    check.error("neither DisplacementSensor nor PositionSensor has a writer",
+                "connect the one that its hardware has");
+  }
+}
+
 /// Hardware that has the gear itself tells of the joint's axis.
 double JointModel::sensor_turns(const component::Check& check) const {
-  for (const component::InputPortBase* const input : component::interface_of(owner_).inputs) {
-    if (input->name() != "DisplacementSensor") continue;
-    for (const component::OutputPortBase* const writer : check.writers_of(*input)) {
+  for (const std::string_view name : {"DisplacementSensor", "PositionSensor"}) {
+    for (const component::OutputPortBase* const writer :
+         check.writers_of(*input_of(owner_, name))) {
       const auto* const hardware = dynamic_cast<const JointHardware*>(&writer->owner());
       if (hardware != nullptr) return hardware->sensor_turns();
     }
@@ -113,6 +139,7 @@ double JointModel::sensor_turns(const component::Check& check) const {
 }
 
 std::optional<DrivenJoint> JointModel::driven(const component::Check& check) const {
+  if (!is_effort(command_)) return std::nullopt;
   if (!known_ && number_ != 0) {
     const DescribesRobot* const model = robot(check);
     if (model == nullptr) return std::nullopt;
@@ -127,7 +154,7 @@ base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) co
     return base::Error{"RobotJoint is 0: set it to the number of this joint in the Robot, from 1"};
   }
   const auto number = static_cast<std::size_t>(number_.get());
-  auto joint = robot.joint(number);
+  auto joint = robot.joint(number, command_);
   if (!joint) return base::Error{joint.error()};
   Known known{.joint = std::move(joint).value(), .described = {}};
   known.joint.name = owner_.name();
@@ -140,11 +167,14 @@ base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) co
   return known;
 }
 
-std::string JointModel::objection(const Known& known, const JointSettings& limits) {
-  const JointLimits& described = known.described;
-  const double torque = known.joint.lightest.torque_per_effort * limits.max_effort;
-  const double braking =
-      known.joint.heaviest.inertia * limits.max_acceleration + known.joint.most_weight;
+std::string JointModel::objection(const Known& known, const JointSettings& limits) const {
+  std::string wrong = objection_to_motion(known.described, limits);
+  if (wrong.empty() && is_effort(command_)) wrong = objection_to_effort(known, limits);
+  return wrong.empty() ? objection_to_gear(known, limits.gear_ratio) : wrong;
+}
+
+std::string JointModel::objection_to_motion(const JointLimits& described,
+                                            const JointSettings& limits) {
   if (limits.lowest() < described.lower - kBeyond) {
     return versus(limits.continuous ? "Continuous: PositionMin" : "PositionMin", limits.lowest(),
                   "rad", "the joint ends at", described.lower);
@@ -157,19 +187,27 @@ std::string JointModel::objection(const Known& known, const JointSettings& limit
     return versus("MaxVelocity", limits.max_velocity, "rad/s", "the description allows",
                   described.max_velocity);
   }
-  if (torque > kRoundedFigures * described.max_effort) {
-    return versus("MaxVoltage " + figure(limits.max_effort) + ": its torque", torque, "Nm",
-                  "the description allows", described.max_effort);
+  return {};
+}
+
+std::string JointModel::objection_to_effort(const Known& known, const JointSettings& limits) const {
+  const std::string limit(names_of(command_).limit);
+  const double torque = known.joint.lightest.torque_per_effort * limits.max_effort;
+  const double braking =
+      known.joint.heaviest.inertia * limits.max_acceleration + known.joint.most_weight;
+  if (torque > kRoundedFigures * known.described.max_effort) {
+    return versus(limit + " " + figure(limits.max_effort) + ": its torque", torque, "Nm",
+                  "the description allows", known.described.max_effort);
   }
   if (known.joint.most_weight > torque) {
-    return versus("MaxVoltage " + figure(limits.max_effort) + ": its torque", torque, "Nm",
+    return versus(limit + " " + figure(limits.max_effort) + ": its torque", torque, "Nm",
                   "the joint weighs up to", known.joint.most_weight);
   }
   if (braking > kRoundedFigures * torque) {
     return versus("MaxAcceleration " + figure(limits.max_acceleration) + " rad/s^2: its torque",
-                  braking, "Nm", "MaxVoltage gives", torque);
+                  braking, "Nm", limit + " gives", torque);
   }
-  return objection_to_gear(known, limits.gear_ratio);
+  return {};
 }
 
 /// What a joint takes for its position is what its drive moves: a sensor tells of the motor's axis.

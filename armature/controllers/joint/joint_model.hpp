@@ -15,11 +15,11 @@ namespace armature::controllers {
 /// deployment says of links and drives, and tells whoever controls the joint what it drives.
 class JointModel final : public component::Checked, public component::PropertyFollower {
  public:
-  JointModel(component::Component* owner, JointProperties& settings);
+  JointModel(component::Component* owner, JointProperties& settings, JointCommand command);
 
   void check(component::Check& check) const override;
 
-  /// Nothing if no Robot says what it is.
+  /// Nothing if no Robot says what it is, and of a joint that its drive controls.
   /// @thread configuration only
   std::optional<DrivenJoint> driven(const component::Check& check) const;
 
@@ -39,14 +39,19 @@ class JointModel final : public component::Checked, public component::PropertyFo
   };
 
   void check_ends(component::Check& check) const;
+  void check_sensor(component::Check& check) const;
   const DescribesRobot* robot(const component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
   double sensor_turns(const component::Check& check) const;
-  static std::string objection(const Known& known, const JointSettings& limits);
+  std::string objection(const Known& known, const JointSettings& limits) const;
+  static std::string objection_to_motion(const control::JointLimits& described,
+                                         const JointSettings& limits);
+  std::string objection_to_effort(const Known& known, const JointSettings& limits) const;
   static std::string objection_to_gear(const Known& known, double gear_ratio);
 
   component::Component& owner_;
   JointProperties& settings_;
+  JointCommand command_;
   component::Property<int> number_;
   mutable std::optional<Known> known_;
 };

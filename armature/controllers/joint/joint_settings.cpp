@@ -8,17 +8,21 @@ using component::member;
 using component::range;
 using component::sign;
 
-JointProperties::JointProperties(component::Component* owner)
+JointProperties::JointProperties(component::Component* owner, JointCommand command)
     : Properties(
           owner, {},
           member(&JointSettings::actuator_sign, "ActuatorSign",
-                 "-1, or true, if a positive voltage moves the joint backwards", "", sign),
+                 "-1, or true, if a positive command moves the joint backwards", "", sign),
           member(&JointSettings::sensor_sign, "SensorSign",
                  "-1, or true, if the sensor counts backwards", "", sign),
           member(&JointSettings::gear_ratio, "GearRatio",
                  "motion of the joint per motion of its sensor", "", mandatory),
           member(&JointSettings::initial_position, "InitialPos",
-                 "where the joint is at the first start", "rad"),
+                 "where the joint is at the first start; with PositionSensor: where that says 0",
+                 "rad"),
+          member(&JointSettings::sensor_range, "SensorRange",
+                 "after which PositionSensor begins again, such as 360 deg; 0: it counts turns",
+                 "rad", range(0.0, 1e9)),
           member(&JointSettings::continuous, "Continuous",
                  "it turns without end, as a wheel does, and has no PositionMin and PositionMax"),
           member(&JointSettings::lower, "PositionMin",
@@ -29,10 +33,11 @@ JointProperties::JointProperties(component::Component* owner)
                  "rad/s", mandatory),
           member(&JointSettings::max_acceleration, "MaxAcceleration",
                  "with which it can brake, before its limits, too", "rad/s^2", mandatory),
-          member(&JointSettings::max_effort, "MaxVoltage", "the most that is applied", "V",
+          member(is_effort(command) ? &JointSettings::max_effort : &JointSettings::max_error,
+                 names_of(command).limit, names_of(command).limit_doc, names_of(command).unit,
                  mandatory),
           member(&JointSettings::arming_time, "ArmingTime",
-                 "for which the voltage may only grow slowly after arming", "s", range(0.0, 60.0)),
+                 "for which the effort may only grow slowly after arming", "s", range(0.0, 60.0)),
           member(&JointSettings::arming_motion, "ArmingMotion",
                  "a joint that moves more when it is armed is braked again, and not armed", "rad",
                  range(1e-6, 1.0)),

@@ -4,16 +4,19 @@
 #include <limits>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/joint_command.hpp"
 
 namespace armature::controllers {
 
-/// What a Joint is told of itself. Positions in rad, of the joint; efforts are voltages.
+/// What a Joint is told of itself. Positions in rad, of the joint; efforts in the unit of its
+/// command.
 struct JointSettings {
   // Of the hardware; paper 1, section 3.1.
   double actuator_sign = 1.0;
   double sensor_sign = 1.0;
   double gear_ratio = 1.0;
   double initial_position = 0.0;
+  double sensor_range = 0.0;  ///< of PositionSensor
 
   // Of the limiter.
   bool continuous = false;
@@ -21,7 +24,8 @@ struct JointSettings {
   double upper = 0.0;
   double max_velocity = 0.0;
   double max_acceleration = 0.0;
-  double max_effort = 0.0;
+  double max_effort = 0.0;  ///< of a joint that is commanded by an effort
+  double max_error = 0.0;   ///< of one whose drive follows velocities or positions
 
   // Of arming.
   double arming_time = 1.0;
@@ -40,7 +44,7 @@ struct JointSettings {
 /// They are the properties of a Joint.
 class JointProperties final : public component::Properties<JointSettings> {
  public:
-  explicit JointProperties(component::Component* owner);
+  JointProperties(component::Component* owner, JointCommand command);
 };
 
 }  // namespace armature::controllers

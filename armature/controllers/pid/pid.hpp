@@ -55,6 +55,8 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
   static constexpr component::ChangeableWhileRunning kLive{};
 
   using Config = control::Pid::Config;
+  component::Property<std::string> out_unit_{this, "OutUnit", "V",
+                                             "of Out, UMin, UMax: what the drive is given"};
   component::Properties<Config> config_{
       this,
       {.u_min = -1.0, .u_max = 1.0},
@@ -64,10 +66,10 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
       component::member(&Config::kd, "Kd",
                         "differential gain, of one sample: the period is part of it", "V/rad",
                         kGains, kLive),
-      component::member(&Config::u_min, "UMin", "lower limit of the output", "V",
-                        component::mandatory),
-      component::member(&Config::u_max, "UMax", "upper limit of the output", "V",
-                        component::mandatory)};
+      component::member(&Config::u_min, "UMin", "lower limit of the output", "",
+                        component::mandatory, component::unit_of(out_unit_)),
+      component::member(&Config::u_max, "UMax", "upper limit of the output", "",
+                        component::mandatory, component::unit_of(out_unit_))};
   component::Property<double> gain_fade_time_{
       this, "GainFadeTime",
       0.2,  "in which gains that are changed in motion become the new ones",
@@ -82,7 +84,8 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
                                          "rad",
                                          component::on_data<&Pid::step>,
                                          component::max_age(kMaxAge)};
-  component::OutputPort<double> output_{this, "Out", "control signal", "V"};
+  component::OutputPort<double> output_{this, "Out", "control signal", "",
+                                        component::unit_of(out_unit_)};
   component::Operation<void()> reset_{this, "reset", component::serve<&Pid::reset>,
                                       "forgets the past: the next output is Ki e",
                                       component::in_own_thread};

@@ -11,12 +11,37 @@ namespace armature::controllers {
 using control::JointLimits;
 using control::JointRange;
 
-base::Result<DrivenJoint> RobotModel::joint(std::size_t number) const {
+/// A motor that is driven with a voltage brakes itself: with k^2 ratio^2 / R, as its torque for a
+/// volt is k ratio / R.
+base::Result<DrivenJoint> RobotModel::joint(std::size_t number, JointCommand command) const {
   const base::Result<Robot>& found = robot();
   if (!found) return base::Error{found.error()};
-  if (number >= 1 && number <= joints()) return found.value().joints[number - 1];
-  return base::Error{name() + " has joints 1 to " + std::to_string(joints()) + ", found " +
-                     std::to_string(number)};
+  if (number < 1 || number > joints()) {
+    return base::Error{name() + " has joints 1 to " + std::to_string(joints()) + ", found " +
+                       std::to_string(number)};
+  }
+  DrivenJoint joint = found.value().joints[number - 1];
+  const Motor& motor = found.value().motors[number - 1];
+  double torque_per_effort = 1.0;
+  double back_emf = 0.0;
+  if (command == JointCommand::kCurrent) {
+    if (motor.torque_per_ampere == 0.0) {
+      return base::Error{name() + " needs motor_torque_constant: joint " + std::to_string(number) +
+                         " is given currents"};
+    }
+    torque_per_effort = motor.torque_per_ampere;
+  } else if (command == JointCommand::kVoltage && motor.resistance > 0.0) {
+    torque_per_effort = motor.torque_per_ampere / motor.resistance;
+    back_emf = torque_per_effort * motor.torque_per_ampere;
+  } else if (command == JointCommand::kVoltage && motor.torque_per_ampere > 0.0) {
+    return base::Error{name() + " needs motor_resistance: joint " + std::to_string(number) +
+                       " is given voltages"};
+  }
+  for (control::JointPlant* plant : {&joint.lightest, &joint.heaviest}) {
+    plant->damping += back_emf;
+    plant->torque_per_effort = torque_per_effort;
+  }
+  return joint;
 }
 
 JointLimits RobotModel::limits(std::size_t number) const {
@@ -87,25 +112,25 @@ base::Result<std::vector<JointRange>> RobotModel::ranges(Robot& robot) const {
   return ranges;
 }
 
-/// A motor that is driven with a voltage brakes itself: with k^2 ratio^2 / R, as its torque for a
-/// volt is k ratio / R.
 base::Result<void> RobotModel::add_drives(Robot& robot) const {
-  const bool of_voltage = !resistance_.get().empty();
-  if (of_voltage == torque_constant_.get().empty()) {
-    return base::Error{"expected motor_resistance and motor_torque_constant, or neither"};
+  const bool has_resistance = !resistance_.get().empty();
+  const bool has_constant = !torque_constant_.get().empty();
+  if (has_resistance && !has_constant) {
+    return base::Error{"expected motor_torque_constant beside motor_resistance"};
   }
   std::vector<double> resistance, constant, ratio, rotor, friction, delay;
   struct Each {
     const Numbers& numbers;
     std::vector<double>& to;
     double least;
+    bool told = true;
   };
-  for (const auto& [numbers, to, least] :
-       {Each{resistance_, resistance, 1e-9}, Each{torque_constant_, constant, 1e-9},
-        Each{gear_ratio_, ratio, 1e-9}, Each{rotor_inertia_, rotor, 0.0},
-        Each{friction_, friction, 0.0}, Each{delay_, delay, 0.0}}) {
-    const bool of_a_voltage_drive = &numbers == &resistance_ || &numbers == &torque_constant_;
-    if (of_a_voltage_drive && !of_voltage) continue;
+  for (const auto& [numbers, to, least, told] :
+       {Each{resistance_, resistance, 1e-9, has_resistance},
+        Each{torque_constant_, constant, 1e-9, has_constant}, Each{gear_ratio_, ratio, 1e-9},
+        Each{rotor_inertia_, rotor, 0.0}, Each{friction_, friction, 0.0},
+        Each{delay_, delay, 0.0}}) {
+    if (!told) continue;
     auto each = control::per_joint(numbers.name(), numbers.get(), joints());
     if (!each) return base::Error{each.error()};
     for (const double number : each.value()) {
@@ -116,15 +141,15 @@ base::Result<void> RobotModel::add_drives(Robot& robot) const {
     }
     to = std::move(each).value();
   }
+  robot.motors.resize(joints());
   for (std::size_t i = 0; i < joints(); ++i) {
     DrivenJoint& joint = robot.joints[i];
-    if (of_voltage || gear_ratio_.was_set()) joint.motor_turns = ratio[i];
-    const double torque_per_volt = of_voltage ? constant[i] * ratio[i] / resistance[i] : 1.0;
-    const double back_emf = of_voltage ? torque_per_volt * constant[i] * ratio[i] : 0.0;
+    if (has_constant || gear_ratio_.was_set()) joint.motor_turns = ratio[i];
+    if (has_constant) robot.motors[i].torque_per_ampere = constant[i] * ratio[i];
+    if (has_resistance) robot.motors[i].resistance = resistance[i];
     for (control::JointPlant* plant : {&joint.lightest, &joint.heaviest}) {
       plant->inertia += rotor[i] * ratio[i] * ratio[i];
-      plant->damping = friction[i] + back_emf;
-      plant->torque_per_effort = torque_per_volt;
+      plant->damping = friction[i];
       plant->delay_s = delay[i];
     }
   }

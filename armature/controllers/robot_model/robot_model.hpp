@@ -18,21 +18,29 @@ namespace armature::controllers {
 /// a peer of each Joint. It does nothing while the robot runs.
 ///
 /// Links are those of the description (URDF), or, without one, `inertia_min` and `inertia_max` say
-/// what each joint moves. With `motor_resistance` efforts are voltages of DC motors behind gears,
-/// without it torques at the joints. Vectors have one number for each joint, or one for all.
+/// what each joint moves. Joints that are given voltages need `motor_resistance` and
+/// `motor_torque_constant` of DC motors behind gears, those that are given currents the latter;
+/// with neither, efforts are torques at the joints. Vectors have one number for each joint, or one
+/// for all.
 class RobotModel final : public component::Component, public DescribesRobot {
  public:
   using Component::Component;
 
-  base::Result<DrivenJoint> joint(std::size_t number) const override;
+  base::Result<DrivenJoint> joint(std::size_t number, JointCommand command) const override;
   control::JointLimits limits(std::size_t number) const override;
 
  private:
   void on_check(component::Check& check) const override;
 
+  /// The motor of one joint; 0: not told.
+  struct Motor {
+    double torque_per_ampere = 0.0;  ///< at the joint
+    double resistance = 0.0;
+  };
   /// What properties make of it.
   struct Robot {
-    std::vector<DrivenJoint> joints;
+    std::vector<DrivenJoint> joints;  ///< behind torques
+    std::vector<Motor> motors;
     std::vector<control::JointLimits> limits;
   };
   const base::Result<Robot>& robot() const;
@@ -52,8 +60,11 @@ class RobotModel final : public component::Component, public DescribesRobot {
       this, "inertia_max", {}, "without a description: the most that a joint moves", "kg m^2"};
   Numbers weight_{
       this, "weight", {0.0}, "without a description: the most that a joint holds", "Nm"};
-  Numbers resistance_{
-      this, "motor_resistance", {}, "of the winding; none: efforts are torques", "Ohm"};
+  Numbers resistance_{this,
+                      "motor_resistance",
+                      {},
+                      "of the winding; none: its joints are given no voltages",
+                      "Ohm"};
   Numbers torque_constant_{
       this, "motor_torque_constant", {}, "of the motor, also of its back-EMF", "Nm/A"};
   Numbers gear_ratio_{

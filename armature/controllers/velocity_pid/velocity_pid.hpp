@@ -46,16 +46,18 @@ class VelocityPid final : public component::Component, public DrivesJoints {
   static constexpr component::Range kGains{0.0, 1e9};
 
   using Config = control::Pid::Config;
+  component::Property<std::string> out_unit_{this, "OutUnit", "V",
+                                             "of Out, UMin, UMax: what the drive is given"};
   component::Properties<Config> config_{
       this,
       {.u_min = -1.0, .u_max = 1.0},
       component::member(&Config::kp, "Kp", "proportional gain", "V s/rad", kGains),
       component::member(&Config::ki, "Ki", "integral gain, of one sample: the period is part of it",
                         "V s/rad", kGains),
-      component::member(&Config::u_min, "UMin", "lower limit of the output", "V",
-                        component::mandatory),
-      component::member(&Config::u_max, "UMax", "upper limit of the output", "V",
-                        component::mandatory)};
+      component::member(&Config::u_min, "UMin", "lower limit of the output", "",
+                        component::mandatory, component::unit_of(out_unit_)),
+      component::member(&Config::u_max, "UMax", "upper limit of the output", "",
+                        component::mandatory, component::unit_of(out_unit_))};
   SamplingPeriod period_{this};
   component::InputPort<double> reference_{this, "Ref", "desired velocity", "rad/s",
                                           component::max_age(kMaxAge)};
@@ -65,7 +67,8 @@ class VelocityPid final : public component::Component, public DrivesJoints {
                                          "rad",
                                          component::on_data<&VelocityPid::step>,
                                          component::max_age(kMaxAge)};
-  component::OutputPort<double> output_{this, "Out", "control signal", "V"};
+  component::OutputPort<double> output_{this, "Out", "control signal", "",
+                                        component::unit_of(out_unit_)};
   component::EventHandler<> arm_{this,
                                  "Arm",
                                  component::serve<&VelocityPid::reset>,

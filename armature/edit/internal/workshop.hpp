@@ -63,6 +63,9 @@ class Workshop {
   /// An entry of a section of that file; the section is made if need be.
   void add_to_section(const SourceText& file, const std::string& section, const std::string& key,
                       const document::Value& value, int levels);
+  /// A key of the file's own map that it does not have yet.
+  void add_section(const SourceText& file, const std::string& section,
+                   const document::Value& content, int levels);
   /// An item of a section that is a list.
   void add_item_to_section(const SourceText& file, const std::string& section,
                            const document::Value& item);
@@ -80,9 +83,6 @@ class Workshop {
   std::map<std::string, std::vector<Replacement>> take();
 
  private:
-  void add_section(const SourceText& file, const std::string& section,
-                   const document::Value& content, int levels);
-
   const State& before_;
   const Edit& edit_;
   base::Diagnostics& diagnostics_;
@@ -118,6 +118,7 @@ void draft(const AddToMode& add, Workshop& shop);
 void draft(const RemoveFromMode& remove, Workshop& shop);
 void draft(const RemoveMode& remove, Workshop& shop);
 void draft(const RenameMode& rename, Workshop& shop);
+void draft(const StartInMode& start, Workshop& shop);
 
 /// What differs between two documents, places aside: `component 'Joint1'`. Components that only one
 /// of them has may be anywhere; the order of the others counts.

@@ -29,13 +29,19 @@ class Comparator final : public component::Component {
   }
 
   UnitProperty unit_{this, "Unit", "of the value and of all properties"};
-  component::Property<double> threshold_{
-      this, "Threshold", 0.0, "with which it is compared", "", component::changeable_while_running};
+  component::Property<double> threshold_{this,
+                                         "Threshold",
+                                         0.0,
+                                         "with which it is compared",
+                                         "",
+                                         component::unit_of(unit_),
+                                         component::changeable_while_running};
   component::Property<double> dead_band_{this,
                                          "DeadBand",
                                          0.0,
                                          "around the threshold, half of it on each side",
                                          "",
+                                         component::unit_of(unit_),
                                          component::range(0.0, 1e300),
                                          component::changeable_while_running};
   component::InputPort<double> in_{this,

@@ -14,8 +14,13 @@ class Constant final : public component::Component {
   void on_update() override { out_.write(value_); }
 
   UnitProperty unit_{this, "Unit", "of the number"};
-  component::Property<double> value_{
-      this, "Value", 0.0, "what is written", "", component::changeable_while_running};
+  component::Property<double> value_{this,
+                                     "Value",
+                                     0.0,
+                                     "what is written",
+                                     "",
+                                     component::unit_of(unit_),
+                                     component::changeable_while_running};
   component::OutputPort<double> out_{this, "Out", "the number", "", component::unit_of(unit_)};
 };
 

@@ -38,9 +38,12 @@ class Integrator final : public component::Component {
   UnitProperty unit_in_{this, "UnitIn", "of what is summed up"};
   UnitProperty unit_out_{this, "UnitOut", "of the sum, as UnitIn times s; of all bounds"};
   ProductUnit product_{this, unit_out_, {&unit_in_}, true};
-  component::Property<double> initial_{this, "Initial", 0.0, "where it begins"};
-  component::Property<double> low_{this, "Low", -1e300, "the least sum"};
-  component::Property<double> high_{this, "High", 1e300, "the greatest sum"};
+  component::Property<double> initial_{
+      this, "Initial", 0.0, "where it begins", "", component::unit_of(unit_out_)};
+  component::Property<double> low_{
+      this, "Low", -1e300, "the least sum", "", component::unit_of(unit_out_)};
+  component::Property<double> high_{
+      this, "High", 1e300, "the greatest sum", "", component::unit_of(unit_out_)};
   component::InputPort<double> in_{this,
                                    "In",
                                    "what is summed up",

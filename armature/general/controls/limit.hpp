@@ -30,8 +30,10 @@ class Limit final : public component::Component {
   }
 
   UnitProperty unit_{this, "Unit", "of all ports and bounds"};
-  component::Property<double> low_{this, "Low", -1.0, "the least value"};
-  component::Property<double> high_{this, "High", 1.0, "the greatest value"};
+  component::Property<double> low_{
+      this, "Low", -1.0, "the least value", "", component::unit_of(unit_)};
+  component::Property<double> high_{
+      this, "High", 1.0, "the greatest value", "", component::unit_of(unit_)};
   component::InputPort<double> in_{
       this, "In", "any value", "", component::on_data<&Limit::limit>, component::unit_of(unit_)};
   component::InputPort<double> most_{this,

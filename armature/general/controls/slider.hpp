@@ -39,10 +39,14 @@ class Slider final : public component::Component {
   }
 
   UnitProperty unit_{this, "Unit", "of the number and of all bounds"};
-  component::Property<double> low_{this, "Low", 0.0, "the least number"};
-  component::Property<double> high_{this, "High", 1.0, "the greatest number"};
-  component::Property<double> rest_{this, "Rest", 0.0,
-                                    "where it is at the start, and with Hold when nobody holds it"};
+  component::Property<double> low_{
+      this, "Low", 0.0, "the least number", "", component::unit_of(unit_)};
+  component::Property<double> high_{
+      this, "High", 1.0, "the greatest number", "", component::unit_of(unit_)};
+  component::Property<double> rest_{
+      this, "Rest",
+      0.0,  "where it is at the start, and with Hold when nobody holds it",
+      "",   component::unit_of(unit_)};
   component::Property<bool> hold_{this, "Hold", false, "whether it goes back when it is let go of"};
   component::Property<double> release_{this, "Release",
                                        0.15, "for so long it is held without being moved",

@@ -18,6 +18,12 @@ bool same(const base::Unit& a, const base::Unit& b) {
 
 }  // namespace
 
+std::string UnitProperty::objection_to(const component::PropertyBase& /*property*/,
+                                       const types::Value& value) const {
+  const auto unit = base::parse_unit(*static_cast<const std::string*>(value.data()));
+  return unit ? std::string() : unit.error();
+}
+
 void ProductUnit::check(component::Check& check) const {
   const auto is = base::parse_unit(product_.get());
   base::Unit all;

@@ -12,17 +12,21 @@
 
 namespace armature::general {
 
-/// The unit of a control's ports, which the deployment says: `Unit: rad`. The check refuses what is
-/// no unit; ports have it by `component::unit_of(unit)`.
-class UnitProperty final : public component::Property<std::string>, public component::Checked {
+/// The unit of a control's ports and numbers, which the deployment says: `Unit: rad`. What is no
+/// unit is refused; ports and properties have it by `component::unit_of(unit)`.
+class UnitProperty final : public component::Property<std::string>,
+                           private component::PropertyFollower {
  public:
   UnitProperty(component::Component* owner, std::string_view name, std::string_view doc)
-      : Property(owner, name, std::string(), doc), Checked(owner) {}
-
-  void check(component::Check& check) const override {
-    const auto unit = base::parse_unit(get());
-    if (!unit) check.error("property " + base::quoted(name()) + ": " + unit.error());
+      : Property(owner, name, std::string(), doc) {
+    add_follower(*this);
   }
+
+ private:
+  void follow() override {}
+  std::string objection() const override { return {}; }
+  std::string objection_to(const component::PropertyBase& property,
+                           const types::Value& value) const override;
 };
 
 /// The unit of what a control computes: the check refuses another one than that of the product.

@@ -17,6 +17,7 @@ Json json_of(const PropertyDescription& property, const char* value_key) {
                {"unit", property.unit},
                {"doc", property.doc},
                {value_key, property.value}};
+  if (!property.unit_property.empty()) json["unit_property"] = property.unit_property;
   if (!property.values.empty()) json["values"] = property.values;
   if (property.range) json["range"] = {bound(property.range->low), bound(property.range->high)};
   json["persistent"] = property.persistent;
@@ -28,6 +29,7 @@ Json json_of(const PropertyDescription& property, const char* value_key) {
 
 Json port(const PortDescription& port) {
   Json json = {{"name", port.name}, {"type", port.type}, {"unit", port.unit}, {"doc", port.doc}};
+  if (!port.unit_property.empty()) json["unit_property"] = port.unit_property;
   if (!port.values.empty()) json["values"] = port.values;
   if (port.size) json["size"] = *port.size;
   return json;

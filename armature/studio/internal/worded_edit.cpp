@@ -71,6 +71,7 @@ constexpr Form kForms[] = {
     form<edit::RemoveFromMode, 2>("from_mode"),
     form<edit::RemoveMode, 1>("no_mode"),
     form<edit::RenameMode, 2>("rename_mode"),
+    form<edit::StartInMode, 1>("initial_mode"),
 };
 
 /// ` or 3`, ` to 1001`; empty if it is no other number than the least.

@@ -27,7 +27,7 @@ bool AicOfAJoint::sensor_read() {
   const auto answer = read_card_(number_);
   if (answer.status != CallStatus::kDone || !usable(answer.value)) return false;
   index_.write(answer.value.index);
-  displacement_.write(static_cast<double>(answer.value.counts) * rad_per_count_);
+  sensor_.write(static_cast<double>(answer.value.counts) * rad_per_count_);
   return true;
 }
 

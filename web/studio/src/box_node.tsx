@@ -83,7 +83,7 @@ function PortRow({ box, port, shown }: { box: Box; port: BoxPort; shown: boolean
       <div className={`port ${source ? "out" : "in"} ${fits}${picked ? " picked" : ""}${port.triggers ? " triggers" : ""}`}
         style={{ top: y - 11 }} title={reason} onClick={(event) => pick(event, box, port)}>
         <span>{port.name}</span>
-        {live && source && <PortValue port={port} />}
+        {live && source && <PortValue port={port} brief />}
         {port.outside && <span className="outside" title={port.outside.join("\n")}>{outside_text(port.outside)}</span>}
       </div>
     </>

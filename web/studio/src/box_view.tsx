@@ -11,7 +11,7 @@ import { Requirements } from "./requirements.tsx";
 import { change_component, run } from "./run.ts";
 import { remove_selected } from "./scene.ts";
 import { open_composite, select_box, selection, show_text } from "./selection.ts";
-import { boxes_state, state_class } from "./states.ts";
+import { acts_of, boxes_state, reason_text, state_class } from "./states.ts";
 
 export function BoxView({ box }: { box: Box }) {
   const model = project.use((state) => state.models.find((one) => one.name === box.model));
@@ -61,15 +61,16 @@ export function Live({ box }: { box: Box }) {
   const components = run.use((all) => all.components);
   const state = boxes_state(box, components);
   if (!state) return null;
-  const reasons = [...new Set(box.components.flatMap((one) => components.get(one.name)?.reason || []))];
+  const reasons = [...new Set(box.components.flatMap((one) => components.get(one.name)?.reason || []))].map((one) => reason_text(state, one));
+  const acts = box.components.map((one) => acts_of(components.get(one.name)?.state ?? ""));
   const all = (what: string) => () => box.components.forEach((one) => void change_component(one.name, what));
   return (
     <div className={`live ${state_class(state)}`}>
       <b>{state}</b> {reasons.join("; ")}
       <span className="group" role="group" aria-label="State">
-        <button type="button" onClick={all("start")}>Start</button>
-        <button type="button" onClick={all("stop")}>Stop this</button>
-        <button type="button" onClick={all("reset")}>Reset</button>
+        {acts.some((one) => one.start) && <button type="button" onClick={all("start")}>Start</button>}
+        {acts.some((one) => one.stop) && <button type="button" title="Stops this component alone" onClick={all("stop")}>Stop this</button>}
+        {acts.some((one) => one.reset) && <button type="button" title="Takes the fault back; then it may be started" onClick={all("reset")}>Reset</button>}
       </span>
     </div>
   );

@@ -33,6 +33,7 @@ export interface Property {
   name: string;
   type: string;
   unit: string;
+  unit_property?: string;   ///< which names the unit, where one does
   doc: string;
   value?: string;
   default?: string;

@@ -4,6 +4,7 @@ import { BoxView } from "./box_view.tsx";
 import { PortView } from "./port_view.tsx";
 import { CommandView } from "./command_view.tsx";
 import { ConnectByName } from "./connect_by_name.tsx";
+import { has_nothing_yet } from "./checked.ts";
 import { useElsewhere } from "./elsewhere.ts";
 import { FarBox, FarWire } from "./far_view.tsx";
 import { Includes } from "./includes_view.tsx";
@@ -64,11 +65,11 @@ function Application() {
   return (
     <>
       <h2>{shown.application || "Application"}</h2>
-      {shown.components.length === 0 && <p className="hint">Nothing is in it yet.</p>}
+      {shown.components.length === 0 && <p className="hint">{has_nothing_yet(shown) ? "Nothing is in it yet." : "Its text has a mistake that hides its components: press Text, at the top, and mend it there."}</p>}
       {shown.components.length > 0 && <p>{`${counted(shown.components.length, "component")}, ${counted(shown.connections.filter((one) => one.kind === "data").length, "connection")}`}</p>}
       {shown.threads.length > 0 && <h3>Threads</h3>}
       <ul className="lanes">
-        {shown.threads.map((thread, i) => <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
+        {shown.threads.map((thread, i) => thread.order.length > 0 && <li key={thread.name} data-lane={i}><b>{thread.name}</b> <small>{counted(thread.order.length, "component")}</small></li>)}
       </ul>
       {!elsewhere && shown.components.length > 1 && <p className="actions"><ConnectByName /></p>}
       {!elsewhere && <Includes />}

@@ -3,7 +3,7 @@ import { useEffect, useState } from "react";
 import type { Component } from "./checked.ts";
 import { useHeld } from "./held.ts";
 import { press_jog } from "./jogging.ts";
-import { number_text, watch } from "./values.ts";
+import { fixed_text, watch } from "./values.ts";
 
 const kSlow = 0.1;  ///< of the largest velocity, to begin with
 
@@ -38,7 +38,7 @@ export function Jog({ component }: { component: Component }) {
           <span>{`Axis ${i + 1}`}</span>
           <JogButton component={component.name} axis={i + 1} sign={-1} speed={wanted} tell={set_why} />
           <JogButton component={component.name} axis={i + 1} sign={1} speed={wanted} tell={set_why} />
-          <output>{positions[i] === undefined ? "" : `${number_text(positions[i])} rad`}</output>
+          <output>{positions[i] === undefined ? "" : `${fixed_text(positions[i])} rad`}</output>
         </div>
       ))}
       <small role="status">{why || "moves while it is held"}</small>

@@ -38,7 +38,10 @@ function matching(log: readonly string[], begin: number, filter: string): [numbe
   return numbered.filter(([, text]) => text.toLowerCase().includes(word)).slice(-kMostShown);
 }
 
+/** Of a line of the application, its level; of others, what they say. */
 function severity_of(text: string): string {
+  const level = /^\s*\d+\.\d+ (\w+)/.exec(text)?.[1];
+  if (level) return /error|fatal/.test(level) ? "error" : level === "warning" ? "warning" : "";
   if (/\b(error|fatal|fault)\b/i.test(text)) return "error";
   return /\bwarning\b/i.test(text) ? "warning" : "";
 }

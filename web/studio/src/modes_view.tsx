@@ -4,7 +4,7 @@ import { useMemo, useState } from "react";
 import { type Mode, modes_of, names_entry, rows_of } from "./modes.ts";
 import { change, edit, project } from "./project.ts";
 import { Refused } from "./refused.tsx";
-import { is_going, run } from "./run.ts";
+import { run } from "./run.ts";
 import { scene } from "./scene.ts";
 import { select_box, selection } from "./selection.ts";
 
@@ -34,18 +34,19 @@ export function Modes() {
 function Head({ mode }: { mode: Mode }) {
   const shown = selection.use((state) => state.mode === mode.name);
   const initial = project.use((state) => state.shown?.modes.some((one) => one.name === mode.name && one.initial) ?? false);
-  const chosen = run.use((all) => all.mode);
-  const going = run.use((all) => is_going(all.state));
   const now = run.use((all) => all.application?.mode === mode.name);
-  const starts = chosen === mode.name || (chosen === "" && initial);
   const about = { field: kAbout, file: mode.file };
+  const start = async () => {
+    if (!initial && (await edit([change("initial_mode", mode.name)], { field: kAbout }))) run.set({ mode: "" });
+  };
   return (
     <th scope="col" className={shown ? "shown" : ""}>
       <ModeName mode={mode} />
       <span className="group" role="group" aria-label={mode.name}>
         <button type="button" className="small" aria-pressed={shown} title="Shows on the canvas what runs in it" onClick={() => selection.set({ mode: shown ? "" : mode.name })}>Show</button>
-        <button type="button" className="small" aria-pressed={starts} disabled={going} title={initial ? "The file's: the application starts in it unless you choose another" : "The next run starts in it"}
-          onClick={() => run.set({ mode: mode.name })}>Start in it</button>
+        <button type="button" className="small" aria-pressed={initial} title={initial ? "The application starts in it, as the file says" : "Writes into the file that the application starts in it"} onClick={() => void start()}>
+          {initial ? "Starts in it" : "Start in it"}
+        </button>
         <button type="button" className="unset" aria-label={`Remove the mode ${mode.name}`} title="Removes the mode; its components stay" onClick={() => void edit([change("no_mode", mode.name)], about)}>×</button>
       </span>
       {now && <small className="now">now</small>}

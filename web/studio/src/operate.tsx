@@ -10,6 +10,7 @@ import { Jog, jogs } from "./jog.tsx";
 import { Call, Operations } from "./operations.tsx";
 import { inspector, is_up, run } from "./run.ts";
 import { box_called, useScene } from "./scene.ts";
+import { is_mine, seat } from "./seat.ts";
 import { selection } from "./selection.ts";
 
 /** What an operator arms, and everybody disarms. */
@@ -22,9 +23,10 @@ function Word({ component, word }: { component: string; word: Property }) {
   const [answer, set_answer] = useState("");
   const say = () => void inspector().write(`${component}.${word.name}`, "true").then(() => set_answer("said"), (error: unknown) => set_answer(message_of(error)));
   return (
-    <div className="call" title={word.doc}>
+    <div className="call word">
       <HeldAct name={word.name} act={say} tell={set_answer} />
       <output>{answer}</output>
+      <small>{word.doc}</small>
     </div>
   );
 }
@@ -36,6 +38,7 @@ export function Operate() {
   const components = project.use((state) => state.shown?.components);
   const models = project.use((state) => state.models);
   const box = useSelectedBox();
+  const mine = seat.use(is_mine);
   if (!up && elsewhere) return <p className="hint">The application is not there.</p>;
   if (!up) return <p className="hint">Run the application: its buttons, switches, sliders and displays stand here, and the operations of what you select.</p>;
   const controls = (components ?? []).filter((one) => face_of(models, one.model));
@@ -44,6 +47,7 @@ export function Operate() {
   return (
     <div className="operate scroll" tabIndex={0} aria-label="Operate">
       <div className="faces">
+        {armed.length > 0 && !mine && <p className="hint">What has to be held for 1 s is for the operator: press Take the seat first, at the top right.</p>}
         {armed.map((one) => (
           <fieldset key={one.name}>
             <legend>{one.name}</legend>

@@ -2,9 +2,10 @@
 // The last 60 s of chosen items. It comes with uPlot, so it is loaded when it is opened.
 import { useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
+import { project } from "./project.ts";
 import { run } from "./run.ts";
 import { type Plotted, selection, toggle_plotted } from "./selection.ts";
-import { watch } from "./values.ts";
+import { watch, with_unit } from "./values.ts";
 
 const kWindow = 60;       ///< [s]
 const kMostSamples = 60 * 60;
@@ -61,7 +62,7 @@ export default function Plot() {
       <div className="legend scroll">
         {plotted.map((one) => (
           <div key={one.name}>
-            <span className="chips"><span>{one.name}<button type="button" aria-label={`Plot ${one.name} no more`} onClick={() => toggle_plotted(one.name)}>×</button></span></span>
+            <span className="chips"><span>{one.name}{unit_of(one.items[0]!) && <small>{unit_of(one.items[0]!)}</small>}<button type="button" aria-label={`Plot ${one.name} no more`} onClick={() => toggle_plotted(one.name)}>×</button></span></span>
             <ul aria-label={`Curves of ${one.name}`}>
               {drawn.map((curve, i) => one.items.includes(item_of(curve)) && <li key={curve} data-lane={i % kColours} data-dash={Math.floor(i / kColours)}>{short_name(curve, one)}</li>)}
             </ul>
@@ -84,6 +85,19 @@ function short_name(curve: string, { items }: Plotted): string {
   return `${is_alone ? component : item}${curve.slice(item.length)}` || item.slice(item.lastIndexOf(".") + 1);
 }
 
+/** Of a port's values; empty: they are plain numbers. */
+function unit_of(item: string): string {
+  const dot = item.lastIndexOf(".");
+  const component = project.get().shown?.components.find(({ name }) => name === item.slice(0, dot));
+  return [...(component?.outputs ?? []), ...(component?.inputs ?? [])].find(({ name }) => name === item.slice(dot + 1))?.unit ?? "";
+}
+
+/** The unit of all of them; empty: they differ, or have none. */
+function common_unit(items: string[]): string {
+  const units = new Set(items.map(unit_of));
+  return units.size === 1 ? [...units][0]! : "";
+}
+
 const left_out = (items: string[], curves: string[]): number => Math.max(items.length, curves.length) - Math.min(kMostCurves, Math.max(items.length, curves.length));
 
 function Diagram({ items, tell }: { items: string[]; tell(curves: string[]): void }) {
@@ -99,6 +113,7 @@ function draw(items: string[], place: HTMLElement, tell: (curves: string[]) => v
   const ends = items.map((item) => watch(item, (numbers) => {
     numbers.forEach((value, i) => curves.take(numbers.length > 1 ? `${item}[${i + 1}]` : item, value));
   }));
+  const unit = common_unit(items);
   let chart: uPlot | undefined;
   let told = 0;
   const redraw = () => {
@@ -108,7 +123,7 @@ function draw(items: string[], place: HTMLElement, tell: (curves: string[]) => v
     const names = names_of(curves, items);
     if (names.length !== told) tell(names);
     told = names.length;
-    chart = shown(curves, chart, names.slice(0, kMostCurves), place);
+    chart = shown(curves, chart, names.slice(0, kMostCurves), unit, place);
   };
   const timer = setInterval(redraw, kRedraw);
   const sized = new ResizeObserver(() => chart?.setSize(size_of(place)));
@@ -141,7 +156,7 @@ function time_now(): number | undefined {
 
 const size_of = (place: HTMLElement) => ({ width: place.clientWidth, height: Math.max(80, place.clientHeight) });
 
-function shown(curves: Curves, chart: uPlot | undefined, names: string[], place: HTMLElement): uPlot | undefined {
+function shown(curves: Curves, chart: uPlot | undefined, names: string[], unit: string, place: HTMLElement): uPlot | undefined {
   if (names.length === 0) return chart;
   const data: uPlot.AlignedData = [curves.times, ...names.map((name) => curves.values.get(name)!)];
   if (chart && chart.series.length === names.length + 1) {
@@ -149,7 +164,7 @@ function shown(curves: Curves, chart: uPlot | undefined, names: string[], place:
     return chart;
   }
   chart?.destroy();
-  return new uPlot(options_of(names, place), data, place);
+  return new uPlot(options_of(names, unit, place), data, place);
 }
 
 /** Constant values stand in the middle. */
@@ -159,11 +174,11 @@ function with_room(_: uPlot, low: number | null, high: number | null): [number, 
   return [least - room, most + room];
 }
 
-function options_of(names: string[], place: HTMLElement): uPlot.Options {
+function options_of(names: string[], unit: string, place: HTMLElement): uPlot.Options {
   const style = getComputedStyle(place);
   const axis: uPlot.Axis = { stroke: style.getPropertyValue("--soft"), grid: { stroke: style.getPropertyValue("--grid"), width: 1 }, ticks: { show: false } };
   return {
-    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, size: 30, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: 60 }],
+    ...size_of(place), scales: { x: { time: false }, y: { range: with_room } }, axes: [{ ...axis, size: 30, values: (_, all) => all.map((one) => `${one} s`) }, { ...axis, size: unit ? 90 : 60, values: (_, all) => all.map((one) => with_unit(String(one), unit)) }],
     legend: { show: false }, cursor: { points: { show: false } },
     series: [{ label: "time" }, ...names.map((label, i) => ({ label, stroke: style.getPropertyValue(`--lane-${i % kColours}`), dash: kDashes[Math.floor(i / kColours)], width: 1.5, points: { show: false } }))],
   };

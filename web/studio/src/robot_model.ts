@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot as its description (URDF) has it, ready to be drawn. Nothing is fetched for it.
-import { CylinderGeometry, Mesh, MeshPhongMaterial, type Object3D, Vector3 } from "three";
+import { ConeGeometry, CylinderGeometry, Mesh, MeshPhongMaterial, type Object3D, Vector3 } from "three";
 import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
 import { type JointShape, moving_joints, type Robot, unit_of } from "./robots.ts";
 
@@ -19,6 +19,8 @@ export class RobotModel {
   readonly meshes: number;
   /** Of what the description gives no colour: those of links that follow each other, in turns. */
   readonly plain: [MeshPhongMaterial, MeshPhongMaterial];
+  /** The link whose axes are drawn; empty: none. */
+  readonly tip: string;
   /** Of joints of links that have no shape. */
   readonly hubs: MeshPhongMaterial;
 
@@ -35,6 +37,7 @@ export class RobotModel {
     this.plain = [plastic(), plastic()];
     this.hubs = plastic();
     add_bones(this.object, this.hubs);
+    this.tip = add_frame(this.object, tip || only_end(this.object));
     paint(this.object, this.plain, 0);
   }
 
@@ -85,14 +88,21 @@ function paint(object: Object3D, plain: RobotModel["plain"], turn: number): void
 
 const kFewest = 0.05;  ///< what a robot without lengths is taken for [m]
 
+const has_shape = (link: Object3D): boolean => link.children.some((one) => "isURDFVisual" in one);
+
+/** It is fixed to a link with a shape, which shows both. */
+const is_shown = (joint: URDFJoint): boolean => !is_moving(joint) && joint.children.some(has_shape);
+
+const thickness_of = (robot: URDFRobot): number => 0.03 * Math.max(kFewest, ...Object.values(robot.joints).map((one) => one.position.length()));
+
 /** Links without a shape are bones from joint to joint, with a hub at each joint that moves. */
 function add_bones(robot: URDFRobot, hubs: MeshPhongMaterial): void {
   hubs.name = kHub;
-  const thickness = 0.03 * Math.max(kFewest, ...Object.values(robot.joints).map((one) => one.position.length()));
+  const thickness = thickness_of(robot);
   for (const link of Object.values(robot.links)) {
-    if (link.children.some((one) => "isURDFVisual" in one)) continue;
+    if (has_shape(link)) continue;
     for (const joint of link.children.filter((one): one is URDFJoint => "isURDFJoint" in one)) {
-      if (joint.position.length() > 1e-6) link.add(bone(joint.position, thickness));
+      if (joint.position.length() > 1e-6 && !is_shown(joint)) link.add(bone(joint.position, thickness));
       if (is_moving(joint)) joint.add(hub(joint.axis, thickness, hubs));
     }
   }
@@ -100,8 +110,8 @@ function add_bones(robot: URDFRobot, hubs: MeshPhongMaterial): void {
 
 const kAlong = new Vector3(0, 1, 0);  ///< a cylinder's axis
 
-function bone(to: Vector3, radius: number): Object3D {
-  const mesh = new Mesh(new CylinderGeometry(radius, radius, to.length(), 20), new MeshPhongMaterial());
+function bone(to: Vector3, radius: number, material = new MeshPhongMaterial()): Object3D {
+  const mesh = new Mesh(new CylinderGeometry(radius, radius, to.length(), 20), material);
   mesh.position.copy(to).multiplyScalar(0.5);
   mesh.quaternion.setFromUnitVectors(kAlong, to.clone().normalize());
   return mesh;
@@ -111,4 +121,30 @@ function hub(axis: Vector3, thickness: number, material: MeshPhongMaterial): Obj
   const mesh = new Mesh(new CylinderGeometry(1.6 * thickness, 1.6 * thickness, 2.8 * thickness, 28), material);
   mesh.quaternion.setFromUnitVectors(kAlong, axis.clone().normalize());
   return mesh;
+}
+
+/** x, y and z, as everybody draws them: readable in light and dark. */
+const kAxes = [["x", new Vector3(1, 0, 0), "#e0483c"], ["y", new Vector3(0, 1, 0), "#3fae55"], ["z", new Vector3(0, 0, 1), "#3f83e8"]] as const;
+
+/** The link at the end of the robot, such as its tool; empty: it has several, or none. */
+function only_end(robot: URDFRobot): string {
+  const ends = Object.entries(robot.links).filter(([, link]) => !link.children.some((one) => "isURDFJoint" in one));
+  return ends.length === 1 ? ends[0]![0] : "";
+}
+
+/** The axes of a link, such as the tool's. @return its name; empty if the robot has no such link */
+function add_frame(robot: URDFRobot, name: string): string {
+  const link = robot.links[name];
+  if (!link) return "";
+  const thickness = thickness_of(robot);
+  for (const [axis, along, colour] of kAxes) {
+    const material = new MeshPhongMaterial({ shininess: 25 });
+    material.name = axis;
+    material.color.set(colour);
+    const head = new Mesh(new ConeGeometry(0.9 * thickness, 2.2 * thickness, 16), material);
+    head.position.copy(along).multiplyScalar(8 * thickness);
+    head.quaternion.setFromUnitVectors(kAlong, along);
+    link.add(bone(along.clone().multiplyScalar(8 * thickness), 0.35 * thickness, material), head);
+  }
+  return name;
 }

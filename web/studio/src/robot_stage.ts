@@ -9,7 +9,7 @@ const kTurn = Math.PI / 24;       ///< of a key
 const kZoom = 0.88;               ///< likewise
 const kAngle = 35;                ///< of the camera [deg]
 const kFrom = new Vector3(1.1, -1.3, 0.75);
-const kRoom = 1.45;               ///< around the robot
+const kRoom = 1.15;               ///< around the robot
 const kMostPixels = 2;            ///< for one of the page
 
 export class Stage {
@@ -121,9 +121,11 @@ export class Stage {
     this.model.hubs.color.set(token("--accent"));
     if (this.grid) this.scene.remove(this.grid);
     this.grid?.dispose();
-    const cell = cell_for(this.bounds());
+    const bounds = this.bounds();
+    const cell = cell_for(bounds);
     this.grid = new GridHelper(20 * cell, 20, new Color(token("--faint")), new Color(token("--grid")));
     this.grid.rotation.set(Math.PI / 2, 0, 0);
+    this.grid.position.set(0, 0, bounds.isEmpty() ? 0 : Math.min(0, bounds.min.z)); // the ground that it stands on
     this.scene.add(this.grid);
     this.show();
   };

@@ -8,7 +8,7 @@ import { type Joint, RobotModel } from "./robot_model.ts";
 import { Stage } from "./robot_stage.ts";
 import { type Binding, binding_of, type Robot, robots_of, type Source, sources_of } from "./robots.ts";
 import { is_up, run } from "./run.ts";
-import { age_text, number_text, watch } from "./values.ts";
+import { age_text, fixed_text, number_text, watch } from "./values.ts";
 
 const kNone: never[] = [];
 const kOld = 1;  ///< from this age on positions are told as old [s]
@@ -76,18 +76,19 @@ function Shown({ model, owner }: { model: RobotModel; owner: string }) {
           <tbody ref={table}>{model.joints.map((joint) => <Row key={joint.name} joint={joint} />)}</tbody>
         </table>
       </div>
+      {model.tip && <p className="hint">Arrows at <code>{model.tip}</code>: red is x, green y, blue z.</p>}
       {model.meshes > 0 && <p className="hint">{`${model.meshes} shapes of the description are meshes, which are not drawn.`}</p>}
     </>
   );
 }
 
-function Row({ joint: { name, range } }: { joint: Joint }) {
+function Row({ joint: { name, range, unit } }: { joint: Joint }) {
   return (
     <tr>
       <th scope="row">{name}</th>
       <td className="position" />
       <td className="degrees" />
-      <td>{range ? `${number_text(range[0])} … ${number_text(range[1])}` : "without end"}</td>
+      <td>{range ? `${number_text(range[0])} … ${number_text(range[1])} ${unit}` : "without end"}</td>
     </tr>
   );
 }
@@ -140,9 +141,6 @@ function Moved({ binding, sources, owner, up }: { binding: Binding; sources: Sou
   );
 }
 
-/** Nothing is `-0.000`. */
-const rounded = (value: number, digits: number): string => value.toFixed(digits).replace(/^-(0\.0+)$/, "$1");
-
 /** The joints' positions, in the table and on the stage; joints without a value rest at 0. */
 class Pose {
   private readonly cells: { position: HTMLElement; degrees: HTMLElement }[];
@@ -175,9 +173,9 @@ class Pose {
   private show_joint({ name, unit }: Joint, value: number, { position, degrees }: { position: HTMLElement; degrees: HTMLElement }): void {
     const known = Number.isFinite(value);
     this.model.move(name, known ? value : 0);
-    position.textContent = known ? `${rounded(value, 3)} ${unit}` : "no value";
+    position.textContent = known ? `${fixed_text(value)} ${unit}` : "no value";
     position.classList.toggle("none", !known);
-    degrees.textContent = known && unit === "rad" ? `${rounded((value * 180) / Math.PI, 1)}°` : "";
+    degrees.textContent = known && unit === "rad" ? `${fixed_text((value * 180) / Math.PI, 1)}°` : "";
   }
 
   private state_text(live: boolean): string {

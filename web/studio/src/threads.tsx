@@ -3,7 +3,7 @@ import type { ThreadStatus } from "./backend.ts";
 import { change_component, run } from "./run.ts";
 import { select_box } from "./selection.ts";
 import { scene } from "./scene.ts";
-import { state_class } from "./states.ts";
+import { reason_text, state_class } from "./states.ts";
 import { project } from "./project.ts";
 import { microseconds_text } from "./values.ts";
 
@@ -53,7 +53,7 @@ function Idle() {
       {idle.map((one) => (
         <div key={one.name} className={`problem ${state_class(one.state) === "is-faulty" ? "error" : "warning"}`}>
           <b>{one.state}</b>
-          <span className="message"><button type="button" className="link" onClick={() => go_to(one.name)}>{one.name}</button> {one.reason}</span>
+          <span className="message"><button type="button" className="link" onClick={() => go_to(one.name)}>{one.name}</button>{one.reason && `: ${reason_text(one.state, one.reason)}`}</span>
           <button type="button" className="small" onClick={() => void change_component(one.name, state_class(one.state) === "is-faulty" ? "reset" : "start")}>
             {state_class(one.state) === "is-faulty" ? "Reset" : "Start"}
           </button>

@@ -57,6 +57,9 @@ declare module "three" {
   export class CylinderGeometry extends BufferGeometry {
     constructor(top: number, bottom: number, height: number, segments?: number);
   }
+  export class ConeGeometry extends BufferGeometry {
+    constructor(radius: number, height: number, segments?: number);
+  }
   export class Mesh extends Object3D {
     isMesh: true;
     geometry: BufferGeometry;

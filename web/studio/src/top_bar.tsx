@@ -140,7 +140,7 @@ function ModeChoice({ going }: { going: boolean }) {
   if (modes.length === 0) return null;
   const shown = going ? now : modes.find((one) => one.name === chosen)?.name;
   return (
-    <select aria-label="Mode" title="The mode in which the application starts" value={shown || modes.find((one) => one.initial)?.name} disabled={going}
+    <select aria-label="Mode" title="The mode in which the next run starts; what the file says is changed under Modes" value={shown || modes.find((one) => one.initial)?.name} disabled={going}
       onChange={(event) => run.set({ mode: event.target.value })}>
       {modes.map(({ name }) => <option key={name}>{name}</option>)}
     </select>
@@ -153,9 +153,10 @@ function RunTime() {
   const faults = run.use((all) => Number(all.application?.faults ?? 0));
   const paused = run.use((all) => all.now?.paused ?? false);
   return (
-    <div className={`run-state is-${state.state}`}>
+    <div className={`run-state is-${has_failed(state.state, state.exit_code) ? "failed" : state.state}`}>
       <span role="status">{state_text(state.state, state.exit_code, paused)}</span>
       {time !== undefined && <span className="time">{`${time.toFixed(2)} s`}</span>}
+      {has_failed(state.state, state.exit_code) && <button type="button" className="faults" title="What the run said last" onClick={() => selection.set({ tab: "log" })}>See the log</button>}
       {faults > 0 && <button type="button" className="faults" onClick={() => selection.set({ tab: "threads" })}>{counted(faults, "fault")}</button>}
     </div>
   );
@@ -164,9 +165,25 @@ function RunTime() {
 function state_text(state: string, exit_code: number, paused: boolean): string {
   if (state === "none") return "not run yet";
   if (state === "lost") return "not there";
-  // -1: a run that an earlier studio has started; nobody knows how it ended.
-  if (state === "ended") return exit_code <= 0 ? "ended" : `ended with code ${exit_code}`;
+  if (state === "ended") return end_text(exit_code);
   return paused ? "paused" : state;
+}
+
+const has_failed = (state: string, exit_code: number): boolean => state === "ended" && exit_code > 0;
+
+const kSignals = 128;  ///< codes above are of what a signal ended
+const kCrashes = new Map([[4, "illegal instruction"], [6, "aborted"], [7, "bus error"], [8, "division by zero"], [11, "segmentation fault"]]);
+const kKilled = [9, 15];
+
+/** As docs/command_line.md has the codes. -1: a run that an earlier studio has started; nobody knows how it ended. */
+function end_text(exit_code: number): string {
+  if (exit_code <= 0) return "ended";
+  const crash = kCrashes.get(exit_code - kSignals);
+  if (crash) return `crashed: ${crash}`;
+  if (kKilled.includes(exit_code - kSignals)) return "was killed";
+  if (exit_code === 1) return "failed";
+  if (exit_code === 4) return "ended by a safety reaction";
+  return `ended with code ${exit_code}`;
 }
 
 /** Always at the same place, and never disabled: what it does is safe at any time. */

@@ -122,6 +122,11 @@ export function number_text(value: number): string {
   return Number.isInteger(value) ? String(value) : String(Number(value.toFixed(size >= 100 ? 1 : 3)));
 }
 
+/** What changes all the time, as wide as it was; nothing is `-0.000`. */
+export const fixed_text = (value: number, digits = 3): string => value.toFixed(digits).replace(/^-(0\.0+)$/, "$1");
+
+export const with_unit = (text: string, unit: string): string => (unit ? `${text} ${unit}` : text);
+
 /** `true` while it is one, or all, of several. */
 export const truth_text = (numbers: number[]): string => (numbers.every((one) => one > 0) ? "true" : numbers.some((one) => one > 0) ? "some" : "false");
 

@@ -144,11 +144,22 @@ page_test("the canvas shows what is off in a mode, and a run starts in the chose
   await eventually(async () => (await off()).toSorted(), ["Prepare", "Vision"]);
   await page.getByLabel("Mode shown").selectOption("");
   await eventually(off, []);
-  await page.getByRole("group", { name: "rest" }).getByRole("button", { name: "Start in it" }).click();
-  assert.equal(await page.getByLabel("Mode", { exact: true }).inputValue(), "rest");
+  await page.getByLabel("Mode", { exact: true }).selectOption("rest");
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await page.getByText("running", { exact: true }).waitFor();
   assert.equal(await page.evaluate(() => window.mock.workbench.orders[0].mode), "rest");
+});
+
+page_test("the mode in which the application starts is written into the file", "vision", async (page) => {
+  await modes(page);
+  const look = page.getByRole("group", { name: "look" });
+  const rest = page.getByRole("group", { name: "rest" });
+  assert.equal(await look.getByRole("button", { name: "Starts in it" }).getAttribute("aria-pressed"), "true");
+  await rest.getByRole("button", { name: "Start in it" }).click();
+  await rest.getByRole("button", { name: "Starts in it" }).waitFor();
+  await look.getByRole("button", { name: "Start in it" }).waitFor();
+  await edits_are(page, ["initial_mode rest"]);
+  assert.equal(await page.getByLabel("Mode", { exact: true }).inputValue(), "rest");
 });
 
 page_test("a stacked box is plotted with all its members, which the legend names", "arm", async (page) => {

@@ -62,7 +62,7 @@ class Check {
       if (!isMap(map)) continue;
       if (file === this.file) this.application = String(map.get("application") ?? "");
       const modes = map.get("modes");
-      if (isMap(modes)) this.modes = modes.items.map(({ key }, i) => ({ name: String(key), initial: i === 0 }));
+      if (isMap(modes)) this.modes = modes.items.map(({ key }) => ({ name: String(key), initial: (map.get("mode") ?? String(modes.items[0]?.key)) === String(key) }));
       this.read_composites(file, map.get("composites"));
     }
     for (const { file, map } of [...documents].reverse()) if (isMap(map)) this.read_components(file, map.get("components") as YAMLMap | null);

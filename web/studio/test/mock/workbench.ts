@@ -334,6 +334,7 @@ function change_modes(document: Document, edit: string, a: string, b: string): s
   if (edit === "to_mode") add_to(document, ["modes", a], b);
   else if (edit === "no_mode") document.deleteIn(["modes", a]);
   else if (edit === "rename_mode") modes!.items.find((one) => one.key.value === a)!.key.value = b;
+  else if (edit === "initial_mode") document.set("mode", a);
   else if (edit === "from_mode") {
     if ((document.getIn(["modes", a]) as { items: unknown[] }).items.length === 1) return "the mode would have no component";
     remove_from(document, ["modes", a], b);

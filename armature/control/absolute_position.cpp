@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/control/absolute_position.hpp"
+
+#include <cmath>
+
+#include "armature/control/internal/mistakes.hpp"
+
+namespace armature::control {
+namespace {
+
+/// A joint at its largest velocity may overshoot that, and a sample may come late.
+constexpr double kGenerous = 2.0;
+
+}  // namespace
+
+base::Result<AbsolutePosition> AbsolutePosition::make(const Config& config) {
+  internal::Mistakes mistakes("AbsolutePosition");
+  mistakes.expect(std::isfinite(config.ratio) && config.ratio != 0.0, "ratio", config.ratio,
+                  "a finite number other than 0");
+  mistakes.expect(std::isfinite(config.offset), "offset", config.offset, "a finite number");
+  mistakes.expect_not_negative("range", config.range);
+  mistakes.expect_positive("max_velocity", config.max_velocity);
+  if (const auto checked = mistakes.result(); !checked) return base::Error{checked.error()};
+  return AbsolutePosition(config);
+}
+
+AbsolutePosition::Reading AbsolutePosition::step(double of_sensor, double elapsed_s) {
+  const bool first = !known_;
+  double turned = first ? of_sensor : of_sensor - last_;
+  if (config_.range > 0.0) turned = std::remainder(turned, config_.range);
+  Reading reading;
+  if (first) {
+    position_ = config_.offset + config_.ratio * turned;
+  } else {
+    reading.displacement = config_.ratio * turned;
+    reading.possible = kGenerous * config_.max_velocity * elapsed_s;
+    reading.jumped = std::abs(reading.displacement) > reading.possible;
+    position_ += reading.displacement;
+  }
+  known_ = true;
+  last_ = of_sensor;
+  reading.position = position_;
+  return reading;
+}
+
+}  // namespace armature::control

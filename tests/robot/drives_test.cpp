@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives that take torques, or follow velocities or positions: the arm of examples/11_drives.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/deploy/deployment.hpp"
+
+namespace armature {
+namespace {
+
+using namespace std::chrono_literals;
+using component::CommandStage;
+using ::testing::HasSubstr;
+
+deploy::Deployment load(const std::string& file, std::vector<std::string> overrides = {}) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
+  options.document.overrides = std::move(overrides);
+  return deploy::load_deployment(EXAMPLES "/11_drives/" + file, options);
+}
+
+std::string mistakes(const std::string& file, std::vector<std::string> overrides = {}) {
+  return load(file, std::move(overrides)).diagnostics.to_text();
+}
+
+class Arm {
+ public:
+  explicit Arm(const std::string& file, std::vector<std::string> overrides = {})
+      : deployment_(load(file, std::move(overrides))) {
+    EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
+    deployment_.options.simulated = true;
+    application_ =
+        std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
+    const auto started = application_->start();
+    EXPECT_TRUE(started.ok()) << started.to_text();
+    run_for(100ms);
+  }
+
+  exec::Application& application() { return *application_; }
+  void run_for(base::Duration duration) {
+    for (base::Duration passed{}; passed < duration; passed += 5ms) {
+      const double before = at(1);
+      application_->run_for(5ms);
+      fastest = std::max(fastest, std::abs(at(1) - before) / 0.005);
+    }
+  }
+  double at(int joint) { return value<double>("Joint" + std::to_string(joint), "Position"); }
+  bool armed() { return value<bool>("Arming", "armed"); }
+  CommandStage arm() { return run("Arming", "arm", {}); }
+  CommandStage move_to(double first, double second) {
+    return run("Generator", "moveTo",
+               {types::Value::of(std::vector<double>{first, second}), types::Value::of(0.0)});
+  }
+  double fastest = 0.0;  ///< of the first joint [rad/s]
+
+ private:
+  CommandStage run(const char* component, const char* command,
+                   std::vector<types::Value> arguments) {
+    auto begun = application_->begin(component, command, std::move(arguments));
+    EXPECT_TRUE(begun) << begun.error();
+    for (int k = 0; k < 1000 && !begun.value().ended(); ++k) run_for(10ms);
+    return begun.value().stage();
+  }
+  template <typename T>
+  T value(const std::string& component, const char* item) {
+    const auto value = application_->value_of(component, item);
+    EXPECT_TRUE(value) << value.error();
+    return *static_cast<const T*>(value.value().data());
+  }
+
+  deploy::Deployment deployment_;
+  std::unique_ptr<exec::Application> application_;
+};
+
+class EachWay : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EachWay, TheArmIsHeldWhenItIsArmedMovesAndStops) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  EXPECT_LT(std::abs(arm.at(1)), 0.01) << "the link hangs";
+  EXPECT_EQ(arm.move_to(1.0, -1.0), CommandStage::kDone);
+  arm.run_for(500ms);
+  EXPECT_NEAR(arm.at(1), 1.0, 2e-3);
+  EXPECT_NEAR(arm.at(2), -1.0, 2e-3);
+  EXPECT_GT(arm.fastest, 1.3) << "max_vel is 1.5";
+  EXPECT_LT(arm.fastest, 2.0);
+  EXPECT_EQ(arm.application().faults(), 0u);
+}
+
+/// The component that makes references faults in motion: the controller brakes by itself.
+TEST_P(EachWay, WithoutAReferenceTheArmIsBrakedSmoothly) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  ASSERT_TRUE(arm.application().begin(
+      "Generator", "moveTo",
+      {types::Value::of(std::vector<double>{1.2, 0.0}), types::Value::of(0.0)}));
+  arm.run_for(500ms);
+  const double there = arm.at(1);
+  ASSERT_GT(there, 0.2);
+  ASSERT_TRUE(arm.application().stop_component("Generator"));
+  arm.run_for(1s);
+  EXPECT_GT(arm.at(1), there) << "no step back";
+  EXPECT_LT(arm.at(1), there + 0.5);
+  const double at_rest = arm.at(1);
+  arm.run_for(500ms);
+  EXPECT_NEAR(arm.at(1), at_rest, 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, EachWay,
+                         ::testing::Values("torque.yaml", "velocity.yaml", "position.yaml"),
+                         [](const auto& info) {
+                           const std::string file = info.param;
+                           return file.substr(0, file.find('.'));
+                         });
+
+TEST(DrivesCheck, UnitsAndKindsHaveToFit) {
+  EXPECT_THAT(mistakes("torque.yaml", {"PID1.OutUnit=V"}),
+              HasSubstr("'PID1.Out' is in 'V', but 'Controller.Out1' expects 'Nm'"));
+  EXPECT_THAT(mistakes("position.yaml", {"Controller.OutUnit=rad/s"}),
+              HasSubstr("'Controller.act' is in 'rad/s', but 'Actuator.act' expects 'rad'"));
+  EXPECT_THAT(mistakes("torque.yaml", {"joint=Joint"}),
+              HasSubstr("'Joint1' has no output port 'TorqueActuator'"));
+}
+
+TEST(DrivesCheck, ADriveThatTakesSeveralKindsIsGivenOne) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
+  const std::string text = "include: torque.yaml\ncomponents:\n  Extra: {model: Drive}\n";
+  const std::string found =
+      deploy::parse_deployment(text, EXAMPLES "/11_drives/extra.yaml", options)
+          .diagnostics.to_text();
+  EXPECT_THAT(found, HasSubstr("'Extra': 0 of its inputs TorqueActuator, VelocityActuator, "
+                               "PositionActuator have a writer, expected one"));
+}
+
+TEST(DrivesCheck, TorquesHaveToHoldTheJoint) {
+  EXPECT_THAT(mistakes("torque.yaml", {"Joint1.MaxTorque=1"}),
+              HasSubstr("MaxTorque 1: its torque is 1 Nm, the joint weighs up to 2 Nm"));
+}
+
+TEST(DrivesCheck, AJointHasOneSensor) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
+  const auto found = [&](const std::string& connections) {
+    return deploy::parse_deployment("include: position.yaml\nconnections: " + connections,
+                                    EXAMPLES "/11_drives/other.yaml", options)
+        .diagnostics.to_text();
+  };
+  EXPECT_THAT(found("[{from: Drive1.PositionSensor, to: Joint1.PositionSensor, remove: true}]"),
+              HasSubstr("'Joint1': neither DisplacementSensor nor PositionSensor has a writer"));
+  EXPECT_THAT(found("[Drive1.PositionSensor -> Joint1.DisplacementSensor]"),
+              HasSubstr("'Joint1': both DisplacementSensor and PositionSensor have a writer"));
+}
+
+}  // namespace
+}  // namespace armature
