@@ -130,6 +130,9 @@ void add_drive_objects(canopen::ObjectDictionary& dictionary, const Factors& fac
                   .type = DataType::kUnsigned8,
                   .access = Access::kReadOnly},
                  factors.polarity);
+  dictionary.add_bytes(
+      {.address = {0x2000, 0}, .name = "The user's own text", .type = DataType::kVisibleString},
+      {});
   add_checks(dictionary);
 }
 
