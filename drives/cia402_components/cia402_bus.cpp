@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "drives/canopen/pdo.hpp"
 #include "drives/canopen/sync.hpp"
 #include "drives/cia402/power.hpp"
 
@@ -28,21 +29,14 @@ guardian::Orders guard_orders(const DriveGroup& drives, const std::string& bus,
   orders.bus = bus;
   orders.bit_rate = bit_rate;
   orders.period = period;
-  const can::Frame sync = canopen::SyncProducer().next();
-  const std::uint16_t stop = encode_command(PowerCommand::kQuickStop);
+  const can::Frame sync = canopen::SyncProducer().step();
   for (std::size_t device = 0; device < drives.size(); ++device) {
     const DriveConfig& drive = drives.config(device);
-    can::Frame frame;
-    frame.id = drive.receive.front().cob_id;
-    frame.size = static_cast<std::uint8_t>(drive.receive.front().bytes());
-    frame.data[0] = static_cast<std::uint8_t>(stop & 0xff);
-    frame.data[1] = static_cast<std::uint8_t>(stop >> 8);
-    orders.safe.push_back(frame);
+    const std::uint64_t word[] = {encode_command(PowerCommand::kQuickStop)};
+    orders.safe.push_back(canopen::pack(drive.receive.front(), word));
     for (const PowerState state : kIdleStates) {
-      can::Frame answer;
-      answer.id = drive.transmit.front().cob_id;
-      answer.size = static_cast<std::uint8_t>(drive.transmit.front().bytes());
-      answer.data[0] = static_cast<std::uint8_t>(encode_state(state) & mask_of(state));
+      const std::uint64_t status[] = {std::uint64_t{encode_state(state)} & mask_of(state)};
+      const can::Frame answer = canopen::pack(drive.transmit.front(), status);
       orders.answers.push_back({.device = device, .frame = answer, .mask = {mask_of(state)}});
     }
   }

@@ -101,14 +101,19 @@ Outcome Cia402Host::prepare() {
   return component::accepted();
 }
 
+/// With a SYNC whose answers are there when the first cycle begins.
 Outcome Cia402Host::on_start() {
-  link_->begin_run(time());
-  take_frames();
   cycle_at_ = base::Time::min();
-  accounts_.assign(accounts_.size(), {});
   lost_answers_.assign(0);
   refused_frames_.assign(0);
-  for (std::size_t i = 0; i < group_->size(); ++i) group_->set_goal(i, PowerGoal::kOff);
+  take_frames();
+  for (std::size_t i = 0; i < group_->size(); ++i) {
+    group_->set_goal(i, PowerGoal::kOff);
+    accounts_[i] = {.seen = group_->state(i).time};
+  }
+  static_cast<void>(group_->step(link_->bus(), link_->now()));
+  pass_time(*link_, cycle());
+  link_->begin_run(time());
   return component::accepted();
 }
 
