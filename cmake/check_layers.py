@@ -9,6 +9,7 @@ usage: check_layers.py SOURCE_DIR
 - internal/ headers are included only by their own library;
 - one robot does not include another, and no library includes a robot;
 - the interface compiler, idl/, is a library like those of armature/, which do not include it;
+- so is each folder of drives/, of which only robots and component libraries know;
 - public headers include the standard library, Eigen and Armature, nothing else;
 - what layers.cmake allows is used, and ARCHITECTURE.md says the same;
 - headers of the operating system are included only by platform/, by guard/, which stands in front
@@ -18,6 +19,7 @@ import re
 import sys
 from pathlib import Path
 
+LIBRARY_FOLDERS = ("armature/", "idl/", "drives/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 RAW_TEXT = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 OPERATING_SYSTEM = re.compile(
@@ -54,7 +56,7 @@ class Tree:
         self.layers = read_layers(source_dir)
         self.map = (source_dir / "ARCHITECTURE.md").read_text()
         self.includes = {}
-        for top in ("armature", "idl", "robots", "examples", "benchmarks", "tests"):
+        for top in ("armature", "drives", "idl", "robots", "examples", "benchmarks", "tests"):
             for path in sorted((source_dir / top).rglob("*.?pp")):
                 if "idl/testdata" in path.as_posix():
                     continue  # what the interface compiler is to write
@@ -101,11 +103,11 @@ class Tree:
                    f"as cmake/layers.cmake does")
 
     def check(self, path, bracket, name):
-        if name.startswith(("armature/", "idl/")):
+        if name.startswith(LIBRARY_FOLDERS):
             return self.check_own(path, name)
         if name.startswith("robots/"):
             return self.check_robot(path, name)
-        if path.startswith(("armature/", "idl/")) and not is_test_code(path):
+        if path.startswith(LIBRARY_FOLDERS) and not is_test_code(path):
             return self.check_foreign(path, bracket, name)
         return None
 
@@ -133,7 +135,7 @@ class Tree:
         return allowed
 
     def check_robot(self, path, name):
-        if path.startswith("armature/"):
+        if path.startswith(("armature/", "drives/")):
             return "a library does not know the robots"
         if path.startswith("robots/") and path.split("/")[1] != name.split("/")[1]:
             return "one robot does not use another; what they share goes to armature/"
@@ -164,7 +166,7 @@ def library_of(path):
     if "/testdata/" in path:
         return None
     top, _, rest = path.partition("/")
-    if top == "armature":
+    if top in ("armature", "drives"):
         return rest.split("/")[0]
     if top == "idl":
         return top
@@ -177,7 +179,7 @@ def is_test_code(path):
 
 
 def is_public_header(path):
-    return (path.startswith(("armature/", "idl/")) and path.endswith(".hpp") and "/internal/" not in path
+    return (path.startswith(LIBRARY_FOLDERS) and path.endswith(".hpp") and "/internal/" not in path
             and not is_test_code(path))
 
 

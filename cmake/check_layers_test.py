@@ -97,6 +97,16 @@ class CheckLayers(unittest.TestCase):
     def test_a_public_header_of_the_interface_compiler_includes_no_third_party_header(self):
         self.assert_refused("idl/json_backend.hpp", "<nlohmann/json.hpp>", "internal/")
 
+    def test_a_library_of_drives_is_one_like_those_of_armature(self):
+        self.write("cmake/layers.cmake", 'set(ARMATURE_LAYERS "base:" "can: base" "canopen: base can" "robots: base can")')
+        self.assert_accepted("drives/canopen/sdo.cpp", '"armature/can/bus.hpp"')
+        self.assert_accepted("drives/canopen/pdo.cpp", '"drives/canopen/sdo.hpp"')
+        self.assert_refused("drives/canopen/sdo.hpp", '"armature/exec/engine.hpp"', "canopen may use only base, can")
+        self.write("drives/canopen/sdo.hpp", "#pragma once\n")
+        self.assert_refused("armature/can/bus.hpp", '"drives/canopen/sdo.hpp"', "can may use only base")
+        self.write("armature/can/bus.hpp", "#pragma once\n")
+        self.assert_refused("drives/canopen/nmt.hpp", '"robots/janus/plant.hpp"', "does not know the robots")
+
     def test_a_library_without_a_place_is_refused(self):
         self.assert_refused("armature/magic/wand.hpp", '"armature/base/unit.hpp"',
                             "not in cmake/layers.cmake")

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 ROW = re.compile(r"^\| (`[^|]*)\|", re.M)
-FOLDERS = ("armature", "robots", "idl")
+FOLDERS = ("armature", "drives", "robots", "idl")
 
 
 def literals(source):

@@ -4,7 +4,7 @@
 
 usage: check_coverage.py SOURCE_DIR [--list]
 
-Reads the public headers of armature/ and looks for the name of each such function, in quotes, in
+Reads the public headers of armature/ and drives/ and looks for the name of each such function, in quotes, in
 the C++ files of tests/realtime/, where expect_realtime("Latest::write", ...) bears it. A function
 outside a class is named with its namespace, "types::same_shape"; of a class template BasicX, X
 counts. A line `@rt` above a class is about the class: "FixedText".
@@ -53,10 +53,11 @@ def plain(class_name):
 
 
 def public_headers(source_dir):
-    for path in sorted((source_dir / "armature").rglob("*.hpp")):
-        parts = path.relative_to(source_dir).parts
-        if "internal" not in parts and parts[1] != "testing":
-            yield path, parts[1]
+    for folder in ("armature", "drives"):
+        for path in sorted((source_dir / folder).rglob("*.hpp")):
+            parts = path.relative_to(source_dir).parts
+            if "internal" not in parts and parts[1] != "testing":
+                yield path, parts[1]
 
 
 def check(source_dir):

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/base/diagnostic.hpp"
+#include "armature/base/time.hpp"
+#include "drives/canopen/device.hpp"
+#include "drives/canopen/sdo_channel.hpp"
+#include "drives/cia402/drive_group.hpp"
+
+namespace armature::cia402 {
+
+/// What a host expects of a drive, and how it wants it to be.
+struct DriveWish {
+  canopen::NodeId node = 1;
+  std::string name;
+  std::optional<canopen::Identity> identity = {};  ///< numbers that are 0 are not compared
+  Mode mode = Mode::kCyclicPosition;               ///< CSP, CSV or CST
+  PositionUnit unit = PositionUnit::kIncrements;
+  base::Duration cycle = std::chrono::milliseconds(2);        ///< between two SYNCs
+  base::Duration heartbeat = std::chrono::milliseconds(100);  ///< of the drive; 0: none
+  bool with_velocity = false;  ///< a second TPDO has its velocity and error code
+};
+
+/// Reads who the drive is and what its units are, compares it with `wish`, and makes its PDOs,
+/// heartbeat, SYNC period and mode. It has to be pre-operational.
+/// @return how it takes part in a `DriveGroup`; none after errors, each of which names the drive,
+///         the object, what was expected and what was found
+std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const DriveWish& wish,
+                                         base::Diagnostics& diagnostics);
+
+/// The factor group that the drive has. What it lacks is 1, as CiA 402 has it; only rated torque
+/// and current have to be there.
+base::Result<Factors> read_factors(canopen::SdoChannel& channel);
+
+}  // namespace armature::cia402

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drives/cia402_components/cia402_drive.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "armature/component/interface.hpp"
+#include "armature/controllers/base/reason_text.hpp"
+
+namespace armature::cia402 {
+
+using component::CallStatus;
+using component::Outcome;
+using component::Reason;
+using controllers::append_number;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// As long a drive may take to be as it was told; brakes and voltages take their time.
+constexpr base::Duration kPatience = 1s;
+/// Two in a row are lost now and then; a joint that is not measured stops by itself later.
+constexpr int kMostSilent = 3;
+
+template <typename Answer>
+bool succeeds(const Answer& answer) {
+  return answer.status == CallStatus::kDone && answer.value;
+}
+
+const char* text_of(int power) {
+  return power < 0 ? "unknown" : to_text(static_cast<PowerState>(power));
+}
+
+}  // namespace
+
+/// Host and joint have to mean the same.
+void Cia402Drive::on_check(component::Check& check) const {
+  const Cia402Host* host = nullptr;
+  for (const component::Component* const peer : check.peers()) {
+    if (const auto* found = dynamic_cast<const Cia402Host*>(peer)) host = found;
+  }
+  if (host == nullptr) {
+    return check.error("none of its peers is the bus that the drive is on",
+                       "add a component of the model Cia402Bus or EmulatedCia402Bus to its peers");
+  }
+  const auto& nodes = host->nodes();
+  if (std::find(nodes.begin(), nodes.end(), node_.get()) == nodes.end()) {
+    check.error("node " + std::to_string(node_.get()) + " is not among the nodes of '" +
+                    host->name() + "'",
+                "add it there, or set the node that the drive has");
+  }
+  const std::string_view wanted = controllers::names_of(host->command()).actuator;
+  for (const component::InputPortBase* const input : component::interface_of(*this).inputs) {
+    if (!input->name().ends_with("Actuator") || input->name() == wanted) continue;
+    if (check.writers_of(*input).empty()) continue;
+    check.error("its input " + input->name() + " has a writer, and the mode of '" + host->name() +
+                    "' needs " + std::string(wanted),
+                "set the mode of the bus, or use the kind of joint that fits it");
+  }
+}
+
+Outcome Cia402Drive::on_start() {
+  want(Wanted::kOff);
+  reboots_ = -1;
+  return component::accepted();
+}
+
+// --- measuring -----------------------------------------------------------------------------------
+
+bool Cia402Drive::sensor_read() {
+  const auto answer = read_drive_(node_);
+  if (answer.status != CallStatus::kDone) return false;
+  show(answer.value);
+  if (!usable(answer.value)) return false;
+  velocity_.write(answer.value.velocity);
+  effort_.write(answer.value.effort);
+  sensor_.write(answer.value.position);
+  return true;
+}
+
+void Cia402Drive::show(const DriveSample& sample) {
+  power_.assign(sample.power);
+  error_code_.assign(sample.error_code);
+  warns_.assign(sample.warns);
+  limited_.assign(sample.limited);
+}
+
+bool Cia402Drive::usable(const DriveSample& sample) {
+  if (reboots_ < 0) reboots_ = sample.reboots;
+  if (sample.no_bus) {
+    fault("the bus of the drive is gone");
+  } else if (sample.reboots != reboots_) {
+    fault("the drive rebooted: configure its host again");
+  } else if (sample.lost) {
+    fault("the drive's heartbeat is missing: look at its power and its cable");
+  } else if (sample.silent_cycles > kMostSilent) {
+    Reason why("the drive did not answer for ");
+    fault(append_number(why, sample.silent_cycles).append(" cycles: look at its cable"));
+  } else if (sample.power == static_cast<int>(PowerState::kFault) ||
+             sample.power == static_cast<int>(PowerState::kFaultReactionActive)) {
+    Reason why("the drive failed with error code ");
+    fault(append_number(why, sample.error_code)
+              .append(": mend what its manual says of it, then call resetDrive of its bus"));
+  } else if (!does_what_it_was_told(sample)) {
+    Reason why(was_enabled_ ? "the drive switched off by itself: it is "
+                            : "the drive does not switch on: it is ");
+    fault(why.append(text_of(sample.power)));
+  }
+  return sample.fresh && state() == component::State::kRunning;
+}
+
+bool Cia402Drive::does_what_it_was_told(const DriveSample& sample) {
+  const bool enabled = sample.power == static_cast<int>(PowerState::kOperationEnabled);
+  const bool on = enabled || sample.power == static_cast<int>(PowerState::kSwitchedOn);
+  if (wanted_ == Wanted::kOff) return true;
+  const bool reached = wanted_ == Wanted::kEnabled ? enabled : on;
+  if (reached) was_enabled_ = true;
+  return reached || (!was_enabled_ && time() - wanted_since_ < kPatience);
+}
+
+// --- driving -------------------------------------------------------------------------------------
+
+bool Cia402Drive::actuator_on() {
+  want(brake_ ? Wanted::kSwitchedOn : Wanted::kEnabled);
+  return energize(!brake_);
+}
+
+/// A drive that stops quickly switches off by itself when it stands, and brakes then.
+bool Cia402Drive::actuator_off() {
+  const bool stops = power_() == static_cast<int>(PowerState::kOperationEnabled) ||
+                     power_() == static_cast<int>(PowerState::kQuickStopActive);
+  want(Wanted::kOff);
+  return make_safe(stops);
+}
+
+bool Cia402Drive::brake_apply() {
+  want(Wanted::kOff);
+  return make_safe(true);
+}
+
+bool Cia402Drive::brake_release() {
+  want(Wanted::kEnabled);
+  return energize(true);
+}
+
+void Cia402Drive::want(Wanted wanted) {
+  wanted_ = wanted;
+  wanted_since_ = time();
+  was_enabled_ = false;
+}
+
+bool Cia402Drive::actuator_set(control::LimitedEffort effort) {
+  return succeeds(set_effort_(node_, effort));
+}
+
+bool Cia402Drive::velocity_set(control::LimitedVelocity velocity) {
+  return succeeds(set_velocity_(node_, velocity));
+}
+
+bool Cia402Drive::position_set(control::LimitedPosition position) {
+  return succeeds(set_position_(node_, position));
+}
+
+bool Cia402Drive::energize(bool enable) {
+  return succeeds(energize_drive_(node_, enable, permit()));
+}
+
+bool Cia402Drive::make_safe(bool quick_stop) {
+  return succeeds(make_drive_safe_(node_, quick_stop));
+}
+
+}  // namespace armature::cia402

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "armature/controllers/base/joint_hardware.hpp"
+#include "drives/cia402_components/cia402_host.hpp"
+
+namespace armature::cia402 {
+
+/// One drive by CiA 402: the hardware of a joint. Its peer is the host of the bus that the drive is
+/// on, whose mode has to be that of the input which is connected.
+///
+/// PositionSensor is of the driving shaft, behind the drive's own gear and feed; so the joint's
+/// GearRatio is 1 unless there is another gear behind. Switched on, the drive is powered and its
+/// brake closed; `brakeRelease` has it follow its targets, and open its brake by itself. Of a joint
+/// without Brake both happen at once. Disarmed, it stops quickly, by its own deceleration.
+///
+/// It faults, and so stops its joint, when the bus is gone, when the drive failed, rebooted, went
+/// silent or lost its heartbeat, and when it switched off by itself or does not switch on. A drive
+/// that failed is reset by the operator alone, by `resetDrive` of the host.
+/// @rt nonblocking, no allocation
+class Cia402Drive final : public controllers::JointHardware {
+ public:
+  explicit Cia402Drive(const std::string& name)
+      : JointHardware(name,
+                      {controllers::JointCommand::kTorque, controllers::JointCommand::kVelocity,
+                       controllers::JointCommand::kPosition},
+                      Sensor::kAbsolute) {}
+
+ private:
+  void on_check(component::Check& check) const override;
+  component::Outcome on_start() override;
+
+  bool actuator_on() override;
+  bool actuator_off() override;
+  bool actuator_set(control::LimitedEffort effort) override;
+  bool velocity_set(control::LimitedVelocity velocity) override;
+  bool position_set(control::LimitedPosition position) override;
+  bool sensor_read() override;
+  bool brake_apply() override;
+  bool brake_release() override;
+
+  bool energize(bool enable);
+  bool make_safe(bool quick_stop);
+  bool usable(const DriveSample& sample);
+  bool does_what_it_was_told(const DriveSample& sample);
+  void show(const DriveSample& sample);
+
+  /// What it was told last, and since when.
+  enum class Wanted { kOff, kSwitchedOn, kEnabled };
+  void want(Wanted wanted);
+
+  component::Property<int> node_{
+      this, "node", 1, "of the drive", "", component::mandatory, component::range(1, 127)};
+  component::Property<bool> brake_{
+      this, "Brake", false, "the drive has a brake, which it opens when it is enabled"};
+  component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive",
+                                                           "has the drive read"};
+  component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{
+      this, "setEffort", "sets its torque"};
+  component::OperationCaller<bool(int, control::LimitedVelocity)> set_velocity_{
+      this, "setVelocity", "sets its velocity"};
+  component::OperationCaller<bool(int, control::LimitedPosition)> set_position_{
+      this, "setPosition", "sets where it is to be"};
+  component::OperationCaller<bool(int, bool, control::DrivePermit)> energize_drive_{
+      this, "energizeDrive", "switches it on, has it follow"};
+  component::OperationCaller<bool(int, bool)> make_drive_safe_{this, "makeDriveSafe",
+                                                               "stops it, switches it off"};
+  component::OutputPort<double> velocity_{this, "Velocity", "of the driving shaft", "rad/s"};
+  component::OutputPort<double> effort_{this, "Effort", "that the drive gives, at its shaft", "Nm"};
+  component::Attribute<int> power_{this, "power", -1,
+                                   "state of CiA 402: 0 not ready, 1 switch-on disabled, 2 ready, "
+                                   "3 switched on, 4 enabled, 5 quick stop, 6 fault reaction, 7 "
+                                   "fault; -1: unknown"};
+  component::Attribute<int> error_code_{this, "error_code", 0,
+                                        "that the drive told last; 0: no error"};
+  component::Attribute<bool> warns_{this, "warns", false, "the drive tells a warning"};
+  component::Attribute<bool> limited_{this, "limited", false, "an internal limit is active"};
+  Wanted wanted_ = Wanted::kOff;
+  base::Time wanted_since_{};
+  bool was_enabled_ = false;  ///< since that was wanted
+  int reboots_ = -1;          ///< as first seen in this run
+};
+
+}  // namespace armature::cia402

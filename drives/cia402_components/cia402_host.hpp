@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "armature/can/link.hpp"
+#include "armature/component/author.hpp"
+#include "armature/controllers/base/joint_command.hpp"
+#include "armature/controllers/base/limited_effort.hpp"
+#include "armature/controllers/base/sampling_period.hpp"
+#include "armature/types/enum.hpp"
+#include "drives/cia402/drive_group.hpp"
+
+namespace armature::cia402 {
+
+/// How all drives of a bus are commanded: CST, CSV or CSP.
+enum class CyclicMode : std::uint8_t { kTorque, kVelocity, kPosition };
+ARMATURE_ENUM(CyclicMode, kTorque, kVelocity, kPosition);
+
+/// What the position unit of the drives is: see cia402::PositionUnit.
+enum class DriveUnit : std::uint8_t { kIncrements, kFeed };
+ARMATURE_ENUM(DriveUnit, kIncrements, kFeed);
+
+/// What a drive said of itself lately, when its host looked.
+struct DriveSample {
+  bool no_bus = false;  ///< the bus is off or down, or the host does not run
+  bool fresh = false;   ///< it has answered since the look before
+  double position = 0.0;  ///< [rad] of the driving shaft
+  double velocity = 0.0;  ///< [rad/s]
+  double effort = 0.0;    ///< [Nm]
+  int power = -1;         ///< PowerState, -1: unknown
+  int silent_cycles = 0;
+  int reboots = 0;
+  int error_code = 0;  ///< of its emergency, else of 0x603F
+  bool lost = false;   ///< its heartbeat is missing
+  bool warns = false;
+  bool limited = false;  ///< an internal limit is active
+};
+ARMATURE_STRUCT(DriveSample, no_bus, fresh, position, velocity, effort, power, silent_cycles,
+                reboots, error_code, lost, warns, limited);
+
+/// The host of drives by CiA 402 on one bus, which the components Cia402Drive use as their peer: to
+/// be extended by what the bus is.
+///
+/// At the configuration it compares each drive with what is declared, and maps its PDOs. The first
+/// drive that is read in a cycle begins the cycle on the bus: what has come is used, the targets of
+/// the cycle before are sent, and one SYNC, at which all drives take their targets and answer. So an
+/// answer to a sample acts two SYNCs later; the check of gains knows that as the Robot's
+/// `effort_delay`. A target that was not set anew for 100 ms is torque 0, velocity 0, or the
+/// position where the drive is. Whenever the host stops, its drives stop quickly and switch off.
+/// @rt nonblocking, no allocation
+class Cia402Host : public component::Component {
+ public:
+  using Component::Component;
+
+  /// What drives are given in its mode.
+  /// @thread configuration only
+  controllers::JointCommand command() const;
+  const std::vector<int>& nodes() const { return nodes_; }
+
+ protected:
+  /// Not opened yet.
+  virtual base::Result<std::unique_ptr<can::Link>> make_link() = 0;
+  base::Duration cycle() const { return period_.duration(); }
+  const DriveGroup* group() const { return group_ ? &*group_ : nullptr; }
+  /// Quick stop, then off: at once on the bus.
+  void make_safe();
+
+  // Of a bus that has a guardian.
+  virtual component::Outcome begin_to_guard() { return component::accepted(); }
+  /// A cycle begins; false if the host is out of service.
+  virtual bool is_guarded() { return true; }
+  /// No cycle is expected.
+  virtual void rest() {}
+  virtual void end_guard() {}
+
+  component::Outcome on_configure() override;
+  component::Outcome on_start() override;
+  void on_stop() override { make_safe(); }
+  void on_cleanup() override;
+
+ private:
+  DriveSample read_drive(int node);
+  bool set_effort(int node, control::LimitedEffort effort) { return set_target(node, effort); }
+  bool set_velocity(int node, control::LimitedVelocity speed) { return set_target(node, speed); }
+  bool set_position(int node, control::LimitedPosition place) { return set_target(node, place); }
+  bool energize_drive(int node, bool enable, control::DrivePermit permit);
+  bool make_drive_safe(int node, bool quick_stop);
+  bool reset_drive(int node);
+
+  component::Outcome find_places();
+  component::Outcome prepare();
+  bool set_target(int node, double target);
+  void begin_cycle();
+  void take_frames();
+  void drop_old_targets();
+  double no_target(std::size_t drive) const;
+  std::optional<std::size_t> place_of(int node) const;
+
+  component::Property<std::vector<int>> nodes_{
+      this, "nodes", {}, "numbers of the drives, 1 to 127", "", component::mandatory};
+  component::Property<CyclicMode> mode_{
+      this, "mode", CyclicMode::kPosition,
+      "how the drives are commanded: torque (CST), velocity (CSV) or position (CSP)"};
+  component::Property<DriveUnit> unit_{
+      this, "unit", DriveUnit::kIncrements,
+      "of positions in the drives: increments of the encoder, or feed by their feed constant"};
+  component::Property<int> vendor_{this, "vendor", 0,
+                                   "that every drive says it is of (0x1018:01); 0: not compared"};
+  component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};
+  component::Property<double> heartbeat_{
+      this, "heartbeat", 0.1, "of the drives; 0: none", "s", component::range(0.0, 10.0)};
+  controllers::SamplingPeriod period_{this};
+  component::Operation<DriveSample(int)> read_drive_{this,
+                                                     "readDrive",
+                                                     component::serve<&Cia402Host::read_drive>,
+                                                     "what a drive says in this cycle",
+                                                     component::args("node"),
+                                                     component::in_own_thread};
+  component::Operation<bool(int, control::LimitedEffort)> set_effort_{
+      this,
+      "setEffort",
+      component::serve<&Cia402Host::set_effort>,
+      "the torque of a drive, in mode torque, from the next SYNC on",
+      component::args("node", "effort [Nm]"),
+      component::in_own_thread};
+  component::Operation<bool(int, control::LimitedVelocity)> set_velocity_{
+      this,
+      "setVelocity",
+      component::serve<&Cia402Host::set_velocity>,
+      "the velocity of a drive, in mode velocity, from the next SYNC on",
+      component::args("node", "velocity [rad/s]"),
+      component::in_own_thread};
+  component::Operation<bool(int, control::LimitedPosition)> set_position_{
+      this,
+      "setPosition",
+      component::serve<&Cia402Host::set_position>,
+      "where a drive is to be, in mode position, at the next SYNC but one",
+      component::args("node", "position [rad]"),
+      component::in_own_thread};
+  component::Operation<bool(int, bool, control::DrivePermit)> energize_drive_{
+      this,
+      "energizeDrive",
+      component::serve<&Cia402Host::energize_drive>,
+      "has a drive switch on, and follow its targets if `enable`",
+      component::args("node", "enable", "permit"),
+      component::in_own_thread};
+  component::Operation<bool(int, bool)> make_drive_safe_{
+      this,
+      "makeDriveSafe",
+      component::serve<&Cia402Host::make_drive_safe>,
+      "has a drive stop quickly, or switch off",
+      component::args("node", "quick_stop"),
+      component::in_own_thread};
+  component::Operation<bool(int)> reset_drive_{this,
+                                               "resetDrive",
+                                               component::serve<&Cia402Host::reset_drive>,
+                                               "has a drive that failed leave its fault",
+                                               component::by_operator,
+                                               component::args("node"),
+                                               component::in_own_thread};
+  component::Attribute<int> lost_answers_{this, "lost_answers", 0,
+                                          "cycles since the start without a drive's answer"};
+  component::Attribute<int> refused_frames_{this, "refused_frames", 0,
+                                            "since the start, that the bus did not take"};
+
+  /// What a drive's component has taken and given.
+  struct Account {
+    base::Time seen{};       ///< when the position came that was taken last
+    base::Time target_at{};  ///< when its target was set last
+  };
+  std::unique_ptr<can::Link> link_;
+  std::optional<DriveGroup> group_;
+  std::vector<Account> accounts_;
+  std::vector<std::optional<std::size_t>> place_of_;  ///< by the drive's node
+  base::Time cycle_at_ = base::Time::min();
+};
+
+}  // namespace armature::cia402

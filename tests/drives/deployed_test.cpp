@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives by CiA 402 as deployments use them: the arm of examples/12_cia402, with emulated drives.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "armature/deploy/deployment.hpp"
+#include "drives/cia402_components/emulated_cia402_bus.hpp"
+
+namespace armature::cia402 {
+namespace {
+
+using namespace std::chrono_literals;
+using component::CommandStage;
+using component::State;
+using ::testing::HasSubstr;
+
+deploy::Deployment load(const std::string& file, std::vector<std::string> overrides = {}) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {LIBRARIES};
+  options.document.overrides = std::move(overrides);
+  return deploy::load_deployment(EXAMPLES "/12_cia402/" + file, options);
+}
+
+class Arm {
+ public:
+  explicit Arm(const std::string& file, std::vector<std::string> overrides = {})
+      : deployment_(load(file, std::move(overrides))) {
+    EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
+    deployment_.options.simulated = true;
+    application_ =
+        std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
+    started = application_->start().to_text();
+    if (started.empty()) run_for(100ms);
+  }
+
+  exec::Application& application() { return *application_; }
+  EmulatedBus& bus() {
+    return static_cast<EmulatedCia402Bus*>(application_->find("Bus"))->drives();
+  }
+  EmulatedDrive& drive(unsigned node) { return *bus().find(node); }
+  void run_for(base::Duration duration) { application_->run_for(duration); }
+  double at(int joint) { return value<double>("Joint" + std::to_string(joint), "Position"); }
+  bool armed() { return value<bool>("Arming", "armed"); }
+  State state_of(const char* name) { return application_->find(name)->state(); }
+  std::string reason_of(const char* name) {
+    return std::string(application_->find(name)->reason());
+  }
+  CommandStage arm() { return run("Arming", "arm", {}); }
+  CommandStage move_to(double first, double second) {
+    return run("Generator", "moveTo",
+               {types::Value::of(std::vector<double>{first, second}), types::Value::of(0.0)});
+  }
+  void begin_motion() {
+    ASSERT_TRUE(application_->begin(
+        "Generator", "moveTo",
+        {types::Value::of(std::vector<double>{1.2, 1.2}), types::Value::of(0.0)}));
+    run_for(500ms);
+    ASSERT_GT(drive(1).axis().velocity(), 1.0);
+  }
+  /// All axes come to rest within `time`, and stay.
+  void expect_rest_within(base::Duration time) {
+    run_for(time);
+    for (unsigned node = 1; node <= 2; ++node) {
+      EXPECT_NEAR(drive(node).axis().velocity(), 0.0, 1e-3) << node;
+    }
+    EXPECT_FALSE(armed());
+    const double there = drive(1).axis().position();
+    run_for(500ms);
+    EXPECT_NEAR(drive(1).axis().position(), there, 1e-3);
+  }
+
+  std::string started;  ///< what it has to say against it
+
+ private:
+  CommandStage run(const char* component, const char* command,
+                   std::vector<types::Value> arguments) {
+    auto begun = application_->begin(component, command, std::move(arguments));
+    EXPECT_TRUE(begun) << begun.error();
+    for (int k = 0; k < 1000 && !begun.value().ended(); ++k) run_for(10ms);
+    return begun.value().stage();
+  }
+  template <typename T>
+  T value(const std::string& component, const char* item) {
+    const auto value = application_->value_of(component, item);
+    EXPECT_TRUE(value) << value.error();
+    return *static_cast<const T*>(value.value().data());
+  }
+
+  deploy::Deployment deployment_;
+  std::unique_ptr<exec::Application> application_;
+};
+
+// --- in each mode --------------------------------------------------------------------------------
+
+class EachMode : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EachMode, NothingIsPoweredBeforeTheOperatorArms) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.started, "");
+  arm.run_for(2s);
+  for (unsigned node = 1; node <= 2; ++node) {
+    EXPECT_EQ(arm.drive(node).power(), PowerState::kSwitchOnDisabled);
+    EXPECT_NEAR(arm.drive(node).axis().position(), 0.0, 1e-6);
+  }
+}
+
+TEST_P(EachMode, TheArmIsArmedMovesAndIsSwitchedOffAgain) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.started, "");
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  EXPECT_LT(std::abs(arm.drive(1).axis().position()), 0.01);
+  EXPECT_EQ(arm.drive(1).power(), PowerState::kOperationEnabled);
+  EXPECT_EQ(arm.move_to(1.0, -1.0), CommandStage::kDone);
+  arm.run_for(500ms);
+  EXPECT_NEAR(arm.at(1), 1.0, 5e-3);
+  EXPECT_NEAR(arm.at(2), -1.0, 5e-3);
+  EXPECT_NEAR(arm.drive(1).axis().position(), arm.at(1), 5e-3);
+  ASSERT_TRUE(arm.application().call("Arming", "disarm", {}));
+  arm.run_for(500ms);
+  EXPECT_EQ(arm.drive(1).power(), PowerState::kSwitchOnDisabled);
+  EXPECT_EQ(arm.application().faults(), 0u);
+}
+
+TEST_P(EachMode, ADriveThatFailsStopsTheArm) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.begin_motion();
+  arm.drive(2).fail(0x2310);
+  arm.expect_rest_within(500ms);
+  EXPECT_EQ(arm.state_of("Drive2"), State::kException);
+  EXPECT_THAT(arm.reason_of("Drive2"), HasSubstr("the drive failed with error code 8976"));
+  EXPECT_EQ(arm.drive(2).power(), PowerState::kFault) << "the operator alone resets it";
+}
+
+TEST_P(EachMode, ADriveThatRebootsStopsTheArm) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.begin_motion();
+  arm.drive(1).reboot(arm.bus().bus().now());
+  arm.run_for(200ms);
+  EXPECT_EQ(arm.state_of("Drive1"), State::kException);
+  EXPECT_FALSE(arm.armed());
+  EXPECT_NEAR(arm.drive(2).axis().velocity(), 0.0, 1e-3);
+  EXPECT_NE(arm.drive(1).power(), PowerState::kOperationEnabled);
+}
+
+TEST_P(EachMode, ADriveThatHearsNoSyncStopsTheArm) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.begin_motion();
+  arm.drive(1).set_deaf_to_sync(true);
+  arm.expect_rest_within(500ms);
+  EXPECT_EQ(arm.state_of("Drive1"), State::kException);
+}
+
+/// As at an orderly stop of the application: nobody speaks to the drives any more.
+TEST_P(EachMode, AStopInMotionIsQuickAndSwitchesOff) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.begin_motion();
+  const double there = arm.drive(1).axis().position();
+  ASSERT_TRUE(arm.application().stop_component("Bus"));
+  const base::Time stopped = arm.bus().bus().now();
+  for (base::Duration passed{}; passed < 200ms; passed += 50us) {
+    arm.bus().advance_to(stopped + passed);
+  }
+  for (unsigned node = 1; node <= 2; ++node) {
+    EXPECT_EQ(arm.drive(node).power(), PowerState::kSwitchOnDisabled);
+    EXPECT_NEAR(arm.drive(node).axis().velocity(), 0.0, 1e-3);
+  }
+  EXPECT_LT(arm.drive(1).axis().position() - there, 0.05) << "1.5 rad/s, 50 rad/s^2";
+}
+
+INSTANTIATE_TEST_SUITE_P(Cia402, EachMode,
+                         ::testing::Values("torque.yaml", "velocity.yaml", "position.yaml"),
+                         [](const auto& info) {
+                           const std::string file = info.param;
+                           return file.substr(0, file.find('.'));
+                         });
+
+// --- what is refused before anything moves -------------------------------------------------------
+
+TEST(Cia402Check, ModeAndKindOfJointHaveToFit) {
+  EXPECT_THAT(load("position.yaml", {"mode=velocity"}).diagnostics.to_text(),
+              HasSubstr("its input PositionActuator has a writer, and the mode of 'Bus' needs "
+                        "VelocityActuator"));
+}
+
+TEST(Cia402Check, ADriveHasToBeOnItsBus) {
+  EXPECT_THAT(load("position.yaml", {"Drive2.node=5"}).diagnostics.to_text(),
+              HasSubstr("'Drive2': node 5 is not among the nodes of 'Bus'"));
+}
+
+TEST(Cia402Start, AnotherMakersDriveIsRefusedWithBothNumbers) {
+  Arm arm("position.yaml", {"Bus.vendor=77"});
+  EXPECT_THAT(arm.started, HasSubstr("vendor is 0x402, expected 0x4D"));
+  EXPECT_THAT(arm.started, HasSubstr("node 1"));
+}
+
+TEST(Cia402Start, TheSameNodeTwiceIsRefused) {
+  Arm arm("position.yaml", {"Bus.nodes=[1, 2, 1]"});
+  EXPECT_THAT(arm.started, HasSubstr("nodes has 1 twice"));
+}
+
+}  // namespace
+}  // namespace armature::cia402
