@@ -2,6 +2,7 @@
 #include "drives/cia402_components/cia402_host.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "armature/base/as_reason.hpp"
@@ -169,12 +170,12 @@ void Cia402Host::take_frames() {
   while (link_->bus().receive(arrival) == can::ReceiveStatus::kReceived) group_->take(arrival);
 }
 
-/// Who set them is gone.
+/// Who set them is gone. A position is held where the drive is when that is found.
 void Cia402Host::drop_old_targets() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
-    if (time() - accounts_[i].target_at > controllers::kMaxAge) {
-      group_->set_target(i, no_target(i));
-    }
+    Account& account = accounts_[i];
+    const bool old = time() - account.target_at > controllers::kMaxAge;
+    if (old && !std::exchange(account.dropped, true)) group_->set_target(i, no_target(i));
   }
 }
 
@@ -184,11 +185,13 @@ double Cia402Host::no_target(std::size_t drive) const {
 
 // --- what drives are told ------------------------------------------------------------------------
 
-bool Cia402Host::set_target(int node, double target) {
+/// Only of the kind that the drives are in: 0 of another kind could be a place to go to.
+bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
   const auto place = place_of(node);
-  if (!place) return false;
+  if (!place || mode != mode_ || !std::isfinite(target)) return false;
   group_->set_target(*place, target);
   accounts_[*place].target_at = time();
+  accounts_[*place].dropped = false;
   return true;
 }
 

@@ -86,16 +86,22 @@ class Cia402Host : public component::Component {
 
  private:
   DriveSample read_drive(int node);
-  bool set_effort(int node, control::LimitedEffort effort) { return set_target(node, effort); }
-  bool set_velocity(int node, control::LimitedVelocity speed) { return set_target(node, speed); }
-  bool set_position(int node, control::LimitedPosition place) { return set_target(node, place); }
+  bool set_effort(int node, control::LimitedEffort effort) {
+    return set_target(node, CyclicMode::kTorque, effort);
+  }
+  bool set_velocity(int node, control::LimitedVelocity velocity) {
+    return set_target(node, CyclicMode::kVelocity, velocity);
+  }
+  bool set_position(int node, control::LimitedPosition position) {
+    return set_target(node, CyclicMode::kPosition, position);
+  }
   bool energize_drive(int node, bool enable, control::DrivePermit permit);
   bool make_drive_safe(int node, bool quick_stop);
   bool reset_drive(int node);
 
   component::Outcome find_places();
   component::Outcome prepare();
-  bool set_target(int node, double target);
+  bool set_target(int node, CyclicMode mode, double target);
   void begin_cycle();
   void take_frames();
   void drop_old_targets();
@@ -173,6 +179,7 @@ class Cia402Host : public component::Component {
   struct Account {
     base::Time seen{};       ///< when the position came that was taken last
     base::Time target_at{};  ///< when its target was set last
+    bool dropped = false;    ///< that target is too old
   };
   std::unique_ptr<can::Link> link_;
   std::optional<DriveGroup> group_;

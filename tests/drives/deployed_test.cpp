@@ -186,6 +186,22 @@ INSTANTIATE_TEST_SUITE_P(Cia402, EachMode,
                            return file.substr(0, file.find('.'));
                          });
 
+/// A peer may always say effort 0; to a drive that follows positions that is no place to go to.
+TEST(Cia402Mode, AnEffortIsNoPosition) {
+  Arm arm("position.yaml");
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  ASSERT_EQ(arm.move_to(1.0, 1.0), CommandStage::kDone);
+  auto& host = *arm.application().find("Bus");
+  for (const auto* const operation : component::interface_of(host).operations) {
+    if (operation->name() != "setEffort") continue;
+    const auto answer = const_cast<component::OperationBase*>(operation)->invoke(
+        {types::Value::of(1), types::Value::of(control::LimitedEffort())});
+    EXPECT_FALSE(*static_cast<const bool*>(answer.value()->data()));
+  }
+  arm.run_for(200ms);
+  EXPECT_NEAR(arm.at(1), 1.0, 5e-3);
+}
+
 // --- what is refused before anything moves -------------------------------------------------------
 
 TEST(Cia402Check, ModeAndKindOfJointHaveToFit) {
