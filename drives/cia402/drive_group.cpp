@@ -172,6 +172,10 @@ void DriveGroup::watch(Drive& drive) noexcept {
   if (!drive.answered) ++drive.state.silent_cycles;
   if (drive.answered) drive.state.silent_cycles = 0;
   drive.answered = false;
+  if (drive.state.silent_cycles > drive.config.most_silent_cycles &&
+      drive.power.goal() != PowerGoal::kOff) {
+    drive.power.set_goal(PowerGoal::kQuickStop);
+  }
   if (!rebooted && heard.presence != canopen::Presence::kLost) return;
   drive.power.set_goal(PowerGoal::kOff);
   if (rebooted) drive.state.power.reset();  // until it tells

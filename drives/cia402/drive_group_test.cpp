@@ -209,13 +209,23 @@ TEST(DriveGroup, WhenItStopsToCycleDrivesFaultByThemselves) {
   EXPECT_EQ(arm.drive(0).axis().velocity(), 0.0);
 }
 
-TEST(DriveGroup, AStuckPdoIsCounted) {
+TEST(DriveGroup, ADriveThatDoesNotAnswerIsStopped) {
   Arm arm(1);
-  arm.start(Mode::kCyclicPosition);
+  arm.start(Mode::kCyclicVelocity);
   arm.enable();
+  arm.group->set_target(0, 1.0);
+  arm.cycle(100);
   arm.drive(0).device().set_stuck_pdos(true);
+  arm.cycle(5);
+  EXPECT_EQ(arm.drive(0).power(), PowerState::kOperationEnabled);
+  arm.cycle(5);
+  EXPECT_EQ(arm.drive(0).power(), PowerState::kQuickStopActive);
+  arm.cycle(90);
+  EXPECT_NEAR(arm.group->state(0).silent_cycles, 100u, 2u);
+  EXPECT_EQ(arm.drive(0).power(), PowerState::kSwitchOnDisabled);
+  arm.drive(0).device().set_stuck_pdos(false);
   arm.cycle(20);
-  EXPECT_NEAR(arm.group->state(0).silent_cycles, 20u, 2u);
+  EXPECT_EQ(arm.drive(0).power(), PowerState::kSwitchOnDisabled) << "until its goal is given anew";
 }
 
 TEST(DriveGroup, ALostHeartbeatSwitchesTheDriveOff) {

@@ -17,6 +17,7 @@
 #include "armature/platform/clock.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/platform/terminal.hpp"
+#include "drives/canopen/eds.hpp"
 #include "drives/cia402/emulated_bus.hpp"
 #include "drives/cia402/emulator_command.hpp"
 #include "drives/cia402/pipe_wire.hpp"
@@ -38,6 +39,7 @@ struct Arguments {
   unsigned first_node = 1;
   double inertia = 0.1;
   bool no_brake = false;
+  bool eds = false;
 };
 
 void say(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
@@ -122,10 +124,19 @@ int fail(const std::string& text) {
   return kFailed;
 }
 
+/// What the first drive is, for tools that configure it.
+int print_eds(EmulatedBus& drives) {
+  const canopen::Eds eds =
+      canopen::describe(drives.drive(0).device().dictionary(), "Armature", "Emulated drive");
+  std::fputs(canopen::to_text(eds).c_str(), stdout);
+  return kDone;
+}
+
 int run(const Arguments& arguments) {
   const platform::StopSignal stop;
   auto drives = EmulatedBus::make(make_config(arguments));
   if (!drives) return fail(drives.error());
+  if (arguments.eds) return print_eds(*drives.value());
   can::VirtualBus& bus = drives.value()->bus();
   base::Diagnostics diagnostics;
   std::unique_ptr<can::HostWire> wire;
@@ -155,8 +166,7 @@ int run_command_line(int argc, char** argv) {
                  "virtual:PATH makes a virtual bus for hosts with the same; - carries frames over "
                  "standard input and output, a line each as candump writes it; any other name is a "
                  "CAN interface, such as vcan0")
-      ->type_name("BUS")
-      ->required();
+      ->type_name("BUS");
   app.add_option("--drives", arguments.drives, "how many")
       ->check(CLI::Range(1, 127))
       ->type_name("N")
@@ -170,11 +180,17 @@ int run_command_line(int argc, char** argv) {
       ->type_name("J")
       ->capture_default_str();
   app.add_flag("--no-brake", arguments.no_brake, "axes run out when their drive is off");
+  app.add_flag("--eds", arguments.eds, "prints the EDS of the first drive and ends");
   app.footer("Commands, a line each on standard input:\n" + emulator_commands() + "  help, quit\n");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUse;
+  }
+  if (arguments.bus.empty() && !arguments.eds) {
+    say("armature-cia402-emulator: error: --bus is missing (such as --bus "
+        "virtual:/tmp/drives.bus)");
+    return kWrongUse;
   }
   return run(arguments);
 }
