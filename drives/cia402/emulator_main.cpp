@@ -30,6 +30,7 @@ constexpr int kFailed = 1;
 constexpr int kWrongUse = 2;
 /// Axes are never simulated later.
 constexpr base::Duration kMostBehind = std::chrono::milliseconds(1);
+constexpr base::Duration kLastAnswers = std::chrono::milliseconds(100);
 constexpr std::string_view kVirtual = "virtual:";
 constexpr std::uint32_t kBitRate = 1'000'000;
 
@@ -85,7 +86,7 @@ class Session {
       : drives_(drives), wire_(wire), pipe_(pipe) {}
 
   void run(const platform::StopSignal& stop) {
-    while (!quit_ && !stop.received() && !(pipe_ != nullptr && pipe_->ended())) {
+    while (!quit_ && !stop.received() && !is_over()) {
       wire_.take();
       const base::Time now = platform::monotonic_now();
       drives_.advance_to(now);
@@ -97,6 +98,13 @@ class Session {
   }
 
  private:
+  /// The other program has ended, and had time to read the last answers.
+  bool is_over() {
+    if (pipe_ == nullptr || !pipe_->ended()) return false;
+    if (!end_) end_ = platform::monotonic_now() + kLastAnswers;
+    return platform::monotonic_now() > *end_;
+  }
+
   std::optional<std::string> next_line() {
     return pipe_ != nullptr ? pipe_->take_line() : lines_.next();
   }
@@ -116,6 +124,7 @@ class Session {
   can::HostWire& wire_;
   PipeWire* pipe_;
   Lines lines_;
+  std::optional<base::Time> end_;
   bool quit_ = false;
 };
 
@@ -151,7 +160,7 @@ int run(const Arguments& arguments) {
     wire = can::make_interface_wire(bus, arguments.bus, diagnostics);
   }
   if (wire == nullptr) return fail(base::as_reason(diagnostics));
-  say(std::to_string(drives.value()->size()) + " drives are there, from node " +
+  say("drives are there: " + std::to_string(drives.value()->size()) + ", from node " +
       std::to_string(arguments.first_node) + " on");
   Session(*drives.value(), *wire, pipe).run(stop);
   return kDone;
