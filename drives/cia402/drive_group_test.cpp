@@ -279,6 +279,30 @@ TEST(DriveGroup, SevenDrivesAtAMegabitHaveTheirTargetsFiveHundredTimesASecond) {
   }
 }
 
+/// Of the time from the first target to the last answer.
+TEST(DriveGroup, ACycleTakesNoLongerThanItsFramesButFivePercent) {
+  Arm arm(7);
+  arm.start(Mode::kCyclicPosition);
+  arm.enable();
+  base::Duration frames{};
+  base::Time last{};
+  arm.link.wire().set_tap([&](const can::WireEvent& event) {
+    frames += event.end - event.begin;
+    last = event.end;
+  });
+  base::Duration cycles{};
+  for (int i = 0; i < 500; ++i) {
+    const base::Time begin = arm.link.now();
+    arm.cycle();
+    cycles += last - begin;
+  }
+  const double ratio =
+      std::chrono::duration<double>(cycles) / std::chrono::duration<double>(frames);
+  RecordProperty("bus_time_ratio", std::to_string(ratio));
+  EXPECT_LT(ratio, 1.05);
+  EXPECT_GE(ratio, 1.0);
+}
+
 TEST(PrepareDrive, AnotherIdentityIsRefusedWithBothNumbers) {
   Arm arm(1);
   EXPECT_FALSE(arm.prepare(
