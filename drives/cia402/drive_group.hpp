@@ -51,6 +51,8 @@ struct DriveState {
     return power == PowerState::kFault || power == PowerState::kFaultReactionActive;
   }
   bool warns() const { return (status & status_bit::kWarning) != 0; }
+  /// It follows the targets of its cyclic mode.
+  bool follows() const { return enabled() && (status & status_bit::kFollowsCommand) != 0; }
   bool limited() const { return (status & status_bit::kInternalLimit) != 0; }
 };
 
@@ -58,9 +60,9 @@ struct DriveState {
 /// one SYNC. Drives take the targets of a cycle and answer at its SYNC.
 ///
 /// A drive that is not enabled is told its own position, velocity 0 or torque 0 as its target,
-/// so enabling it moves nothing; targets count from the cycle after it is enabled. A drive that has
-/// rebooted or lost its heartbeat is told to switch off until its goal is given anew; one that does
-/// not answer is told to stop quickly.
+/// so enabling it moves nothing; targets count from the cycle after it is enabled. A drive that
+/// does not answer or has lost its heartbeat is told to stop quickly, one that has rebooted to
+/// switch off, until its goal is given anew. What has rebooted has to be prepared again.
 /// @thread the host's alone
 class DriveGroup {
  public:

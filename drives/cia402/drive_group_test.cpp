@@ -89,7 +89,7 @@ TEST(DriveGroup, BringsDrivesToOperationAndNothingMoves) {
   EXPECT_EQ(arm.group->state(0).power, PowerState::kSwitchOnDisabled);
   arm.enable();
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_TRUE(arm.group->state(i).enabled());
+    EXPECT_TRUE(arm.group->state(i).follows());
     EXPECT_NEAR(arm.drive(i).axis().position(), 0.0, 1e-4);
   }
 }
@@ -228,7 +228,7 @@ TEST(DriveGroup, ADriveThatDoesNotAnswerIsStopped) {
   EXPECT_EQ(arm.drive(0).power(), PowerState::kSwitchOnDisabled) << "until its goal is given anew";
 }
 
-TEST(DriveGroup, ALostHeartbeatSwitchesTheDriveOff) {
+TEST(DriveGroup, ADriveWhoseHeartbeatIsLostIsStopped) {
   Arm arm(1);
   arm.start(Mode::kCyclicPosition);
   arm.enable();
