@@ -118,7 +118,17 @@ void Device::read_communication(base::Time now) {
   const auto watched = static_cast<NodeId>(consumed >> 16 & kLastNode);
   heartbeats_ = {};
   if (is_node(watched)) heartbeats_.watch(watched, milliseconds_of(consumed & 0xffff));
+  read_sync();
   read_pdos();
+}
+
+void Device::read_sync() {
+  const std::int64_t cob_id = dictionary_.number({0x1005, 0}) & can::Frame::kMostStandard;
+  const std::int64_t overflow = dictionary_.number({0x1019, 0});
+  if (cob_id == sync_cob_id_ && overflow == sync_overflow_) return;
+  sync_cob_id_ = cob_id;
+  sync_overflow_ = overflow;
+  sync_ = SyncConsumer(static_cast<std::uint8_t>(overflow), static_cast<std::uint32_t>(cob_id));
 }
 
 void Device::read_pdos() {

@@ -104,6 +104,7 @@ class Device {
   void keep_power_on_values();
   void restore_communication();
   void read_communication(base::Time now);
+  void read_sync();
   void read_pdos();
   void read_pdo(PdoDirection direction, unsigned number);
   void take_command(NmtCommand command, base::Time now);
@@ -122,6 +123,8 @@ class Device {
   HeartbeatProducer heartbeat_;
   HeartbeatConsumer heartbeats_;
   SyncConsumer sync_;
+  std::int64_t sync_cob_id_ = cob_id::kSync;
+  std::int64_t sync_overflow_ = 0;
   std::vector<Channel> receive_;
   std::vector<Channel> transmit_;
   std::vector<std::pair<Address, std::uint64_t>> power_on_;

@@ -37,10 +37,17 @@ void add_device_objects(ObjectDictionary& dictionary, NodeId node, std::uint32_t
                   .access = Access::kReadOnly,
                   .mappable = true});
   dictionary.add_count(0x1003, "Pre-defined error field", 0, Access::kReadWrite);
+  dictionary.set_check({0x1003, 0}, [](std::uint64_t count) {
+    return count == 0 ? AbortCode::kNone : AbortCode::kInvalidValue;  // it can only be cleared
+  });
   dictionary.add(
       {.address = {0x1003, 1}, .name = "Standard error field", .access = Access::kReadOnly});
   dictionary.add({.address = {0x1005, 0}, .name = "COB-ID SYNC message"}, cob_id::kSync);
   dictionary.add({.address = {0x1006, 0}, .name = "Communication cycle period"});
+  dictionary.add({.address = {0x1019, 0},
+                  .name = "Synchronous counter overflow value",
+                  .type = DataType::kUnsigned8,
+                  .high = 240});
   dictionary.add_bytes({.address = {0x1008, 0},
                         .name = "Manufacturer device name",
                         .type = DataType::kVisibleString,

@@ -214,6 +214,40 @@ TEST_F(DeviceWithPdos, AShortPdoIsReportedAndNotUsed) {
               Contains(can::data_frame(0x085, {0x10, 0x82, 0x11, 0, 0, 0, 0, 0})));
 }
 
+TEST_F(DeviceWithPdos, AFixedMappingIsTakenIfItIsTheWantedOne) {
+  map(transmission::kAtEverySync);
+  for (std::uint8_t sub : {std::uint8_t{0}, std::uint8_t{1}}) {
+    device_.dictionary().find({0x1600, sub})->info.access = Access::kConstant;
+  }
+  EXPECT_TRUE(write_pdo(channel_, PdoDirection::kReceive, 1, receive_));
+  receive_.objects.clear();
+  EXPECT_THAT(write_pdo(channel_, PdoDirection::kReceive, 1, receive_).error(),
+              HasSubstr("node 5 does not let 0x1600:00 be written: 0x06010002"));
+}
+
+TEST_F(DeviceWithPdos, AnswersASyncWithACounterAndAnotherIdentifier) {
+  map(transmission::kAtEverySync);
+  ASSERT_TRUE(channel_.write({0x1005, 0}, DataType::kUnsigned32, 0x90));
+  ASSERT_TRUE(channel_.write({0x1019, 0}, DataType::kUnsigned8, 10));
+  tell(NmtCommand::kStart);
+  link_.received();
+  send_and_wait(SyncProducer().step());
+  EXPECT_TRUE(link_.received().empty());
+  send_and_wait(SyncProducer(10, 0x90).step());
+  EXPECT_THAT(link_.received(), ElementsAre(can::data_frame(0x185, {0, 0, 0, 0})));
+  send_and_wait(can::data_frame(0x90, {}));
+  EXPECT_THAT(link_.received(), Contains(can::data_frame(0x085, {0x40, 0x82, 0x11, 0, 0, 0, 0, 0})))
+      << "SYNC has an unexpected length";
+}
+
+TEST_F(DeviceOnABus, ItsErrorsCanBeClearedAndNothingElse) {
+  device_.report(0x1234, 0);
+  EXPECT_EQ(channel_.read({0x1003, 1}, DataType::kUnsigned32).value(), 0x1234);
+  EXPECT_FALSE(channel_.write({0x1003, 0}, DataType::kUnsigned8, 3));
+  EXPECT_TRUE(channel_.write({0x1003, 0}, DataType::kUnsigned8, 0));
+  EXPECT_EQ(channel_.read({0x1003, 0}, DataType::kUnsigned8).value(), 0);
+}
+
 TEST_F(DeviceWithPdos, RefusesMappingsThatCannotBe) {
   map(transmission::kAtEverySync);
   EXPECT_THAT(channel_.write({0x1600, 1}, DataType::kUnsigned32, 0x20000010).error(),

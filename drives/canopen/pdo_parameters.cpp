@@ -2,6 +2,7 @@
 // PDOs of a device as its objects describe them.
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "drives/canopen/sdo_channel.hpp"
 
@@ -41,6 +42,28 @@ class Steps {
   base::Result<void> result_;
 };
 
+/// Whether the device has these objects in the PDO already; the mapping of many cannot be changed.
+bool is_mapped(SdoChannel& channel, std::uint16_t mapping,
+               const std::vector<MappedObject>& objects) {
+  const auto count = channel.read({mapping, 0}, DataType::kUnsigned8);
+  if (!count || !std::cmp_equal(count.value(), objects.size())) return false;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto entry =
+        channel.read({mapping, static_cast<std::uint8_t>(i + 1)}, DataType::kUnsigned32);
+    if (!entry || entry.value() != std::int64_t{mapping_entry(objects[i])}) return false;
+  }
+  return true;
+}
+
+void write_mapping(Steps& steps, std::uint16_t mapping, const std::vector<MappedObject>& objects) {
+  steps.write({mapping, 0}, DataType::kUnsigned8, 0);
+  std::uint8_t count = 0;
+  for (const MappedObject& object : objects) {
+    steps.write({mapping, ++count}, DataType::kUnsigned32, mapping_entry(object));
+  }
+  steps.write({mapping, 0}, DataType::kUnsigned8, count);
+}
+
 }  // namespace
 
 base::Result<Pdo> read_pdo(SdoChannel& channel, PdoDirection direction, unsigned number) {
@@ -78,12 +101,7 @@ base::Result<void> write_pdo(SdoChannel& channel, PdoDirection direction, unsign
   const std::uint16_t mapping = mapping_index(direction, number);
   Steps steps(channel);
   steps.write({communication, kCobIdSub}, DataType::kUnsigned32, pdo.cob_id | kCobIdInvalid);
-  steps.write({mapping, 0}, DataType::kUnsigned8, 0);
-  std::uint8_t count = 0;
-  for (const MappedObject& object : pdo.objects) {
-    steps.write({mapping, ++count}, DataType::kUnsigned32, mapping_entry(object));
-  }
-  steps.write({mapping, 0}, DataType::kUnsigned8, count);
+  if (!is_mapped(channel, mapping, pdo.objects)) write_mapping(steps, mapping, pdo.objects);
   steps.write({communication, kTransmissionSub}, DataType::kUnsigned8, pdo.transmission);
   if (pdo.inhibit_100us > 0) {
     steps.write({communication, kInhibitSub}, DataType::kUnsigned16, pdo.inhibit_100us);

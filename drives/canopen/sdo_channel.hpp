@@ -51,8 +51,9 @@ class SdoChannel {
 base::Result<Pdo> read_pdo(SdoChannel& channel, PdoDirection direction, unsigned number);
 
 /// Makes a PDO of the device as `pdo` has it, in the order of CiA 301: switched off, mapping
-/// emptied, filled, its length set, parameters, switched on as the last. Inhibit time and event
-/// timer are written unless they are 0, since not every device has them.
+/// emptied, filled, its length set, parameters, switched on as the last. A mapping that is so
+/// already is not written, since many devices have fixed ones; nor are an inhibit time or event
+/// timer of 0, since not every device has them.
 base::Result<void> write_pdo(SdoChannel& channel, PdoDirection direction, unsigned number,
                              const Pdo& pdo);
 

@@ -172,9 +172,14 @@ void DriveGroup::watch(Drive& drive) noexcept {
   if (!drive.answered) ++drive.state.silent_cycles;
   if (drive.answered) drive.state.silent_cycles = 0;
   drive.answered = false;
-  if (!rebooted && heard.presence != canopen::Presence::kLost) return;
+  const bool silent = drive.state.silent_cycles > drive.config.most_silent_cycles;
+  const bool lost = heard.presence == canopen::Presence::kLost;
+  if ((silent || lost) && drive.power.goal() != PowerGoal::kOff) {
+    drive.power.set_goal(PowerGoal::kQuickStop);
+  }
+  if (!rebooted) return;
   drive.power.set_goal(PowerGoal::kOff);
-  if (rebooted) drive.state.power.reset();  // until it tells
+  drive.state.power.reset();  // until it tells
 }
 
 void DriveGroup::fill(Drive& drive) noexcept {

@@ -26,9 +26,10 @@ struct DriveConfig {
   std::string name;                   ///< for messages
   Mode mode = Mode::kCyclicPosition;  ///< CSP, CSV or CST
   Scaling scaling;
-  std::vector<canopen::Pdo> receive;   ///< the drive's; with control word and the mode's target
-  std::vector<canopen::Pdo> transmit;  ///< the drive's; with status word and position
-  base::Duration heartbeat_timeout{};  ///< 0: its heartbeat is not watched
+  std::vector<canopen::Pdo> receive;     ///< the drive's; with control word and the mode's target
+  std::vector<canopen::Pdo> transmit;    ///< the drive's; with status word and position
+  base::Duration heartbeat_timeout{};    ///< 0: its heartbeat is not watched
+  std::uint32_t most_silent_cycles = 5;  ///< without an answer, then it is told to stop quickly
 };
 
 /// What is known of a drive after a cycle.
@@ -50,6 +51,8 @@ struct DriveState {
     return power == PowerState::kFault || power == PowerState::kFaultReactionActive;
   }
   bool warns() const { return (status & status_bit::kWarning) != 0; }
+  /// It follows the targets of its cyclic mode.
+  bool follows() const { return enabled() && (status & status_bit::kFollowsCommand) != 0; }
   bool limited() const { return (status & status_bit::kInternalLimit) != 0; }
 };
 
@@ -57,8 +60,9 @@ struct DriveState {
 /// one SYNC. Drives take the targets of a cycle and answer at its SYNC.
 ///
 /// A drive that is not enabled is told its own position, velocity 0 or torque 0 as its target,
-/// so enabling it moves nothing; targets count from the cycle after it is enabled. A drive that has
-/// rebooted or lost its heartbeat is told to switch off until its goal is given anew.
+/// so enabling it moves nothing; targets count from the cycle after it is enabled. A drive that
+/// does not answer or has lost its heartbeat is told to stop quickly, one that has rebooted to
+/// switch off, until its goal is given anew. What has rebooted has to be prepared again.
 /// @thread the host's alone
 class DriveGroup {
  public:

@@ -84,16 +84,24 @@ double EmulatedDrive::speed(Address address) const {
 void EmulatedDrive::advance_to(base::Time now) {
   can::Arrival arrival;
   while (bus_.receive(arrival) == can::ReceiveStatus::kReceived) {
+    move_to(arrival.time);
     const bool sync = canopen::origin_of(arrival.frame).service == canopen::Service::kSync;
     if (sync && deaf_to_sync_) continue;
     device_.take(arrival);
     read_commands();
   }
+  move_to(now);
+  device_.step(now);
+}
+
+void EmulatedDrive::move_to(base::Time now) {
+  if (now_ + kStep > now) return;
   while (now_ + kStep <= now) {
     now_ += kStep;
     step(now_);
   }
-  device_.step(now);
+  watch(now_);
+  write_actual();
 }
 
 void EmulatedDrive::on_sync(base::Time now) {
@@ -181,7 +189,6 @@ void EmulatedDrive::watch(base::Time now) {
 }
 
 void EmulatedDrive::step(base::Time now) {
-  watch(now);
   const PowerState state = machine_.state();
   const bool stops =
       state == PowerState::kQuickStopActive || state == PowerState::kFaultReactionActive;
@@ -202,7 +209,6 @@ void EmulatedDrive::step(base::Time now) {
   } else {
     axis_.step(0.0, kStep);
   }
-  write_actual();
 }
 
 double EmulatedDrive::stop_torque() {

@@ -61,6 +61,7 @@ class EmulatedDrive {
   void reboot(base::Time now);
 
  private:
+  void move_to(base::Time now);
   void step(base::Time now);
   void read_commands();
   void watch(base::Time now);

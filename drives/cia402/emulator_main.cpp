@@ -17,6 +17,7 @@
 #include "armature/platform/clock.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/platform/terminal.hpp"
+#include "drives/canopen/eds.hpp"
 #include "drives/cia402/emulated_bus.hpp"
 #include "drives/cia402/emulator_command.hpp"
 #include "drives/cia402/pipe_wire.hpp"
@@ -29,6 +30,7 @@ constexpr int kFailed = 1;
 constexpr int kWrongUse = 2;
 /// Axes are never simulated later.
 constexpr base::Duration kMostBehind = std::chrono::milliseconds(1);
+constexpr base::Duration kLastAnswers = std::chrono::milliseconds(100);
 constexpr std::string_view kVirtual = "virtual:";
 constexpr std::uint32_t kBitRate = 1'000'000;
 
@@ -38,6 +40,7 @@ struct Arguments {
   unsigned first_node = 1;
   double inertia = 0.1;
   bool no_brake = false;
+  bool eds = false;
 };
 
 void say(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
@@ -83,7 +86,7 @@ class Session {
       : drives_(drives), wire_(wire), pipe_(pipe) {}
 
   void run(const platform::StopSignal& stop) {
-    while (!quit_ && !stop.received() && !(pipe_ != nullptr && pipe_->ended())) {
+    while (!quit_ && !stop.received() && !is_over()) {
       wire_.take();
       const base::Time now = platform::monotonic_now();
       drives_.advance_to(now);
@@ -95,6 +98,13 @@ class Session {
   }
 
  private:
+  /// The other program has ended, and had time to read the last answers.
+  bool is_over() {
+    if (pipe_ == nullptr || !pipe_->ended()) return false;
+    if (!end_) end_ = platform::monotonic_now() + kLastAnswers;
+    return platform::monotonic_now() > *end_;
+  }
+
   std::optional<std::string> next_line() {
     return pipe_ != nullptr ? pipe_->take_line() : lines_.next();
   }
@@ -114,6 +124,7 @@ class Session {
   can::HostWire& wire_;
   PipeWire* pipe_;
   Lines lines_;
+  std::optional<base::Time> end_;
   bool quit_ = false;
 };
 
@@ -122,10 +133,19 @@ int fail(const std::string& text) {
   return kFailed;
 }
 
+/// What the first drive is, for tools that configure it.
+int print_eds(EmulatedBus& drives) {
+  const canopen::Eds eds =
+      canopen::describe(drives.drive(0).device().dictionary(), "Armature", "Emulated drive");
+  std::fputs(canopen::to_text(eds).c_str(), stdout);
+  return kDone;
+}
+
 int run(const Arguments& arguments) {
   const platform::StopSignal stop;
   auto drives = EmulatedBus::make(make_config(arguments));
   if (!drives) return fail(drives.error());
+  if (arguments.eds) return print_eds(*drives.value());
   can::VirtualBus& bus = drives.value()->bus();
   base::Diagnostics diagnostics;
   std::unique_ptr<can::HostWire> wire;
@@ -140,7 +160,7 @@ int run(const Arguments& arguments) {
     wire = can::make_interface_wire(bus, arguments.bus, diagnostics);
   }
   if (wire == nullptr) return fail(base::as_reason(diagnostics));
-  say(std::to_string(drives.value()->size()) + " drives are there, from node " +
+  say("drives are there: " + std::to_string(drives.value()->size()) + ", from node " +
       std::to_string(arguments.first_node) + " on");
   Session(*drives.value(), *wire, pipe).run(stop);
   return kDone;
@@ -155,8 +175,7 @@ int run_command_line(int argc, char** argv) {
                  "virtual:PATH makes a virtual bus for hosts with the same; - carries frames over "
                  "standard input and output, a line each as candump writes it; any other name is a "
                  "CAN interface, such as vcan0")
-      ->type_name("BUS")
-      ->required();
+      ->type_name("BUS");
   app.add_option("--drives", arguments.drives, "how many")
       ->check(CLI::Range(1, 127))
       ->type_name("N")
@@ -170,11 +189,17 @@ int run_command_line(int argc, char** argv) {
       ->type_name("J")
       ->capture_default_str();
   app.add_flag("--no-brake", arguments.no_brake, "axes run out when their drive is off");
+  app.add_flag("--eds", arguments.eds, "prints the EDS of the first drive and ends");
   app.footer("Commands, a line each on standard input:\n" + emulator_commands() + "  help, quit\n");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUse;
+  }
+  if (arguments.bus.empty() && !arguments.eds) {
+    say("armature-cia402-emulator: error: --bus is missing (such as --bus "
+        "virtual:/tmp/drives.bus)");
+    return kWrongUse;
   }
   return run(arguments);
 }

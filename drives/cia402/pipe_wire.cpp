@@ -60,6 +60,10 @@ void PipeWire::give() {
 }
 
 void PipeWire::wait_until(base::Time deadline) {
+  if (ended_) {
+    platform::sleep_until(deadline);
+    return;
+  }
   const base::Duration left = deadline - platform::monotonic_now();
   if (left > base::Duration{}) platform::wait_readable(platform::kStandardInput, left);
 }

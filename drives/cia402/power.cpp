@@ -162,8 +162,10 @@ std::uint16_t PowerControl::step(std::optional<PowerState> state) noexcept {
   if (failed) return in_fault();
   reset_asked_ = false;
   resetting_ = false;
-  if (state == PowerState::kQuickStopActive && goal_ != PowerGoal::kQuickStop) {
-    goal_ = PowerGoal::kOff;
+  // A quick stop that the drive or somebody else began goes on to its end; only `kOff` cuts it
+  // short.
+  if (state == PowerState::kQuickStopActive && goal_ != PowerGoal::kOff) {
+    goal_ = PowerGoal::kQuickStop;
   }
   if (!state) return encode_command(PowerCommand::kDisableVoltage);
   return encode_command(next_command(*state, goal_));

@@ -58,6 +58,19 @@ TEST(StatusWords, EachOfAllIsOfAtMostOneState) {
   EXPECT_EQ(none, 65536 - 12288);
 }
 
+TEST(StatusWords, EachThatHasTheBitsOfAStateIsOfThatState) {
+  for (const PowerState state : kStates) {
+    const bool quick_stop_counts = state == kReadyToSwitchOn || state == kSwitchedOn ||
+                                   state == kOperationEnabled || state == kQuickStopActive;
+    const unsigned mask = quick_stop_counts ? 0x6f : 0x4f;
+    for (unsigned word = 0; word < kWords; ++word) {
+      const bool has_bits = (word & mask) == (encode_state(state) & mask);
+      ASSERT_EQ(decode_status(static_cast<std::uint16_t>(word)) == state, has_bits)
+          << to_text(state) << ", " << word;
+    }
+  }
+}
+
 TEST(StatusWords, AStateIsReadAsItIsWritten) {
   for (const PowerState state : kStates) {
     EXPECT_EQ(decode_status(encode_state(state)), state) << to_text(state);
@@ -183,6 +196,18 @@ TEST(PowerControl, ABitThatRisesOnceForEachWord) {
   EXPECT_THAT(bits, ::testing::ElementsAre(0, 1, 0, 0, 0));
 }
 
+TEST(PowerControl, AQuickStopThatTheDriveBeganIsBrakedToItsEnd) {
+  for (const PowerGoal goal : kGoals) {
+    PowerMachine machine = machine_in(kOperationEnabled);
+    PowerControl control;
+    control.set_goal(goal);
+    machine.take_control(0x02);
+    ASSERT_EQ(machine.state(), kQuickStopActive);
+    for (int step = 0; step < 10; ++step) machine.take_control(control.step(machine.state()));
+    EXPECT_EQ(machine.state(), goal == PowerGoal::kOff ? kSwitchOnDisabled : kQuickStopActive);
+  }
+}
+
 TEST(PowerControl, AnUnknownStatusIsAnsweredWithNoVoltage) {
   for (const PowerGoal goal : kGoals) {
     PowerControl control;
@@ -239,7 +264,7 @@ TEST(PowerControl, AfterAFaultOrAQuickStopADriveDoesNotStartByItself) {
       ASSERT_NE(machine.state(), kSwitchedOn);
     }
     EXPECT_EQ(machine.state(), kSwitchOnDisabled);
-    EXPECT_EQ(control.goal(), PowerGoal::kOff);
+    EXPECT_EQ(control.goal(), stop == kFault ? PowerGoal::kOff : PowerGoal::kQuickStop);
     control.set_goal(PowerGoal::kEnabled);
     for (int step = 0; step < 3; ++step) machine.take_control(control.step(machine.state()));
     EXPECT_EQ(machine.state(), kOperationEnabled);

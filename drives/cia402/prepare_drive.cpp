@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "drives/cia402/cycle_pdos.hpp"
 #include "drives/cia402/objects.hpp"
 
 namespace armature::cia402 {
@@ -12,7 +13,6 @@ namespace {
 
 using canopen::Address;
 using canopen::DataType;
-using canopen::Pdo;
 using canopen::PdoDirection;
 
 /// As many periods without a heartbeat are a loss.
@@ -22,40 +22,6 @@ std::string hexadecimal(std::int64_t number) {
   std::array<char, 24> text{};
   std::snprintf(text.data(), text.size(), "0x%llX", static_cast<unsigned long long>(number));
   return text.data();
-}
-
-std::vector<Pdo> receive_pdos(const DriveWish& wish) {
-  Pdo pdo{.cob_id = canopen::cob_id::receive_pdo(1, wish.node),
-          .valid = true,
-          .transmission = canopen::transmission::kAtEverySync,
-          .objects = {{object::kControlWord, 16}}};
-  switch (wish.mode) {
-    case Mode::kCyclicVelocity:
-      pdo.objects.push_back({object::kTargetVelocity, 32});
-      break;
-    case Mode::kCyclicTorque:
-      pdo.objects.push_back({object::kTargetTorque, 16});
-      break;
-    default:
-      pdo.objects.push_back({object::kTargetPosition, 32});
-      break;
-  }
-  return {pdo};
-}
-
-std::vector<Pdo> transmit_pdos(const DriveWish& wish) {
-  std::vector<Pdo> pdos = {
-      {.cob_id = canopen::cob_id::transmit_pdo(1, wish.node),
-       .valid = true,
-       .transmission = canopen::transmission::kAtEverySync,
-       .objects = {{object::kStatusWord, 16}, {object::kPosition, 32}, {object::kTorque, 16}}}};
-  if (wish.with_velocity) {
-    pdos.push_back({.cob_id = canopen::cob_id::transmit_pdo(2, wish.node),
-                    .valid = true,
-                    .transmission = canopen::transmission::kAtEverySync,
-                    .objects = {{object::kVelocity, 32}, {object::kErrorCode, 16}}});
-  }
-  return pdos;
 }
 
 /// One drive on its way to a configuration; errors go to the diagnostics, with its name.

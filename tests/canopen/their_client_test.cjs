@@ -3,7 +3,11 @@
 const { test, before, after } = require('node:test');
 const assert = require('node:assert');
 const { once } = require('node:events');
-const { Device, DataType } = require('canopen');
+const { execFileSync } = require('node:child_process');
+const { mkdtempSync, rmSync, writeFileSync } = require('node:fs');
+const { tmpdir } = require('node:os');
+const { join } = require('node:path');
+const { Device, DataType, Eds } = require('canopen');
 const { Pipe } = require('./pipe.cjs');
 
 const NODE = 1;
@@ -155,4 +159,20 @@ test('a reset of the node is a boot-up', async () => {
     host.nmt.resetNode(NODE);
     await drives.frame('701#00');
     assert.strictEqual(await upload(0x6081, 0, DataType.UNSIGNED32) === 123456, false);
+});
+
+test('the EDS of the drive is understood', () => {
+    const folder = mkdtempSync(join(tmpdir(), 'armature-eds-'));
+    try {
+        const file = join(folder, 'drive.eds');
+        writeFileSync(file, execFileSync(process.env.EMULATOR, ['--eds']));
+        const eds = Eds.fromFile(file);
+        assert.strictEqual(eds.vendorName, 'Armature');
+        assert.strictEqual(eds.getEntry(0x1000).value, 0x00020192);
+        assert.strictEqual(eds.getEntry(0x6064).dataType, DataType.INTEGER32);
+        assert.strictEqual(eds.getSubEntry(0x1018, 1).value, 0x402);
+        assert.strictEqual(eds.getTransmitPdos()[0].cobId, 0x181);
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
 });

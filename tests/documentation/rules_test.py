@@ -13,7 +13,7 @@ import re
 import sys
 from pathlib import Path
 
-LEAST_RULES = {"docs/bundle.md": 5, "docs/can.md": 15, "docs/editing.md": 5, "docs/generate.md": 5, "docs/papers.md": 400, "docs/promises.md": 40, "docs/ride.md": 20,
+LEAST_RULES = {"docs/bundle.md": 5, "docs/can.md": 15, "docs/canopen.md": 10, "docs/editing.md": 5, "docs/generate.md": 5, "docs/papers.md": 400, "docs/promises.md": 40, "docs/ride.md": 20,
                "docs/rules.md": 30, "docs/robot.md": 15, "docs/security.md": 15}
 NAME = r"\w+[./][A-Z]\w+|test_\w+"
 LINK = re.compile(r'\[(\w+_test)\]\(([^)\s]+?\.(?:cpp|py))(?: "([^"]*)")?\)')

@@ -2,6 +2,7 @@
 // SDO server and client with frames of anybody; and with each other, where what is written has to
 // be read again.
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -51,7 +52,7 @@ void feed(std::span<const std::uint8_t> input) {
   base::Time now{};
   for (; !input.empty(); input = input.subspan(std::min<std::size_t>(8, input.size()))) {
     const auto bytes = input.first(std::min<std::size_t>(8, input.size()));
-    now += base::Duration(bytes[0] * 10'000'000);
+    now += std::chrono::milliseconds(bytes[0] * 10);
     const auto answer = server.take(frame_of(canopen::cob_id::sdo_request(kNode), bytes), now);
     if (answer && (answer->size != 8 || answer->id != canopen::cob_id::sdo_response(kNode))) {
       refuse("an answer is no SDO");
