@@ -7,7 +7,7 @@ const { execFileSync } = require('node:child_process');
 const { mkdtempSync, rmSync, writeFileSync } = require('node:fs');
 const { tmpdir } = require('node:os');
 const { join } = require('node:path');
-const { Device, DataType, Eds } = require('canopen');
+const { Device, DataType, Eds } = require('./theirs.cjs');
 const { Pipe } = require('./pipe.cjs');
 
 const NODE = 1;

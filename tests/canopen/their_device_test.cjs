@@ -2,7 +2,7 @@
 // npm's canopen as the device of our host, canopen_client_on_pipe.
 const { test } = require('node:test');
 const assert = require('node:assert');
-const { Device, DataType, AccessType } = require('canopen');
+const { Device, DataType, AccessType } = require('./theirs.cjs');
 const { Pipe } = require('./pipe.cjs');
 
 const NODE = 9;
