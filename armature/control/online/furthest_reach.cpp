@@ -9,8 +9,6 @@
 namespace armature::control {
 namespace {
 
-double root_of(double number) { return std::sqrt(std::max(0.0, number)); }
-
 /// Rounding moves the edges of ranges of durations by so much of them.
 double rounding(double time_s) { return 1e-12 * std::abs(time_s); }
 
@@ -30,19 +28,21 @@ FurthestReach::FurthestReach(const JerkLimits& limits, const MotionEnds& ends) :
     a0_ = -std::exchange(af_, -a0_);
   }
   k_ = j * (wf_ - w0_);
+  if (k_ <= rounded()) k_ = 0.0;
   cubes_ = (af_ * af_ * af_ - a0_ * a0_ * a0_) / (6.0 * j * j);
   held_s_ = (a - a0_ + af_) / j + (k_ - a * a) / (j * a);
 
   // The peak and the trough of a motion that just reaches the velocity limit.
-  const double peak = root_of(j * (v - w0_));
-  const double trough = -root_of(j * (v - wf_));
+  const double peak = root(j * (v - w0_));
+  const double trough = -root(j * (v - wf_));
   double lowest_trough = af_;
   if (k_ < a * a) {
-    const double held = root_of(a * a - k_);  // the trough, where the peak is A and is not held
+    const double held = root(a * a - k_);  // the trough, where the peak is A and is not held
     if (af_ > held) add({Kind::kPeakHeld, peak_held_s(af_), peak_held_s(held)});
-    const double first = af_ > 0.0 ? k_ / (af_ + std::sqrt(af_ * af_ + k_))
-                                   : std::sqrt(af_ * af_ + k_) - af_;
+    const double first = af_ > 0.0 ? k_ / (af_ + root(af_ * af_ + k_))
+                                   : root(af_ * af_ + k_) - af_;
     const double lowest = af_ > held ? k_ / (a + held) : first;
+    if (k_ == 0.0 && a0_ <= af_) add_free(0.0, 0.0);  // a single phase
     list_free_spans(lowest, std::min(a + held, peak - trough));
     lowest_trough = std::min(-held, af_);
   }
@@ -66,11 +66,21 @@ FurthestReach::FurthestReach(const JerkLimits& limits, const MotionEnds& ends) :
 /// Without those whose peak would be below the acceleration at the start.
 void FurthestReach::list_free_spans(double lowest, double highest) {
   if (a0_ <= 0.0 || a0_ * a0_ <= k_) return add_free(lowest, highest);
-  const double half = std::sqrt(a0_ * a0_ - k_);
+  const double half = root(a0_ * a0_ - k_);
   const double gap_begin = k_ / (a0_ + half);
   const double gap_end = std::min(a0_ + half, highest);
-  if (lowest <= gap_begin) add_free(lowest, gap_begin);
+  // A single phase of -J is a range without length.
+  const bool below = k_ > 0.0 && lowest <= gap_begin + 1e-13 * limits_.acceleration;
+  if (below) add_free(std::min(lowest, gap_begin), gap_begin);
   add_free(std::max(lowest, gap_end), highest);
+}
+
+/// What is 0 but for rounding. A root would make 1e-8 of a difference of 1e-16, and of that another
+/// motion: for a state on the way of a motion, which is as exact as rounding is, a much longer one.
+double FurthestReach::rounded() const { return 1e-14 * limits_.jerk * limits_.velocity; }
+
+double FurthestReach::root(double difference) const {
+  return difference > rounded() ? std::sqrt(difference) : 0.0;
 }
 
 void FurthestReach::add(const Span& span) {
@@ -95,8 +105,8 @@ double FurthestReach::peak_held_s(double trough) const {
 }
 
 double FurthestReach::trough_at(double duration_s) const {
-  return limits_.acceleration -
-         root_of(limits_.jerk * limits_.acceleration * (duration_s - held_s_));
+  const double square = limits_.jerk * limits_.acceleration * (duration_s - held_s_);
+  return limits_.acceleration - std::sqrt(std::max(0.0, square));
 }
 
 double FurthestReach::both_held_s(double top_velocity) const {
@@ -120,7 +130,8 @@ const FurthestReach::Span& FurthestReach::span_at(double duration_s) const {
 }
 
 FurthestReach::Shape FurthestReach::free_shape(double step) const {
-  const double sum = step > 0.0 ? k_ / step : 0.0;
+  if (!(step > 0.0)) return {a0_, 0.0, 0.0, a0_, 0.0};
+  const double sum = k_ / step;
   return {std::max(0.5 * (sum + step), a0_), 0.0, 0.0, std::min(0.5 * (sum - step), af_), 0.0};
 }
 
@@ -191,11 +202,11 @@ FurthestReach::Turns FurthestReach::turns_in(const Span& span, double from_s) co
     const double inside = 4.0 * s * s - 3.0 * k_ * k_;
     if (inside > 0.0) {
       const double larger = (-2.0 * s + std::sqrt(inside)) / 3.0;
-      add_turn(free_s(root_of(k_ * k_ / (3.0 * larger))));
-      add_turn(free_s(root_of(larger)));
+      add_turn(free_s(k_ / std::sqrt(3.0 * larger)));
+      add_turn(free_s(std::sqrt(larger)));
     }
   } else if (span.kind == Kind::kPeakHeld && a * a > 16.0 * j * wf_) {
-    const double half = root_of(a * a / 16.0 - j * wf_);
+    const double half = std::sqrt(a * a / 16.0 - j * wf_);
     if (0.25 * a + half < a) add_turn(peak_held_s(0.25 * a + half));
     add_turn(peak_held_s(0.25 * a - half));
   } else if (span.kind == Kind::kBothHeld) {
@@ -227,6 +238,7 @@ double FurthestReach::first_in(const Span& span, double from_s, double distance,
                                double tolerance) const {
   double low_s = std::max(from_s, span.begin_s);
   const double at_begin = distance_of(shape_in(span, low_s));
+  tolerance += 1e-13 * limits_.velocity * low_s;
   if (at_begin >= distance - tolerance) return low_s;
   if (span.kind == Kind::kCruising) return low_s + (distance - at_begin) / limits_.velocity;
   const Turns turns = turns_in(span, low_s);

@@ -94,6 +94,8 @@ class FurthestReach {
                  bool rising) const;
   double first_in(const Span& span, double from_s, double distance, double tolerance) const;
 
+  double rounded() const;
+  double root(double difference) const;
   double free_s(double step) const;
   double peak_held_s(double trough) const;
   double both_held_s(double top_velocity) const;

@@ -90,10 +90,10 @@ class AxesGeneratorOnline final : public component::Component {
       this, "lower", {}, "smallest position of each axis", "rad", component::mandatory};
   component::Property<Vector> upper_{
       this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
-  component::Property<int> refused_references_{
-      this, "refused_references", 0, "references that were not followed", "", component::read_only};
-  component::Property<double> remaining_{
-      this, "remaining_time", 0.0, "until the axes arrive", "s", component::read_only};
+  component::Attribute<int> refused_references_{
+      this, "refused_references", 0, "references since the start that were not followed"};
+  component::Attribute<double> remaining_{this, "remaining_time", 0.0,
+                                          "until the axes arrive [s]"};
   component::InputPort<Vector> measured_{
       this,  "nAxesSensorPosition",     "measured position of each axis",
       "rad", component::size_of(axes_), component::max_age(kMaxAge)};
