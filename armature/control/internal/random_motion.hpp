@@ -4,6 +4,7 @@
 // Random problems for tests and measurements, among them the special ones that a random number
 // never is: at rest, at a limit, on the way of another motion, no distance.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -60,10 +61,11 @@ class RandomMotion {
     return motion.at(between(0.0, motion.duration_s()));
   }
 
-  /// Beyond the limits, as a measured state may be.
+  /// Beyond the limits, as a measured state may be, but not so far that it takes an hour to return.
   MotionSample beyond(const JerkLimits& limits) {
+    const double usual = std::sqrt(limits.jerk * limits.velocity);
     return {between(-5.0, 5.0), between(-2.0, 2.0) * limits.velocity,
-            between(-2.0, 2.0) * limits.acceleration};
+            between(-2.0, 2.0) * std::min(limits.acceleration, usual)};
   }
 
  private:

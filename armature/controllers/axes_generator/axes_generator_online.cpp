@@ -63,7 +63,7 @@ Outcome AxesGeneratorOnline::on_start() {
   position_known_ = false;
   started_ = time();
   armed_ = false;
-  refused_references_ = 0;
+  refused_references_.assign(0);
   return changes_.take() ? set_up() : component::accepted();
 }
 
@@ -73,7 +73,7 @@ void AxesGeneratorOnline::on_update() {
   trajectory_->step(time() - stepped_at_);
   stepped_at_ = time();
   if (follow_.active()) follow_reference();
-  remaining_ = trajectory_->remaining_s();
+  remaining_.assign(trajectory_->remaining_s());
   if (move_to_.active() && trajectory_->under_way()) {
     move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
   }
@@ -148,7 +148,7 @@ void AxesGeneratorOnline::follow_reference() {
   // A target in motion is where the axes are to be when it comes, not in each cycle after it.
   if (with_velocity && !reference.is_new()) return;
   if (!trajectory_->move_to(target).accepted() && reference.is_new()) {
-    refused_references_ = refused_references_ + 1;
+    refused_references_.assign(refused_references_ + 1);
   }
 }
 
