@@ -28,6 +28,7 @@ AT_RUN_TIME = (
 )
 OTHERS = (
     [f"timeline_on/{n}" for n in JOINTS] +
+    [f"online_trajectory/{n}/{which}" for n in (1, 7, 14) for which in ("mean", "worst")] +
     [f"model/{n}{after}" for n in (2, 7) for after in ("", "/after_10_ms")] +
     ["janus_feed_forward", "event_command"] +
     [f"{what}_per_component/{n}" for what in ("start", "load", "memory") for n in COMPONENTS]

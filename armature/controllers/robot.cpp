@@ -4,6 +4,7 @@
 #include "armature/controllers/actuator_demux/actuator_demux.hpp"
 #include "armature/controllers/arming/arming.hpp"
 #include "armature/controllers/axes_generator/axes_generator.hpp"
+#include "armature/controllers/axes_generator/axes_generator_online.hpp"
 #include "armature/controllers/bridge/bridge.hpp"
 #include "armature/controllers/bridge_ref/bridge_ref.hpp"
 #include "armature/controllers/computed_torque/controller_computed_torque.hpp"
@@ -73,5 +74,7 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
   registry.add<BridgeRef>("BridgeRef", "between a generator's vectors and a controller's");
   registry.add<AxesGeneratorPos>("nAxesGeneratorPos", "moves N axes from rest to rest",
                                  {{"nAxisGenPos"}, {"nAxesGenerator"}});
+  registry.add<AxesGeneratorOnline>(
+      "nAxesGeneratorOnline", "moves N axes from any motion to any target, with limited jerk");
   registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }

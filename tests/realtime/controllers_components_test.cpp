@@ -11,6 +11,7 @@
 #include "armature/controllers/actuator_demux/actuator_demux.hpp"
 #include "armature/controllers/arming/arming.hpp"
 #include "armature/controllers/axes_generator/axes_generator.hpp"
+#include "armature/controllers/axes_generator/axes_generator_online.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 #include "armature/controllers/bridge/bridge.hpp"
 #include "armature/controllers/bridge_ref/bridge_ref.hpp"
@@ -376,6 +377,39 @@ TEST(RealtimeComponents, AxesGeneratorPos) {
   EXPECT_EQ(jogs, 100);
 }
 
+TEST(RealtimeComponents, AxesGeneratorOnline) {
+  testing::Harness generator(std::make_unique<AxesGeneratorOnline>("Generator"));
+  generator.set("num_axes", 2);
+  for (const char* name : {"max_vel", "max_acc", "upper"}) generator.set(name, "[1.0]");
+  generator.set("lower", "[-1.0]");
+  start(generator);
+  const Vector zero(2, 0.0);
+  const Vector half(2, 0.5);
+  generator.write("nAxesSensorPosition", zero);
+  int motions = 0;
+  int follows = 0;
+  expect_realtime_on_bench("AxesGeneratorOnline", [&] {
+    generator.write("nAxesSensorPosition", zero);
+    generator.run_cycles();
+    auto motion = generator.send("moveTo", half, 0.0);
+    if (motion.stage() == component::CommandStage::kAccepted) ++motions;
+    EXPECT_FALSE(generator.call("moveTo", Vector(2, 5.0), 0.0));
+    generator.run_cycles(3);
+    EXPECT_TRUE(generator.call<bool>("changeTarget", zero).value());
+    generator.run_cycles(3);
+    motion.cancel();
+    EXPECT_TRUE(generator.call("resetPosition"));
+    generator.write("nAxesReferencePosition", half);
+    auto follow = generator.send("follow");
+    if (follow.stage() == component::CommandStage::kAccepted) ++follows;
+    generator.run_cycles(5);
+    follow.cancel();
+    generator.run_cycles(5);
+  });
+  EXPECT_EQ(motions, 100);
+  EXPECT_EQ(follows, 100);
+}
+
 template <typename Model>
 void expect_realtime_restart(const char* model,
                              const std::vector<std::pair<const char*, const char*>>& properties) {
@@ -414,6 +448,11 @@ TEST(RealtimeComponents, AStartAllocatesNothingIfNoPropertyChanged) {
   expect_realtime_restart<Model>(
       "Model", {{"joints", "2"}, {"robot_description", TESTDATA "/pan_tilt.urdf"}});
   expect_realtime_restart<BridgeRef>("BridgeRef", {{"joints", "7"}});
+  expect_realtime_restart<AxesGeneratorOnline>("nAxesGeneratorOnline", {{"num_axes", "7"},
+                                                                        {"max_vel", "[1]"},
+                                                                        {"max_acc", "[1]"},
+                                                                        {"lower", "[-1]"},
+                                                                        {"upper", "[1]"}});
   expect_realtime_restart<AxesGeneratorPos>("nAxesGeneratorPos", {{"num_axes", "7"},
                                                                   {"max_vel", "[1]"},
                                                                   {"max_acc", "[1]"},

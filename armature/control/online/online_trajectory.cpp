@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/control/online/online_trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "armature/control/internal/mistakes.hpp"
+#include "armature/control/online/bring_within.hpp"
+#include "armature/control/online/plateau.hpp"
+
+namespace armature::control {
+namespace {
+
+/// Of the shortest time: who says it with a few digits means it.
+constexpr double kAsFastOnline = 1.0 - 1e-6;
+/// By which rounding may leave the position limits.
+constexpr double kPositionRounding = 1e-9;
+
+bool all_finite(std::span<const double> numbers, std::size_t& axis) {
+  for (axis = 0; axis < numbers.size(); ++axis) {
+    if (!std::isfinite(numbers[axis])) return false;
+  }
+  return true;
+}
+
+bool at_rest(const MotionSample& state) {
+  return state.velocity == 0.0 && state.acceleration == 0.0;
+}
+
+}  // namespace
+
+std::string_view to_text(TargetRefusal refusal) {
+  switch (refusal) {
+    case TargetRefusal::kNone:
+      return "accepted";
+    case TargetRefusal::kWrongNumber:
+      return "expected one number for each axis";
+    case TargetRefusal::kNotFinite:
+      return "a number is not finite";
+    case TargetRefusal::kOutsideLimits:
+      return "a target is outside the limits of its axis";
+    case TargetRefusal::kVelocityTooHigh:
+      return "a velocity is above the limit of its axis";
+    case TargetRefusal::kAccelerationTooHigh:
+      return "an acceleration is above what the limits of its axis allow at this velocity";
+    case TargetRefusal::kLeavesLimits:
+      return "the motion would leave the limits of its axis on the way";
+    case TargetRefusal::kNegativeTime:
+      return "the time is negative";
+    case TargetRefusal::kTooFast:
+      return "the motion is faster than the limits allow";
+    case TargetRefusal::kTooLong:
+      return "the motion would take more than 1e9 s";
+    case TargetRefusal::kNoPosition:
+      return "the positions of the axes are not known yet: try again in the next cycle";
+  }
+  return "unknown";
+}
+
+base::Result<void> OnlineTrajectory::check(const Config& config) {
+  internal::Mistakes mistakes("OnlineTrajectory");
+  mistakes.expect(!config.axes.empty(), "the number of axes", 0.0, "at least 1");
+  for (std::size_t i = 0; i < config.axes.size(); ++i) {
+    const Axis& axis = config.axes[i];
+    const std::string name = "axes[" + std::to_string(i) + "].";
+    mistakes.expect_positive(name + "max_velocity", axis.max_velocity);
+    mistakes.expect_positive(name + "max_acceleration", axis.max_acceleration);
+    mistakes.expect_positive(name + "max_jerk", axis.max_jerk);
+    mistakes.expect(!std::isnan(axis.lower), name + "lower", axis.lower, "a number");
+    mistakes.expect(!std::isnan(axis.upper), name + "upper", axis.upper, "a number");
+    mistakes.expect(!(axis.upper <= axis.lower), name + "upper", axis.upper,
+                    "a number above lower");
+  }
+  return mistakes.result();
+}
+
+base::Result<OnlineTrajectory> OnlineTrajectory::make(const Config& config) {
+  if (const auto checked = check(config); !checked) return base::Error{checked.error()};
+  return OnlineTrajectory(config);
+}
+
+OnlineTrajectory::OnlineTrajectory(const Config& config)
+    : axes_(config.axes),
+      motions_(axes_.size()),
+      next_(axes_.size()),
+      problems_(axes_.size()),
+      within_s_(axes_.size()),
+      targets_(axes_.size()),
+      positions_(axes_.size()),
+      velocities_(axes_.size()),
+      accelerations_(axes_.size()) {}
+
+JerkLimits OnlineTrajectory::limits_of(std::size_t axis) const {
+  return {axes_[axis].max_velocity, axes_[axis].max_acceleration, axes_[axis].max_jerk};
+}
+
+MotionSample OnlineTrajectory::state_of(const State& state, std::size_t axis) {
+  return {state.positions[axis], state.velocities.empty() ? 0.0 : state.velocities[axis],
+          state.accelerations.empty() ? 0.0 : state.accelerations[axis]};
+}
+
+OnlineTrajectory::Answer OnlineTrajectory::check_state(const State& state) const {
+  const std::size_t axes = axes_.size();
+  const auto fits = [axes](std::span<const double> numbers) {
+    return numbers.empty() || numbers.size() == axes;
+  };
+  if (state.positions.size() != axes || !fits(state.velocities) || !fits(state.accelerations)) {
+    return {TargetRefusal::kWrongNumber};
+  }
+  for (const auto& numbers : {state.positions, state.velocities, state.accelerations}) {
+    std::size_t axis = 0;
+    if (!all_finite(numbers, axis)) return {TargetRefusal::kNotFinite, axis};
+  }
+  return {};
+}
+
+OnlineTrajectory::Answer OnlineTrajectory::hold(std::span<const double> positions) {
+  if (const Answer answer = check_state({positions}); !answer.accepted()) return answer;
+  for (std::size_t i = 0; i < axes_.size(); ++i) next_[i].begin({positions[i], 0.0, 0.0});
+  has_target_ = false;
+  begin(0.0);
+  return {};
+}
+
+OnlineTrajectory::Answer OnlineTrajectory::begin_at(const State& state) {
+  if (const Answer answer = check_state(state); !answer.accepted()) return answer;
+  for (std::size_t i = 0; i < axes_.size(); ++i) motions_[i].begin(state_of(state, i));
+  duration_s_ = 0.0;
+  elapsed_ = {};
+  brake_all();
+  return {};
+}
+
+OnlineTrajectory::Answer OnlineTrajectory::check_target(const State& target, double time_s) const {
+  if (const Answer answer = check_state(target); !answer.accepted()) return answer;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const auto [position, velocity, acceleration] = state_of(target, i);
+    const JerkLimits limits = limits_of(i);
+    if (position < axes_[i].lower || position > axes_[i].upper) {
+      return {TargetRefusal::kOutsideLimits, i};
+    }
+    if (!within(limits, velocity, 0.0, 1.0)) return {TargetRefusal::kVelocityTooHigh, i};
+    if (!within(limits, velocity, acceleration, 1.0) ||
+        !within(limits, velocity, acceleration, -1.0)) {
+      return {TargetRefusal::kAccelerationTooHigh, i};
+    }
+  }
+  if (!std::isfinite(time_s)) return {TargetRefusal::kNotFinite};
+  if (time_s < 0.0) return {TargetRefusal::kNegativeTime};
+  return {};
+}
+
+/// A motion that is under way is not solved again: its state is only as exact as rounding is.
+bool OnlineTrajectory::goes_there(const State& target, double time_s) const {
+  if (!has_target_ || time_s != asked_s_) return false;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const auto [position, velocity, acceleration] = state_of(target, i);
+    if (position != targets_[i].position || velocity != targets_[i].velocity ||
+        acceleration != targets_[i].acceleration) {
+      return false;
+    }
+  }
+  return true;
+}
+
+MotionSample OnlineTrajectory::now(std::size_t axis) const {
+  return motions_[axis].at(elapsed_s());
+}
+
+/// The problem that remains where the axis is within its limits.
+void OnlineTrajectory::pose(std::size_t axis, const MotionSample& target) {
+  PhasedMotion& motion = next_[axis];
+  motion.begin(now(axis));
+  bring_within(limits_of(axis), motion);
+  within_s_[axis] = motion.duration_s();
+  problems_[axis].emplace(limits_of(axis), motion.end(), target);
+}
+
+/// The first duration from `from_s` on that is possible for all axes.
+double OnlineTrajectory::least_duration_s(double from_s) const {
+  constexpr int kMostRounds = 64;  // at most four blocked ranges of each axis are passed
+  double duration_s = from_s;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double before_s = duration_s;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const double left_s = std::max(0.0, duration_s - within_s_[i]);
+      const double first_s = problems_[i]->first_duration(left_s);
+      if (first_s > left_s) duration_s = within_s_[i] + first_s;
+      else duration_s = std::max(duration_s, within_s_[i]);
+    }
+    if (duration_s == before_s) break;
+  }
+  return duration_s;
+}
+
+OnlineTrajectory::Answer OnlineTrajectory::move_to(const State& target, double time_s) {
+  if (const Answer answer = check_target(target, time_s); !answer.accepted()) return answer;
+  if (!position_known_) return {TargetRefusal::kNoPosition};
+  if (goes_there(target, time_s)) return {};
+  for (std::size_t i = 0; i < axes_.size(); ++i) pose(i, state_of(target, i));
+  const double shortest_s = least_duration_s(0.0);
+  if (time_s > 0.0 && time_s < kAsFastOnline * shortest_s) {
+    return {TargetRefusal::kTooFast, kNoAxis, shortest_s};
+  }
+  const double duration_s = time_s > shortest_s ? least_duration_s(time_s) : shortest_s;
+  if (!(duration_s <= kLongest_s)) return {TargetRefusal::kTooLong};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!solve(i, state_of(target, i), duration_s)) return {TargetRefusal::kLeavesLimits, i};
+  }
+  for (std::size_t i = 0; i < axes_.size(); ++i) targets_[i] = state_of(target, i);
+  has_target_ = true;
+  asked_s_ = time_s;
+  begin(duration_s);
+  return {};
+}
+
+/// @return whether the axis stays within its position limits
+bool OnlineTrajectory::solve(std::size_t axis, const MotionSample& target, double duration_s) {
+  PhasedMotion& motion = next_[axis];
+  const AxisProblem& problem = *problems_[axis];
+  problem.append_to(motion, duration_s - within_s_[axis]);
+  motion.end_in(target);
+  if (stays_within(axis, target)) return true;
+  if (!at_rest(target)) return false;
+  motion.begin(now(axis));
+  bring_within(limits_of(axis), motion);
+  problem.append_to(motion, problem.first_duration(0.0));
+  motion.end_in(target);
+  return stays_within(axis, target);
+}
+
+/// Where an axis is outside already, it goes no further. A stop from the target counts, too.
+bool OnlineTrajectory::stays_within(std::size_t axis, const MotionSample& target) const {
+  const double start = now(axis).position;
+  const double lower = std::min(axes_[axis].lower, start) - kPositionRounding;
+  const double upper = std::max(axes_[axis].upper, start) + kPositionRounding;
+  const auto fits = [lower, upper](const PhasedMotion& motion) {
+    const auto [lowest, highest] = motion.extent();
+    return lowest >= lower && highest <= upper;
+  };
+  if (!fits(next_[axis])) return false;
+  if (at_rest(target)) return true;
+  PhasedMotion stop;
+  stop.begin(target);
+  VelocityRamp::make(limits_of(axis), target.velocity, target.acceleration, 0.0).append_to(stop);
+  return fits(stop);
+}
+
+void OnlineTrajectory::brake(std::size_t axis) {
+  PhasedMotion& motion = next_[axis];
+  motion.begin(now(axis));
+  bring_within(limits_of(axis), motion);
+  const auto [position, velocity, acceleration] = motion.end();
+  VelocityRamp::make(limits_of(axis), velocity, acceleration, 0.0).append_to(motion);
+  motion.end_in({motion.end().position, 0.0, 0.0});
+}
+
+void OnlineTrajectory::stop() {
+  if (has_target_) brake_all();
+}
+
+void OnlineTrajectory::brake_all() {
+  double duration_s = 0.0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    brake(i);
+    duration_s = std::max(duration_s, next_[i].duration_s());
+  }
+  has_target_ = false;
+  begin(duration_s);
+}
+
+void OnlineTrajectory::begin(double duration_s) {
+  std::swap(motions_, next_);
+  elapsed_ = {};
+  duration_s_ = duration_s;
+  position_known_ = true;
+  sample_all();
+}
+
+void OnlineTrajectory::step(base::Duration period) {
+  elapsed_ += period;
+  if (!under_way() && has_target_ && !std::ranges::all_of(targets_, at_rest)) {
+    const double beyond_s = elapsed_s() - duration_s_;
+    elapsed_ = base::Duration(static_cast<base::Duration::rep>(std::ceil(duration_s_ * 1e9)));
+    stop();
+    elapsed_ = base::Duration(static_cast<base::Duration::rep>(beyond_s * 1e9));
+  }
+  sample_all();
+}
+
+void OnlineTrajectory::sample_all() {
+  const double time_s = elapsed_s();
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const MotionSample sample = motions_[i].at(time_s);
+    positions_[i] = sample.position;
+    velocities_[i] = sample.velocity;
+    accelerations_[i] = sample.acceleration;
+  }
+}
+
+}  // namespace armature::control

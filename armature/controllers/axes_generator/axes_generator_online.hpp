@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "armature/component/author.hpp"
+#include "armature/control/online/online_trajectory.hpp"
+#include "armature/controllers/axes_generator/axes_check.hpp"
+#include "armature/controllers/base/changes.hpp"
+#include "armature/controllers/base/max_age.hpp"
+
+namespace armature::controllers {
+
+/// Moves N axes from any motion to any target with limited jerk, together and as fast as the limits
+/// allow: control::OnlineTrajectory. It takes the place of nAxesGeneratorPos, whose ports it has, and
+/// its `moveTo`; for a periodic activity; writes the three desired vectors in each cycle.
+///
+/// After a start, also one behind a fault, the desired position is the measured one, and nothing
+/// moves before `moveTo` or `follow`. Refused with the reason, and nothing changes: another number
+/// of positions, a target outside the limits, a number that is not finite, a negative time, one in
+/// which the limits do not allow the motion, a robot that is not armed (if Arming is a peer), and a
+/// command before anything was measured. A motion may begin while the axes still brake.
+///
+/// `changeTarget` redirects the moveTo that is under way, without a stop. `follow` goes to what the
+/// reference ports say, anew in each cycle, until it is cancelled; a reference that is not
+/// admissible is not followed: the motion to the one before it goes on, `refused_references` counts
+/// it. Where nothing new came for 100 ms, or as long as the connection says, the axes brake and
+/// `follow` fails: whoever sends references sends them again and again, also at rest.
+///
+/// Up to 8 motions wait for the one under way, as those of nAxesGeneratorPos do. Cancelling and Stop
+/// brake each axis as fast as its limits allow, and hold where it comes to rest; Settle and Disarm
+/// make the measured position the desired one (see Arming). `resetPosition` brakes from the
+/// measured position with the desired velocity and acceleration. Limits are one number for each
+/// axis, or one for all.
+/// @rt nonblocking, no allocation, O(axes)
+class AxesGeneratorOnline final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  using Vector = std::vector<double>;
+  using Answer = control::OnlineTrajectory::Answer;
+
+  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_start() override;
+  void on_update() override;
+
+  component::Outcome set_up();
+  bool knows_position();
+  component::Outcome begin_move(const Vector& positions, double time_s);
+  component::Outcome may_wait(const Vector& positions, double time_s) const;
+  bool change_target(const Vector& positions);
+  component::Outcome begin_follow();
+  void follow_reference();
+  Answer go_to(const control::OnlineTrajectory::State& target, double time_s);
+  bool arrived() { return !trajectory_->under_way(); }
+  void brake() { trajectory_->stop(); }
+  void reset_position();
+  void settle();
+  void stop();
+  void end_commands(std::string_view why);
+  void on_arm() { armed_ = true; }
+  void on_disarm();
+  bool may_move();
+  component::Outcome may_begin();
+  component::Reason refusal_of(const Answer& answer, const Vector& positions, double time_s) const;
+  void refuse_measured(std::size_t axis);
+  void write_desired();
+
+  static constexpr std::size_t kMostWaiting = 8;
+
+  component::Property<int> axes_{
+      this, "num_axes", 1, "number of axes", "", component::mandatory, component::range(1, 100000)};
+  component::Property<Vector> max_velocity_{
+      this, "max_vel", {}, "largest velocity of each axis, > 0", "rad/s", component::mandatory};
+  component::Property<Vector> max_acceleration_{this,      "max_acc",
+                                                {},        "largest acceleration of each axis, > 0",
+                                                "rad/s^2", component::mandatory};
+  component::Property<Vector> max_jerk_{
+      this,
+      "max_jerk",
+      {},
+      "largest jerk of each axis, > 0; none: that which reaches max_acc in 0.1 s",
+      "rad/s^3"};
+  component::Property<Vector> lower_{
+      this, "lower", {}, "smallest position of each axis", "rad", component::mandatory};
+  component::Property<Vector> upper_{
+      this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
+  component::Attribute<int> refused_references_{
+      this, "refused_references", 0, "references since the start that were not followed"};
+  component::Attribute<double> remaining_{this, "remaining_time", 0.0,
+                                          "until the axes arrive [s]"};
+  component::InputPort<Vector> measured_{
+      this,  "nAxesSensorPosition",     "measured position of each axis",
+      "rad", component::size_of(axes_), component::max_age(kMaxAge)};
+  component::InputPort<Vector> reference_{
+      this,
+      "nAxesReferencePosition",
+      "where each axis is to be, for follow",
+      "rad",
+      component::size_of(axes_),
+      component::max_age(kMaxAge, component::Reaction::kHold),
+      component::on_lost(component::Reaction::kHold),
+      component::may_stay_open};
+  component::InputPort<Vector> reference_velocity_{
+      this,
+      "nAxesReferenceVelocity",
+      "how fast each axis is to be there; written before the position; not connected: at rest",
+      "rad/s",
+      component::size_of(axes_),
+      component::max_age(kMaxAge, component::Reaction::kHold),
+      component::on_lost(component::Reaction::kHold),
+      component::may_stay_open};
+  component::OutputPort<Vector> position_{this, "nAxesDesiredPosition",
+                                          "desired position of each axis", "rad",
+                                          component::size_of(axes_)};
+  component::OutputPort<Vector> velocity_{this, "nAxesDesiredVelocity",
+                                          "desired velocity of each axis", "rad/s",
+                                          component::size_of(axes_)};
+  component::OutputPort<Vector> acceleration_{this, "nAxesDesiredAcceleration",
+                                              "desired acceleration of each axis", "rad/s^2",
+                                              component::size_of(axes_)};
+  component::Command<const Vector&, double> move_to_{
+      this,
+      "moveTo",
+      component::serve<&AxesGeneratorOnline::begin_move>,
+      "moves all axes to positions in a time; 0: as fast as the limits allow; 8 may wait",
+      component::args("positions [rad]", "time [s]"),
+      component::done_when<&AxesGeneratorOnline::arrived>,
+      component::cancelled_by<&AxesGeneratorOnline::brake>,
+      component::may_wait<&AxesGeneratorOnline::may_wait>(kMostWaiting)};
+  component::Operation<bool(const Vector&)> change_target_{
+      this,
+      "changeTarget",
+      component::serve<&AxesGeneratorOnline::change_target>,
+      "redirects the moveTo under way, as fast as the limits allow; false: refused, or none is",
+      component::args("positions [rad]"),
+      component::in_own_thread};
+  component::Command<> follow_{this,
+                               "follow",
+                               component::serve<&AxesGeneratorOnline::begin_follow>,
+                               "goes to nAxesReferencePosition, anew in each cycle, until cancelled",
+                               component::cancelled_by<&AxesGeneratorOnline::brake>};
+  component::Operation<void()> reset_position_{
+      this, "resetPosition", component::serve<&AxesGeneratorOnline::reset_position>,
+      "desired := measured; a motion is braked smoothly from there, and its command fails",
+      component::in_own_thread};
+  component::EventHandler<> settle_{this,
+                                    "Settle",
+                                    component::serve<&AxesGeneratorOnline::settle>,
+                                    "desired := measured, at rest",
+                                    component::optional,
+                                    component::leads_to_nothing()};
+  component::EventHandler<> disarm_{this,
+                                    "Disarm",
+                                    component::serve<&AxesGeneratorOnline::on_disarm>,
+                                    "desired := measured, at rest; all motion ends",
+                                    component::optional,
+                                    component::leads_to_nothing()};
+  component::EventHandler<> arm_{this,
+                                 "Arm",
+                                 component::serve<&AxesGeneratorOnline::on_arm>,
+                                 "motions may begin",
+                                 component::optional,
+                                 component::leads_to_nothing()};
+  component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
+                                               component::optional};
+  component::EventHandler<> stop_{this,
+                                  "Stop",
+                                  component::serve<&AxesGeneratorOnline::stop>,
+                                  "brakes smoothly, and holds where it comes to rest",
+                                  component::optional,
+                                  component::leads_to_nothing()};
+  AxesCheck check_{this, axes_, {position_, lower_, upper_, max_velocity_, max_acceleration_}};
+  Changes changes_{axes_, max_velocity_, max_acceleration_, max_jerk_, lower_, upper_};
+
+  std::optional<control::OnlineTrajectory> trajectory_;
+  base::Time started_{};
+  base::Time stepped_at_{};
+  base::Time follows_since_{};
+  bool position_known_ = false;
+  bool armed_ = false;
+  Vector numbers_;
+};
+
+}  // namespace armature::controllers
