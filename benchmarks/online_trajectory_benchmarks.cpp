@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "armature/control/internal/random_motion.hpp"
 #include "armature/control/online/online_trajectory.hpp"
+#include "armature/testing/random_motion.hpp"
 #include "benchmarks/suite.hpp"
 
 namespace armature::benchmarks {
@@ -22,7 +22,7 @@ constexpr double kWorstBound = 100'000.0;  // [ns]
 
 /// A trajectory in some motion, and its next target.
 struct Problem {
-  Problem(control::RandomMotion& random, std::size_t axes) : trajectory(make(random, axes)) {}
+  Problem(testing::RandomMotion& random, std::size_t axes) : trajectory(make(random, axes)) {}
 
   /// The time of one call [ns]; the first of the target, as the same one costs nothing.
   double solve_ns() {
@@ -43,7 +43,7 @@ struct Problem {
     numbers[1].push_back(sample.velocity);
     numbers[2].push_back(sample.acceleration);
   }
-  OnlineTrajectory make(control::RandomMotion& random, std::size_t axes) {
+  OnlineTrajectory make(testing::RandomMotion& random, std::size_t axes) {
     OnlineTrajectory::Config config;
     for (std::size_t i = 0; i < axes; ++i) {
       const auto limits = random.limits();
@@ -59,7 +59,7 @@ struct Problem {
 /// The shortest of some calls for each problem: what the machine does besides is not its cost.
 std::vector<double> costs(std::size_t axes, std::int64_t rounds) {
   constexpr int kCalls = 5;
-  control::RandomMotion random(axes);
+  testing::RandomMotion random(axes);
   std::vector<double> all;
   for (std::int64_t i = 0; i < rounds; ++i) {
     Problem problem(random, axes);

@@ -12,7 +12,7 @@ namespace {
 
 /// Every state in which the motor has no voltage, or brakes for the last time.
 constexpr std::array kIdleStates{PowerState::kNotReadyToSwitchOn, PowerState::kSwitchOnDisabled,
-                                 PowerState::kReadyToSwitchOn,    PowerState::kSwitchedOn,
+                                 PowerState::kReadyToSwitchOn, PowerState::kSwitchedOn,
                                  PowerState::kFault};
 /// Bits that tell the state: 0x6F where a quick stop counts, else 0x4F (CiA 402-2, table 30).
 constexpr std::uint8_t mask_of(PowerState state) {
@@ -62,8 +62,9 @@ bool Cia402Bus::is_guarded() {
     return false;
   }
   if (guard_.take_loss()) {
-    log_error("its guardian has died: if this process does, the drives' own watch of SYNC stops "
-              "the joints");
+    log_error(
+        "its guardian has died: if this process does, the drives' own watch of SYNC stops "
+        "the joints");
   }
   return true;
 }

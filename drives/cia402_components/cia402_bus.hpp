@@ -30,12 +30,10 @@ class Cia402Bus final : public Cia402Host {
 
   component::Property<std::string> bus_{
       this, "bus", "can0", "the CAN interface, or virtual: and the socket file of another process"};
-  component::Property<int> bit_rate_{this,
-                                     "bit_rate",
-                                     1'000'000,
-                                     "of this host on a virtual bus; an interface has its own",
-                                     "",
-                                     component::range(1, 1'000'000)};
+  component::Property<int> bit_rate_{
+      this,      "bit_rate",
+      1'000'000, "of this host on a virtual bus; an interface has its own",
+      "",        component::range(1, 1'000'000)};
   controllers::GuardedBus guard_{this};
 };
 

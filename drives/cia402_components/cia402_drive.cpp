@@ -48,9 +48,9 @@ void Cia402Drive::on_check(component::Check& check) const {
   }
   const auto& nodes = host->nodes();
   if (std::find(nodes.begin(), nodes.end(), node_.get()) == nodes.end()) {
-    check.error("node " + std::to_string(node_.get()) + " is not among the nodes of '" +
-                    host->name() + "'",
-                "add it there, or set the node that the drive has");
+    check.error(
+        "node " + std::to_string(node_.get()) + " is not among the nodes of '" + host->name() + "'",
+        "add it there, or set the node that the drive has");
   }
   const std::string_view wanted = controllers::names_of(host->command()).actuator;
   for (const component::InputPortBase* const input : component::interface_of(*this).inputs) {

@@ -53,12 +53,11 @@ class Cia402Drive final : public controllers::JointHardware {
 
   component::Property<int> node_{
       this, "node", 1, "of the drive", "", component::mandatory, component::range(1, 127)};
-  component::Property<bool> brake_{
-      this, "Brake", false, "the drive has a brake, which it opens when it is enabled"};
-  component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive",
-                                                           "has the drive read"};
-  component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{
-      this, "setEffort", "sets its torque"};
+  component::Property<bool> brake_{this, "Brake", false,
+                                   "the drive has a brake, which it opens when it is enabled"};
+  component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive", "has the drive read"};
+  component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort",
+                                                                            "sets its torque"};
   component::OperationCaller<bool(int, control::LimitedVelocity)> set_velocity_{
       this, "setVelocity", "sets its velocity"};
   component::OperationCaller<bool(int, control::LimitedPosition)> set_position_{

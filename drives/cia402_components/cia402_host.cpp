@@ -81,13 +81,13 @@ Outcome Cia402Host::prepare() {
   base::Diagnostics diagnostics;
   std::vector<DriveConfig> configs;
   for (const int node : nodes_.get()) {
-    DriveWish wish{.node = static_cast<canopen::NodeId>(node),
-                   .name = name() + "." + std::to_string(node),
-                   .mode = mode_of(mode_),
-                   .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed
-                                                     : PositionUnit::kIncrements,
-                   .cycle = cycle(),
-                   .heartbeat = base::from_seconds(heartbeat_)};
+    DriveWish wish{
+        .node = static_cast<canopen::NodeId>(node),
+        .name = name() + "." + std::to_string(node),
+        .mode = mode_of(mode_),
+        .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed : PositionUnit::kIncrements,
+        .cycle = cycle(),
+        .heartbeat = base::from_seconds(heartbeat_)};
     wish.identity = {.vendor = static_cast<std::uint32_t>(vendor_.get()),
                      .product = static_cast<std::uint32_t>(product_.get())};
     canopen::SdoChannel channel(*link_, wish.node);

@@ -28,8 +28,8 @@ ARMATURE_ENUM(DriveUnit, kIncrements, kFeed);
 
 /// What a drive said of itself lately, when its host looked.
 struct DriveSample {
-  bool no_bus = false;  ///< the bus is off or down, or the host does not run
-  bool fresh = false;   ///< it has answered since the look before
+  bool no_bus = false;    ///< the bus is off or down, or the host does not run
+  bool fresh = false;     ///< it has answered since the look before
   double position = 0.0;  ///< [rad] of the driving shaft
   double velocity = 0.0;  ///< [rad/s]
   double effort = 0.0;    ///< [Nm]
@@ -49,8 +49,8 @@ ARMATURE_STRUCT(DriveSample, no_bus, fresh, position, velocity, effort, power, s
 ///
 /// At the configuration it compares each drive with what is declared, and maps its PDOs. The first
 /// drive that is read in a cycle begins the cycle on the bus: what has come is used, the targets of
-/// the cycle before are sent, and one SYNC, at which all drives take their targets and answer. So an
-/// answer to a sample acts two SYNCs later; the check of gains knows that as the Robot's
+/// the cycle before are sent, and one SYNC, at which all drives take their targets and answer. So
+/// an answer to a sample acts two SYNCs later; the check of gains knows that as the Robot's
 /// `effort_delay`. A target that was not set anew for 100 ms is torque 0, velocity 0, or the
 /// position where the drive is. Whenever the host stops, its drives stop quickly and switch off.
 /// @rt nonblocking, no allocation

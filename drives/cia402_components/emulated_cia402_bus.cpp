@@ -16,9 +16,9 @@ base::Result<std::unique_ptr<can::Link>> EmulatedCia402Bus::make_link() {
   config.drive.axis.inertia = inertia_;
   config.drive.axis.viscous = viscous_friction_;
   const bool simulated = is_simulated();
-  auto made =
-      EmulatedLink::make(config, simulated ? EmulatedLink::Time::kSimulated : EmulatedLink::Time::kReal,
-                         simulated ? time() : platform::monotonic_now());
+  auto made = EmulatedLink::make(
+      config, simulated ? EmulatedLink::Time::kSimulated : EmulatedLink::Time::kReal,
+      simulated ? time() : platform::monotonic_now());
   if (!made) return base::Error{made.error()};
   link_ = made.value().get();
   return std::unique_ptr<can::Link>(std::move(made).value());

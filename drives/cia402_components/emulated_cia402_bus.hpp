@@ -23,8 +23,8 @@ class EmulatedCia402Bus final : public Cia402Host {
   base::Result<std::unique_ptr<can::Link>> make_link() override;
   void let_time_pass() { link_->begin_cycle(time()); }
 
-  component::Property<double> inertia_{
-      this, "inertia", 0.25, "of each axis", "kg m^2", component::range(1e-6, 1e6)};
+  component::Property<double> inertia_{this,           "inertia", 0.25,
+                                       "of each axis", "kg m^2",  component::range(1e-6, 1e6)};
   component::Property<double> viscous_friction_{
       this, "viscous_friction", 0.1, "of each axis", "Nm s/rad", component::range(0.0, 1e6)};
   component::EventHandler<> sample_{this,

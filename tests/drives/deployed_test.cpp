@@ -194,7 +194,8 @@ TEST(Cia402Mode, AnEffortIsNoPosition) {
   component::Component& host = *arm.application().find("Bus");
   for (component::OperationBase* const operation : component::interface_of(host).operations) {
     if (operation->name() != "setEffort") continue;
-    static_cast<void>(operation->invoke({types::Value::of(1), types::Value::of(control::LimitedEffort())}));
+    static_cast<void>(
+        operation->invoke({types::Value::of(1), types::Value::of(control::LimitedEffort())}));
   }
   arm.run_for(200ms);
   EXPECT_NEAR(arm.at(1), 1.0, 5e-3);

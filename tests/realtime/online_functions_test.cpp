@@ -14,14 +14,14 @@ namespace armature::control {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::expect_realtime;
 
 constexpr JerkLimits kLimits{1.0, 2.0, 20.0};
 constexpr MotionSample kStart{0.0, 0.3, -0.5};
 constexpr MotionSample kTarget{1.0, 0.2, 0.1};
 
 TEST(RealtimeFunctions, OnlineTrajectory) {
-  auto trajectory = OnlineTrajectory::make({std::vector(7, OnlineTrajectory::Axis{1, 2, 20})}).value();
+  auto trajectory =
+      OnlineTrajectory::make({std::vector(7, OnlineTrajectory::Axis{1, 2, 20})}).value();
   const std::vector<double> zero(7, 0.0);
   const std::vector<double> half(7, 0.5);
   bool accepted = true;
@@ -39,8 +39,9 @@ TEST(RealtimeFunctions, OnlineTrajectory) {
     trajectory.step(10ms);
   });
   std::string_view text;
-  expect_realtime("control::to_text",
-                  [&] { text = to_text(trajectory.move_to({half, {}, {}}, -1.0).refusal); });
+  expect_realtime("control::to_text", [&] {
+    text = to_text(trajectory.move_to({half, {}, {}}, -1.0).refusal);
+  });
   EXPECT_EQ(text, "the time is negative");
   expect_realtime("OnlineTrajectory::step", [&] { trajectory.step(10ms); });
   expect_realtime("OnlineTrajectory::stop", [&] { trajectory.stop(); });
@@ -49,12 +50,10 @@ TEST(RealtimeFunctions, OnlineTrajectory) {
 
 TEST(RealtimeFunctions, AxisProblem) {
   double duration_s = 0.0;
-  expect_realtime("AxisProblem::AxisProblem", [&] {
-    duration_s += AxisProblem(kLimits, kStart, kTarget).first_duration(0.0);
-  });
+  expect_realtime("AxisProblem::AxisProblem",
+                  [&] { duration_s += AxisProblem(kLimits, kStart, kTarget).first_duration(0.0); });
   const AxisProblem problem(kLimits, kStart, kTarget);
-  expect_realtime("AxisProblem::first_duration",
-                  [&] { duration_s = problem.first_duration(0.0); });
+  expect_realtime("AxisProblem::first_duration", [&] { duration_s = problem.first_duration(0.0); });
   PhasedMotion motion;
   double longer_s = duration_s;
   expect_realtime("AxisProblem::append_to", [&] {

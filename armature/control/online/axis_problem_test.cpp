@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/control/internal/random_motion.hpp"
 #include "armature/control/internal/switching_search.hpp"
+#include "armature/testing/random_motion.hpp"
 
 namespace armature::control {
 namespace {
@@ -93,7 +93,7 @@ TEST(AxisProblem, LongerMotionsFromRestDoNotPassTheirTarget) {
 }
 
 TEST(AxisProblem, RandomMotionsArriveWithinTheirLimitsInAnyPossibleDuration) {
-  RandomMotion random(4711);
+  testing::RandomMotion random(4711);
   for (int round = 0; round < 20000; ++round) {
     const JerkLimits limits = random.limits();
     const MotionSample target = random.state(limits);
@@ -118,7 +118,7 @@ TEST(AxisProblem, RandomMotionsArriveWithinTheirLimitsInAnyPossibleDuration) {
 }
 
 TEST(AxisProblem, NoSearchOfSwitchingTimesFindsAFasterMotion) {
-  RandomMotion random(17);
+  testing::RandomMotion random(17);
   int as_fast = 0;
   constexpr int kRounds = 2000;
   for (int round = 0; round < kRounds; ++round) {

@@ -47,8 +47,7 @@ bool within(const JerkLimits& limits, double velocity, double acceleration, doub
 void bring_within(const JerkLimits& limits, PhasedMotion& motion) {
   const double excess = std::abs(motion.end().acceleration) - limits.acceleration;
   if (excess > limits.acceleration * kForgiven) {
-    motion.append(excess / limits.jerk,
-                  -std::copysign(limits.jerk, motion.end().acceleration));
+    motion.append(excess / limits.jerk, -std::copysign(limits.jerk, motion.end().acceleration));
   }
   constexpr int kMostTurns = 4;  // one way, and back from what could not be avoided
   for (int turn = 0; turn < kMostTurns; ++turn) {

@@ -39,8 +39,7 @@ FurthestReach::FurthestReach(const JerkLimits& limits, const MotionEnds& ends) :
   if (k_ < a * a) {
     const double held = root(a * a - k_);  // the trough, where the peak is A and is not held
     if (af_ > held) add({Kind::kPeakHeld, peak_held_s(af_), peak_held_s(held)});
-    const double first = af_ > 0.0 ? k_ / (af_ + root(af_ * af_ + k_))
-                                   : root(af_ * af_ + k_) - af_;
+    const double first = af_ > 0.0 ? k_ / (af_ + root(af_ * af_ + k_)) : root(af_ * af_ + k_) - af_;
     const double lowest = af_ > held ? k_ / (a + held) : first;
     if (k_ == 0.0 && a0_ <= af_) add_free(0.0, 0.0);  // a single phase
     list_free_spans(lowest, std::min(a + held, peak - trough));
@@ -161,11 +160,10 @@ FurthestReach::Shape FurthestReach::shape_in(const Span& span, double duration_s
 double FurthestReach::distance_of(const Shape& shape) const {
   const auto [v, a, j] = limits_;
   const double top = w0_ + shape.peak * shape.peak / j + a * shape.peak_s;
-  const double ramps = w0_ * (shape.peak - a0_) + top * (shape.peak - shape.trough) +
-                       wf_ * (af_ - shape.trough);
+  const double ramps =
+      w0_ * (shape.peak - a0_) + top * (shape.peak - shape.trough) + wf_ * (af_ - shape.trough);
   const double at_peak = w0_ + shape.peak * shape.peak / (2.0 * j) + 0.5 * a * shape.peak_s;
-  const double at_trough =
-      top - shape.trough * shape.trough / (2.0 * j) - 0.5 * a * shape.trough_s;
+  const double at_trough = top - shape.trough * shape.trough / (2.0 * j) - 0.5 * a * shape.trough_s;
   return ramps / j + cubes_ + shape.peak_s * at_peak + shape.trough_s * at_trough +
          shape.cruise_s * v;
 }

@@ -90,8 +90,7 @@ class FurthestReach {
   double distance_of(const Shape& shape) const;
   double slope_in(const Span& span, double duration_s) const;
   Turns turns_in(const Span& span, double from_s) const;
-  double root_in(const Span& span, double low_s, double high_s, double distance,
-                 bool rising) const;
+  double root_in(const Span& span, double low_s, double high_s, double distance, bool rising) const;
   double first_in(const Span& span, double from_s, double distance, double tolerance) const;
 
   double rounded() const;
@@ -110,9 +109,9 @@ class FurthestReach {
   double w0_ = 0.0;
   double wf_ = 0.0;
   double k_ = 0.0;
-  double cubes_ = 0.0;     ///< (af^3 - a0^3) / 6J^2
-  double held_s_ = 0.0;    ///< peak_held_s(A)
-  Shape cruising_;         ///< that just reaches the velocity limit
+  double cubes_ = 0.0;   ///< (af^3 - a0^3) / 6J^2
+  double held_s_ = 0.0;  ///< peak_held_s(A)
+  Shape cruising_;       ///< that just reaches the velocity limit
   std::array<Span, 7> spans_{};
   std::size_t size_ = 0;
 };

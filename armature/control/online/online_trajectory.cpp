@@ -186,8 +186,10 @@ double OnlineTrajectory::least_duration_s(double from_s) const {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const double left_s = std::max(0.0, duration_s - within_s_[i]);
       const double first_s = problems_[i]->first_duration(left_s);
-      if (first_s > left_s) duration_s = within_s_[i] + first_s;
-      else duration_s = std::max(duration_s, within_s_[i]);
+      if (first_s > left_s)
+        duration_s = within_s_[i] + first_s;
+      else
+        duration_s = std::max(duration_s, within_s_[i]);
     }
     if (duration_s == before_s) break;
   }

@@ -36,8 +36,8 @@ std::string_view to_text(TargetRefusal refusal);
 
 /// Moves several axes from any state of motion to any other, as fast as the limits of velocity,
 /// acceleration and jerk of each allow; a new target may come at any time. All arrive together:
-/// each takes the least duration that is possible for all (Berscheid and Kroeger 2021, "Jerk-limited
-/// Real-time Trajectory Generation with Arbitrary Target States"). See `AxisProblem`.
+/// each takes the least duration that is possible for all (Berscheid and Kroeger 2021,
+/// "Jerk-limited Real-time Trajectory Generation with Arbitrary Target States"). See `AxisProblem`.
 ///
 /// An axis that is beyond its limits is brought back first, as fast as its jerk allows. Axes that
 /// arrive in motion, and are given no other target, brake to rest from there. Where the position
@@ -103,8 +103,8 @@ class OnlineTrajectory {
   /// @rt nonblocking, no allocation, O(axes)
   Answer move_to(const State& target, double time_s = 0.0);
 
-  /// Brakes each axis to rest as fast as its limits allow, and holds there. Nothing happens if it is
-  /// stopping already.
+  /// Brakes each axis to rest as fast as its limits allow, and holds there. Nothing happens if it
+  /// is stopping already.
   /// @rt nonblocking, no allocation, O(axes)
   void stop();
 

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/control/internal/random_motion.hpp"
+#include "armature/testing/random_motion.hpp"
 
 namespace armature::control {
 namespace {
@@ -190,7 +190,7 @@ TEST(OnlineTrajectory, BeyondItsLimitsAnAxisIsBroughtBackAsFastAsTheJerkAllows) 
 }
 
 TEST(OnlineTrajectory, FromAnyStateRandomTargetsAreReachedByAllAxesAtOnce) {
-  RandomMotion random(2021);
+  testing::RandomMotion random(2021);
   for (int round = 0; round < 3000; ++round) {
     const auto axes = static_cast<std::size_t>(1 + random.one_of(14));
     OnlineTrajectory::Config config;

@@ -70,9 +70,9 @@ class PhasedMotion {
 /// `start` after `time_s` with a constant jerk.
 inline MotionSample after(const MotionSample& start, double time_s, double jerk) {
   const double a = start.acceleration;
-  return {start.position +
-              time_s * (start.velocity + time_s * (0.5 * a + time_s * jerk * (1.0 / 6.0))),
-          start.velocity + time_s * (a + 0.5 * time_s * jerk), a + time_s * jerk};
+  return {
+      start.position + time_s * (start.velocity + time_s * (0.5 * a + time_s * jerk * (1.0 / 6.0))),
+      start.velocity + time_s * (a + 0.5 * time_s * jerk), a + time_s * jerk};
 }
 
 }  // namespace armature::control

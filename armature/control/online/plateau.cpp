@@ -20,8 +20,8 @@ struct Plateaus {
 
   Plateau at(double velocity) const {
     Plateau plateau;
-    plateau.first = VelocityRamp::make(limits, ends.start_velocity, ends.start_acceleration,
-                                       velocity);
+    plateau.first =
+        VelocityRamp::make(limits, ends.start_velocity, ends.start_acceleration, velocity);
     plateau.last = VelocityRamp::make(limits, ends.end_velocity, -ends.end_acceleration, velocity);
     plateau.keep_s = duration_s - plateau.first.duration_s() - plateau.last.duration_s();
     return plateau;
@@ -47,12 +47,8 @@ VelocityRamp VelocityRamp::make(const JerkLimits& limits, double velocity, doubl
   const double cube = a * a * a / (6.0 * j * j);
   const double peak = std::sqrt(j * rise);
   if (peak <= most) {
-    return {sign * j,
-            std::max(0.0, (peak - a) / j),
-            0.0,
-            peak / j,
-            sign * (rise * (peak - a) / j + cube),
-            (1.5 * peak - a) / j};
+    return {sign * j, std::max(0.0, (peak - a) / j),         0.0,
+            peak / j, sign * (rise * (peak - a) / j + cube), (1.5 * peak - a) / j};
   }
   const double hold_s = rise / most - most / j;
   return {sign * j,

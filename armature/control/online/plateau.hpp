@@ -15,7 +15,7 @@ struct VelocityRamp {
   double up_s = 0.0;
   double hold_s = 0.0;
   double down_s = 0.0;
-  double lag = 0.0;        ///< by what the position stays behind one with the new velocity throughout
+  double lag = 0.0;  ///< by what the position stays behind one with the new velocity throughout
   double lag_slope = 0.0;  ///< of `lag`, by the new velocity
 
   static VelocityRamp make(const JerkLimits& limits, double velocity, double acceleration,

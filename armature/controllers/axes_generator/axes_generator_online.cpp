@@ -154,9 +154,8 @@ void AxesGeneratorOnline::follow_reference() {
 
 void AxesGeneratorOnline::reset_position() {
   if (state() != component::State::kRunning || !knows_position()) return;
-  const Answer answer =
-      trajectory_->begin_at({measured_.read().value, trajectory_->velocities(),
-                             trajectory_->accelerations()});
+  const Answer answer = trajectory_->begin_at(
+      {measured_.read().value, trajectory_->velocities(), trajectory_->accelerations()});
   stepped_at_ = time();
   end_commands("resetPosition stopped the motion");
   if (!answer.accepted()) refuse_measured(answer.axis);
@@ -221,7 +220,8 @@ Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& posit
       break;
     case TargetRefusal::kNotFinite:
       why.append(answer.axis == OnlineTrajectory::kNoAxis ? ": the time is " : ": ");
-      append_number(why, answer.axis == OnlineTrajectory::kNoAxis ? time_s : positions[answer.axis]);
+      append_number(why,
+                    answer.axis == OnlineTrajectory::kNoAxis ? time_s : positions[answer.axis]);
       break;
     case TargetRefusal::kTooFast:
       append_number(why.append(": it takes "), answer.shortest_s).append(" s at least, found ");

@@ -16,8 +16,8 @@
 namespace armature::controllers {
 
 /// Moves N axes from any motion to any target with limited jerk, together and as fast as the limits
-/// allow: control::OnlineTrajectory. It takes the place of nAxesGeneratorPos, whose ports it has, and
-/// its `moveTo`; for a periodic activity; writes the three desired vectors in each cycle.
+/// allow: control::OnlineTrajectory. It takes the place of nAxesGeneratorPos, whose ports it has,
+/// and its `moveTo`; for a periodic activity; writes the three desired vectors in each cycle.
 ///
 /// After a start, also one behind a fault, the desired position is the measured one, and nothing
 /// moves before `moveTo` or `follow`. Refused with the reason, and nothing changes: another number
@@ -31,9 +31,9 @@ namespace armature::controllers {
 /// it. Where nothing new came for 100 ms, or as long as the connection says, the axes brake and
 /// `follow` fails: whoever sends references sends them again and again, also at rest.
 ///
-/// Up to 8 motions wait for the one under way, as those of nAxesGeneratorPos do. Cancelling and Stop
-/// brake each axis as fast as its limits allow, and hold where it comes to rest; Settle and Disarm
-/// make the measured position the desired one (see Arming). `resetPosition` brakes from the
+/// Up to 8 motions wait for the one under way, as those of nAxesGeneratorPos do. Cancelling and
+/// Stop brake each axis as fast as its limits allow, and hold where it comes to rest; Settle and
+/// Disarm make the measured position the desired one (see Arming). `resetPosition` brakes from the
 /// measured position with the desired velocity and acceleration. Limits are one number for each
 /// axis, or one for all.
 /// @rt nonblocking, no allocation, O(axes)
@@ -92,20 +92,18 @@ class AxesGeneratorOnline final : public component::Component {
       this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
   component::Attribute<int> refused_references_{
       this, "refused_references", 0, "references since the start that were not followed"};
-  component::Attribute<double> remaining_{this, "remaining_time", 0.0,
-                                          "until the axes arrive [s]"};
+  component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
   component::InputPort<Vector> measured_{
       this,  "nAxesSensorPosition",     "measured position of each axis",
       "rad", component::size_of(axes_), component::max_age(kMaxAge)};
-  component::InputPort<Vector> reference_{
-      this,
-      "nAxesReferencePosition",
-      "where each axis is to be, for follow",
-      "rad",
-      component::size_of(axes_),
-      component::max_age(kMaxAge, component::Reaction::kHold),
-      component::on_lost(component::Reaction::kHold),
-      component::may_stay_open};
+  component::InputPort<Vector> reference_{this,
+                                          "nAxesReferencePosition",
+                                          "where each axis is to be, for follow",
+                                          "rad",
+                                          component::size_of(axes_),
+                                          component::max_age(kMaxAge, component::Reaction::kHold),
+                                          component::on_lost(component::Reaction::kHold),
+                                          component::may_stay_open};
   component::InputPort<Vector> reference_velocity_{
       this,
       "nAxesReferenceVelocity",
@@ -140,11 +138,10 @@ class AxesGeneratorOnline final : public component::Component {
       "redirects the moveTo under way, as fast as the limits allow; false: refused, or none is",
       component::args("positions [rad]"),
       component::in_own_thread};
-  component::Command<> follow_{this,
-                               "follow",
-                               component::serve<&AxesGeneratorOnline::begin_follow>,
-                               "goes to nAxesReferencePosition, anew in each cycle, until cancelled",
-                               component::cancelled_by<&AxesGeneratorOnline::brake>};
+  component::Command<> follow_{
+      this, "follow", component::serve<&AxesGeneratorOnline::begin_follow>,
+      "goes to nAxesReferencePosition, anew in each cycle, until cancelled",
+      component::cancelled_by<&AxesGeneratorOnline::brake>};
   component::Operation<void()> reset_position_{
       this, "resetPosition", component::serve<&AxesGeneratorOnline::reset_position>,
       "desired := measured; a motion is braked smoothly from there, and its command fails",

@@ -12,7 +12,10 @@
 #include "armature/control/online/axis_problem.hpp"
 #include "armature/control/online/bring_within.hpp"
 
-namespace armature::control {
+namespace armature::testing {
+
+using control::JerkLimits;
+using control::MotionSample;
 
 /// Draws the limits and states of axes; the same seed draws the same.
 class RandomMotion {
@@ -40,8 +43,8 @@ class RandomMotion {
       if (special == 1) state.acceleration = 0.0;
       if (special == 2) state.velocity = 0.0;
       if (special == 3) state = {state.position, std::copysign(limits.velocity, state.velocity)};
-    } while (!within(limits, state.velocity, state.acceleration, 1.0) ||
-             !within(limits, state.velocity, state.acceleration, -1.0));
+    } while (!control::within(limits, state.velocity, state.acceleration, 1.0) ||
+             !control::within(limits, state.velocity, state.acceleration, -1.0));
     return state;
   }
 
@@ -54,8 +57,8 @@ class RandomMotion {
     if (special == 2) start = target;
     if (special == 3) start = {between(-5.0, 5.0), target.velocity, target.acceleration};
     if (special != 4) return start;
-    const AxisProblem problem(limits, start, target);
-    PhasedMotion motion;
+    const control::AxisProblem problem(limits, start, target);
+    control::PhasedMotion motion;
     motion.begin(start);
     problem.append_to(motion, problem.first_duration(0.0));
     return motion.at(between(0.0, motion.duration_s()));
@@ -72,4 +75,4 @@ class RandomMotion {
   std::mt19937_64 random_;
 };
 
-}  // namespace armature::control
+}  // namespace armature::testing
