@@ -42,6 +42,7 @@ if os.cpu_count() > 1:
 WITHOUT_REFERENCE = (
     [f"{what}_per_component/100" for what in ("start", "load", "memory")]
     + ["periods_exact", "resident_two_joints", "resident_two_joints/locked"]
+    + [f"online_trajectory/{n}/{which}" for n in (1, 7, 14) for which in ("mean", "worst")]
 )
 
 

@@ -22,11 +22,35 @@ using component::CommandStage;
 using component::State;
 using ::testing::HasSubstr;
 
+/// A peer may always say effort 0.
+class Meddler final : public component::Component {
+ public:
+  using Component::Component;
+
+  int taken = 0;
+  int refused = 0;
+
+ private:
+  void on_update() override {
+    const auto answer = set_effort_(1, control::LimitedEffort());
+    const bool is_taken = answer.status == component::CallStatus::kDone && answer.value;
+    ++(is_taken ? taken : refused);
+  }
+  component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort", ""};
+};
+
 deploy::Deployment load(const std::string& file, std::vector<std::string> overrides = {}) {
   deploy::DeploymentOptions options;
   options.library_folders = {LIBRARIES};
+  options.models = [](component::Registry& models) { models.add<Meddler>("Meddler", "meddles"); };
   options.document.overrides = std::move(overrides);
-  return deploy::load_deployment(EXAMPLES "/12_cia402/" + file, options);
+  if (file != "meddled.yaml") {
+    return deploy::load_deployment(EXAMPLES "/12_cia402/" + file, options);
+  }
+  return deploy::parse_deployment(
+      "include: position.yaml\ncomponents:\n  Meddler: {model: Meddler, peers: [Bus], activity: "
+      "{periodic: 2 ms, priority: 80}}\n",
+      EXAMPLES "/12_cia402/meddled.yaml", options);
 }
 
 class Arm {
@@ -186,19 +210,16 @@ INSTANTIATE_TEST_SUITE_P(Cia402, EachMode,
                            return file.substr(0, file.find('.'));
                          });
 
-/// A peer may always say effort 0; to a drive that follows positions that is no place to go to.
+/// To a drive that follows positions 0 would be a place to go to.
 TEST(Cia402Mode, AnEffortIsNoPosition) {
-  Arm arm("position.yaml");
+  Arm arm("meddled.yaml");
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
   ASSERT_EQ(arm.move_to(1.0, 1.0), CommandStage::kDone);
-  component::Component& host = *arm.application().find("Bus");
-  for (component::OperationBase* const operation : component::interface_of(host).operations) {
-    if (operation->name() != "setEffort") continue;
-    static_cast<void>(
-        operation->invoke({types::Value::of(1), types::Value::of(control::LimitedEffort())}));
-  }
   arm.run_for(200ms);
   EXPECT_NEAR(arm.at(1), 1.0, 5e-3);
+  const auto& meddler = *static_cast<const Meddler*>(arm.application().find("Meddler"));
+  EXPECT_EQ(meddler.taken, 0);
+  EXPECT_GT(meddler.refused, 100);
 }
 
 // --- what is refused before anything moves -------------------------------------------------------

@@ -2,6 +2,7 @@
 #include "armature/controllers/axes_generator/axes_generator_online.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "armature/component/face.hpp"
@@ -11,6 +12,9 @@
 
 namespace armature::controllers {
 namespace {
+
+/// As it is told: to a microsecond.
+double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
 /// In which the acceleration reaches its limit, where nobody says how large the jerk may be [s].
 constexpr double kUsualRise_s = 0.1;
@@ -224,7 +228,8 @@ Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& posit
                     answer.axis == OnlineTrajectory::kNoAxis ? time_s : positions[answer.axis]);
       break;
     case TargetRefusal::kTooFast:
-      append_number(why.append(": it takes "), answer.shortest_s).append(" s at least, found ");
+      append_number(why.append(": it takes "), rounded(answer.shortest_s))
+          .append(" s at least, found ");
       append_number(why, time_s).append(" s (0 asks for the shortest)");
       break;
     case TargetRefusal::kNegativeTime:
