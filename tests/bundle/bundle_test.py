@@ -241,10 +241,8 @@ class Packages(Test):
         self.assertIn("is there, and is no package of 'hello'", told)
 
 
-@unittest.skipUnless(shutil.which("aarch64-linux-gnu-g++") and shutil.which("qemu-aarch64"),
-                     "there is no compiler for arm64, or nothing that runs what it makes")
-class ForABoard(Test):
-    """Stand-ins for an Armature on arm64, whose `check` says what it is given."""
+class ForABoard:
+    """Stand-ins for an Armature on a board, whose `check` says what it is given."""
 
     PROGRAM = """#include <cstdio>
                  int said();
@@ -254,7 +252,7 @@ class ForABoard(Test):
                  }"""
 
     def install(self, code):
-        folder = self.folder / "arm64"
+        folder = self.folder / self.ARCHITECTURE
         for made, text, options in (
                 ("lib/libarmature_said.so.0.1", f"int said() {{ return {code}; }}", ["-shared", "-Wl,-soname,libarmature_said.so.0.1"]),
                 ("lib/armature/libcontrols.so", "int controls() { return 0; }", ["-shared"]),
@@ -262,26 +260,38 @@ class ForABoard(Test):
                 ("bin/armature-guardian", "int main() {}", [])):
             source = self.write("source.cpp", text)
             (folder / made).parent.mkdir(parents=True, exist_ok=True)
-            run("aarch64-linux-gnu-g++", "-fPIC", source, "-o", folder / made, *options, check=True)
+            run(self.COMPILER, "-fPIC", source, "-o", folder / made, *options, check=True)
         shutil.copytree(prefix / "share", folder / "share")
         return folder
 
     def test_it_has_what_was_built_for_the_board_and_is_checked_there(self):
         folder = self.install(code=0)
-        told = run(PROGRAM, "bundle", self.deployment(), "--for", "arm64", "--installation", folder, cwd=self.work)
+        told = run(PROGRAM, "bundle", self.deployment(), "--for", self.ARCHITECTURE, "--installation", folder, cwd=self.work)
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertNotIn("was not checked", told.stderr)
         bundle = self.work / "hello-bundle"
         for name in ("bin/armature", "lib/libarmature_said.so.0.1", "lib/armature/libcontrols.so"):
             self.assertTrue(filecmp.cmp(bundle / name, folder / name, shallow=False), name)
-        self.assertIn("for Debian 12 on arm64", (bundle / "README").read_text())
+        self.assertIn(f"for Debian 12 on {self.ARCHITECTURE}", (bundle / "README").read_text())
 
     def test_what_fails_on_the_board_is_not_handed_over(self):
-        done = run(PROGRAM, "bundle", self.deployment(), "--for", "arm64", "--installation", self.install(code=1),
-                   cwd=self.work)
+        done = run(PROGRAM, "bundle", self.deployment(), "--for", self.ARCHITECTURE, "--installation",
+                   self.install(code=1), cwd=self.work)
         self.assertEqual(done.returncode, 1)
         self.assertIn("the check fails in the bundle, though it passes here:\ncheck ", done.stderr)
         self.assertEqual(list(self.work.iterdir()), [])
+
+
+@unittest.skipUnless(shutil.which("aarch64-linux-gnu-g++") and shutil.which("qemu-aarch64"),
+                     "there is no compiler for arm64, or nothing that runs what it makes")
+class ForArm64(ForABoard, Test):
+    ARCHITECTURE, COMPILER = "arm64", "aarch64-linux-gnu-g++"
+
+
+@unittest.skipUnless(shutil.which("arm-linux-gnueabihf-g++") and shutil.which("qemu-arm"),
+                     "there is no compiler for armhf, or nothing that runs what it makes")
+class ForArmhf(ForABoard, Test):
+    ARCHITECTURE, COMPILER = "armhf", "arm-linux-gnueabihf-g++"
 
 
 class Refusals(Test):
