@@ -33,8 +33,8 @@ std::string mistakes(const std::string& file, std::vector<std::string> overrides
 
 class Arm {
  public:
-  explicit Arm(const std::string& file, std::vector<std::string> overrides = {})
-      : deployment_(load(file, std::move(overrides))) {
+  explicit Arm(const std::string& file) : Arm(load(file)) {}
+  explicit Arm(deploy::Deployment deployment) : deployment_(std::move(deployment)) {
     EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
     deployment_.options.simulated = true;
     application_ =
@@ -120,6 +120,33 @@ INSTANTIATE_TEST_SUITE_P(Drives, EachWay,
                            const std::string file = info.param;
                            return file.substr(0, file.find('.'));
                          });
+
+/// In motion it is redirected, and stopped.
+TEST(OnlineGenerator, TakesThePlaceOfTheOtherByOneLine) {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
+  for (const char* const file : {"torque.yaml", "velocity.yaml", "position.yaml"}) {
+    Arm arm(deploy::parse_deployment(
+        std::string("include: ") + file +
+            "\ncomponents:\n  Generator: {override: true, model: nAxesGeneratorOnline}\n",
+        EXAMPLES "/11_drives/online.yaml", options));
+    ASSERT_EQ(arm.arm(), CommandStage::kDone) << file;
+    EXPECT_EQ(arm.move_to(0.5, -0.5), CommandStage::kDone) << file;
+    auto moving = arm.application().begin(
+        "Generator", "moveTo",
+        {types::Value::of(std::vector<double>{1.2, 0.0}), types::Value::of(0.0)});
+    ASSERT_TRUE(moving) << moving.error();
+    arm.run_for(300ms);
+    ASSERT_TRUE(arm.application().call("Generator", "changeTarget",
+                                       {types::Value::of(std::vector<double>{0.0, 0.3})}));
+    for (int k = 0; k < 500 && !moving.value().ended(); ++k) arm.run_for(10ms);
+    EXPECT_EQ(moving.value().stage(), CommandStage::kDone) << file;
+    arm.run_for(500ms);
+    EXPECT_NEAR(arm.at(1), 0.0, 2e-3) << file;
+    EXPECT_NEAR(arm.at(2), 0.3, 2e-3) << file;
+    EXPECT_EQ(arm.application().faults(), 0u) << file;
+  }
+}
 
 TEST(DrivesCheck, UnitsAndKindsHaveToFit) {
   EXPECT_THAT(mistakes("torque.yaml", {"PID1.OutUnit=V"}),
