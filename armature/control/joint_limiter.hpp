@@ -31,13 +31,15 @@ class LimitedCommand {
   double value_ = Quantity::kNone;
 };
 
-/// What commands nothing: no effort, rest; of positions there is none.
+/// Of a LimitedCommand that nobody made, an effort: none.
 struct EffortQuantity {
   static constexpr double kNone = 0.0;
 };
+/// The same of a velocity: rest.
 struct VelocityQuantity {
   static constexpr double kNone = 0.0;
 };
+/// The same of a position: there is none that moves nothing.
 struct PositionQuantity {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };

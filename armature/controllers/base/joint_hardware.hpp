@@ -45,11 +45,9 @@ class JointHardware : public component::Component {
   virtual bool actuator_off() = 0;
   /// @param effort  to apply from now on [V, A, or Nm at the motor], as commanded() says
   virtual bool actuator_set(control::LimitedEffort effort) = 0;
-  /// Of hardware that takes velocities.
-  /// @param velocity  of the motor's axis from now on [rad/s]
+  /// Of hardware that takes velocities: of the motor's axis from now on [rad/s].
   virtual bool velocity_set(control::LimitedVelocity /*velocity*/) { return false; }
-  /// Of hardware that takes positions.
-  /// @param position  where the motor's axis is to be, by PositionSensor [rad]
+  /// Of hardware that takes positions: where the motor's axis is to be, by PositionSensor [rad].
   virtual bool position_set(control::LimitedPosition /*position*/) { return false; }
   /// Reads the sensors and writes `sensor_` and `index_`.
   virtual bool sensor_read() = 0;
