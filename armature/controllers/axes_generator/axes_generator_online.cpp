@@ -63,7 +63,20 @@ Outcome AxesGeneratorOnline::set_up() {
   return component::accepted();
 }
 
+/// Its motions would be faster than the robot allows.
+void AxesGeneratorOnline::on_check(component::Check& check) const {
+  if (check.target_of(limit_used_) == nullptr) return;
+  check.error("a peer limits motions by motionLimitUsed, which this generator does not keep",
+              "use the model nAxesGeneratorPos");
+}
+
 Outcome AxesGeneratorOnline::on_start() {
+  if (limit_used_.bound()) {
+    return component::refused(
+        "a peer limits motions by motionLimitUsed, which this generator does not keep: use the "
+        "model "
+        "nAxesGeneratorPos");
+  }
   position_known_ = false;
   started_ = time();
   armed_ = false;

@@ -35,7 +35,8 @@ namespace armature::controllers {
 /// Stop brake each axis as fast as its limits allow, and hold where it comes to rest; Settle and
 /// Disarm make the measured position the desired one (see Arming). `resetPosition` brakes from the
 /// measured position with the desired velocity and acceleration. Limits are one number for each
-/// axis, or one for all.
+/// axis, or one for all. A robot that limits motions itself by `motionLimitUsed`, such as by the
+/// speed of its tip, is refused.
 /// @rt nonblocking, no allocation, O(axes)
 class AxesGeneratorOnline final : public component::Component {
  public:
@@ -45,6 +46,7 @@ class AxesGeneratorOnline final : public component::Component {
   using Vector = std::vector<double>;
   using Answer = control::OnlineTrajectory::Answer;
 
+  void on_check(component::Check& check) const override;
   component::Outcome on_configure() override { return set_up(); }
   component::Outcome on_start() override;
   void on_update() override;
@@ -164,6 +166,9 @@ class AxesGeneratorOnline final : public component::Component {
                                  "motions may begin",
                                  component::optional,
                                  component::leads_to_nothing()};
+  component::OperationCaller<double(const Vector&, const Vector&)> limit_used_{
+      this, "motionLimitUsed", "is refused: this generator does not keep a limit of a peer",
+      component::optional};
   component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
                                                component::optional};
   component::EventHandler<> stop_{this,

@@ -79,6 +79,14 @@ TEST_F(OnlineGenerator, TheReferenceIsTheMeasuredPositionBeforeTheFirstMotion) {
   EXPECT_THAT(velocity(), Each(0.0));
 }
 
+/// It would move faster than the robot allows.
+TEST_F(OnlineGenerator, IsRefusedForARobotThatLimitsMotionsItself) {
+  generator.serve<double(const Vector&, const Vector&)>(
+      "motionLimitUsed", [](const Vector&, const Vector&) { return 0.5; });
+  EXPECT_THAT(std::string(generator.start().reason()),
+              ::testing::HasSubstr("motionLimitUsed, which this generator does not keep"));
+}
+
 TEST_F(OnlineGenerator, AllAxesArriveTogetherAtTheirTargets) {
   start_at({0.0, 0.5});
   auto motion = generator.send("moveTo", Vector{2.0, 1.0}, 0.0);
