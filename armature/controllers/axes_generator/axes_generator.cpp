@@ -7,22 +7,10 @@
 #include <span>
 #include <string_view>
 
-#include "armature/component/face.hpp"
 #include "armature/control/per_joint.hpp"
-#include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
 
 namespace armature::controllers {
-namespace {
-
-/// The number of `axis`, where there may be one for all.
-double limit(const std::vector<double>& numbers, std::size_t axis) {
-  return numbers.size() == 1 ? numbers.front() : numbers[axis];
-}
-
-constexpr std::string_view kNotArmed = "the robot is not armed: arm first";
-
-}  // namespace
 
 using component::Outcome;
 using component::Reason;
@@ -48,17 +36,15 @@ Outcome AxesGeneratorPos::set_up() {
   auto made = Trajectory::make(config);
   if (!made) return component::refused(made.error());
   trajectory_ = std::move(made.value());
-  numbers_.assign(axes, 0.0);
+  resize(axes);
   peers_limit_.resize(axes);
-  move_to_.prepare(numbers_, 0.0);
+  move_to_.prepare(Vector(axes), 0.0);
   changes_.take();
   return component::accepted();
 }
 
 Outcome AxesGeneratorPos::on_start() {
-  position_known_ = false;
-  started_ = time();
-  armed_ = false;
+  begin_run();
   return changes_.take() ? set_up() : component::accepted();
 }
 
@@ -70,19 +56,12 @@ void AxesGeneratorPos::on_update() {
   if (move_to_.active() && trajectory_->under_way()) {
     move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
   }
-  write_desired();
+  write_desired(trajectory_->positions(), trajectory_->velocities(), trajectory_->accelerations());
 }
 
-/// From the first value that was measured since the start.
-bool AxesGeneratorPos::knows_position() {
-  if (position_known_) return true;
-  const auto measured = measured_.read();
-  if (!is_of_this_run(measured, started_)) return false;
-  const Trajectory::Answer answer = trajectory_->hold(measured.value);
-  stepped_at_ = time();
-  position_known_ = answer.accepted();
-  if (!position_known_) refuse_measured(answer.axis);
-  return position_known_;
+std::optional<std::size_t> AxesGeneratorPos::hold_at(const Vector& measured) {
+  const auto answer = trajectory_->hold(measured);
+  return answer.accepted() ? std::nullopt : std::optional(answer.axis);
 }
 
 Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, double time_s) {
@@ -151,21 +130,6 @@ void AxesGeneratorPos::settle() {
   begin_anew(trajectory_->hold(measured_.read().value), kWhy);
 }
 
-void AxesGeneratorPos::on_disarm() {
-  armed_ = false;
-  settle();
-}
-
-/// Where nobody arms, everything may move. An Arming that lives elsewhere is believed its events.
-bool AxesGeneratorPos::may_move() {
-  if (is_armed_.bound()) {
-    const auto answer = is_armed_();
-    if (answer.status != component::CallStatus::kWouldWait) return answer && answer.value;
-  }
-  if (!arm_.bound()) return true;
-  return armed_ && face(arm_).source()->owner().state() == component::State::kRunning;
-}
-
 void AxesGeneratorPos::PeersLimit::resize(std::size_t axes) {
   positions_.assign(axes, 0.0);
   velocities_.assign(axes, 0.0);
@@ -196,13 +160,6 @@ void AxesGeneratorPos::stop() {
   jog_.fail("stopped");
 }
 
-void AxesGeneratorPos::refuse_measured(std::size_t axis) {
-  Reason why("nAxesSensorPosition of axis ");
-  append_number(why, static_cast<double>(axis + 1)).append(" is ");
-  append_number(why, measured_.read().value[axis]).append(", expected a finite number");
-  fault(why);
-}
-
 Reason AxesGeneratorPos::refusal_of(const Trajectory::Answer& answer,
                                     const std::vector<double>& positions, double time_s) const {
   Reason why;
@@ -220,8 +177,8 @@ Reason AxesGeneratorPos::refusal_of(const Trajectory::Answer& answer,
     case Refusal::kOutsideLimits:
       why.append(": ");
       append_number(why, positions[answer.axis]).append(", expected ");
-      append_number(why, limit(lower_, answer.axis)).append(" to ");
-      append_number(why, limit(upper_, answer.axis));
+      append_number(why, limit_of(lower_, answer.axis)).append(" to ");
+      append_number(why, limit_of(upper_, answer.axis));
       break;
     case Refusal::kNotFinite:
       why.append(answer.axis == Trajectory::kNoAxis ? ": the time is " : ": ");
@@ -257,16 +214,6 @@ Reason AxesGeneratorPos::refusal_of_jog(const Trajectory::Answer& answer, int ax
     append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
   }
   return why;
-}
-
-void AxesGeneratorPos::write_desired() {
-  const auto write = [this](component::OutputPort<Vector>& port, std::span<const double> numbers) {
-    std::copy(numbers.begin(), numbers.end(), numbers_.begin());
-    port.write(numbers_);
-  };
-  write(position_, trajectory_->positions());
-  write(velocity_, trajectory_->velocities());
-  write(acceleration_, trajectory_->accelerations());
 }
 
 }  // namespace armature::controllers

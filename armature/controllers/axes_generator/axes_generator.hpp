@@ -10,7 +10,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/control/trajectory.hpp"
-#include "armature/controllers/axes_generator/axes_check.hpp"
+#include "armature/controllers/axes_generator/generator_of_axes.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -47,9 +47,9 @@ namespace armature::controllers {
 /// step of the reference, which the joints answer with all their voltage. Here the motion is braked
 /// from the measured position with the largest acceleration, and the velocity is zero afterwards.
 /// @rt nonblocking, no allocation, O(axes)
-class AxesGeneratorPos final : public component::Component {
+class AxesGeneratorPos final : public GeneratorOfAxes {
  public:
-  using Component::Component;
+  using GeneratorOfAxes::GeneratorOfAxes;
 
  private:
   component::Outcome on_configure() override { return set_up(); }
@@ -57,7 +57,6 @@ class AxesGeneratorPos final : public component::Component {
   void on_update() override;
 
   component::Outcome set_up();
-  bool knows_position();
   component::Outcome begin_move(const std::vector<double>& positions, double time);
   component::Outcome may_wait(const std::vector<double>& positions, double time) const;
   component::Outcome begin_jog(int axis, double velocity);
@@ -66,20 +65,15 @@ class AxesGeneratorPos final : public component::Component {
   bool arrived() { return !trajectory_->under_way(); }
   void brake() { trajectory_->stop(); }
   void reset_position();
-  void settle();
-  void on_arm() { armed_ = true; }
-  void on_disarm();
-  bool may_move();
   void begin_anew(const control::Trajectory::Answer& answer, std::string_view why);
-  void stop();
   component::Reason refusal_of(const control::Trajectory::Answer& answer,
                                const std::vector<double>& positions, double time) const;
   component::Reason refusal_of_jog(const control::Trajectory::Answer& answer, int axis,
                                    double velocity) const;
-  void refuse_measured(std::size_t axis);
-  void write_desired();
+  std::optional<std::size_t> hold_at(const Vector& measured) override;
+  void settle() override;
+  void stop() override;
 
-  using Vector = std::vector<double>;
   static constexpr std::size_t kMostWaiting = 8;
   static constexpr base::Duration kJogPatience = std::chrono::milliseconds(150);
 
@@ -95,29 +89,7 @@ class AxesGeneratorPos final : public component::Component {
     Vector positions_;
     Vector velocities_;
   };
-  component::Property<int> axes_{
-      this, "num_axes", 1, "number of axes", "", component::mandatory, component::range(1, 100000)};
-  component::Property<Vector> max_velocity_{
-      this, "max_vel", {}, "largest velocity of each axis, > 0", "rad/s", component::mandatory};
-  component::Property<Vector> max_acceleration_{this,      "max_acc",
-                                                {},        "largest acceleration of each axis, > 0",
-                                                "rad/s^2", component::mandatory};
-  component::Property<Vector> lower_{
-      this, "lower", {}, "smallest position of each axis", "rad", component::mandatory};
-  component::Property<Vector> upper_{
-      this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
-  component::InputPort<Vector> measured_{
-      this,  "nAxesSensorPosition",     "measured position of each axis",
-      "rad", component::size_of(axes_), component::max_age(kMaxAge)};
-  component::OutputPort<Vector> position_{this, "nAxesDesiredPosition",
-                                          "desired position of each axis", "rad",
-                                          component::size_of(axes_)};
-  component::OutputPort<Vector> velocity_{this, "nAxesDesiredVelocity",
-                                          "desired velocity of each axis", "rad/s",
-                                          component::size_of(axes_)};
-  component::OutputPort<Vector> acceleration_{this, "nAxesDesiredAcceleration",
-                                              "desired acceleration of each axis", "rad/s^2",
-                                              component::size_of(axes_)};
+
   component::Command<const Vector&, double> move_to_{
       this,
       "moveTo",
@@ -146,42 +118,10 @@ class AxesGeneratorPos final : public component::Component {
       this, "resetPosition", component::serve<&AxesGeneratorPos::reset_position>,
       "desired := measured; a motion is braked smoothly from there, and its moveTo fails",
       component::in_own_thread};
-  component::EventHandler<> settle_{this,
-                                    "Settle",
-                                    component::serve<&AxesGeneratorPos::settle>,
-                                    "desired := measured, at rest",
-                                    component::optional,
-                                    component::leads_to_nothing()};
-  component::EventHandler<> disarm_{this,
-                                    "Disarm",
-                                    component::serve<&AxesGeneratorPos::on_disarm>,
-                                    "desired := measured, at rest; all motion ends",
-                                    component::optional,
-                                    component::leads_to_nothing()};
-  component::EventHandler<> arm_{this,
-                                 "Arm",
-                                 component::serve<&AxesGeneratorPos::on_arm>,
-                                 "motions may begin",
-                                 component::optional,
-                                 component::leads_to_nothing()};
-  component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
-                                               component::optional};
-  component::OperationCaller<double(const Vector&, const Vector&)> limit_used_{
-      this, "motionLimitUsed", "the share that positions and velocities use of a limit",
-      component::optional};
-  component::EventHandler<> stop_{this,
-                                  "Stop",
-                                  component::serve<&AxesGeneratorPos::stop>,
-                                  "brakes smoothly, and holds where it comes to rest",
-                                  component::optional,
-                                  component::leads_to_nothing()};
-  AxesCheck check_{this, axes_, {position_, lower_, upper_, max_velocity_, max_acceleration_}};
   Changes changes_{axes_, max_velocity_, max_acceleration_, lower_, upper_};
 
   std::optional<control::Trajectory> trajectory_;
   PeersLimit peers_limit_{*this};
-  base::Time started_{};
-  base::Time stepped_at_{};
   /// What moves while it is renewed.
   struct Jog {
     int axis = 0;
@@ -190,9 +130,6 @@ class AxesGeneratorPos final : public component::Component {
     bool let_go = false;  ///< it brakes, and is renewed no more
   };
   Jog jogging_;
-  bool position_known_ = false;
-  bool armed_ = false;
-  Vector numbers_;
 };
 
 }  // namespace armature::controllers

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "armature/component/face.hpp"
 #include "armature/control/per_joint.hpp"
 #include "armature/controllers/base/of_this_run.hpp"
 #include "armature/controllers/base/reason_text.hpp"
@@ -18,13 +17,6 @@ double rounded(double seconds) { return std::round(seconds * 1e6) / 1e6; }
 
 /// In which the acceleration reaches its limit, where nobody says how large the jerk may be [s].
 constexpr double kUsualRise_s = 0.1;
-
-constexpr std::string_view kNotArmedOnline = "the robot is not armed: arm first";
-
-/// The number of `axis`, where there may be one for all.
-double limit_of(const std::vector<double>& numbers, std::size_t axis) {
-  return numbers.size() == 1 ? numbers.front() : numbers[axis];
-}
 
 }  // namespace
 
@@ -57,8 +49,8 @@ Outcome AxesGeneratorOnline::set_up() {
   auto made = OnlineTrajectory::make(config);
   if (!made) return component::refused(made.error());
   trajectory_ = std::move(made.value());
-  numbers_.assign(axes, 0.0);
-  move_to_.prepare(numbers_, 0.0);
+  resize(axes);
+  move_to_.prepare(Vector(axes), 0.0);
   changes_.take();
   return component::accepted();
 }
@@ -74,12 +66,9 @@ Outcome AxesGeneratorOnline::on_start() {
   if (limit_used_.bound()) {
     return component::refused(
         "a peer limits motions by motionLimitUsed, which this generator does not keep: use the "
-        "model "
-        "nAxesGeneratorPos");
+        "model nAxesGeneratorPos");
   }
-  position_known_ = false;
-  started_ = time();
-  armed_ = false;
+  begin_run();
   refused_references_.assign(0);
   return changes_.take() ? set_up() : component::accepted();
 }
@@ -94,24 +83,17 @@ void AxesGeneratorOnline::on_update() {
   if (move_to_.active() && trajectory_->under_way()) {
     move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
   }
-  write_desired();
+  write_desired(trajectory_->positions(), trajectory_->velocities(), trajectory_->accelerations());
 }
 
-/// From the first value that was measured since the start.
-bool AxesGeneratorOnline::knows_position() {
-  if (position_known_) return true;
-  const auto measured = measured_.read();
-  if (!is_of_this_run(measured, started_)) return false;
-  const Answer answer = trajectory_->hold(measured.value);
-  stepped_at_ = time();
-  position_known_ = answer.accepted();
-  if (!position_known_) refuse_measured(answer.axis);
-  return position_known_;
+std::optional<std::size_t> AxesGeneratorOnline::hold_at(const Vector& measured) {
+  const auto answer = trajectory_->hold(measured);
+  return answer.accepted() ? std::nullopt : std::optional(answer.axis);
 }
 
 Outcome AxesGeneratorOnline::may_begin() {
   if (!knows_position()) return component::refused(control::to_text(TargetRefusal::kNoPosition));
-  return may_move() ? component::accepted() : component::refused(kNotArmedOnline);
+  return may_move() ? component::accepted() : component::refused(kNotArmed);
 }
 
 /// From where the axes are now, not where they were in the last cycle.
@@ -186,11 +168,6 @@ void AxesGeneratorOnline::settle() {
   if (!answer.accepted()) refuse_measured(answer.axis);
 }
 
-void AxesGeneratorOnline::on_disarm() {
-  armed_ = false;
-  settle();
-}
-
 void AxesGeneratorOnline::stop() {
   brake();
   end_commands("stopped");
@@ -199,23 +176,6 @@ void AxesGeneratorOnline::stop() {
 void AxesGeneratorOnline::end_commands(std::string_view why) {
   move_to_.fail(why);
   follow_.fail(why);
-}
-
-/// Where nobody arms, everything may move. An Arming that lives elsewhere is believed its events.
-bool AxesGeneratorOnline::may_move() {
-  if (is_armed_.bound()) {
-    const auto answer = is_armed_();
-    if (answer.status != component::CallStatus::kWouldWait) return answer && answer.value;
-  }
-  if (!arm_.bound()) return true;
-  return armed_ && face(arm_).source()->owner().state() == component::State::kRunning;
-}
-
-void AxesGeneratorOnline::refuse_measured(std::size_t axis) {
-  Reason why("nAxesSensorPosition of axis ");
-  append_number(why, static_cast<double>(axis + 1)).append(" is ");
-  append_number(why, measured_.read().value[axis]).append(", expected a finite number");
-  fault(why);
 }
 
 Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& positions,
@@ -252,16 +212,6 @@ Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& posit
       break;
   }
   return why;
-}
-
-void AxesGeneratorOnline::write_desired() {
-  const auto write = [this](component::OutputPort<Vector>& port, std::span<const double> numbers) {
-    std::copy(numbers.begin(), numbers.end(), numbers_.begin());
-    port.write(numbers_);
-  };
-  write(position_, trajectory_->positions());
-  write(velocity_, trajectory_->velocities());
-  write(acceleration_, trajectory_->accelerations());
 }
 
 }  // namespace armature::controllers

@@ -9,7 +9,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/control/online/online_trajectory.hpp"
-#include "armature/controllers/axes_generator/axes_check.hpp"
+#include "armature/controllers/axes_generator/generator_of_axes.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -38,12 +38,11 @@ namespace armature::controllers {
 /// axis, or one for all. A robot that limits motions itself by `motionLimitUsed`, such as by the
 /// speed of its tip, is refused.
 /// @rt nonblocking, no allocation, O(axes)
-class AxesGeneratorOnline final : public component::Component {
+class AxesGeneratorOnline final : public GeneratorOfAxes {
  public:
-  using Component::Component;
+  using GeneratorOfAxes::GeneratorOfAxes;
 
  private:
-  using Vector = std::vector<double>;
   using Answer = control::OnlineTrajectory::Answer;
 
   void on_check(component::Check& check) const override;
@@ -52,7 +51,6 @@ class AxesGeneratorOnline final : public component::Component {
   void on_update() override;
 
   component::Outcome set_up();
-  bool knows_position();
   component::Outcome begin_move(const Vector& positions, double time_s);
   component::Outcome may_wait(const Vector& positions, double time_s) const;
   bool change_target(const Vector& positions);
@@ -62,42 +60,24 @@ class AxesGeneratorOnline final : public component::Component {
   bool arrived() { return !trajectory_->under_way(); }
   void brake() { trajectory_->stop(); }
   void reset_position();
-  void settle();
-  void stop();
   void end_commands(std::string_view why);
-  void on_arm() { armed_ = true; }
-  void on_disarm();
-  bool may_move();
   component::Outcome may_begin();
   component::Reason refusal_of(const Answer& answer, const Vector& positions, double time_s) const;
-  void refuse_measured(std::size_t axis);
-  void write_desired();
+  std::optional<std::size_t> hold_at(const Vector& measured) override;
+  void settle() override;
+  void stop() override;
 
   static constexpr std::size_t kMostWaiting = 8;
 
-  component::Property<int> axes_{
-      this, "num_axes", 1, "number of axes", "", component::mandatory, component::range(1, 100000)};
-  component::Property<Vector> max_velocity_{
-      this, "max_vel", {}, "largest velocity of each axis, > 0", "rad/s", component::mandatory};
-  component::Property<Vector> max_acceleration_{this,      "max_acc",
-                                                {},        "largest acceleration of each axis, > 0",
-                                                "rad/s^2", component::mandatory};
   component::Property<Vector> max_jerk_{
       this,
       "max_jerk",
       {},
       "largest jerk of each axis, > 0; none: that which reaches max_acc in 0.1 s",
       "rad/s^3"};
-  component::Property<Vector> lower_{
-      this, "lower", {}, "smallest position of each axis", "rad", component::mandatory};
-  component::Property<Vector> upper_{
-      this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
   component::Attribute<int> refused_references_{
       this, "refused_references", 0, "references since the start that were not followed"};
   component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
-  component::InputPort<Vector> measured_{
-      this,  "nAxesSensorPosition",     "measured position of each axis",
-      "rad", component::size_of(axes_), component::max_age(kMaxAge)};
   component::InputPort<Vector> reference_{this,
                                           "nAxesReferencePosition",
                                           "where each axis is to be, for follow",
@@ -115,15 +95,6 @@ class AxesGeneratorOnline final : public component::Component {
       component::max_age(kMaxAge, component::Reaction::kHold),
       component::on_lost(component::Reaction::kHold),
       component::may_stay_open};
-  component::OutputPort<Vector> position_{this, "nAxesDesiredPosition",
-                                          "desired position of each axis", "rad",
-                                          component::size_of(axes_)};
-  component::OutputPort<Vector> velocity_{this, "nAxesDesiredVelocity",
-                                          "desired velocity of each axis", "rad/s",
-                                          component::size_of(axes_)};
-  component::OutputPort<Vector> acceleration_{this, "nAxesDesiredAcceleration",
-                                              "desired acceleration of each axis", "rad/s^2",
-                                              component::size_of(axes_)};
   component::Command<const Vector&, double> move_to_{
       this,
       "moveTo",
@@ -148,45 +119,10 @@ class AxesGeneratorOnline final : public component::Component {
       this, "resetPosition", component::serve<&AxesGeneratorOnline::reset_position>,
       "desired := measured; a motion is braked smoothly from there, and its command fails",
       component::in_own_thread};
-  component::EventHandler<> settle_{this,
-                                    "Settle",
-                                    component::serve<&AxesGeneratorOnline::settle>,
-                                    "desired := measured, at rest",
-                                    component::optional,
-                                    component::leads_to_nothing()};
-  component::EventHandler<> disarm_{this,
-                                    "Disarm",
-                                    component::serve<&AxesGeneratorOnline::on_disarm>,
-                                    "desired := measured, at rest; all motion ends",
-                                    component::optional,
-                                    component::leads_to_nothing()};
-  component::EventHandler<> arm_{this,
-                                 "Arm",
-                                 component::serve<&AxesGeneratorOnline::on_arm>,
-                                 "motions may begin",
-                                 component::optional,
-                                 component::leads_to_nothing()};
-  component::OperationCaller<double(const Vector&, const Vector&)> limit_used_{
-      this, "motionLimitUsed", "is refused: this generator does not keep a limit of a peer",
-      component::optional};
-  component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
-                                               component::optional};
-  component::EventHandler<> stop_{this,
-                                  "Stop",
-                                  component::serve<&AxesGeneratorOnline::stop>,
-                                  "brakes smoothly, and holds where it comes to rest",
-                                  component::optional,
-                                  component::leads_to_nothing()};
-  AxesCheck check_{this, axes_, {position_, lower_, upper_, max_velocity_, max_acceleration_}};
   Changes changes_{axes_, max_velocity_, max_acceleration_, max_jerk_, lower_, upper_};
 
   std::optional<control::OnlineTrajectory> trajectory_;
-  base::Time started_{};
-  base::Time stepped_at_{};
   base::Time follows_since_{};
-  bool position_known_ = false;
-  bool armed_ = false;
-  Vector numbers_;
 };
 
 }  // namespace armature::controllers
