@@ -27,9 +27,7 @@ bool finite(const JointLimiter::Measured& measured) {
 
 base::Result<void> JointLimiter::check(const Config& config) {
   internal::Mistakes mistakes("JointLimiter");
-  mistakes.expect(!std::isnan(config.lower), "lower", config.lower, "a number");
-  mistakes.expect(!std::isnan(config.upper), "upper", config.upper, "a number");
-  mistakes.expect(!(config.upper <= config.lower), "upper", config.upper, "a number above lower");
+  mistakes.expect_ends("", config.lower, config.upper);
   mistakes.expect_positive("max_velocity", config.max_velocity);
   mistakes.expect_positive("max_acceleration", config.max_acceleration);
   mistakes.expect_positive("max_effort", config.max_effort);

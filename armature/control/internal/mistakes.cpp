@@ -34,6 +34,12 @@ void Mistakes::expect_finite(std::string_view field, double value) {
   expect(std::isfinite(value), field, value, "a finite number");
 }
 
+void Mistakes::expect_ends(const std::string& of, double lower, double upper) {
+  expect(!std::isnan(lower), of + "lower", lower, "a number");
+  expect(!std::isnan(upper), of + "upper", upper, "a number");
+  expect(!(upper <= lower), of + "upper", upper, "a number above lower");
+}
+
 base::Result<void> Mistakes::result() const {
   if (all_.empty()) return {};
   return base::Error{object_ + ": " + all_};

@@ -19,6 +19,9 @@ class Mistakes {
   void expect_positive(std::string_view field, double value);
   void expect_not_negative(std::string_view field, double value);
   void expect_finite(std::string_view field, double value);
+  /// Where an axis ends: numbers, which may be infinite, of the fields `lower` and `upper`.
+  /// @param of  the axis, before the names of the fields
+  void expect_ends(const std::string& of, double lower, double upper);
 
   /// One sentence that names all fields that are wrong.
   base::Result<void> result() const;

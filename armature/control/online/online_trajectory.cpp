@@ -67,10 +67,7 @@ base::Result<void> OnlineTrajectory::check(const Config& config) {
     mistakes.expect_positive(name + "max_velocity", axis.max_velocity);
     mistakes.expect_positive(name + "max_acceleration", axis.max_acceleration);
     mistakes.expect_positive(name + "max_jerk", axis.max_jerk);
-    mistakes.expect(!std::isnan(axis.lower), name + "lower", axis.lower, "a number");
-    mistakes.expect(!std::isnan(axis.upper), name + "upper", axis.upper, "a number");
-    mistakes.expect(!(axis.upper <= axis.lower), name + "upper", axis.upper,
-                    "a number above lower");
+    mistakes.expect_ends(name, axis.lower, axis.upper);
   }
   return mistakes.result();
 }

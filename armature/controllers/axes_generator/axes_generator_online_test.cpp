@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/testing/harness.hpp"
+#include "armature/controllers/internal/test_generator.hpp"
 
 namespace armature::controllers {
 namespace {
@@ -21,24 +21,12 @@ using component::CommandStage;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using Vector = std::vector<double>;
 
-class OnlineGenerator : public ::testing::Test {
+class OnlineGenerator : public AxesGenerator {
  protected:
-  OnlineGenerator() {
-    generator.set("num_axes", 2);
-    generator.set("max_vel", "[1.0]");
-    generator.set("max_acc", "[2.0]");
-    generator.set("lower", "[-0.5]");
-    generator.set("upper", "[4.5]");
-  }
-  void start_at(const Vector& positions) {
-    measured = positions;
-    ASSERT_TRUE(generator.start()) << generator.reason();
-    cycle();
-  }
+  OnlineGenerator() : AxesGenerator(std::make_unique<AxesGeneratorOnline>("Generator")) {}
   /// At each of which the limits are looked at.
-  void cycle(int count = 1) {
+  void cycle(int count = 1) override {
     for (int i = 0; i < count; ++i) {
       const Vector before = desired_of("nAxesDesiredAcceleration");
       generator.write("nAxesSensorPosition", measured);
@@ -58,17 +46,6 @@ class OnlineGenerator : public ::testing::Test {
   Vector desired_of(const char* port) {
     return generator.writes(port) == 0u ? Vector{} : generator.output<Vector>(port);
   }
-  std::string refusal_of(const Vector& positions, double time) {
-    const auto answer = generator.call("moveTo", positions, time);
-    return answer ? "accepted" : answer.error();
-  }
-  const Vector& desired() { return generator.output<Vector>("nAxesDesiredPosition"); }
-  const Vector& velocity() { return generator.output<Vector>("nAxesDesiredVelocity"); }
-  const Vector& acceleration() { return generator.output<Vector>("nAxesDesiredAcceleration"); }
-
-  Vector measured{0.25, 0.5};
-  testing::Harness generator{std::make_unique<AxesGeneratorOnline>("Generator"),
-                             std::chrono::milliseconds(10)};
 };
 
 TEST_F(OnlineGenerator, TheReferenceIsTheMeasuredPositionBeforeTheFirstMotion) {

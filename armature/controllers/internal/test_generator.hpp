@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -19,7 +20,11 @@ using Vector = std::vector<double>;
 /// A generator of two axes; what is measured is what the test says.
 class AxesGenerator : public ::testing::Test {
  protected:
-  AxesGenerator() { set_limits(2); }
+  AxesGenerator() : AxesGenerator(std::make_unique<AxesGeneratorPos>("Generator")) {}
+  explicit AxesGenerator(std::unique_ptr<component::Component> made)
+      : generator(std::move(made), std::chrono::milliseconds(10)) {
+    set_limits(2);
+  }
   void set_limits(int axes) {
     generator.set("num_axes", axes);
     generator.set("max_vel", "[1.0]");
@@ -32,7 +37,7 @@ class AxesGenerator : public ::testing::Test {
     ASSERT_TRUE(generator.start()) << generator.reason();
     cycle();
   }
-  void cycle(int count = 1) {
+  virtual void cycle(int count = 1) {
     for (int i = 0; i < count; ++i) {
       generator.write("nAxesSensorPosition", measured);
       generator.run_cycles();
@@ -47,8 +52,7 @@ class AxesGenerator : public ::testing::Test {
   const Vector& acceleration() { return generator.output<Vector>("nAxesDesiredAcceleration"); }
 
   Vector measured{0.25, 0.5};
-  testing::Harness generator{std::make_unique<AxesGeneratorPos>("Generator"),
-                             std::chrono::milliseconds(10)};
+  testing::Harness generator;
 };
 
 /// With an Arming among its peers.
