@@ -218,7 +218,7 @@ double EmulatedDrive::stop_torque() {
 }
 
 double EmulatedDrive::torque_in_operation() {
-  const double most = scaling_.torque(number(object::kMostTorque));
+  const double most = powerless_ ? 0.0 : scaling_.torque(number(object::kMostTorque));
   return std::clamp(torque_of_mode(), -most, most);
 }
 
@@ -322,6 +322,7 @@ std::uint16_t EmulatedDrive::mode_bits() const {
 }
 
 void EmulatedDrive::write_actual() {
+  if (frozen_) return;
   const double torque = axis_.torque();
   const bool limited = std::abs(torque) >= axis_.config().most_torque;
   std::uint16_t status =
