@@ -17,8 +17,9 @@ namespace armature::cia402 {
 /// without Brake both happen at once. Disarmed, it stops quickly, by its own deceleration.
 ///
 /// It faults, and so stops its joint, when the bus is gone, when the drive failed, rebooted, went
-/// silent or lost its heartbeat, and when it switched off by itself or does not switch on. A drive
-/// that failed is reset by the operator alone, by `resetDrive` of the host.
+/// silent or lost its heartbeat, and when it switched off by itself or does not switch on, and when
+/// its torque is not what it was told. A drive that failed is reset by the operator alone, by
+/// `resetDrive` of the host.
 /// @rt nonblocking, no allocation
 class Cia402Drive final : public controllers::JointHardware {
  public:

@@ -24,6 +24,10 @@ using namespace std::chrono_literals;
 /// In which a drive takes a command of NMT.
 constexpr base::Duration kNmtTime = 5ms;
 constexpr int kLastNode = 127;
+/// Of the rated torque, in thousandths, by which a drive may miss its target for as many cycles:
+/// two until it acts, and what currents take to grow.
+constexpr int kMostTorqueError = 50;
+constexpr int kMostDisobeyed = 10;
 
 Mode mode_of(CyclicMode mode) {
   if (mode == CyclicMode::kTorque) return Mode::kCyclicTorque;
@@ -129,10 +133,7 @@ void Cia402Host::on_cleanup() {
 DriveSample Cia402Host::read_drive(int node) {
   const auto place = place_of(node);
   if (!place || state() != component::State::kRunning) return {.no_bus = true};
-  if (cycle_at_ != time()) {
-    if (!is_guarded()) return {.no_bus = true};
-    begin_cycle();
-  }
+  if (!in_cycle()) return {.no_bus = true};
   const DriveState& drive = group_->state(*place);
   Account& account = accounts_[*place];
   const can::BusState bus = link_->bus().state();
@@ -149,8 +150,18 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.lost = drive.presence == canopen::Presence::kLost;
   sample.warns = drive.warns();
   sample.limited = drive.limited();
+  sample.obeys = account.disobeyed <= kMostDisobeyed;
   account.seen = drive.time;
   return sample;
+}
+
+/// Once at each time. Drives whose components are out of service are told to stop all the same,
+/// and hear the operator's reset.
+bool Cia402Host::in_cycle() {
+  if (cycle_at_ == time()) return true;
+  if (!is_guarded()) return false;
+  begin_cycle();
+  return true;
 }
 
 void Cia402Host::begin_cycle() {
@@ -160,9 +171,23 @@ void Cia402Host::begin_cycle() {
   drop_old_targets();
   const std::size_t refused = group_->step(link_->bus(), link_->now());
   if (refused > 0) refused_frames_.assign(refused_frames_() + static_cast<int>(refused));
+  watch_torques();
   int silent = 0;
   for (std::size_t i = 0; i < group_->size(); ++i) silent += group_->state(i).silent_cycles > 1;
   if (silent > 0) lost_answers_.assign(lost_answers_() + silent);
+}
+
+/// Nobody else finds a drive without current, or values that are frozen: controllers would ask for
+/// ever more torque.
+void Cia402Host::watch_torques() {
+  if (mode_ != CyclicMode::kTorque) return;
+  for (std::size_t i = 0; i < group_->size(); ++i) {
+    const DriveState& drive = group_->state(i);
+    Account& account = accounts_[i];
+    const double most = std::abs(group_->config(i).scaling.torque(kMostTorqueError));
+    const bool obeys = !drive.enabled() || std::abs(drive.effort - account.target) <= most;
+    account.disobeyed = obeys ? 0 : account.disobeyed + 1;
+  }
 }
 
 void Cia402Host::take_frames() {
@@ -175,7 +200,9 @@ void Cia402Host::drop_old_targets() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
     Account& account = accounts_[i];
     const bool old = time() - account.target_at > controllers::kMaxAge;
-    if (old && !std::exchange(account.dropped, true)) group_->set_target(i, no_target(i));
+    if (!old || std::exchange(account.dropped, true)) continue;
+    account.target = no_target(i);
+    group_->set_target(i, account.target);
   }
 }
 
@@ -191,6 +218,7 @@ bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
   if (!place || mode != mode_ || !std::isfinite(target)) return false;
   group_->set_target(*place, target);
   accounts_[*place].target_at = time();
+  accounts_[*place].target = target;
   accounts_[*place].dropped = false;
   return true;
 }

@@ -40,19 +40,21 @@ struct DriveSample {
   bool lost = false;   ///< its heartbeat is missing
   bool warns = false;
   bool limited = false;  ///< an internal limit is active
+  bool obeys = true;     ///< in mode torque: it gives the torque that it was told
 };
 ARMATURE_STRUCT(DriveSample, no_bus, fresh, position, velocity, effort, power, silent_cycles,
-                reboots, error_code, lost, warns, limited);
+                reboots, error_code, lost, warns, limited, obeys);
 
 /// The host of drives by CiA 402 on one bus, which the components Cia402Drive use as their peer: to
 /// be extended by what the bus is.
 ///
 /// At the configuration it compares each drive with what is declared, and maps its PDOs. The first
-/// drive that is read in a cycle begins the cycle on the bus: what has come is used, the targets of
-/// the cycle before are sent, and one SYNC, at which all drives take their targets and answer. So
-/// an answer to a sample acts two SYNCs later; the check of gains knows that as the Robot's
-/// `effort_delay`. A target that was not set anew for 100 ms is torque 0, velocity 0, or the
-/// position where the drive is. Whenever the host stops, its drives stop quickly and switch off.
+/// drive that is read in a cycle, or the Sample, begins the cycle on the bus, also when nobody
+/// reads them any more: what has come is used, the targets of the cycle before are sent, and one
+/// SYNC, at which all drives take their targets and answer. So an answer to a sample acts two SYNCs
+/// later; the check of gains knows that as the Robot's `effort_delay`. A target that was not set
+/// anew for 100 ms is torque 0, velocity 0, or the position where the drive is. Whenever the host
+/// stops, its drives stop quickly and switch off.
 /// @rt nonblocking, no allocation
 class Cia402Host : public component::Component {
  public:
@@ -102,6 +104,9 @@ class Cia402Host : public component::Component {
   component::Outcome find_places();
   component::Outcome prepare();
   bool set_target(int node, CyclicMode mode, double target);
+  bool in_cycle();
+  void watch_torques();
+  void on_sample() { static_cast<void>(in_cycle()); }
   void begin_cycle();
   void take_frames();
   void drop_old_targets();
@@ -170,6 +175,12 @@ class Cia402Host : public component::Component {
                                                component::by_operator,
                                                component::args("node"),
                                                component::in_own_thread};
+  component::EventHandler<> sample_{this,
+                                    "Sample",
+                                    component::serve<&Cia402Host::on_sample>,
+                                    "a cycle of the bus, whether its drives are read or not",
+                                    component::optional,
+                                    component::leads_to_nothing()};
   component::Attribute<int> lost_answers_{this, "lost_answers", 0,
                                           "cycles since the start without a drive's answer"};
   component::Attribute<int> refused_frames_{this, "refused_frames", 0,
@@ -180,6 +191,8 @@ class Cia402Host : public component::Component {
     base::Time seen{};       ///< when the position came that was taken last
     base::Time target_at{};  ///< when its target was set last
     bool dropped = false;    ///< that target is too old
+    double target = 0.0;     ///< that it has
+    int disobeyed = 0;       ///< cycles in a row
   };
   std::unique_ptr<can::Link> link_;
   std::optional<DriveGroup> group_;
