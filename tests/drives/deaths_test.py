@@ -40,8 +40,9 @@ class Deaths(unittest.TestCase):
             file.write(SLOWER.format(examples=EXAMPLES))
         self.arm = Process([PROGRAM, "run", deployment, "-L", LIBRARIES, "--set", "Bus.bus=virtual:" + bus, "--browse"],
                            self.folder.name)
-        wait_for(lambda: "guarded by process" in self.arm.text() or self.arm.process.poll() is not None, "it is guarded")
+        wait_for(lambda: "armature: service:" in self.arm.text() or self.arm.process.poll() is not None, "it runs")
         self.assertIsNone(self.arm.process.poll(), self.arm.text())
+        time.sleep(0.5)  # drives have answered
         self.arm.say("print('armed', wait(Arming:arm()))")
         wait_for(lambda: "armed\ttrue" in self.arm.text(), "it is armed: " + self.arm.text())
 
