@@ -93,6 +93,7 @@ if(ARMATURE_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
   install(FILES ${manual}/armature-guardian.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT armature)
 endif()
 
+install(FILES ${packaging}/armature@.service DESTINATION lib/systemd/system)
 install(FILES ${packaging}/completion/armature.bash DESTINATION share/bash-completion/completions RENAME armature)
 install(FILES ${packaging}/completion/_armature DESTINATION share/zsh/vendor-completions)
 install(FILES ${packaging}/completion/armature.fish DESTINATION share/fish/vendor_completions.d)
