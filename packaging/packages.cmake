@@ -74,7 +74,7 @@ endforeach()
 
 # Pages of the manual, from what the programs say of themselves.
 find_program(ARMATURE_HELP2MAN help2man)
-if(ARMATURE_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
+if(ARMATURE_HELP2MAN)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   set(manual ${PROJECT_BINARY_DIR}/packaging/manual)
   add_custom_command(
