@@ -7,7 +7,7 @@
 
 #include "armature/control/internal/mistakes.hpp"
 #include "armature/control/online/bring_within.hpp"
-#include "armature/control/online/plateau.hpp"
+#include "armature/control/online/stops.hpp"
 
 namespace armature::control {
 namespace {
@@ -198,7 +198,8 @@ OnlineTrajectory::Answer OnlineTrajectory::plan(const State& target, double time
   planned_s_ = time_s > shortest_s ? least_duration_s(time_s) : shortest_s;
   if (!(planned_s_ <= kLongest_s)) return {TargetRefusal::kTooLong};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!solve(i, state_of(target, i), planned_s_, limits_of(i))) return {TargetRefusal::kLeavesLimits, i};
+    if (!solve(i, state_of(target, i), planned_s_, limits_of(i)))
+      return {TargetRefusal::kLeavesLimits, i};
   }
   return {};
 }
@@ -293,39 +294,26 @@ bool OnlineTrajectory::solve(std::size_t axis, const MotionSample& target, doubl
   const AxisProblem& problem = *problems_[axis];
   problem.append_to(motion, duration_s - within_s_[axis]);
   motion.end_in(target);
-  if (stays_within(axis, target)) return true;
+  if (stays_within(axis)) return true;
   if (!at_rest(target)) return false;
   motion.begin(now(axis));
   bring_within(limits, motion);
   problem.append_to(motion, problem.first_duration(0.0));
   motion.end_in(target);
-  return stays_within(axis, target);
+  return stays_within(axis);
 }
 
-/// Where an axis is outside already, it goes no further. A stop from the target counts, too.
-bool OnlineTrajectory::stays_within(std::size_t axis, const MotionSample& target) const {
+/// Where an axis is outside already, it goes no further. A stop at any moment counts, too.
+bool OnlineTrajectory::stays_within(std::size_t axis) const {
   const double start = now(axis).position;
   const double lower = std::min(axes_[axis].lower, start) - kPositionRounding;
   const double upper = std::max(axes_[axis].upper, start) + kPositionRounding;
-  const auto fits = [lower, upper](const PhasedMotion& motion) {
-    const auto [lowest, highest] = motion.extent();
-    return lowest >= lower && highest <= upper;
-  };
-  if (!fits(next_[axis])) return false;
-  if (at_rest(target)) return true;
-  PhasedMotion stop;
-  stop.begin(target);
-  VelocityRamp::make(limits_of(axis), target.velocity, target.acceleration, 0.0).append_to(stop);
-  return fits(stop);
+  const auto [lowest, highest] = extent_of_stops(limits_of(axis), next_[axis]);
+  return lowest >= lower && highest <= upper;
 }
 
 void OnlineTrajectory::brake(std::size_t axis) {
-  PhasedMotion& motion = next_[axis];
-  motion.begin(now(axis));
-  bring_within(limits_of(axis), motion);
-  const auto [position, velocity, acceleration] = motion.end();
-  VelocityRamp::make(limits_of(axis), velocity, acceleration, 0.0).append_to(motion);
-  motion.end_in({motion.end().position, 0.0, 0.0});
+  next_[axis] = stop_from(limits_of(axis), now(axis));
 }
 
 void OnlineTrajectory::stop() {

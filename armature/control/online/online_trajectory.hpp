@@ -27,8 +27,8 @@ namespace armature::control {
 /// A `MotionLimit` is kept by motions, not by stops: axes that brake on their own may add up.
 /// What is refused changes nothing. One thread uses it.
 ///
-/// From all motions to targets at rest stop() stays within the position limits. On the way to a
-/// target in motion that begins with a run-up, it may leave them by A^3 / 24J^2.
+/// stop() stays within the position limits at any moment of any motion that was taken: what a stop
+/// may come to counts as part of it (`extent_of_stops`).
 class OnlineTrajectory {
  public:
   static constexpr std::size_t kNoAxis = static_cast<std::size_t>(-1);
@@ -137,7 +137,7 @@ class OnlineTrajectory {
   double most_used(MotionLimit& limit);
   bool solve(std::size_t axis, const MotionSample& target, double duration_s,
              const JerkLimits& limits);
-  bool stays_within(std::size_t axis, const MotionSample& target) const;
+  bool stays_within(std::size_t axis) const;
   void brake(std::size_t axis);
   void brake_all();
   void begin(double duration_s);
