@@ -186,7 +186,10 @@ Reason AxesGeneratorPos::refusal_of_jog(const Trajectory::Answer& answer, int ax
     append_number(why.append(": "), velocity);
   }
   if (answer.refusal == Refusal::kTooFast) {
-    append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
+    append_number(why.append(" ").append(units_.velocity().get()).append(", expected at most "),
+                  answer.fastest)
+        .append(" ")
+        .append(units_.velocity().get());
   }
   return why;
 }

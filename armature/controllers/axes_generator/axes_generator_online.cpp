@@ -242,7 +242,10 @@ Reason AxesGeneratorOnline::refusal_of_jog(const Answer& answer, int axis, doubl
     append_number(why.append(": "), velocity);
   }
   if (too_fast)
-    append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
+    append_number(why.append(" ").append(units_.velocity().get()).append(", expected at most "),
+                  answer.fastest)
+        .append(" ")
+        .append(units_.velocity().get());
   return why;
 }
 

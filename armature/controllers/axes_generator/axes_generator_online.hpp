@@ -79,27 +79,27 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
   static constexpr std::size_t kMostWaiting = 8;
 
   component::Property<Vector> max_jerk_{
-      this,
-      "max_jerk",
-      {},
-      "largest jerk of each axis, > 0; none: that which reaches max_acc in 0.1 s",
-      "rad/s^3"};
+      this, "max_jerk",
+      {},   "largest jerk of each axis, > 0; none: that which reaches max_acc in 0.1 s",
+      "",   component::unit_of(units_.jerk())};
   component::Attribute<int> refused_references_{
       this, "refused_references", 0, "references since the start that were not followed"};
   component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
   component::InputPort<Vector> reference_{this,
                                           "nAxesReferencePosition",
                                           "where each axis is to be, for follow",
-                                          "rad",
+                                          "",
                                           component::size_of(axes_),
                                           component::max_age(kMaxAge, component::Reaction::kHold),
                                           component::on_lost(component::Reaction::kHold),
-                                          component::may_stay_open};
+                                          component::may_stay_open,
+                                          component::unit_of(units_.position())};
   component::InputPort<Vector> reference_velocity_{
       this,
       "nAxesReferenceVelocity",
       "how fast each axis is to be there; written before the position; not connected: at rest",
-      "rad/s",
+      "",
+      component::unit_of(units_.velocity()),
       component::size_of(axes_),
       component::max_age(kMaxAge, component::Reaction::kHold),
       component::on_lost(component::Reaction::kHold),
