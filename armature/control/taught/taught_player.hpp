@@ -10,7 +10,7 @@
 #include "armature/base/time.hpp"
 #include "armature/control/online/online_trajectory.hpp"
 #include "armature/control/taught/timed_path.hpp"
-#include "armature/control/trajectory.hpp"
+#include "armature/control/motion_limit.hpp"
 
 namespace armature::control {
 

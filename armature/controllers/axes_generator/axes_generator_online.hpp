@@ -10,6 +10,8 @@
 #include "armature/component/author.hpp"
 #include "armature/control/online/online_trajectory.hpp"
 #include "armature/controllers/axes_generator/generator_of_axes.hpp"
+#include "armature/controllers/axes_generator/held_jog.hpp"
+#include "armature/controllers/axes_generator/peers_limit.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -35,8 +37,12 @@ namespace armature::controllers {
 /// Stop brake each axis as fast as its limits allow, and hold where it comes to rest; Settle and
 /// Disarm make the measured position the desired one (see Arming). `resetPosition` brakes from the
 /// measured position with the desired velocity and acceleration. Limits are one number for each
-/// axis, or one for all. A robot that limits motions itself by `motionLimitUsed`, such as by the
-/// speed of its tip, is refused.
+/// axis, or one for all.
+///
+/// A peer that offers `motionLimitUsed` limits motions too, such as by the speed of the robot's
+/// tip: a motion that would exceed it is planned slower. Stops brake each axis by itself, and are
+/// not slowed for it. `jog` and `keepJogging` are those of nAxesGeneratorPos; a jog may begin while
+/// the axes still brake.
 /// @rt nonblocking, no allocation, O(axes)
 class AxesGeneratorOnline final : public GeneratorOfAxes {
  public:
@@ -45,7 +51,6 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
  private:
   using Answer = control::OnlineTrajectory::Answer;
 
-  void on_check(component::Check& check) const override;
   component::Outcome on_configure() override { return set_up(); }
   component::Outcome on_start() override;
   void on_update() override;
@@ -53,6 +58,9 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
   component::Outcome set_up();
   component::Outcome begin_move(const Vector& positions, double time_s);
   component::Outcome may_wait(const Vector& positions, double time_s) const;
+  component::Outcome begin_jog(int axis, double velocity);
+  bool keep_jogging(int axis, double velocity);
+  void step_to_now();
   bool change_target(const Vector& positions);
   component::Outcome begin_follow();
   void follow_reference();
@@ -63,6 +71,7 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
   void end_commands(std::string_view why);
   component::Outcome may_begin();
   component::Reason refusal_of(const Answer& answer, const Vector& positions, double time_s) const;
+  component::Reason refusal_of_jog(const Answer& answer, int axis, double velocity) const;
   std::optional<std::size_t> hold_at(const Vector& measured) override;
   void settle() override;
   void stop() override;
@@ -111,6 +120,21 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
       "redirects the moveTo under way, as fast as the limits allow; false: refused, or none is",
       component::args("positions [rad]"),
       component::in_own_thread};
+  component::Command<int, double> jog_{
+      this,
+      "jog",
+      component::serve<&AxesGeneratorOnline::begin_jog>,
+      "moves an axis towards its limit while keepJogging comes at least each 150 ms",
+      component::args("axis, from 1", "velocity [rad/s]"),
+      component::done_when<&AxesGeneratorOnline::arrived>,
+      component::cancelled_by<&AxesGeneratorOnline::brake>};
+  component::Operation<bool(int, double)> keep_jogging_{
+      this,
+      "keepJogging",
+      component::serve<&AxesGeneratorOnline::keep_jogging>,
+      "goes on with the jog of this axis and velocity; false: none is under way, and none begins",
+      component::args("axis, from 1", "velocity [rad/s]"),
+      component::in_own_thread};
   component::Command<> follow_{
       this, "follow", component::serve<&AxesGeneratorOnline::begin_follow>,
       "goes to nAxesReferencePosition, anew in each cycle, until cancelled",
@@ -122,7 +146,8 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
   Changes changes_{axes_, max_velocity_, max_acceleration_, max_jerk_, lower_, upper_};
 
   std::optional<control::OnlineTrajectory> trajectory_;
-  base::Time follows_since_{};
+  PeersLimit peers_limit_{limit_used_};
+  HeldJog jogging_;
 };
 
 }  // namespace armature::controllers
