@@ -55,9 +55,7 @@ TaughtPlayer::TaughtPlayer(OnlineTrajectory approach, const Config& config)
     : axes_(config.axes),
       approach_(std::move(approach)),
       path_(limits_of(config.axes), points_in(config.longest_s)),
-      start_(axes_.size(), 0.0),
-      asked_positions_(axes_.size(), 0.0),
-      asked_velocities_(axes_.size(), 0.0) {}
+      start_(axes_.size(), 0.0) {}
 
 /// The path lies within the hull of its control points.
 TaughtPlayer::Answer TaughtPlayer::check(std::span<const double> points, double speed) const {
@@ -75,7 +73,7 @@ TaughtPlayer::Answer TaughtPlayer::check(std::span<const double> points, double 
   return {};
 }
 
-TaughtPlayer::Answer TaughtPlayer::play(std::span<const double> positions,
+TaughtPlayer::Answer TaughtPlayer::play(const OnlineTrajectory::State& state,
                                         std::span<const double> points, double speed,
                                         MotionLimit* limit) {
   if (const Answer answer = check(points, speed); !answer.accepted()) return answer;
@@ -87,9 +85,8 @@ TaughtPlayer::Answer TaughtPlayer::play(std::span<const double> positions,
       start_[axis] += weights.position[k] * points[k * count + axis];
     }
   }
-  const bool begins =
-      approach_.hold(positions).accepted() && approach_.move_to({start_}).accepted();
-  if (!begins || (limit != nullptr && !approach_within(*limit))) {
+  if (!approach_.begin_at(state).accepted() ||
+      !approach_.move_to({start_}, 0.0, limit).accepted()) {
     let_go();
     return {PlayRefusal::kNoPosition};
   }
@@ -98,54 +95,29 @@ TaughtPlayer::Answer TaughtPlayer::play(std::span<const double> positions,
   stage_ = Stage::kApproach;
   stopping_ = false;
   on_path_last_ = false;
-  passed_s_ = 0.0;
+  passed_s_ = progress_ = 0.0;
   return {};
-}
-
-/// In as much more time as the limit of the whole robot asks for.
-bool TaughtPlayer::approach_within(MotionLimit& limit) {
-  constexpr int kTries = 6;
-  for (int i = 0; i < kTries; ++i) {
-    const double used = share_used(limit);
-    if (used <= 1.0) return true;
-    if (!std::isfinite(used)) return false;
-    const double longer_s = approach_.duration_s() * used * 1.05;
-    static_cast<void>(approach_.hold(approach_.positions()));
-    if (!approach_.move_to({start_}, longer_s).accepted()) return false;
-  }
-  return false;
-}
-
-double TaughtPlayer::share_used(MotionLimit& limit) const {
-  constexpr int kLooks = 32;
-  double most = 0.0;
-  for (int look = 0; look <= kLooks; ++look) {
-    const double time_s = approach_.duration_s() * look / kLooks;
-    for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
-      const MotionSample sample = approach_.motion(axis).at(time_s);
-      asked_positions_[axis] = sample.position;
-      asked_velocities_[axis] = sample.velocity;
-    }
-    most = std::max(most, limit.used(asked_positions_, asked_velocities_));
-  }
-  return most;
 }
 
 void TaughtPlayer::step(base::Duration period) {
   if (stage_ == Stage::kIdle) return;
   passed_s_ += base::to_seconds(period);
-  if (stage_ == Stage::kApproach) {
+  if (stage_ == Stage::kPath) {
+    path_.step(base::to_seconds(period));
+    if (path_.rests()) let_go();
+  } else {
     approach_.step(period);
     const bool planned = stopping_ || path_.plan(limit_);
-    if (approach_.under_way() || !planned) return;
-    if (stopping_ || !path_.possible()) return let_go();
-    path_.begin();
-    stage_ = Stage::kPath;
-    on_path_last_ = true;
-    return;
+    if (!approach_.under_way() && planned) begin_path();
   }
-  path_.step(base::to_seconds(period));
-  if (path_.rests()) let_go();
+  progress_ = std::max(progress_, passed_share());
+}
+
+void TaughtPlayer::begin_path() {
+  if (stopping_ || !path_.possible()) return let_go();
+  path_.begin();
+  stage_ = Stage::kPath;
+  on_path_last_ = true;
 }
 
 void TaughtPlayer::stop() {
@@ -166,7 +138,7 @@ double TaughtPlayer::remaining_s() const {
   return 0.0;
 }
 
-double TaughtPlayer::progress() const {
+double TaughtPlayer::passed_share() const {
   const double whole_s = passed_s_ + remaining_s();
   return whole_s > 0.0 ? passed_s_ / whole_s : 1.0;
 }

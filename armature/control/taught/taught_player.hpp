@@ -60,10 +60,10 @@ class TaughtPlayer {
   /// @rt nonblocking, no allocation, O(points)
   Answer check(std::span<const double> points, double speed) const;
 
-  /// Moves from `positions`, at rest, to the begin of the path, and plays it.
+  /// Moves from `state`, in any motion, to the begin of the path, and plays it.
   /// @param limit  of the whole robot, asked until the path begins; nullptr if there is none
   /// @rt nonblocking, no allocation, O(points)
-  Answer play(std::span<const double> positions, std::span<const double> points, double speed,
+  Answer play(const OnlineTrajectory::State& state, std::span<const double> points, double speed,
               MotionLimit* limit);
 
   /// Goes on by `period`, >= 0.
@@ -83,8 +83,8 @@ class TaughtPlayer {
   bool possible() const { return path_.possible(); }
   /// Until it ends; before the path is planned, as the wanted speed would have it.
   double remaining_s() const;
-  /// Of the whole, 0..1.
-  double progress() const;
+  /// What has passed of the whole, 0..1; never falls.
+  double progress() const { return progress_; }
 
   /// One number per axis.
   std::span<const double> positions() const;
@@ -95,8 +95,8 @@ class TaughtPlayer {
   enum class Stage { kIdle, kApproach, kPath };
   TaughtPlayer(OnlineTrajectory approach, const Config& config);
 
-  double share_used(MotionLimit& limit) const;
-  bool approach_within(MotionLimit& limit);
+  double passed_share() const;
+  void begin_path();
 
   std::vector<OnlineTrajectory::Axis> axes_;
   OnlineTrajectory approach_;
@@ -106,9 +106,8 @@ class TaughtPlayer {
   bool stopping_ = false;
   bool on_path_last_ = false;  ///< where the positions are from
   double passed_s_ = 0.0;
+  double progress_ = 0.0;
   std::vector<double> start_;
-  mutable std::vector<double> asked_positions_;
-  mutable std::vector<double> asked_velocities_;
 };
 
 }  // namespace armature::control

@@ -39,7 +39,7 @@ class Played : public ::testing::Test {
              MotionLimit* limit = nullptr) {
     motion = taught;
     nearest_s_ = 0.0;
-    const auto answer = player.play(from, motion.points, speed, limit);
+    const auto answer = player.play({from}, motion.points, speed, limit);
     ASSERT_TRUE(answer.accepted()) << to_text(answer.refusal);
   }
   /// Keeps the limits, and goes on without a step; on the path nowhere but on the path.
@@ -127,6 +127,23 @@ TEST_F(Played, FromAnywhereItMovesToTheBeginFirst) {
   EXPECT_LT(furthest, 1e-3);
 }
 
+TEST_F(Played, AMotionThatIsUnderWayGoesOverToTheBegin) {
+  auto other = OnlineTrajectory::make({std::vector(2, OnlineTrajectory::Axis{2.0, 4.0, 40.0})});
+  const Vector zero(2, 0.0);
+  const Vector far{1.5, -1.5};
+  ASSERT_TRUE(other.value().hold(zero).accepted() && other.value().move_to({far}).accepted());
+  for (int i = 0; i < 250; ++i) other.value().step(2ms);
+  ASSERT_GT(other.value().velocities()[0], 0.5);
+  motion = a_circle();
+  ASSERT_TRUE(player
+                  .play({other.value().positions(), other.value().velocities(),
+                         other.value().accelerations()},
+                        motion.points, 1.0, nullptr)
+                  .accepted());
+  play_out();
+  EXPECT_LT(furthest, 1e-3);
+}
+
 TEST_F(Played, RandomMotionsKeepTheLimitsAtEverySpeed) {
   std::mt19937 random(5);
   std::normal_distribution<double> step(0.0, 0.05);
@@ -211,7 +228,7 @@ TEST_F(Played, RefusesWhatCannotBePlayedAndNothingMoves) {
   const Vector from{0.0, 0.0};
   const Vector good = a_circle().points;
   const auto refusal = [&](const Vector& points, double speed) {
-    return player.play(from, points, speed, nullptr);
+    return player.play({from}, points, speed, nullptr);
   };
   EXPECT_EQ(refusal({}, 1.0).refusal, PlayRefusal::kWrongNumber);
   EXPECT_EQ(refusal(Vector(9, 0.0), 1.0).refusal, PlayRefusal::kWrongNumber);
@@ -226,7 +243,8 @@ TEST_F(Played, RefusesWhatCannotBePlayedAndNothingMoves) {
   EXPECT_EQ(outside.refusal, PlayRefusal::kOutsideLimits);
   EXPECT_EQ(outside.axis, 0u);
   EXPECT_GT(outside.found, 2.0);
-  EXPECT_EQ(player.play(Vector{std::nan(""), 0.0}, good, 1.0, nullptr).refusal,
+  const Vector nowhere{std::nan(""), 0.0};
+  EXPECT_EQ(player.play({nowhere}, good, 1.0, nullptr).refusal,
             PlayRefusal::kNoPosition);
   EXPECT_FALSE(player.under_way());
 }
