@@ -188,6 +188,19 @@ TEST_F(WithALimitOfAPeer, AskedForNoTimeItKeepsWithinThatToo) {
   EXPECT_NEAR(fastest, 0.5, 1e-9);
 }
 
+TEST_F(AxesGenerator, TellsHowFarAMotionIsAndHowLongItStillTakes) {
+  start_at({0.0, 0.0});
+  EXPECT_EQ(generator.get<double>("progress"), 1.0);
+  auto motion = generator.send("moveTo", Vector{1.0, 1.0}, 4.0);
+  cycle(100);
+  EXPECT_NEAR(generator.get<double>("progress"), 0.25, 1e-6);
+  EXPECT_NEAR(generator.get<double>("remaining_time"), 3.0, 1e-6);
+  EXPECT_NEAR(motion.progress(), 0.25, 1e-6);
+  cycle(300);
+  EXPECT_EQ(generator.get<double>("progress"), 1.0);
+  EXPECT_EQ(generator.get<double>("remaining_time"), 0.0);
+}
+
 TEST_F(AxesGenerator, CancellingIsASmoothStopWhereItThenHolds) {
   start_at({0.0, 0.0});
   auto motion = generator.send("moveTo", Vector{4.0, 2.0}, 0.0);
