@@ -75,6 +75,7 @@ class TaughtPlayer {
   /// Ends at once: the axes are somebody else's.
   void let_go() { stage_ = Stage::kIdle; }
 
+  std::size_t capacity() const { return path_.capacity(); }  ///< control points of a path
   bool under_way() const { return stage_ != Stage::kIdle; }
   /// On the path, no more on the way to its begin.
   bool on_path() const { return stage_ == Stage::kPath; }

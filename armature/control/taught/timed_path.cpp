@@ -49,7 +49,8 @@ void TimedPath::load(std::span<const double> points, double speed) {
 }
 
 bool TimedPath::plan(MotionLimit* limit) {
-  for (std::size_t piece = 0; piece < kPiece && phase_ != Phase::kPlanned; ++piece) {
+  for (std::size_t cost = 0; cost < kPiece && !planned();) {
+    cost += phase_ == Phase::kCurves ? kCostOfCurve : 1;
     switch (phase_) {
       case Phase::kCurves:
         measure(next_, limit);

@@ -37,10 +37,10 @@ class TimedPath {
   /// @rt nonblocking, no allocation, O(points)
   void load(std::span<const double> points, double speed);
 
-  /// Plans a piece: at most `kPiece` places.
+  /// Plans a piece: at most 64 places of the grid.
   /// @param limit  of the whole robot, asked at each place; nullptr if there is none
   /// @return whether all is planned
-  /// @rt nonblocking, no allocation, O(axes)
+  /// @rt nonblocking, no allocation, O(64 axes)
   bool plan(MotionLimit* limit);
   bool planned() const { return phase_ == Phase::kPlanned; }
 
@@ -70,7 +70,8 @@ class TimedPath {
 
  private:
   static constexpr std::size_t kPlacesPerKnot = 4;
-  static constexpr std::size_t kPiece = 32;
+  static constexpr std::size_t kCostOfCurve = 16;           ///< beside that of the passes
+  static constexpr std::size_t kPiece = 64 * kCostOfCurve;  ///< planned in a cycle
   static constexpr double kStep_s = kKnotSpacing_s / static_cast<double>(kPlacesPerKnot);
   enum class Phase { kCurves, kForth, kBack, kPlanned };
 
