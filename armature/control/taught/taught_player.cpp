@@ -75,7 +75,7 @@ TaughtPlayer::Answer TaughtPlayer::check(std::span<const double> points, double 
 
 TaughtPlayer::Answer TaughtPlayer::play(const OnlineTrajectory::State& state,
                                         std::span<const double> points, double speed,
-                                        MotionLimit* limit) {
+                                        MotionLimit* whole) {
   if (const Answer answer = check(points, speed); !answer.accepted()) return answer;
   const std::size_t count = axes_.size();
   const SplineWeights weights = SplineWeights::at(0.0);
@@ -85,13 +85,13 @@ TaughtPlayer::Answer TaughtPlayer::play(const OnlineTrajectory::State& state,
       start_[axis] += weights.position[k] * points[k * count + axis];
     }
   }
+  limit_.whole = whole;
   if (!approach_.begin_at(state).accepted() ||
-      !approach_.move_to({start_}, 0.0, limit).accepted()) {
+      !approach_.move_to({start_}, 0.0, limit()).accepted()) {
     let_go();
     return {PlayRefusal::kNoPosition};
   }
   path_.load(points, speed);
-  limit_ = limit;
   stage_ = Stage::kApproach;
   stopping_ = false;
   on_path_last_ = false;
@@ -107,7 +107,7 @@ void TaughtPlayer::step(base::Duration period) {
     if (path_.rests()) let_go();
   } else {
     approach_.step(period);
-    const bool planned = stopping_ || path_.plan(limit_);
+    const bool planned = stopping_ || path_.plan(limit());
     if (!approach_.under_way() && planned) begin_path();
   }
   progress_ = std::max(progress_, passed_share());
