@@ -78,8 +78,8 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
                                  {{"nAxisGenPos"}, {"nAxesGenerator"}});
   registry.add<AxesGeneratorOnline>(
       "nAxesGeneratorOnline", "moves N axes from any motion to any target, with limited jerk");
-  registry.add<AxesGeneratorTaught>(
-      "nAxesGeneratorTaught", "does so, and plays what a hand taught at any speed");
+  registry.add<AxesGeneratorTaught>("nAxesGeneratorTaught",
+                                    "does so, and plays what a hand taught at any speed");
   registry.add<Teacher>("Teacher", "records motions that a hand shows, and keeps poses by name");
   registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }

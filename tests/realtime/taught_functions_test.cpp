@@ -56,8 +56,7 @@ TEST(RealtimeFunctions, TaughtPlayer) {
   EXPECT_TRUE(player.on_path());
   expect_realtime("TaughtPlayer::stop", [&] { player.stop(); });
   std::string_view text;
-  expect_realtime("control::to_text",
-                  [&] { text = to_text(player.check(points, 99.0).refusal); });
+  expect_realtime("control::to_text", [&] { text = to_text(player.check(points, 99.0).refusal); });
   EXPECT_EQ(text, "the speed must be from 0.01 to 10");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An own arm of three joints is taught and plays: the arm of examples/07_own_robot, whose weight the
-// PIDs hold, so that a motion of its generator stands for the hand.
+// An own arm of three joints is taught and plays: the arm of examples/07_own_robot, whose weight
+// the PIDs hold, so that a motion of its generator stands for the hand.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

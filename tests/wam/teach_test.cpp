@@ -30,18 +30,19 @@ std::string folder() {
 class WamTaught : public ::testing::Test {
  protected:
   WamTaught()
-      : arm("../demo/teach.yaml", {"Teacher.folder=" + folder(), "Teacher.poses=" + folder() + "/poses.yaml",
-                                   "Reporter.file=", "Reporter.csv=" + folder() + "/wam.csv"}) {}
+      : arm("../demo/teach.yaml",
+            {"Teacher.folder=" + folder(), "Teacher.poses=" + folder() + "/poses.yaml",
+             "Reporter.file=", "Reporter.csv=" + folder() + "/wam.csv"}) {}
   ~WamTaught() override { std::filesystem::remove_all(folder()); }
 
   void SetUp() override {
     std::filesystem::remove_all(folder());
     std::filesystem::create_directories(folder());
     arm.start_armed();
-    ASSERT_EQ(run("Generator", "moveTo",
-                  {types::Value::of(Vector{0.5, -1.2, 0.3, 2.2, -0.5, 0.4, 0.5}),
-                   types::Value::of(4.0)}),
-              "");
+    ASSERT_EQ(
+        run("Generator", "moveTo",
+            {types::Value::of(Vector{0.5, -1.2, 0.3, 2.2, -0.5, 0.4, 0.5}), types::Value::of(4.0)}),
+        "");
     arm.run_for(500ms);
     switch_to("weightless");
     arm.run_for(1s);

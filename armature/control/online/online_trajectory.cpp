@@ -198,7 +198,8 @@ OnlineTrajectory::Answer OnlineTrajectory::plan(const State& target, double time
   planned_s_ = time_s > shortest_s ? least_duration_s(time_s) : shortest_s;
   if (!(planned_s_ <= kLongest_s)) return {TargetRefusal::kTooLong};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!solve(i, state_of(target, i), planned_s_, limits_of(i))) return {TargetRefusal::kLeavesLimits, i};
+    if (!solve(i, state_of(target, i), planned_s_, limits_of(i)))
+      return {TargetRefusal::kLeavesLimits, i};
   }
   return {};
 }

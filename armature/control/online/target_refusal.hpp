@@ -15,9 +15,9 @@ enum class TargetRefusal {
   kAccelerationTooHigh,  ///< an acceleration is, or leads the velocity beyond its limit
   kLeavesLimits,         ///< the motion, or a stop from its end, leaves the position limits
   kNegativeTime,
-  kTooFast,     ///< the limits allow it in a longer time, or a slower jog: the answer has which
-  kTooLong,     ///< it would take more than `OnlineTrajectory::kLongest_s`
-  kNoPosition,  ///< where the axes are was never said: hold() or begin_at() comes first
+  kTooFast,       ///< the limits allow it in a longer time, or a slower jog: the answer has which
+  kTooLong,       ///< it would take more than `OnlineTrajectory::kLongest_s`
+  kNoPosition,    ///< where the axes are was never said: hold() or begin_at() comes first
   kZeroVelocity,  ///< a jog has no direction
   kAtLimit,       ///< a jog goes towards the limit at which its axis comes to rest
   kMotionLimit,   ///< from this motion no motion to the target was found that keeps a `MotionLimit`

@@ -29,8 +29,8 @@ double largest_error(const TaughtMotion& motion, double until_s) {
   double largest = 0.0;
   for (double t = 0.0; t < until_s; t += 0.003) {
     const auto there = motion.positions_at(t);
-    largest = std::max({largest, std::abs(there[0] - wave(t, 0.0)),
-                        std::abs(there[1] - wave(t, 1.0))});
+    largest =
+        std::max({largest, std::abs(there[0] - wave(t, 0.0)), std::abs(there[1] - wave(t, 1.0))});
   }
   return largest;
 }
@@ -73,8 +73,7 @@ TEST(TaughtMotion, TheWeightsAreDerivativesOfEachOther) {
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(SplineWeights::at(1.0).curvature[k + 1], SplineWeights::at(0.0).curvature[k],
-                1e-9);
+    EXPECT_NEAR(SplineWeights::at(1.0).curvature[k + 1], SplineWeights::at(0.0).curvature[k], 1e-9);
     EXPECT_NEAR(SplineWeights::at(1.0).slope[k + 1], SplineWeights::at(0.0).slope[k], 1e-9);
   }
 }

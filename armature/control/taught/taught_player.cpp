@@ -95,7 +95,7 @@ TaughtPlayer::Answer TaughtPlayer::play(const OnlineTrajectory::State& state,
   stage_ = Stage::kApproach;
   stopping_ = false;
   on_path_last_ = false;
-  passed_s_ = progress_ = 0.0;
+  passed_s_ = rested_s_ = progress_ = 0.0;
   return {};
 }
 
@@ -108,7 +108,9 @@ void TaughtPlayer::step(base::Duration period) {
   } else {
     approach_.step(period);
     const bool planned = stopping_ || path_.plan(limit());
-    if (!approach_.under_way() && planned) begin_path();
+    if (!approach_.under_way()) rested_s_ += base::to_seconds(period);
+    const bool settled = stopping_ || rested_s_ >= kSettling_s;
+    if (!approach_.under_way() && settled && planned) begin_path();
   }
   progress_ = std::max(progress_, passed_share());
 }
@@ -131,7 +133,8 @@ double TaughtPlayer::remaining_s() const {
     case Stage::kIdle:
       return 0.0;
     case Stage::kApproach:
-      return approach_.remaining_s() + (stopping_ ? 0.0 : path_.duration_s());
+      return approach_.remaining_s() +
+             (stopping_ ? 0.0 : std::max(0.0, kSettling_s - rested_s_) + path_.duration_s());
     case Stage::kPath:
       return path_.remaining_s();
   }

@@ -8,9 +8,9 @@
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
+#include "armature/control/motion_limit.hpp"
 #include "armature/control/online/online_trajectory.hpp"
 #include "armature/control/taught/timed_path.hpp"
-#include "armature/control/motion_limit.hpp"
 
 namespace armature::control {
 
@@ -37,6 +37,8 @@ class TaughtPlayer {
   static constexpr std::size_t kNoAxis = static_cast<std::size_t>(-1);
   static constexpr double kSlowest = 0.01;
   static constexpr double kFastest = 10.0;
+  /// At the begin of the path, so that the robot is there, too.
+  static constexpr double kSettling_s = 0.5;
 
   /// The axes, and how long a path may be.
   struct Config {
@@ -119,6 +121,7 @@ class TaughtPlayer {
   bool stopping_ = false;
   bool on_path_last_ = false;  ///< where the positions are from
   double passed_s_ = 0.0;
+  double rested_s_ = 0.0;  ///< at the begin of the path
   double progress_ = 0.0;
   std::vector<double> start_;
 };

@@ -68,8 +68,8 @@ class Played : public ::testing::Test {
     double nearest = 1e9;
     for (double t = std::max(0.0, nearest_s_ - 0.01), last = t + 0.05; t <= last; t += 0.0005) {
       const Vector there = motion.positions_at(t);
-      const double apart = std::hypot(there[0] - player.positions()[0],
-                                      there[1] - player.positions()[1]);
+      const double apart =
+          std::hypot(there[0] - player.positions()[0], there[1] - player.positions()[1]);
       if (apart < nearest) nearest_s_ = t;
       nearest = std::min(nearest, apart);
     }
@@ -77,9 +77,8 @@ class Played : public ::testing::Test {
   }
 
   TaughtPlayer player =
-      TaughtPlayer::make({std::vector(2, OnlineTrajectory::Axis{kVelocity, kAcceleration, 40.0,
-                                                                -2.0, 2.0}),
-                          20.0})
+      TaughtPlayer::make(
+          {std::vector(2, OnlineTrajectory::Axis{kVelocity, kAcceleration, 40.0, -2.0, 2.0}), 20.0})
           .value();
   TaughtMotion motion;
   double path_s = 0.0;
@@ -244,8 +243,7 @@ TEST_F(Played, RefusesWhatCannotBePlayedAndNothingMoves) {
   EXPECT_EQ(outside.axis, 0u);
   EXPECT_GT(outside.found, 2.0);
   const Vector nowhere{std::nan(""), 0.0};
-  EXPECT_EQ(player.play({nowhere}, good, 1.0, nullptr).refusal,
-            PlayRefusal::kNoPosition);
+  EXPECT_EQ(player.play({nowhere}, good, 1.0, nullptr).refusal, PlayRefusal::kNoPosition);
   EXPECT_FALSE(player.under_way());
 }
 

@@ -56,9 +56,10 @@ bool TimedPath::plan(MotionLimit* limit) {
         measure(next_, limit);
         break;
       case Phase::kForth:
-        square_[next_] = next_ == 0 ? 0.0
-                                    : std::min(most_[next_], square_[next_ - 1] +
-                                                                 2.0 * kStep_s * hardest_[next_ - 1]);
+        square_[next_] =
+            next_ == 0
+                ? 0.0
+                : std::min(most_[next_], square_[next_ - 1] + 2.0 * kStep_s * hardest_[next_ - 1]);
         break;
       case Phase::kBack:
         come_to_rest(places_ - 1 - next_);
@@ -116,9 +117,9 @@ void TimedPath::measure_segment(std::size_t place) {
 
 std::pair<double, double> TimedPath::steepest(std::size_t axis) const {
   const double change = std::abs(accelerations_[axis] - before_curvature_[axis]);
-  return {std::max(std::abs(velocities_[axis]), std::abs(before_slope_[axis])) +
-              change * kStep_s / 8.0,
-          std::max(std::abs(accelerations_[axis]), std::abs(before_curvature_[axis]))};
+  return {
+      std::max(std::abs(velocities_[axis]), std::abs(before_slope_[axis])) + change * kStep_s / 8.0,
+      std::max(std::abs(accelerations_[axis]), std::abs(before_curvature_[axis]))};
 }
 
 void TimedPath::come_to_rest(std::size_t place) {
@@ -126,8 +127,7 @@ void TimedPath::come_to_rest(std::size_t place) {
     square_[place] = 0.0;
     return;
   }
-  square_[place] =
-      std::min(square_[place], square_[place + 1] + 2.0 * kStep_s * hardest_[place]);
+  square_[place] = std::min(square_[place], square_[place + 1] + 2.0 * kStep_s * hardest_[place]);
   sum_s_ += 2.0 * kStep_s / (std::sqrt(square_[place]) + std::sqrt(square_[place + 1]));
 }
 
@@ -157,8 +157,7 @@ double TimedPath::move_on(double time_s) {
   const double end_square = squared(rate_) + 2.0 * change_ * left_s;
   const bool stops = braking_ && end_square <= 0.0;
   const double rate_there = stops ? 0.0 : braking_ ? std::sqrt(end_square) : std::sqrt(end);
-  const double takes_s =
-      stops ? rate_ / hardest_[segment_] : 2.0 * left_s / (rate_ + rate_there);
+  const double takes_s = stops ? rate_ / hardest_[segment_] : 2.0 * left_s / (rate_ + rate_there);
   if (time_s < takes_s) {
     beyond_s_ += rate_ * time_s + 0.5 * change_ * squared(time_s);
     rate_ += change_ * time_s;

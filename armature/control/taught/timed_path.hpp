@@ -96,7 +96,7 @@ class TimedPath {
 
   Phase phase_ = Phase::kPlanned;
   std::size_t next_ = 0;  ///< place to be planned
-  double sum_s_ = 0.0;     ///< of the places that are planned
+  double sum_s_ = 0.0;    ///< of the places that are planned
   double duration_s_ = 0.0;
   double remaining_s_ = 0.0;
   bool slowed_ = false;

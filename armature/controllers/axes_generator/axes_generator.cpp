@@ -87,8 +87,8 @@ Outcome AxesGeneratorPos::begin_jog(int axis, double velocity) {
     append_number(why, axes_);
     return component::refused(why);
   }
-  const Trajectory::Answer answer = trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity,
-                                                     peers_limit_.where_bound());
+  const Trajectory::Answer answer =
+      trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity, peers_limit_.where_bound());
   if (!answer.accepted()) return component::refused(refusal_of_jog(answer, axis, velocity));
   stepped_at_ = time();
   jogging_.begin(axis, velocity, time());

@@ -122,8 +122,8 @@ Outcome AxesGeneratorOnline::begin_jog(int axis, double velocity) {
     return component::refused(why);
   }
   step_to_now();
-  const Answer answer = trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity,
-                                         peers_limit_.where_bound());
+  const Answer answer =
+      trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity, peers_limit_.where_bound());
   if (!answer.accepted()) return component::refused(refusal_of_jog(answer, axis, velocity));
   jogging_.begin(axis, velocity, time());
   return component::accepted();
@@ -161,7 +161,8 @@ void AxesGeneratorOnline::follow_reference() {
   if (with_velocity) target.velocities = velocity.value;
   // A target in motion is where the axes are to be when it comes, not in each cycle after it.
   if (with_velocity && !reference.is_new()) return;
-  if (!trajectory_->move_to(target, 0.0, peers_limit_.where_bound()).accepted() && reference.is_new()) {
+  if (!trajectory_->move_to(target, 0.0, peers_limit_.where_bound()).accepted() &&
+      reference.is_new()) {
     refused_references_.assign(refused_references_ + 1);
   }
 }
@@ -232,13 +233,15 @@ Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& posit
 
 Reason AxesGeneratorOnline::refusal_of_jog(const Answer& answer, int axis, double velocity) const {
   Reason why;
-  if (answer.axis != OnlineTrajectory::kNoAxis) append_number(why.append("axis "), axis).append(": ");
+  if (answer.axis != OnlineTrajectory::kNoAxis)
+    append_number(why.append("axis "), axis).append(": ");
   why.append(control::to_text(answer.refusal));
   const bool too_fast = answer.refusal == TargetRefusal::kTooFast;
   if (too_fast || answer.refusal == TargetRefusal::kNotFinite) {
     append_number(why.append(": "), velocity);
   }
-  if (too_fast) append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
+  if (too_fast)
+    append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
   return why;
 }
 

@@ -83,8 +83,8 @@ class GeneratorOfAxes : public component::Component {
     settle();
   }
 
-  component::Attribute<double> progress_{
-      this, "progress", 1.0, "of the motion under way, 0..1; 1 if there is none"};
+  component::Attribute<double> progress_{this, "progress", 1.0,
+                                         "of the motion under way, 0..1; 1 if there is none"};
   component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
   component::OutputPort<Vector> position_{this, "nAxesDesiredPosition",
                                           "desired position of each axis", "rad",

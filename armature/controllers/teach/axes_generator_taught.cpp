@@ -54,8 +54,9 @@ void AxesGeneratorTaught::play_on() {
 /// Once, when the path begins and is timed.
 void AxesGeneratorTaught::tell_begin() {
   if (!player_->on_path() || std::exchange(told_, true) || !player_->slowed()) return;
-  log_info("the motion is slower than {} times its teaching, where the limits ask it: it takes {} s",
-           speed_, player_->remaining_s());
+  log_info(
+      "the motion is slower than {} times its teaching, where the limits ask it: it takes {} s",
+      speed_, player_->remaining_s());
 }
 
 /// The axes are where the path left them.
@@ -96,9 +97,9 @@ Outcome AxesGeneratorTaught::begin_path(const Vector& points, double speed) {
   }
   if (const Outcome outcome = may_take_axes(); !outcome) return outcome;
   step_to_now();
-  const auto answer = player_->play({trajectory().positions(), trajectory().velocities(),
-                                     trajectory().accelerations()},
-                                    points, speed, peers_limit());
+  const auto answer = player_->play(
+      {trajectory().positions(), trajectory().velocities(), trajectory().accelerations()}, points,
+      speed, peers_limit());
   if (!answer.accepted()) return component::refused(refusal_of(answer));
   speed_ = speed;
   told_ = false;

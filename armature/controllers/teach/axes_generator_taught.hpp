@@ -22,8 +22,8 @@ namespace armature::controllers {
 /// near to the wanted speed as max_vel, max_acc and a peer's motionLimitUsed allow; the log says
 /// where that is slower. Refused with the reason, and nothing moves: another number of axes, a
 /// number that is not finite, a path that leaves the limits or is longer than max_duration, a speed
-/// that is not from 0.01 to 10, a motion under way, a robot that is not armed. Cancel and Stop brake
-/// on the path; Settle, Disarm and resetPosition end it as they end any motion.
+/// that is not from 0.01 to 10, a motion under way, a robot that is not armed. Cancel and Stop
+/// brake on the path; Settle, Disarm and resetPosition end it as they end any motion.
 ///
 /// With the application's Modes among its peers, and while the mode `hand_mode` is the present one,
 /// the desired position is the measured one, anew in each cycle, and no motion begins: whatever
@@ -56,14 +56,11 @@ class AxesGeneratorTaught final : public AxesGeneratorOnline {
   void take_over();
   void follow_hand();
 
-  component::Property<double> longest_{this,
-                                       "max_duration",
-                                       60.0,
-                                       "of a taught motion, in its own time",
-                                       "s",
-                                       component::range(0.1, 3600.0)};
-  component::Property<std::string> hand_mode_{
-      this, "hand_mode", "weightless", "mode in which a hand leads the robot"};
+  component::Property<double> longest_{this, "max_duration",
+                                       60.0, "of a taught motion, in its own time",
+                                       "s",  component::range(0.1, 3600.0)};
+  component::Property<std::string> hand_mode_{this, "hand_mode", "weightless",
+                                              "mode in which a hand leads the robot"};
   component::Attribute<bool> led_{this, "led_by_hand", false,
                                   "the reference follows the hand, and no motion begins"};
   component::EventHandler<ModeName> switched_{this,
@@ -82,8 +79,8 @@ class AxesGeneratorTaught final : public AxesGeneratorOnline {
       component::cancelled_by<&AxesGeneratorTaught::brake>};
   Changes longest_changed_{longest_};
   std::optional<control::TaughtPlayer> player_;
-  double speed_ = 1.0;     ///< that was asked for
-  bool told_ = false;      ///< that the path has begun
+  double speed_ = 1.0;  ///< that was asked for
+  bool told_ = false;   ///< that the path has begun
 };
 
 }  // namespace armature::controllers

@@ -84,7 +84,7 @@ TEST_F(TaughtGenerator, MovesToTheBeginAndPlaysThePathToItsEnd) {
   EXPECT_NEAR(desired()[0], 1.0, 1e-3);
   EXPECT_NEAR(desired()[1], 2.0, 1e-3);
   EXPECT_THAT(velocity(), Each(0.0));
-  EXPECT_NEAR(cycles * 0.01, 2.1 + 4.2, 0.2) << "to the begin, and as long as it was taught";
+  EXPECT_NEAR(cycles * 0.01, 2.1 + 0.5 + 4.1, 0.1) << "to the begin, rest, and as long as taught";
   cycle(10);
   EXPECT_THAT(velocity(), Each(0.0));
   EXPECT_EQ(refusal_of({1.0, 1.0}, 0.0), "accepted") << "the next motion begins there";
@@ -94,8 +94,8 @@ TEST_F(TaughtGenerator, TellsProgressAndRemainingTime) {
   start_at({1.0, 2.0});
   auto motion = play();
   cycle(200);
-  EXPECT_NEAR(generator.get<double>("remaining_time"), 2.2, 0.2);
-  EXPECT_NEAR(generator.get<double>("progress"), 0.48, 0.05);
+  EXPECT_NEAR(generator.get<double>("remaining_time"), 0.5 + 4.1 - 2.0, 0.1);
+  EXPECT_NEAR(generator.get<double>("progress"), 2.0 / 4.6, 0.02);
   EXPECT_EQ(motion.progress(), generator.get<double>("progress"));
   cycle(300);
   EXPECT_EQ(generator.get<double>("remaining_time"), 0.0);
@@ -176,10 +176,6 @@ TEST_F(TaughtGenerator, RefusesWhatCannotBePlayedAndNothingMoves) {
   start_at({0.25, 0.5});
   Vector wrong = a_swing().points;
   EXPECT_THAT(refusal_to_play({}), HasSubstr("another number of joints, or is empty"));
-  EXPECT_THAT(refusal_to_play(Vector(7 * 20, 1.0)), ::testing::AnyOf("accepted", HasSubstr("joints")));
-  generator.call("resetPosition").ok();
-  cycle(200);
-  measured = desired();
   EXPECT_THAT(refusal_to_play(Vector(21, 1.0)), HasSubstr("another number of joints"));
   EXPECT_THAT(refusal_to_play(wrong, 0.0), HasSubstr("speed must be from 0.01 to 10"));
   EXPECT_THAT(refusal_to_play(a_swing(20.0).points),

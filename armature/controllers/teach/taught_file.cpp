@@ -123,7 +123,8 @@ class Head {
     if (value == nullptr) return false;
     const auto number = number_in(line.rest);
     if (!number || *number < 1.0 || *number > 1e7 || *number != std::floor(*number)) {
-      return at_line(line.number, std::string(line.key) + " must be a whole number above 0, found " +
+      return at_line(line.number, std::string(line.key) +
+                                      " must be a whole number above 0, found " +
                                       base::quoted(line.rest));
     }
     *value = static_cast<std::size_t>(*number);
@@ -157,8 +158,8 @@ Result<void> take_sample(const Line& line, TaughtSamples& samples) {
 
 Result<std::pair<std::string, std::vector<double>>> pose_in(const Line& line, std::size_t joints) {
   if (!line.has_colon || !is_taught_name(line.key)) {
-    return at_line(line.number, "expected a pose, such as home: [0, 45] deg, found " +
-                                    base::quoted(line.key));
+    return at_line(line.number,
+                   "expected a pose, such as home: [0, 45] deg, found " + base::quoted(line.key));
   }
   auto row = row_in(line.rest, joints);
   if (!row) return at_line(line.number, "pose " + base::quoted(line.key) + ": " + row.error());

@@ -14,14 +14,16 @@ using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const control::TaughtSamples kSamples{2, {5.0, 5.01, 5.02}, {0.1, -0.2, 0.1000004, -0.21, 1.5, 0.0}};
+const control::TaughtSamples kSamples{
+    2, {5.0, 5.01, 5.02}, {0.1, -0.2, 0.1000004, -0.21, 1.5, 0.0}};
 
 TEST(MotionText, IsReadableAndReadBack) {
   const std::string text = to_motion_text("wave", kSamples);
-  EXPECT_EQ(text,
-            "# A taught motion: of each sample the time [s] and the positions [rad] of the joints.\n"
-            "motion: wave\njoints: 2\nsamples: 3\n"
-            "0.000000: [0.1, -0.2]\n0.010000: [0.1, -0.21]\n0.020000: [1.5, 0]\n");
+  EXPECT_EQ(
+      text,
+      "# A taught motion: of each sample the time [s] and the positions [rad] of the joints.\n"
+      "motion: wave\njoints: 2\nsamples: 3\n"
+      "0.000000: [0.1, -0.2]\n0.010000: [0.1, -0.21]\n0.020000: [1.5, 0]\n");
   const auto read = read_motion_text(text, 2);
   ASSERT_TRUE(read) << read.error();
   EXPECT_THAT(read.value().times_s, ElementsAre(0.0, 0.01, 0.02));
@@ -37,8 +39,7 @@ TEST(MotionText, MistakesAreToldByTheirLine) {
   const auto mistake = [](const std::string& text) { return read_motion_text(text, 2).error(); };
   EXPECT_EQ(mistake(changed("-0.21", "abc")), "line 6: expected a finite number, found 'abc'");
   EXPECT_EQ(mistake(changed("-0.21", "nan")), "line 6: expected a finite number, found 'nan'");
-  EXPECT_EQ(mistake(changed(", -0.21", "")),
-            "line 6: has 1 positions, the robot has 2 joints");
+  EXPECT_EQ(mistake(changed(", -0.21", "")), "line 6: has 1 positions, the robot has 2 joints");
   EXPECT_EQ(mistake(changed("0.020000", "0.010000")),
             "line 7: the time 0.010000 s is not later than that of the sample before it");
   EXPECT_EQ(mistake(changed("joints: 2", "joints: 7")),
@@ -62,7 +63,8 @@ TEST(MotionText, WhereverAFileIsCutOffItIsRefused) {
 
 TEST(PoseText, APoseIsALineInTheUnitThatItSays) {
   const auto poses = read_pose_text(
-      "# where the arm is\n\nhome: [0, -90] deg   # at the stops\nover_table: [0.5, 1e-1] rad\n", 2);
+      "# where the arm is\n\nhome: [0, -90] deg   # at the stops\nover_table: [0.5, 1e-1] rad\n",
+      2);
   ASSERT_TRUE(poses) << poses.error();
   EXPECT_THAT(poses.value().at("home"), ElementsAre(0.0, DoubleNear(-1.5707963, 1e-7)));
   EXPECT_THAT(poses.value().at("over_table"), ElementsAre(0.5, 0.1));

@@ -165,8 +165,7 @@ Outcome Teacher::begin_keep_pose(const Name& name) {
   auto poses = read_poses();
   if (!poses) return refuse(poses);
   poses.value()[std::string(name.view())] = measured.value;
-  const auto written =
-      platform::write_file(poses_.get(), to_pose_text(poses.value(), unit_.get()));
+  const auto written = platform::write_file(poses_.get(), to_pose_text(poses.value(), unit_.get()));
   return written ? component::accepted() : refuse(written);
 }
 

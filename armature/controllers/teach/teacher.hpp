@@ -68,12 +68,9 @@ class Teacher final : public component::Component {
   component::Property<std::string> poses_{this, "poses", "poses.yaml", "file of the named poses"};
   component::Property<std::string> unit_{this, "unit", "deg",
                                          "in which poses are written: rad, deg, m or mm"};
-  component::Property<double> longest_{this,
-                                       "max_duration",
-                                       60.0,
-                                       "of a recording, then it ends",
-                                       "s",
-                                       component::range(0.1, 3600.0)};
+  component::Property<double> longest_{this, "max_duration",
+                                       60.0, "of a recording, then it ends",
+                                       "s",  component::range(0.1, 3600.0)};
   component::Attribute<double> recorded_{this, "recorded_time", 0.0,
                                          "of the present or last recording [s]"};
   component::InputPort<Vector> measured_{this,
@@ -114,9 +111,8 @@ class Teacher final : public component::Component {
                                       "keeps where the robot is as a pose",
                                       component::args("pose"),
                                       component::done_when<&Teacher::at_once>};
-  component::Operation<std::string()> list_{
-      this, "list", component::serve<&Teacher::list>,
-      "names of motions and poses", component::in_own_thread};
+  component::Operation<std::string()> list_{this, "list", component::serve<&Teacher::list>,
+                                            "names of motions and poses", component::in_own_thread};
 
   component::CommandHandle motion_{component::CallStatus::kNotConnected};
   control::TaughtSamples samples_;  ///< their room is that of max_duration

@@ -30,9 +30,9 @@ using Vector = std::vector<double>;
 class Folder {
  public:
   Folder() {
-    path_ = std::filesystem::path(::testing::TempDir()) /
-            (std::string("teacher_") +
-             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    path_ =
+        std::filesystem::path(::testing::TempDir()) /
+        (std::string("teacher_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -89,7 +89,8 @@ TEST_F(Teaching, ARecordingIsKeptInAFileThatReadsWell) {
   lead(1);
   EXPECT_EQ(recording.stage(), CommandStage::kDone);
   const std::string text = folder.text("wave.motion");
-  EXPECT_THAT(text, HasSubstr("motion: wave\njoints: 2\nsamples: 100\n0.000000: [0.019999, 0.5]\n"));
+  EXPECT_THAT(text,
+              HasSubstr("motion: wave\njoints: 2\nsamples: 100\n0.000000: [0.019999, 0.5]\n"));
   EXPECT_TRUE(read_motion_text(text, 2));
   EXPECT_EQ(teacher.call<std::string>("list").value(), "motions: wave; poses:");
 }
