@@ -67,7 +67,9 @@ class WamTaught : public ::testing::Test {
     arm.run_for(200ms);
     for (int i = 0; i < 200; ++i) {
       const double swing = 0.2 * std::cos(6.2831853 * i / 200.0);
-      arm.hardware().emulated()->motors().push(Vector{swing, 0.6 * swing, 0, -swing, 0, swing, 0});
+      ASSERT_EQ(arm.call("WAM", "leadByHand",
+                         {types::Value::of(Vector{swing, 0.6 * swing, 0, -swing, 0, swing, 0})}),
+                "");
       arm.run_for(10ms);
       taught.push_back(measured());
     }
