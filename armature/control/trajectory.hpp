@@ -122,6 +122,8 @@ class Trajectory {
   bool under_way() const { return elapsed_s() < duration_s_; }
   double elapsed_s() const { return static_cast<double>(elapsed_.count()) * 1e-9; }
   double duration_s() const { return duration_s_; }  ///< of the present or last motion
+  double remaining_s() const { return under_way() ? duration_s_ - elapsed_s() : 0.0; }
+  double progress() const { return under_way() ? elapsed_s() / duration_s_ : 1.0; }  ///< 0..1
   std::size_t axes() const { return axes_.size(); }
 
   /// One number per axis; valid until the trajectory is gone.

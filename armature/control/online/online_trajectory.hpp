@@ -112,6 +112,7 @@ class OnlineTrajectory {
   double elapsed_s() const { return static_cast<double>(elapsed_.count()) * 1e-9; }
   double duration_s() const { return duration_s_; }  ///< of the present or last motion
   double remaining_s() const { return under_way() ? duration_s_ - elapsed_s() : 0.0; }
+  double progress() const { return under_way() ? elapsed_s() / duration_s_ : 1.0; }  ///< 0..1
   std::size_t axes() const { return axes_.size(); }
   /// @param axis  < axes()
   const PhasedMotion& motion(std::size_t axis) const { return motions_[axis]; }

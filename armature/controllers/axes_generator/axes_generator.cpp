@@ -49,9 +49,8 @@ void AxesGeneratorPos::on_update() {
   trajectory_->step(time() - stepped_at_);
   stepped_at_ = time();
   brake_jog_let_go();
-  if (move_to_.active() && trajectory_->under_way()) {
-    move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
-  }
+  tell_progress(trajectory_->progress(), trajectory_->remaining_s());
+  if (move_to_.active() && trajectory_->under_way()) move_to_.report(trajectory_->progress());
   write_desired(trajectory_->positions(), trajectory_->velocities(), trajectory_->accelerations());
 }
 

@@ -48,6 +48,7 @@ Outcome AxesGeneratorOnline::set_up() {
   }
   auto made = OnlineTrajectory::make(config);
   if (!made) return component::refused(made.error());
+  limits_ = config;
   trajectory_ = std::move(made.value());
   resize(axes);
   peers_limit_.resize(axes);
@@ -68,10 +69,8 @@ void AxesGeneratorOnline::on_update() {
   step_to_now();
   if (follow_.active()) follow_reference();
   if (jog_.active() && jogging_.let_go(time())) brake();
-  remaining_.assign(trajectory_->remaining_s());
-  if (move_to_.active() && trajectory_->under_way()) {
-    move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
-  }
+  tell_progress(trajectory_->progress(), trajectory_->remaining_s());
+  if (move_to_.active() && trajectory_->under_way()) move_to_.report(trajectory_->progress());
   write_desired(trajectory_->positions(), trajectory_->velocities(), trajectory_->accelerations());
 }
 

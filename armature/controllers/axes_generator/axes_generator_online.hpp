@@ -44,37 +44,47 @@ namespace armature::controllers {
 /// not slowed for it. `jog` and `keepJogging` are those of nAxesGeneratorPos; a jog may begin while
 /// the axes still brake.
 /// @rt nonblocking, no allocation, O(axes)
-class AxesGeneratorOnline final : public GeneratorOfAxes {
+class AxesGeneratorOnline : public GeneratorOfAxes {
  public:
   using GeneratorOfAxes::GeneratorOfAxes;
+
+ protected:
+  component::Outcome on_configure() override { return set_up(); }
+  component::Outcome on_start() override;
+  void on_update() override;
+  std::optional<std::size_t> hold_at(const Vector& measured) override;
+  void settle() override;
+  void stop() override;
+
+  /// What follows from the properties.
+  virtual component::Outcome set_up();
+  /// Whether a motion may begin.
+  virtual component::Outcome may_begin();
+  virtual void reset_position();
+  virtual void end_commands(std::string_view why);
+  /// A motion is commanded, and has not ended.
+  bool is_commanded() const { return move_to_.active() || follow_.active() || jog_.active(); }
+  void step_to_now();
+  control::OnlineTrajectory& trajectory() { return *trajectory_; }
+  const control::OnlineTrajectory::Config& limits() const { return limits_; }
+  /// What a peer limits, or nullptr.
+  control::MotionLimit* peers_limit() { return peers_limit_.where_bound(); }
 
  private:
   using Answer = control::OnlineTrajectory::Answer;
 
-  component::Outcome on_configure() override { return set_up(); }
-  component::Outcome on_start() override;
-  void on_update() override;
-
-  component::Outcome set_up();
   component::Outcome begin_move(const Vector& positions, double time_s);
   component::Outcome may_wait(const Vector& positions, double time_s) const;
   component::Outcome begin_jog(int axis, double velocity);
   bool keep_jogging(int axis, double velocity);
-  void step_to_now();
   bool change_target(const Vector& positions);
   component::Outcome begin_follow();
   void follow_reference();
   Answer go_to(const control::OnlineTrajectory::State& target, double time_s);
   bool arrived() { return !trajectory_->under_way(); }
   void brake() { trajectory_->stop(); }
-  void reset_position();
-  void end_commands(std::string_view why);
-  component::Outcome may_begin();
   component::Reason refusal_of(const Answer& answer, const Vector& positions, double time_s) const;
   component::Reason refusal_of_jog(const Answer& answer, int axis, double velocity) const;
-  std::optional<std::size_t> hold_at(const Vector& measured) override;
-  void settle() override;
-  void stop() override;
 
   static constexpr std::size_t kMostWaiting = 8;
 
@@ -84,7 +94,6 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
       "",   component::unit_of(units_.jerk())};
   component::Attribute<int> refused_references_{
       this, "refused_references", 0, "references since the start that were not followed"};
-  component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
   component::InputPort<Vector> reference_{this,
                                           "nAxesReferencePosition",
                                           "where each axis is to be, for follow",
@@ -145,6 +154,7 @@ class AxesGeneratorOnline final : public GeneratorOfAxes {
       component::in_own_thread};
   Changes changes_{axes_, max_velocity_, max_acceleration_, max_jerk_, lower_, upper_};
 
+  control::OnlineTrajectory::Config limits_;
   std::optional<control::OnlineTrajectory> trajectory_;
   PeersLimit peers_limit_{limit_used_};
   HeldJog jogging_;

@@ -52,6 +52,18 @@ TEST_F(OnlineGenerator, AMotionIsRedirectedOnTheWayWithoutAStop) {
   EXPECT_FALSE(generator.call<bool>("changeTarget", Vector{1.0, 0.0}).value()) << "none is";
 }
 
+TEST_F(OnlineGenerator, TellsHowFarAMotionIsAndHowLongItStillTakes) {
+  start_at({0.0, 0.5});
+  auto motion = generator.send("moveTo", Vector{2.0, 1.0}, 0.0);
+  cycle(65);  // of 2.6 s
+  EXPECT_NEAR(generator.get<double>("progress"), 0.25, 1e-6);
+  EXPECT_NEAR(generator.get<double>("remaining_time"), 1.95, 1e-6);
+  EXPECT_NEAR(motion.progress(), 0.25, 1e-6);
+  cycle(200);
+  EXPECT_EQ(generator.get<double>("progress"), 1.0);
+  EXPECT_EQ(generator.get<double>("remaining_time"), 0.0);
+}
+
 TEST_F(OnlineGenerator, StopBrakesOnTheWayAndHoldsThere) {
   start_at({0.0, 0.5});
   auto motion = generator.send("moveTo", Vector{4.0, 4.0}, 0.0);

@@ -45,6 +45,11 @@ class GeneratorOfAxes : public component::Component {
   void refuse_measured(std::size_t axis);
   void write_desired(std::span<const double> positions, std::span<const double> velocities,
                      std::span<const double> accelerations);
+  /// How far the motion under way is, for scripts and tools.
+  void tell_progress(double progress, double remaining_s) {
+    progress_.assign(progress);
+    remaining_.assign(remaining_s);
+  }
   /// The number of `axis`, where there may be one for all.
   static double limit_of(const Vector& numbers, std::size_t axis) {
     return numbers.size() == 1 ? numbers.front() : numbers[axis];
@@ -103,6 +108,9 @@ class GeneratorOfAxes : public component::Component {
     settle();
   }
 
+  component::Attribute<double> progress_{this, "progress", 1.0,
+                                         "of the motion under way, 0..1; 1 if there is none"};
+  component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
   component::OutputPort<Vector> position_{
       this, "nAxesDesiredPosition",    "desired position of each axis",
       "",   component::size_of(axes_), component::unit_of(units_.position())};
