@@ -52,14 +52,40 @@ void Cia402Drive::on_check(component::Check& check) const {
         "node " + std::to_string(node_.get()) + " is not among the nodes of '" + host->name() + "'",
         "add it there, or set the node that the drive has");
   }
-  const std::string_view wanted = controllers::names_of(host->command()).actuator;
+  const std::string_view wanted = controllers::names_of(command_of(mode_on(*host))).actuator;
+  const std::string whose =
+      mode_ == DriveMode::kBus ? "the mode of '" + host->name() + "'" : "its mode";
   for (const component::InputPortBase* const input : component::interface_of(*this).inputs) {
     if (!input->name().ends_with("Actuator") || input->name() == wanted) continue;
     if (check.writers_of(*input).empty()) continue;
-    check.error("its input " + input->name() + " has a writer, and the mode of '" + host->name() +
-                    "' needs " + std::string(wanted),
-                "set the mode of the bus, or use the kind of joint that fits it");
+    check.error("its input " + input->name() + " has a writer, and " + whose + " needs " +
+                    std::string(wanted),
+                "set the mode of the bus or of the drive, or use the kind of joint that fits it");
   }
+}
+
+bool Cia402Drive::is_on(const Cia402Host& host, const component::Check& check) const {
+  const component::OperationBase* const serves = check.target_of(read_drive_);
+  return serves != nullptr && &serves->owner() == &host;
+}
+
+void Cia402Drive::refine(DrivePlan& plan) const {
+  plan.wish.name = name();
+  if (mode_ == DriveMode::kTorque) plan.mode = CyclicMode::kTorque;
+  if (mode_ == DriveMode::kVelocity) plan.mode = CyclicMode::kVelocity;
+  if (mode_ == DriveMode::kPosition) plan.mode = CyclicMode::kPosition;
+  plan.wish.mode = mode_of(plan.mode);
+  if (vendor_ != 0) plan.wish.identity->vendor = static_cast<std::uint32_t>(vendor_.get());
+  if (product_ != 0) plan.wish.identity->product = static_cast<std::uint32_t>(product_.get());
+  if (!eds_.get().empty()) plan.eds_file = eds_;
+}
+
+CyclicMode Cia402Drive::mode_on(const Cia402Host& host) const {
+  DrivePlan plan;
+  plan.mode = host.mode();
+  plan.expect(0, 0);
+  refine(plan);
+  return plan.mode;
 }
 
 Outcome Cia402Drive::on_start() {

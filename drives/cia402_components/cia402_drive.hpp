@@ -8,8 +8,12 @@
 
 namespace armature::cia402 {
 
+/// How one drive is commanded: as its bus says, or otherwise.
+enum class DriveMode : std::uint8_t { kBus, kTorque, kVelocity, kPosition };
+ARMATURE_ENUM(DriveMode, kBus, kTorque, kVelocity, kPosition);
+
 /// One drive by CiA 402: the hardware of a joint. Its peer is the host of the bus that the drive is
-/// on, whose mode has to be that of the input which is connected.
+/// on. Its mode, its own or that of the bus, has to be that of the input which is connected.
 ///
 /// PositionSensor is of the driving shaft, behind the drive's own gear and feed; so the joint's
 /// GearRatio is 1 unless there is another gear behind. Switched on, the drive is powered and its
@@ -28,6 +32,13 @@ class Cia402Drive final : public controllers::JointHardware {
                        controllers::JointCommand::kPosition},
                       Sensor::kAbsolute) {}
 
+  /// @thread configuration only, as for the next ones
+  int node() const { return node_; }
+  /// Whether that host serves it.
+  bool is_on(const Cia402Host& host, const component::Check& check) const;
+  /// Puts what it says of itself in place of what the bus says of all.
+  void refine(DrivePlan& plan) const;
+
  private:
   void on_check(component::Check& check) const override;
   component::Outcome on_start() override;
@@ -41,6 +52,7 @@ class Cia402Drive final : public controllers::JointHardware {
   bool brake_apply() override;
   bool brake_release() override;
 
+  CyclicMode mode_on(const Cia402Host& host) const;
   bool energize(bool enable);
   bool make_safe(bool quick_stop);
   bool usable(const DriveSample& sample);
@@ -55,6 +67,14 @@ class Cia402Drive final : public controllers::JointHardware {
       this, "node", 1, "of the drive", "", component::mandatory, component::range(1, 127)};
   component::Property<bool> brake_{this, "Brake", false,
                                    "the drive has a brake, which it opens when it is enabled"};
+  component::Property<DriveMode> mode_{
+      this, "mode", DriveMode::kBus,
+      "torque (CST), velocity (CSV), position (CSP), or as its bus says of all drives"};
+  component::Property<int> vendor_{this, "vendor", 0,
+                                   "that the drive says it is of (0x1018:01); 0: as its bus says"};
+  component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};
+  component::Property<std::string> eds_{
+      this, "eds", "", "the file in which its maker describes it; empty: as its bus says"};
   component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive", "has the drive read"};
   component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort",
                                                                             "sets its torque"};

@@ -3,19 +3,24 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/controllers/base/max_age.hpp"
+#include "drives/canopen/count_devices.hpp"
 #include "drives/canopen/nmt.hpp"
 #include "drives/canopen/sdo_channel.hpp"
+#include "drives/cia402/bus_time.hpp"
+#include "drives/cia402/compare_eds.hpp"
 #include "drives/cia402/prepare_drive.hpp"
+#include "drives/cia402_components/cia402_drive.hpp"
 
 namespace armature::cia402 {
 
 using component::Outcome;
-using controllers::JointCommand;
 
 namespace {
 
@@ -25,11 +30,6 @@ using namespace std::chrono_literals;
 constexpr base::Duration kNmtTime = 5ms;
 constexpr int kLastNode = 127;
 
-Mode mode_of(CyclicMode mode) {
-  if (mode == CyclicMode::kTorque) return Mode::kCyclicTorque;
-  return mode == CyclicMode::kVelocity ? Mode::kCyclicVelocity : Mode::kCyclicPosition;
-}
-
 void pass_time(can::Link& link, base::Duration time) {
   const base::Time until = link.now() + time;
   while (link.now() < until) link.wait_for_news(until);
@@ -37,14 +37,85 @@ void pass_time(can::Link& link, base::Duration time) {
 
 }  // namespace
 
-JointCommand Cia402Host::command() const {
-  if (mode_ == CyclicMode::kTorque) return JointCommand::kTorque;
-  return mode_ == CyclicMode::kVelocity ? JointCommand::kVelocity : JointCommand::kPosition;
+// --- what the deployment says --------------------------------------------------------------------
+
+void Cia402Host::on_check(component::Check& check) const {
+  check_nodes(check);
+  plan_drives(check);
+  check_bus_time(check);
 }
+
+void Cia402Host::check_nodes(component::Check& check) const {
+  if (nodes_.get().empty()) check.error("nodes is empty", "name the numbers of the drives");
+  std::set<int> seen;
+  for (const int node : nodes_.get()) {
+    const std::string has = "nodes has " + std::to_string(node);
+    if (node < 1 || node > kLastNode) check.error(has, "numbers of drives are 1 to 127");
+    if (!seen.insert(node).second) check.error(has + " twice", "name each drive once");
+  }
+}
+
+/// What the bus says of all drives, and each of itself.
+void Cia402Host::plan_drives(component::Check& check) const {
+  plans_.clear();
+  std::map<int, const Cia402Drive*> known;
+  for (const component::Component* const each : check.components()) {
+    const auto* const drive = dynamic_cast<const Cia402Drive*>(each);
+    if (drive == nullptr || !drive->is_on(*this, check)) continue;
+    const auto [first, is_new] = known.emplace(drive->node(), drive);
+    if (is_new) continue;
+    check.error("drives '" + first->second->name() + "' and '" + drive->name() +
+                    "' both have node " + std::to_string(drive->node()),
+                "give each drive its own number");
+  }
+  base::Diagnostics diagnostics;
+  for (const int node : nodes_.get()) {
+    DrivePlan plan = plan_of(node);
+    if (const auto found = known.find(node); found != known.end()) found->second->refine(plan);
+    plan.read_eds(diagnostics);
+    plans_.push_back(std::move(plan));
+  }
+  for (const base::Diagnostic& each : diagnostics.all()) {
+    const std::string place = each.where.file.empty() ? "" : each.where.file + ": ";
+    check.error(place + each.message, each.hint);
+  }
+}
+
+DrivePlan Cia402Host::plan_of(int node) const {
+  DrivePlan plan;
+  plan.wish = {.node = static_cast<canopen::NodeId>(node),
+               .name = name() + "." + std::to_string(node),
+               .mode = mode_of(mode_),
+               .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed : PositionUnit::kIncrements,
+               .cycle = cycle(),
+               .heartbeat = base::from_seconds(heartbeat_)};
+  plan.mode = mode_;
+  plan.eds_file = eds_;
+  plan.expect(vendor_, product_);
+  return plan;
+}
+
+void Cia402Host::check_bus_time(component::Check& check) const {
+  if (cycle() <= base::Duration{}) return;
+  std::vector<DriveWish> wishes;
+  for (const DrivePlan& plan : plans_) wishes.push_back(plan.wish);
+  const base::Duration needed = cycle_bus_time(wishes, bit_rate());
+  if (needed <= cycle()) return;
+  const auto text_of = [](base::Duration duration) {
+    component::Reason text;
+    return std::string(controllers::append_duration(text, duration).view());
+  };
+  check.error("the frames of a cycle of " + std::to_string(wishes.size()) + " drives take up to " +
+                  text_of(needed) + " at " + std::to_string(bit_rate()) +
+                  " bit/s, and a cycle has " + text_of(cycle()),
+              "raise bit_rate, lengthen the period, or put drives on another bus");
+}
+
+// --- the start -----------------------------------------------------------------------------------
 
 Outcome Cia402Host::on_configure() {
   if (Outcome outcome = period_.known(); !outcome) return outcome;
-  if (Outcome outcome = find_places(); !outcome) return outcome;
+  find_places();
   auto link = make_link();
   if (!link) return component::refused(link.error());
   link_ = std::move(link).value();
@@ -56,21 +127,12 @@ Outcome Cia402Host::on_configure() {
   return begin_to_guard();
 }
 
-Outcome Cia402Host::find_places() {
+void Cia402Host::find_places() {
   place_of_.assign(kLastNode + 1, std::nullopt);
-  if (nodes_.get().empty()) return component::refused("nodes is empty: name the drives' numbers");
   for (std::size_t i = 0; i < nodes_.get().size(); ++i) {
-    const int node = nodes_.get()[i];
-    if (node < 1 || node > kLastNode) {
-      return component::refused("nodes has " + std::to_string(node) + ", expected 1 to 127");
-    }
-    if (place_of_[static_cast<std::size_t>(node)]) {
-      return component::refused("nodes has " + std::to_string(node) + " twice");
-    }
-    place_of_[static_cast<std::size_t>(node)] = i;
+    place_of_[static_cast<std::size_t>(nodes_.get()[i])] = i;
   }
   accounts_.assign(nodes_.get().size(), {});
-  return component::accepted();
 }
 
 /// All that is wrong with all drives is told at once.
@@ -80,18 +142,8 @@ Outcome Cia402Host::prepare() {
   pass_time(*link_, kNmtTime);
   base::Diagnostics diagnostics;
   std::vector<DriveConfig> configs;
-  for (const int node : nodes_.get()) {
-    DriveWish wish{
-        .node = static_cast<canopen::NodeId>(node),
-        .name = name() + "." + std::to_string(node),
-        .mode = mode_of(mode_),
-        .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed : PositionUnit::kIncrements,
-        .cycle = cycle(),
-        .heartbeat = base::from_seconds(heartbeat_)};
-    wish.identity = {.vendor = static_cast<std::uint32_t>(vendor_.get()),
-                     .product = static_cast<std::uint32_t>(product_.get())};
-    canopen::SdoChannel channel(*link_, wish.node);
-    if (auto config = prepare_drive(channel, wish, diagnostics)) configs.push_back(*config);
+  for (const DrivePlan& plan : plans_) {
+    if (auto config = prepare(plan, diagnostics)) configs.push_back(*std::move(config));
   }
   if (!diagnostics.ok()) return component::refused(base::as_reason(diagnostics));
   auto group = DriveGroup::make(std::move(configs));
@@ -100,6 +152,22 @@ Outcome Cia402Host::prepare() {
   link_->bus().send(canopen::nmt_frame(NmtCommand::kStart, canopen::kEveryNode));
   pass_time(*link_, kNmtTime);
   return component::accepted();
+}
+
+std::optional<DriveConfig> Cia402Host::prepare(const DrivePlan& plan,
+                                               base::Diagnostics& diagnostics) {
+  const DriveWish& wish = plan.wish;
+  if (const int devices = canopen::count_devices(*link_, wish.node); devices > 1) {
+    diagnostics.error({},
+                      "drive '" + wish.name + "', node " + std::to_string(wish.node) + ": " +
+                          std::to_string(devices) + " devices answer as this node, expected one",
+                      std::string("give each device on the bus its own number"));
+    return std::nullopt;
+  }
+  canopen::SdoChannel channel(*link_, wish.node);
+  const bool is_described =
+      !plan.eds || compare_with_eds(channel, *plan.eds, plan.eds_file, wish, diagnostics);
+  return is_described ? prepare_drive(channel, wish, diagnostics) : std::nullopt;
 }
 
 /// With a SYNC whose answers are there when the first cycle begins.
@@ -180,15 +248,15 @@ void Cia402Host::drop_old_targets() {
 }
 
 double Cia402Host::no_target(std::size_t drive) const {
-  return mode_ == CyclicMode::kPosition ? group_->state(drive).position : 0.0;
+  return plans_[drive].mode == CyclicMode::kPosition ? group_->state(drive).position : 0.0;
 }
 
 // --- what drives are told ------------------------------------------------------------------------
 
-/// Only of the kind that the drives are in: 0 of another kind could be a place to go to.
+/// Only of the kind that the drive is in: 0 of another kind could be a place to go to.
 bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
   const auto place = place_of(node);
-  if (!place || mode != mode_ || !std::isfinite(target)) return false;
+  if (!place || mode != plans_[*place].mode || !std::isfinite(target)) return false;
   group_->set_target(*place, target);
   accounts_[*place].target_at = time();
   accounts_[*place].dropped = false;

@@ -10,17 +10,13 @@
 
 #include "armature/can/link.hpp"
 #include "armature/component/author.hpp"
-#include "armature/controllers/base/joint_command.hpp"
 #include "armature/controllers/base/limited_effort.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 #include "armature/types/enum.hpp"
 #include "drives/cia402/drive_group.hpp"
+#include "drives/cia402_components/drive_plan.hpp"
 
 namespace armature::cia402 {
-
-/// How all drives of a bus are commanded: CST, CSV or CSP.
-enum class CyclicMode : std::uint8_t { kTorque, kVelocity, kPosition };
-ARMATURE_ENUM(CyclicMode, kTorque, kVelocity, kPosition);
 
 /// What the position unit of the drives is: see cia402::PositionUnit.
 enum class DriveUnit : std::uint8_t { kIncrements, kFeed };
@@ -58,15 +54,17 @@ class Cia402Host : public component::Component {
  public:
   using Component::Component;
 
-  /// What drives are given in its mode.
-  /// @thread configuration only
-  controllers::JointCommand command() const;
+  /// Of all drives that do not say another.
+  /// @thread configuration only, as for nodes
+  CyclicMode mode() const { return mode_; }
   const std::vector<int>& nodes() const { return nodes_; }
+  void on_check(component::Check& check) const override;
 
  protected:
   /// Not opened yet.
   virtual base::Result<std::unique_ptr<can::Link>> make_link() = 0;
   base::Duration cycle() const { return period_.duration(); }
+  std::uint32_t bit_rate() const { return static_cast<std::uint32_t>(bit_rate_.get()); }
   const DriveGroup* group() const { return group_ ? &*group_ : nullptr; }
   /// Quick stop, then off: at once on the bus.
   void make_safe();
@@ -99,8 +97,13 @@ class Cia402Host : public component::Component {
   bool make_drive_safe(int node, bool quick_stop);
   bool reset_drive(int node);
 
-  component::Outcome find_places();
+  void check_nodes(component::Check& check) const;
+  void plan_drives(component::Check& check) const;
+  void check_bus_time(component::Check& check) const;
+  DrivePlan plan_of(int node) const;
+  void find_places();
   component::Outcome prepare();
+  std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
   bool set_target(int node, CyclicMode mode, double target);
   void begin_cycle();
   void take_frames();
@@ -112,13 +115,19 @@ class Cia402Host : public component::Component {
       this, "nodes", {}, "numbers of the drives, 1 to 127", "", component::mandatory};
   component::Property<CyclicMode> mode_{
       this, "mode", CyclicMode::kPosition,
-      "how the drives are commanded: torque (CST), velocity (CSV) or position (CSP)"};
+      "how drives are commanded that do not say it: torque (CST), velocity (CSV), position (CSP)"};
   component::Property<DriveUnit> unit_{
       this, "unit", DriveUnit::kIncrements,
       "of positions in the drives: increments of the encoder, or feed by their feed constant"};
   component::Property<int> vendor_{this, "vendor", 0,
                                    "that every drive says it is of (0x1018:01); 0: not compared"};
   component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};
+  component::Property<std::string> eds_{
+      this, "eds", "", "the file in which the drives' maker describes them; empty: not compared"};
+  component::Property<int> bit_rate_{
+      this,      "bit_rate",
+      1'000'000, "of the bus; a CAN interface has its own, which has to be this one",
+      "",        component::range(1, 1'000'000)};
   component::Property<double> heartbeat_{
       this, "heartbeat", 0.1, "of the drives; 0: none", "s", component::range(0.0, 10.0)};
   controllers::SamplingPeriod period_{this};
@@ -181,6 +190,7 @@ class Cia402Host : public component::Component {
     base::Time target_at{};  ///< when its target was set last
     bool dropped = false;    ///< that target is too old
   };
+  mutable std::vector<DrivePlan> plans_;  ///< by place; made by the check, which sees all drives
   std::unique_ptr<can::Link> link_;
   std::optional<DriveGroup> group_;
   std::vector<Account> accounts_;
