@@ -11,8 +11,6 @@ namespace {
 
 using canopen::DataType;
 
-constexpr canopen::Address kConsumedHeartbeat{0x1016, 1};
-
 std::int64_t milliseconds_of(base::Duration duration) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
 }

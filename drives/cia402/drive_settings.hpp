@@ -10,6 +10,9 @@
 
 namespace armature::cia402 {
 
+/// Whose heartbeat a device watches, and for how long it may be missing.
+constexpr canopen::Address kConsumedHeartbeat{0x1016, 1};
+
 /// An object that a host writes when it prepares a drive.
 struct Setting {
   canopen::Address address;

@@ -34,6 +34,21 @@ std::string mapping_text(const canopen::Pdo& pdo) {
   return text.empty() ? "no object" : text;
 }
 
+/// A mapping that was there before is not written, and has to be there again.
+void keep_mapping(PdoDirection direction, const std::vector<canopen::Pdo>& pdos,
+                  std::vector<canopen::SdoStep>& steps) {
+  unsigned number = 0;
+  for (const canopen::Pdo& pdo : pdos) {
+    const std::uint16_t mapping = canopen::mapping_index(direction, ++number);
+    const auto count = static_cast<std::uint32_t>(pdo.objects.size());
+    steps.push_back({{mapping, 0}, 1, count, false});
+    for (std::uint8_t i = 0; i < count; ++i) {
+      const Address entry{mapping, static_cast<std::uint8_t>(i + 1)};
+      steps.push_back({entry, 4, canopen::mapping_entry(pdo.objects[i]), false});
+    }
+  }
+}
+
 /// One drive on its way to a configuration; errors go to the diagnostics, with its name.
 class Preparation {
  public:
@@ -74,13 +89,24 @@ class Preparation {
     const auto settings = settings_of(wish_);
     if (!settings) return error(settings.error());
     for (const Setting& setting : settings.value()) {
-      keep(channel_.write(setting.address, setting.type, setting.value));
+      const auto written = channel_.write(setting.address, setting.type, setting.value);
+      const bool watches = setting.address == kConsumedHeartbeat;
+      if (!written) error(written.error(), watches ? "leave out the host's heartbeat" : "");
     }
   }
 
   void write_pdos(const DriveConfig& config) {
     write_pdos(PdoDirection::kReceive, config.receive);
     write_pdos(PdoDirection::kTransmit, config.transmit);
+  }
+
+  /// Who it is now, so that nobody else is prepared in its place.
+  void keep_identity(std::vector<canopen::SdoStep>& steps) {
+    for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+      const Address address{0x1018, sub};
+      const auto found = channel_.read(address, DataType::kUnsigned32);
+      if (found) steps.push_back({address, 4, static_cast<std::uint32_t>(found.value()), false});
+    }
   }
 
  private:
@@ -180,6 +206,9 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
     diagnostics.append(own);
     return std::nullopt;
   }
+  std::vector<canopen::SdoStep> steps;
+  preparation.keep_identity(steps);
+  channel.record(steps);
   DriveConfig config{.node = wish.node,
                      .name = wish.name,
                      .mode = wish.mode,
@@ -189,6 +218,9 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
                      .heartbeat_timeout = wish.heartbeat * kHeartbeatsToMiss};
   preparation.write_parameters();
   preparation.write_pdos(config);
+  keep_mapping(PdoDirection::kReceive, config.receive, steps);
+  keep_mapping(PdoDirection::kTransmit, config.transmit, steps);
+  config.preparation = std::move(steps);
   diagnostics.append(own);
   if (!own.ok()) return std::nullopt;
   return config;

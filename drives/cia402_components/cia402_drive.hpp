@@ -22,7 +22,8 @@ ARMATURE_ENUM(DriveMode, kBus, kTorque, kVelocity, kPosition);
 ///
 /// It faults, and so stops its joint, when the bus is gone, when the drive failed, rebooted, went
 /// silent or lost its heartbeat, and when it switched off by itself or does not switch on. A drive
-/// that failed is reset by the operator alone, by `resetDrive` of the host.
+/// that failed is reset by the operator alone, by `resetDrive` of the host, which also prepares one
+/// that rebooted; where that one is, the operator confirms (`position_confirmed`).
 /// @rt nonblocking, no allocation
 class Cia402Drive final : public controllers::JointHardware {
  public:
@@ -75,6 +76,13 @@ class Cia402Drive final : public controllers::JointHardware {
   component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};
   component::Property<std::string> eds_{
       this, "eds", "", "the file in which its maker describes it; empty: as its bus says"};
+  component::Property<std::string> temperature_object_{
+      this, "temperature", "", "the object that has it, such as 0x2110:01; empty: none"};
+  component::Property<double> temperature_scale_{this, "temperature_scale", 1.0,
+                                                 "what one in that object is", "K"};
+  component::Property<double> temperature_offset_{
+      this, "temperature_offset", 273.15, "what 0 in that object is; as it is for degrees Celsius",
+      "K"};
   component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive", "has the drive read"};
   component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort",
                                                                             "sets its torque"};
@@ -88,6 +96,10 @@ class Cia402Drive final : public controllers::JointHardware {
                                                                "stops it, switches it off"};
   component::OutputPort<double> velocity_{this, "Velocity", "of the driving shaft", "rad/s"};
   component::OutputPort<double> effort_{this, "Effort", "that the drive gives, at its shaft", "Nm"};
+  component::OutputPort<double> current_{this, "Current", "of the motor, asked now and then", "A"};
+  component::OutputPort<double> temperature_{
+      this, "Temperature", "of the property temperature, asked now and then", "K"};
+  component::OutputPort<DriveStatus> status_{this, "Status", "its status word, bit by bit"};
   component::Attribute<int> power_{this, "power", -1,
                                    "state of CiA 402: 0 not ready, 1 switch-on disabled, 2 ready, "
                                    "3 switched on, 4 enabled, 5 quick stop, 6 fault reaction, 7 "
@@ -99,7 +111,6 @@ class Cia402Drive final : public controllers::JointHardware {
   Wanted wanted_ = Wanted::kOff;
   base::Time wanted_since_{};
   bool was_enabled_ = false;  ///< since that was wanted
-  int reboots_ = -1;          ///< as first seen in this run
 };
 
 }  // namespace armature::cia402

@@ -15,6 +15,8 @@
 #include "drives/canopen/sdo_channel.hpp"
 #include "drives/cia402/bus_time.hpp"
 #include "drives/cia402/compare_eds.hpp"
+#include "drives/cia402/drive_settings.hpp"
+#include "drives/cia402/objects.hpp"
 #include "drives/cia402/prepare_drive.hpp"
 #include "drives/cia402_components/cia402_drive.hpp"
 
@@ -29,6 +31,18 @@ using namespace std::chrono_literals;
 /// In which a drive takes a command of NMT.
 constexpr base::Duration kNmtTime = 5ms;
 constexpr int kLastNode = 127;
+/// Drives take as many of the host's for a loss.
+constexpr int kHeartbeatsToMiss = 3;
+/// Where their answers are among a drive's slow numbers.
+constexpr std::size_t kSlowCurrent = 0;
+constexpr std::size_t kSlowTemperature = 1;
+
+/// Between two questions, so that each drive answers all of its own within `period`.
+base::Duration pause_between(const DriveGroup& drives, base::Duration period) {
+  std::size_t questions = 0;
+  for (std::size_t i = 0; i < drives.size(); ++i) questions += drives.config(i).slow.size();
+  return questions > 0 ? period / static_cast<int>(questions) : period;
+}
 
 void pass_time(can::Link& link, base::Duration time) {
   const base::Time until = link.now() + time;
@@ -52,6 +66,9 @@ void Cia402Host::check_nodes(component::Check& check) const {
     const std::string has = "nodes has " + std::to_string(node);
     if (node < 1 || node > kLastNode) check.error(has, "numbers of drives are 1 to 127");
     if (!seen.insert(node).second) check.error(has + " twice", "name each drive once");
+    if (node != host_node_ || host_heartbeat_ <= 0.0) continue;
+    check.error(has + ", which is host_node, too",
+                "give the host another number for its heartbeat");
   }
 }
 
@@ -89,6 +106,12 @@ DrivePlan Cia402Host::plan_of(int node) const {
                .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed : PositionUnit::kIncrements,
                .cycle = cycle(),
                .heartbeat = base::from_seconds(heartbeat_)};
+  if (host_heartbeat_ > 0.0) {
+    const base::Duration period = base::from_seconds(host_heartbeat_);
+    plan.wish.host = HostHeartbeat{.node = static_cast<canopen::NodeId>(host_node_.get()),
+                                   .period = period,
+                                   .timeout = kHeartbeatsToMiss * period};
+  }
   plan.mode = mode_;
   plan.eds_file = eds_;
   plan.expect(vendor_, product_);
@@ -149,6 +172,7 @@ Outcome Cia402Host::prepare() {
   auto group = DriveGroup::make(std::move(configs));
   if (!group) return component::refused(group.error());
   group_.emplace(std::move(group).value());
+  background_.emplace(*group_, pause_between(*group_, base::from_seconds(slow_period_)));
   link_->bus().send(canopen::nmt_frame(NmtCommand::kStart, canopen::kEveryNode));
   pass_time(*link_, kNmtTime);
   return component::accepted();
@@ -167,7 +191,12 @@ std::optional<DriveConfig> Cia402Host::prepare(const DrivePlan& plan,
   canopen::SdoChannel channel(*link_, wish.node);
   const bool is_described =
       !plan.eds || compare_with_eds(channel, *plan.eds, plan.eds_file, wish, diagnostics);
-  return is_described ? prepare_drive(channel, wish, diagnostics) : std::nullopt;
+  if (!is_described) return std::nullopt;
+  auto config = prepare_drive(channel, wish, diagnostics);
+  if (!config || slow_period_ <= 0.0) return config;
+  config->slow = {object::kCurrent};
+  if (plan.temperature) config->slow.push_back(*plan.temperature);
+  return config;
 }
 
 /// With a SYNC whose answers are there when the first cycle begins.
@@ -178,16 +207,43 @@ Outcome Cia402Host::on_start() {
   take_frames();
   for (std::size_t i = 0; i < group_->size(); ++i) {
     group_->set_goal(i, PowerGoal::kOff);
-    accounts_[i] = {.seen = group_->state(i).time};
+    accounts_[i].seen = group_->state(i).time;
+    accounts_[i].target_at = {};
+    accounts_[i].dropped = false;
   }
+  begin_heartbeat();
   static_cast<void>(group_->step(link_->bus(), link_->now()));
   pass_time(*link_, cycle());
   link_->begin_run(time());
   return component::accepted();
 }
 
+/// Drives do not wait for the heartbeat of a host that has ended in good order.
+void Cia402Host::on_stop() {
+  make_safe();
+  if (host_heartbeat_ <= 0.0) return;
+  background_->end_heartbeat(link_->bus(), link_->now());
+  group_->set_heartbeat(static_cast<canopen::NodeId>(host_node_.get()), {}, link_->now());
+}
+
+/// A drive that does not take it now is seen by its missing answers.
+void Cia402Host::begin_heartbeat() {
+  if (host_heartbeat_ <= 0.0) return;
+  for (const DrivePlan& plan : plans_) {
+    canopen::SdoChannel channel(*link_, plan.wish.node);
+    const auto settings = settings_of(plan.wish);
+    for (const Setting& setting : settings.value()) {
+      if (setting.address != kConsumedHeartbeat) continue;
+      static_cast<void>(channel.write(setting.address, setting.type, setting.value));
+    }
+  }
+  group_->set_heartbeat(static_cast<canopen::NodeId>(host_node_.get()),
+                        base::from_seconds(host_heartbeat_), link_->now());
+}
+
 void Cia402Host::on_cleanup() {
   end_guard();
+  background_.reset();
   group_.reset();
   link_.reset();
 }
@@ -212,13 +268,29 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.effort = drive.effort;
   sample.power = drive.power ? static_cast<int>(*drive.power) : -1;
   sample.silent_cycles = static_cast<int>(drive.silent_cycles);
-  sample.reboots = static_cast<int>(drive.reboots);
   sample.error_code = drive.emergency ? drive.emergency->code : drive.error_code;
   sample.lost = drive.presence == canopen::Presence::kLost;
-  sample.warns = drive.warns();
-  sample.limited = drive.limited();
+  sample.status = drive.status;
+  sample.unprepared = is_unprepared(*place);
+  read_slow(*place, sample);
   account.seen = drive.time;
   return sample;
+}
+
+void Cia402Host::read_slow(std::size_t place, DriveSample& sample) const {
+  const DriveConfig& drive = group_->config(place);
+  for (std::size_t i = 0; i < drive.slow.size(); ++i) {
+    const auto number = background_->number(place, i);
+    if (!number) continue;
+    if (i == kSlowCurrent) {
+      sample.has_current = true;
+      sample.current = drive.scaling.current(*number);
+    } else if (i == kSlowTemperature) {
+      sample.has_temperature = true;
+      sample.temperature = plans_[place].temperature_offset +
+                           plans_[place].temperature_scale * static_cast<double>(*number);
+    }
+  }
 }
 
 void Cia402Host::begin_cycle() {
@@ -228,14 +300,26 @@ void Cia402Host::begin_cycle() {
   drop_old_targets();
   const std::size_t refused = group_->step(link_->bus(), link_->now());
   if (refused > 0) refused_frames_.assign(refused_frames_() + static_cast<int>(refused));
+  background_->step(link_->bus(), link_->now());
+  follow_preparation();
   int silent = 0;
   for (std::size_t i = 0; i < group_->size(); ++i) silent += group_->state(i).silent_cycles > 1;
   if (silent > 0) lost_answers_.assign(lost_answers_() + silent);
 }
 
+/// Drives whose components have ended hear how they stop, that their host is there, and what the
+/// operator says.
+void Cia402Host::keep_cycle() {
+  const bool was_read = cycle_at_ != base::Time::min() && time() < cycle_at_ + 3 * cycle() / 2;
+  if (!was_read && is_guarded()) begin_cycle();
+}
+
 void Cia402Host::take_frames() {
   can::Arrival arrival;
-  while (link_->bus().receive(arrival) == can::ReceiveStatus::kReceived) group_->take(arrival);
+  while (link_->bus().receive(arrival) == can::ReceiveStatus::kReceived) {
+    group_->take(arrival);
+    background_->take(arrival.frame, arrival.time);
+  }
 }
 
 /// Who set them is gone. A position is held where the drive is when that is found.
@@ -266,6 +350,7 @@ bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
 bool Cia402Host::energize_drive(int node, bool enable, control::DrivePermit permit) {
   const auto place = place_of(node);
   if (!permit || !place || state() != component::State::kRunning) return false;
+  if (is_unprepared(*place)) return false;
   group_->set_goal(*place, enable ? PowerGoal::kEnabled : PowerGoal::kSwitchedOn);
   return true;
 }
@@ -280,8 +365,39 @@ bool Cia402Host::make_drive_safe(int node, bool quick_stop) {
 bool Cia402Host::reset_drive(int node) {
   const auto place = place_of(node);
   if (!place) return false;
-  group_->ask_reset(*place);
+  if (!is_unprepared(*place)) {
+    group_->ask_reset(*place);
+    return true;
+  }
+  accounts_[*place].is_preparing = true;
+  accounts_[*place].preparing = group_->state(*place).reboots;
+  background_->prepare_again(*place);
   return true;
+}
+
+bool Cia402Host::is_unprepared(std::size_t place) const {
+  return accounts_[place].reboots != group_->state(place).reboots;
+}
+
+/// Once more rebooted meanwhile, it still has to be prepared.
+void Cia402Host::follow_preparation() {
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    Account& account = accounts_[i];
+    const auto preparation = background_->preparation(i);
+    if (!account.is_preparing || preparation == BackgroundSdo::Preparation::kUnderWay) continue;
+    account.is_preparing = false;
+    const int node = nodes_.get()[i];
+    if (preparation == BackgroundSdo::Preparation::kDone) {
+      account.reboots = account.preparing;
+      log_info("the drive at node {} is who it was, and prepared again", node);
+      continue;
+    }
+    const canopen::Address address = background_->refused_at(i);
+    log_error(
+        "the drive at node {} is not prepared: its object {} (index), {} (subindex) is not what it "
+        "was at the start, or it does not answer; exchange it back, or configure its host again",
+        node, int{address.index}, int{address.subindex});
+  }
 }
 
 void Cia402Host::make_safe() {

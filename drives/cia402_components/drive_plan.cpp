@@ -33,7 +33,13 @@ void DrivePlan::read_eds(base::Diagnostics& diagnostics) {
     return;
   }
   eds = canopen::parse_eds(text.value(), eds_file, wish.node, diagnostics);
-  if (eds) check_eds(*eds, eds_file, wish, diagnostics);
+  if (!eds) return;
+  check_eds(*eds, eds_file, wish, diagnostics);
+  if (!temperature || eds->find(*temperature) != nullptr) return;
+  diagnostics.error({eds_file, 0, 0},
+                    "drive '" + wish.name + "': object " + to_text(*temperature) +
+                        ", its temperature, is missing",
+                    std::string("look for the temperature in this file"));
 }
 
 }  // namespace armature::cia402

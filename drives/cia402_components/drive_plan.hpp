@@ -27,6 +27,10 @@ struct DrivePlan {
   std::string eds_file;               ///< empty: none
   std::optional<canopen::Eds> eds{};  ///< that file, once it was read
 
+  std::optional<canopen::Address> temperature{};
+  double temperature_scale = 1.0;      ///< [K], what one in that object is
+  double temperature_offset = 273.15;  ///< [K], what 0 in it is
+
   /// Who the drive has to be; 0 where it does not matter.
   void expect(int vendor, int product);
   /// Reads the EDS and compares the wish with it, without the drive.

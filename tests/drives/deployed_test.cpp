@@ -109,6 +109,30 @@ class Arm {
   std::string reason_of(const char* name) {
     return std::string(application_->find(name)->reason());
   }
+  /// What the operator does with all that faulted or was stopped by that.
+  void put_back_to_service() {
+    for (int pass = 0; pass < 5; ++pass) {
+      for (const char* name : {"Drive1", "Drive2", "Joint1", "Joint2", "Sensor", "Actuator", "PID1",
+                               "PID2", "BridgeRef", "Controller", "Arming", "Generator"}) {
+        if (application_->find(name) == nullptr) continue;
+        if (state_of(name) == State::kException) {
+          EXPECT_TRUE(application_->reset_component(name)) << name << ": " << reason_of(name);
+        }
+        if (state_of(name) != State::kRunning) {
+          static_cast<void>(application_->start_component(name));
+        }
+      }
+      run_for(50ms);
+    }
+    EXPECT_EQ(state_of("Arming"), State::kRunning) << reason_of("Arming");
+    EXPECT_EQ(state_of("Generator"), State::kRunning) << reason_of("Generator");
+  }
+  template <typename T>
+  T value(const std::string& component, const char* item) {
+    const auto value = application_->value_of(component, item);
+    EXPECT_TRUE(value) << value.error();
+    return *static_cast<const T*>(value.value().data());
+  }
   CommandStage arm() { return run("Arming", "arm", {}); }
   CommandStage move_to(double first, double second) {
     return run("Generator", "moveTo",
@@ -143,13 +167,6 @@ class Arm {
     for (int k = 0; k < 1000 && !begun.value().ended(); ++k) run_for(10ms);
     return begun.value().stage();
   }
-  template <typename T>
-  T value(const std::string& component, const char* item) {
-    const auto value = application_->value_of(component, item);
-    EXPECT_TRUE(value) << value.error();
-    return *static_cast<const T*>(value.value().data());
-  }
-
   deploy::Deployment deployment_;
   std::unique_ptr<exec::Application> application_;
 };
@@ -217,6 +234,27 @@ TEST_P(EachMode, ADriveThatHearsNoSyncStopsTheArm) {
   EXPECT_EQ(arm.state_of("Drive1"), State::kException);
 }
 
+/// Where the operator finds it, and says so: its encoder may have lost its place.
+TEST_P(EachMode, ADriveThatRebootedIsPreparedAgainAtTheOperatorsWord) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.drive(1).reboot(arm.bus().bus().now());
+  arm.run_for(200ms);
+  ASSERT_EQ(arm.reason_of("Drive1"),
+            "the drive rebooted: call resetDrive of its bus, which prepares it again");
+  ASSERT_TRUE(arm.application().call("Bus", "resetDrive", {types::Value::of(1)}));
+  arm.run_for(500ms);
+  EXPECT_EQ(arm.drive(1).device().state(), canopen::NmtState::kOperational);
+  arm.put_back_to_service();
+  EXPECT_NE(arm.arm(), CommandStage::kDone) << "nobody has looked where it is";
+  ASSERT_TRUE(
+      arm.application().set_property("Drive1", "position_confirmed", types::Value::of(true)));
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  EXPECT_EQ(arm.move_to(0.5, 0.5), CommandStage::kDone);
+  arm.run_for(500ms);
+  EXPECT_NEAR(arm.at(1), 0.5, 5e-3);
+}
+
 /// As at an orderly stop of the application: nobody speaks to the drives any more.
 TEST_P(EachMode, AStopInMotionIsQuickAndSwitchesOff) {
   Arm arm(GetParam());
@@ -266,6 +304,24 @@ TEST(Cia402Mode, DrivesOfOneBusCanHaveTheirOwn) {
   EXPECT_NEAR(arm.drive(1).axis().position(), 0.0, 1e-3);
   EXPECT_NEAR(arm.drive(2).axis().velocity(), 0.2, 0.01);
   EXPECT_EQ(arm.application().faults(), 0u);
+}
+
+TEST(Cia402Values, CurrentTemperatureAndStatusAreOnPorts) {
+  Arm arm("torque.yaml", {"Drive1.temperature=0x2001:00", "Drive1.temperature_scale=0.1"});
+  ASSERT_EQ(arm.started, "");
+  EXPECT_NEAR(arm.value<double>("Drive1", "Temperature"), 298.15, 0.1);
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  const auto status = arm.value<DriveStatus>("Drive1", "Status");
+  EXPECT_TRUE(status.operation_enabled);
+  EXPECT_TRUE(status.follows);
+  EXPECT_FALSE(status.fault || status.quick_stop || status.switch_on_disabled);
+  arm.begin_motion();
+  EXPECT_NE(arm.value<double>("Drive1", "Current"), 0.0);
+}
+
+TEST(Cia402Values, ATemperatureThatIsNoAddressIsRefused) {
+  EXPECT_THAT(load("torque.yaml", {"Drive1.temperature=hot"}).diagnostics.to_text(),
+              HasSubstr("'Drive1': temperature is 'hot' (write index and subindex"));
 }
 
 // --- what is refused before anything moves -------------------------------------------------------

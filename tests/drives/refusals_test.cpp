@@ -66,7 +66,7 @@ TEST(Cia402Check, TwoDrivesWithOneNodeAreRefused) {
 TEST(Cia402Check, ABusTooSlowForItsPeriodIsRefused) {
   EXPECT_EQ(mistakes({"Bus.bit_rate=500000"}), "");
   EXPECT_THAT(mistakes({"Bus.bit_rate=250000"}),
-              HasSubstr("'Bus': the frames of a cycle of 2 drives take up to 2.232 ms at 250000 "
+              HasSubstr("'Bus': the frames of a cycle of 2 drives take up to 2.236 ms at 250000 "
                         "bit/s, and a cycle has 2 ms (raise bit_rate, lengthen the period, or put "
                         "drives on another bus)"));
 }
