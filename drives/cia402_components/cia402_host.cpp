@@ -3,8 +3,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "armature/base/as_reason.hpp"
@@ -13,12 +11,11 @@
 #include "drives/canopen/count_devices.hpp"
 #include "drives/canopen/nmt.hpp"
 #include "drives/canopen/sdo_channel.hpp"
-#include "drives/cia402/bus_time.hpp"
 #include "drives/cia402/compare_eds.hpp"
 #include "drives/cia402/drive_settings.hpp"
 #include "drives/cia402/objects.hpp"
 #include "drives/cia402/prepare_drive.hpp"
-#include "drives/cia402_components/cia402_drive.hpp"
+#include "drives/cia402_components/bus_plan.hpp"
 
 namespace armature::cia402 {
 
@@ -54,48 +51,11 @@ void pass_time(can::Link& link, base::Duration time) {
 // --- what the deployment says --------------------------------------------------------------------
 
 void Cia402Host::on_check(component::Check& check) const {
-  check_nodes(check);
-  plan_drives(check);
-  check_bus_time(check);
-}
-
-void Cia402Host::check_nodes(component::Check& check) const {
-  if (nodes_.get().empty()) check.error("nodes is empty", "name the numbers of the drives");
-  std::set<int> seen;
-  for (const int node : nodes_.get()) {
-    const std::string has = "nodes has " + std::to_string(node);
-    if (node < 1 || node > kLastNode) check.error(has, "numbers of drives are 1 to 127");
-    if (!seen.insert(node).second) check.error(has + " twice", "name each drive once");
-    if (node != host_node_ || host_heartbeat_ <= 0.0) continue;
-    check.error(has + ", which is host_node, too",
-                "give the host another number for its heartbeat");
-  }
-}
-
-/// What the bus says of all drives, and each of itself.
-void Cia402Host::plan_drives(component::Check& check) const {
+  check_nodes(nodes_, host_heartbeat_ > 0.0 ? host_node_.get() : 0, check);
   plans_.clear();
-  std::map<int, const Cia402Drive*> known;
-  for (const component::Component* const each : check.components()) {
-    const auto* const drive = dynamic_cast<const Cia402Drive*>(each);
-    if (drive == nullptr || !drive->is_on(*this, check)) continue;
-    const auto [first, is_new] = known.emplace(drive->node(), drive);
-    if (is_new) continue;
-    check.error("drives '" + first->second->name() + "' and '" + drive->name() +
-                    "' both have node " + std::to_string(drive->node()),
-                "give each drive its own number");
-  }
-  base::Diagnostics diagnostics;
-  for (const int node : nodes_.get()) {
-    DrivePlan plan = plan_of(node);
-    if (const auto found = known.find(node); found != known.end()) found->second->refine(plan);
-    plan.read_eds(diagnostics);
-    plans_.push_back(std::move(plan));
-  }
-  for (const base::Diagnostic& each : diagnostics.all()) {
-    const std::string place = each.where.file.empty() ? "" : each.where.file + ": ";
-    check.error(place + each.message, each.hint);
-  }
+  for (const int node : nodes_.get()) plans_.push_back(plan_of(node));
+  refine_plans(*this, plans_, check);
+  check_bus_time(plans_, bit_rate(), cycle(), check);
 }
 
 DrivePlan Cia402Host::plan_of(int node) const {
@@ -116,22 +76,6 @@ DrivePlan Cia402Host::plan_of(int node) const {
   plan.eds_file = eds_;
   plan.expect(vendor_, product_);
   return plan;
-}
-
-void Cia402Host::check_bus_time(component::Check& check) const {
-  if (cycle() <= base::Duration{}) return;
-  std::vector<DriveWish> wishes;
-  for (const DrivePlan& plan : plans_) wishes.push_back(plan.wish);
-  const base::Duration needed = cycle_bus_time(wishes, bit_rate());
-  if (needed <= cycle()) return;
-  const auto text_of = [](base::Duration duration) {
-    component::Reason text;
-    return std::string(controllers::append_duration(text, duration).view());
-  };
-  check.error("the frames of a cycle of " + std::to_string(wishes.size()) + " drives take up to " +
-                  text_of(needed) + " at " + std::to_string(bit_rate()) +
-                  " bit/s, and a cycle has " + text_of(cycle()),
-              "raise bit_rate, lengthen the period, or put drives on another bus");
 }
 
 // --- the start -----------------------------------------------------------------------------------

@@ -86,9 +86,6 @@ class Cia402Host : public component::Component {
   void follow_preparation();
   void begin_heartbeat();
 
-  void check_nodes(component::Check& check) const;
-  void plan_drives(component::Check& check) const;
-  void check_bus_time(component::Check& check) const;
   DrivePlan plan_of(int node) const;
   void find_places();
   component::Outcome prepare();
