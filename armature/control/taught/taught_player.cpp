@@ -85,9 +85,9 @@ TaughtPlayer::Answer TaughtPlayer::play(const OnlineTrajectory::State& state,
       start_[axis] += weights.position[k] * points[k * count + axis];
     }
   }
-  limit_.whole = whole;
+  whole_ = whole;
   if (!approach_.begin_at(state).accepted() ||
-      !approach_.move_to({start_}, 0.0, limit()).accepted()) {
+      !approach_.move_to({start_}, 0.0, whole_).accepted()) {
     let_go();
     return {PlayRefusal::kNoPosition};
   }
@@ -107,7 +107,7 @@ void TaughtPlayer::step(base::Duration period) {
     if (path_.rests()) let_go();
   } else {
     approach_.step(period);
-    const bool planned = stopping_ || path_.plan(limit());
+    const bool planned = stopping_ || path_.plan(whole_);
     if (!approach_.under_way()) rested_s_ += base::to_seconds(period);
     const bool settled = stopping_ || rested_s_ >= kSettling_s;
     if (!approach_.under_way() && settled && planned) begin_path();

@@ -63,8 +63,7 @@ class TaughtPlayer {
   Answer check(std::span<const double> points, double speed) const;
 
   /// Moves from `state`, in any motion, to the begin of the path, and plays it.
-  /// @param whole  limit of the whole robot, asked until the path begins, of which a tenth is left
-  ///               unused; nullptr if there is none
+  /// @param whole  limit of the whole robot, asked until the path begins; nullptr if there is none
   /// @rt nonblocking, no allocation, O(points)
   Answer play(const OnlineTrajectory::State& state, std::span<const double> points, double speed,
               MotionLimit* whole);
@@ -99,24 +98,13 @@ class TaughtPlayer {
   enum class Stage { kIdle, kApproach, kPath };
   TaughtPlayer(OnlineTrajectory approach, const Config& config);
 
-  /// A tenth is left for what the robot does besides, as it follows.
-  class WithMargin final : public MotionLimit {
-   public:
-    static constexpr double kShare = 0.9;
-    double used(std::span<const double> positions, std::span<const double> velocities) override {
-      return whole->used(positions, velocities) / kShare;
-    }
-    MotionLimit* whole = nullptr;
-  };
-
-  MotionLimit* limit() { return limit_.whole == nullptr ? nullptr : &limit_; }
   double passed_share() const;
   void begin_path();
 
   std::vector<OnlineTrajectory::Axis> axes_;
   OnlineTrajectory approach_;
   TimedPath path_;
-  WithMargin limit_;
+  MotionLimit* whole_ = nullptr;  ///< of the whole robot
   Stage stage_ = Stage::kIdle;
   bool stopping_ = false;
   bool on_path_last_ = false;  ///< where the positions are from

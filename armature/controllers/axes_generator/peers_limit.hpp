@@ -19,7 +19,8 @@ class PeersLimit final : public control::MotionLimit {
   using Vector = std::vector<double>;
   using Caller = component::OperationCaller<double(const Vector&, const Vector&)>;
 
-  explicit PeersLimit(Caller& caller) : caller_(caller) {}
+  /// @param share  of what the peer allows that motions are to use, 0..1
+  explicit PeersLimit(Caller& caller, double share = 1.0) : caller_(caller), share_(share) {}
   void resize(std::size_t axes) {
     positions_.assign(axes, 0.0);
     velocities_.assign(axes, 0.0);
@@ -34,11 +35,12 @@ class PeersLimit final : public control::MotionLimit {
     std::ranges::copy(velocities, velocities_.begin());
     const auto answer = caller_(positions_, velocities_);
     const bool usable = answer && std::isfinite(answer.value);
-    return usable ? answer.value : std::numeric_limits<double>::infinity();
+    return usable ? answer.value / share_ : std::numeric_limits<double>::infinity();
   }
 
  private:
   Caller& caller_;
+  double share_;
   Vector positions_;
   Vector velocities_;
 };
