@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drives/cia402_components/cia402_host.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -52,8 +53,7 @@ void pass_time(can::Link& link, base::Duration time) {
 
 void Cia402Host::on_check(component::Check& check) const {
   check_nodes(nodes_, host_heartbeat_ > 0.0 ? host_node_.get() : 0, check);
-  plans_.clear();
-  for (const int node : nodes_.get()) plans_.push_back(plan_of(node));
+  plan_by_own_words();
   refine_plans(*this, plans_, check);
   check_bus_time(plans_, bit_rate(), cycle(), check);
 }
@@ -82,6 +82,7 @@ DrivePlan Cia402Host::plan_of(int node) const {
 
 Outcome Cia402Host::on_configure() {
   if (Outcome outcome = period_.known(); !outcome) return outcome;
+  if (Outcome outcome = know_plans(); !outcome) return outcome;
   find_places();
   auto link = make_link();
   if (!link) return component::refused(link.error());
@@ -92,6 +93,20 @@ Outcome Cia402Host::on_configure() {
   }
   if (Outcome outcome = prepare(); !outcome) return outcome;
   return begin_to_guard();
+}
+
+/// The check has made them, and sees what each drive says of itself; a host by itself has only its
+/// own words.
+Outcome Cia402Host::know_plans() {
+  if (plans_.empty()) plan_by_own_words();
+  const auto is_of = [](const DrivePlan& plan, int node) { return plan.wish.node == node; };
+  if (std::ranges::equal(plans_, nodes_.get(), is_of)) return component::accepted();
+  return component::refused("nodes are not those of the check: start the application anew");
+}
+
+void Cia402Host::plan_by_own_words() const {
+  plans_.clear();
+  for (const int node : nodes_.get()) plans_.push_back(plan_of(node));
 }
 
 void Cia402Host::find_places() {

@@ -87,6 +87,8 @@ class Cia402Host : public component::Component {
   void begin_heartbeat();
 
   DrivePlan plan_of(int node) const;
+  component::Outcome know_plans();
+  void plan_by_own_words() const;
   void find_places();
   component::Outcome prepare();
   std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
