@@ -23,7 +23,7 @@ constexpr MotionSample kTarget{1.0, 0.2, 0.1};
 
 TEST(RealtimeFunctions, OnlineTrajectory) {
   auto trajectory =
-      OnlineTrajectory::make({std::vector(7, OnlineTrajectory::Axis{1, 2, 20})}).value();
+      OnlineTrajectory::make({std::vector(7, OnlineTrajectory::Axis{1, 2, 20, -9, 9})}).value();
   const std::vector<double> zero(7, 0.0);
   const std::vector<double> half(7, 0.5);
   bool accepted = true;
