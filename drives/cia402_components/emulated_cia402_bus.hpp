@@ -8,9 +8,6 @@ namespace armature::cia402 {
 
 /// The host of emulated drives in this process, each with an axis of its own, in simulated or real
 /// time, as the application is run. Their nodes follow each other.
-///
-/// Time passes for them when they are read, and at each Sample, also when nobody reads them any
-/// more.
 class EmulatedCia402Bus final : public Cia402Host {
  public:
   using Cia402Host::Cia402Host;
@@ -21,18 +18,11 @@ class EmulatedCia402Bus final : public Cia402Host {
 
  private:
   base::Result<std::unique_ptr<can::Link>> make_link() override;
-  void let_time_pass() { link_->begin_cycle(time()); }
 
   component::Property<double> inertia_{this,           "inertia", 0.25,
                                        "of each axis", "kg m^2",  component::range(1e-6, 1e6)};
   component::Property<double> viscous_friction_{
       this, "viscous_friction", 0.1, "of each axis", "Nm s/rad", component::range(0.0, 1e6)};
-  component::EventHandler<> sample_{this,
-                                    "Sample",
-                                    component::serve<&EmulatedCia402Bus::let_time_pass>,
-                                    "time passes for it",
-                                    component::optional,
-                                    component::leads_to_nothing()};
 
   EmulatedLink* link_ = nullptr;
 };
