@@ -46,8 +46,9 @@ void add_new_robot(CLI::App& parent, const CommandLine& to) {
   made->add_option("--joints", wish->joints, "how many joints it has, 1 to 7")->required();
   const std::map<std::string, DriveKind> kinds{
       {"cia402", DriveKind::kCia402}, {"can", DriveKind::kCan}, {"none", DriveKind::kNone}};
-  made->add_option("--drive", "cia402: drives on CANopen; can: a protocol of yours on CAN; none: "
-                              "your own class")
+  made->add_option("--drive",
+                   "cia402: drives on CANopen; can: a protocol of yours on CAN; none: "
+                   "your own class")
       ->required()
       ->check(one_of({"cia402", "can", "none"}))
       ->each([wish, kinds](const std::string& kind) { wish->drive = kinds.at(kind); });

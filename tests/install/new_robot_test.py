@@ -70,6 +70,26 @@ class Installed:
             self.moves(robot)
         return len(robots)
 
+    def refusals(self):
+        """Nothing is written where something is wrong."""
+        parent = self.work / "refused"
+        parent.mkdir()
+        (parent / "taken").mkdir()
+        wam = self.source / "robots/wam/wam7.urdf"
+        for words, said in {
+            ("taken", "--joints", "2", "--drive", "none"): "'taken' exists already",
+            ("janus", "--joints", "2", "--drive", "none"): "is that of a library of Armature",
+            ("arm", "--joints", "9", "--drive", "none"): "expected 1 to 7 joints, found 9",
+            ("arm", "--joints", "3", "--drive", "can", "--urdf", wam): "has 7 joints that move, expected 3; give --joints 7",
+            ("arm", "--joints", "3", "--drive", "can", "--urdf", "no.urdf"): "cannot read 'no.urdf'",
+            ("arm", "--joints", "3", "--drive", "ethercat"): "(known: cia402, can, none)",
+        }.items():
+            told = self.call(self.armature, "new", "robot", *words, cwd=parent, wrong=True)
+            if said not in told:
+                sys.exit(f"error: {words} should say {said!r}, not {told!r}")
+        if [each.name for each in parent.rglob("*")] != ["taken"]:
+            sys.exit(f"error: something was written: {list(parent.rglob('*'))}")
+
     def runs_examples(self):
         examples = self.prefix / "share/armature/examples"
         self.call(self.armature, "run", "--sim", "--for", "60s", "--script", examples / "12_cia402/move.lua",
@@ -81,6 +101,7 @@ class Installed:
 def main():
     with tempfile.TemporaryDirectory() as work:
         installed = Installed(*sys.argv[1:5], work)
+        installed.refusals()
         installed.runs_examples()
         robots = sum(installed.of_kind(kind) for kind in ("cia402", "can", "none"))
         print(f"{robots} robots move")

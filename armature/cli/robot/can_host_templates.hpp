@@ -6,7 +6,8 @@
 
 namespace armature::cli {
 
-inline constexpr std::string_view kProtocol = R"(// The frames of the drives: change them into those of yours.
+inline constexpr std::string_view kProtocol =
+    R"(// The frames of the drives: change them into those of yours.
 //
 // 0x200 + node, to a drive, once a cycle: [power, 0, 0, 0, torque in mNm as int32]
 // 0x180 + node, its answer:               [power, 0, 0, 0, position in 10 urad as int32]
@@ -324,7 +325,7 @@ bool @Name@Bus::is_guarded() {
 }
 
 armature::base::Result<std::unique_ptr<can::Link>> Simulated@Name@Bus::make_link() {
-  auto arm = SimulatedArm::load(file_, start_, rotor_inertia_);
+  auto arm = @Name@Plant::load(file_, start_, rotor_inertia_);
   if (!arm) return armature::base::Error{arm.error()};
   return std::unique_ptr<can::Link>(
       std::make_unique<SimulatedLink>(std::move(arm).value(), is_simulated(), time()));

@@ -8,7 +8,7 @@ namespace armature::cli {
 
 inline constexpr std::string_view kSimulatedLink = R"(#pragma once
 
-#include "@name@_simulated_arm.hpp"
+#include "@name@_plant.hpp"
 #include "armature/can/link.hpp"
 #include "armature/can/virtual_bus.hpp"
 #include "armature/can/virtual_station.hpp"
@@ -19,7 +19,7 @@ namespace @name@ {
 /// looks: that of the application, or with it the clock.
 class SimulatedLink final : public armature::can::Link {
  public:
-  SimulatedLink(SimulatedArm arm, bool simulated_time, armature::base::Time now);
+  SimulatedLink(@Name@Plant arm, bool simulated_time, armature::base::Time now);
 
   armature::can::Bus& bus() override { return host_; }
   bool open(armature::can::BusOptions options, armature::base::Diagnostics& diagnostics) override;
@@ -32,7 +32,7 @@ class SimulatedLink final : public armature::can::Link {
   void advance_to(armature::base::Time now);
   void answer(const armature::can::Frame& command);
 
-  SimulatedArm arm_;
+  @Name@Plant arm_;
   const bool simulated_time_;
   armature::base::Time now_;
   armature::base::Duration ahead_{};  ///< of the application, by what was waited before its run
@@ -67,7 +67,7 @@ constexpr Duration kStep = std::chrono::microseconds(100);
 
 }  // namespace
 
-SimulatedLink::SimulatedLink(SimulatedArm arm, bool simulated_time, Time now)
+SimulatedLink::SimulatedLink(@Name@Plant arm, bool simulated_time, Time now)
     : arm_(std::move(arm)),
       simulated_time_(simulated_time),
       now_(simulated_time ? now : armature::platform::monotonic_now()) {}

@@ -84,7 +84,7 @@ If Armature is not installed in /usr or /usr/local, tell CMake where: `-DCMAKE_P
 | `@name@_can_host.hpp`, `@name@_can_host.cpp` | all drives in one cycle of the bus, with a guardian |
 | `@name@_drive.hpp`, `@name@_drive.cpp` | the drive of one joint |
 | `@name@_host.hpp` | what the drive of a joint asks of its host |
-| `@name@_simulated_link.hpp`, `.cpp`, `@name@_simulated_arm.hpp` | simulated drives that speak the protocol |
+| `@name@_simulated_link.hpp`, `.cpp`, `@name@_plant.hpp` | simulated drives that speak the protocol |
 | `@name@.cpp` | the component library |
 | `@name@.urdf` | the description: links, joints, limits |
 | `@name@.yaml` | the robot: limits, gains, motions |
@@ -104,7 +104,7 @@ constexpr std::array<FileTemplate, 14> kFilesOfCan = {{
     {"@name@_protocol.hpp", kProtocol},
     {"@name@_can_host.hpp", kCanHost},
     {"@name@_can_host.cpp", kCanHostSource},
-    {"@name@_simulated_arm.hpp", kArmTemplate},
+    {"@name@_plant.hpp", kArmTemplate},
     {"@name@_simulated_link.hpp", kSimulatedLink},
     {"@name@_simulated_link.cpp", kSimulatedLinkSource},
     {"@name@.cpp", kCanLibrary},

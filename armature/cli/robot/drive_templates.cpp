@@ -17,7 +17,8 @@ add_test(NAME @name@_moves COMMAND armature::program run --sim --for 60s --scrip
                                    ${PROJECT_SOURCE_DIR}/simulated.yaml)
 )";
 
-constexpr std::string_view kCia402Simulated = R"(# armature run --sim --script move.lua simulated.yaml
+constexpr std::string_view kCia402Simulated =
+    R"(# armature run --sim --script move.lua simulated.yaml
 #
 # The drives are emulated in the same process, each with an axis of its own. on_can.yaml is the same arm on a bus.
 include: @name@.yaml

@@ -25,8 +25,8 @@ inline double rounded_down(double number) {
 /// With six figures at most, and a dot whatever the system's language is: `0.5`, `1e-05`.
 inline std::string figures_of(double number) {
   std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number,
-                                 std::chars_format::general, 6);
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::general, 6);
   return {text.data(), end.ptr};
 }
 

@@ -21,7 +21,7 @@ using control::JointRange;
 
 constexpr double kFastestPole = 20.0;  // rad/s
 constexpr double kSlowestPole = 4.0;
-constexpr double kLeastShare = 0.1;  // of the heaviest pose: its damping ratio is then 0.3
+constexpr double kLeastShare = 0.1;        // of the heaviest pose: its damping ratio is then 0.3
 constexpr double kVelocityCutoff = 180.0;  // rad/s, the default of ControllerGravityPD
 constexpr double kUsualVelocity = 2.0;     // rad/s
 constexpr double kMostAcceleration = 8.0;  // rad/s^2
@@ -44,8 +44,8 @@ bool has_margin(const JointRange& joint, double kp, double kd, const JointDrive&
   return true;
 }
 
-/// The poles of I s^2 + kd s + kp at -w, twice. A joint that is much lighter in other poses needs an
-/// I between: in the heaviest pose the joint then swings a little.
+/// The poles of I s^2 + kd s + kp at -w, twice. A joint that is much lighter in other poses needs
+/// an I between: in the heaviest pose the joint then swings a little.
 bool place_poles(const JointRange& joint, const JointDrive& drive, JointPlan& plan) {
   for (double share = 1.0; share > kLeastShare; share *= 0.7) {
     for (double w = kFastestPole; w >= kSlowestPole; w *= 0.95) {
@@ -84,12 +84,12 @@ std::string choose_limits(const JointLimits& limits, const JointRange& joint, Jo
   const double needed = joint.most_weight + kMostAcceleration * joint.most_inertia;
   plan.max_torque = told(limits.max_effort, rounded(2.0 * needed));
   const double left = plan.max_torque - joint.most_weight;
-  plan.max_acceleration = std::min(
-      kMostAcceleration, rounded_down(kTorqueShare * left / joint.most_inertia));
+  plan.max_acceleration =
+      std::min(kMostAcceleration, rounded_down(kTorqueShare * left / joint.most_inertia));
   if (plan.max_acceleration < kLeastAcceleration) {
     return "weighs up to " + figures_of(joint.most_weight) + " Nm and moves up to " +
-           in_kg(joint.most_inertia) + ", but its effort limit is " +
-           figures_of(plan.max_torque) + " Nm; mend its masses or its limit";
+           in_kg(joint.most_inertia) + ", but its effort limit is " + figures_of(plan.max_torque) +
+           " Nm; mend its masses or its limit";
   }
   plan.motion_velocity =
       std::min(kMostMotionVelocity, rounded_down(kMotionShare * plan.max_velocity));
@@ -98,8 +98,8 @@ std::string choose_limits(const JointLimits& limits, const JointRange& joint, Jo
   return {};
 }
 
-std::string plan_joint(const JointLimits& limits, const JointRange& joint,
-                       const JointDrive& drive, JointPlan& plan) {
+std::string plan_joint(const JointLimits& limits, const JointRange& joint, const JointDrive& drive,
+                       JointPlan& plan) {
   if (std::string wrong = choose_limits(limits, joint, plan); !wrong.empty()) return wrong;
   if (!drive.closed_here || place_poles(joint, drive, plan)) return {};
   return "moves " + in_kg(joint.least_inertia) + " to " + in_kg(joint.most_inertia) +

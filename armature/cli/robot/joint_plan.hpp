@@ -34,9 +34,9 @@ struct JointDrive {
 };
 
 /// Reads the robot's description, and chooses limits within it, and gains by pole placement: both
-/// poles at -w, kp = w^2 I and kd = 2 w I, with the inertia I of the heaviest pose, or as much of it
-/// as is possible, and the largest w up to 20 rad/s for which the sampled loop has a margin in every
-/// pose (`control::judge_loop`).
+/// poles at -w, kp = w^2 I and kd = 2 w I, with the inertia I of the heaviest pose, or as much of
+/// it as is possible, and the largest w up to 20 rad/s for which the sampled loop has a margin in
+/// every pose (`control::judge_loop`).
 /// @param urdf    its text
 /// @param file    what errors call it
 /// @param joints  that it is expected to have

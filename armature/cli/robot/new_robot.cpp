@@ -60,16 +60,15 @@ std::string joint_lines(const Plans& plans, bool by_torque) {
   std::string text;
   for (std::size_t i = 0; i < plans.size(); ++i) {
     const JointPlan& plan = plans[i];
-    text += "  Joint" + std::to_string(i + 1) + ": {override: true, properties: {" +
-            (plan.continuous ? "Continuous: true"
-                             : "PositionMin: " + figures_of(plan.lower) +
-                                   ", PositionMax: " + figures_of(plan.upper)) +
-            ", MaxVelocity: " + figures_of(plan.max_velocity) +
-            ", MaxAcceleration: " + figures_of(plan.max_acceleration) +
-            (by_torque ? ", MaxTorque: " + figures_of(plan.max_torque)
-                       : ", MaxPositionError: 3 deg") +
-            (!by_torque && plan.start != 0.0 ? ", InitialPos: " + figures_of(plan.start) : "") +
-            "}}\n";
+    text +=
+        "  Joint" + std::to_string(i + 1) + ": {override: true, properties: {" +
+        (plan.continuous ? "Continuous: true"
+                         : "PositionMin: " + figures_of(plan.lower) +
+                               ", PositionMax: " + figures_of(plan.upper)) +
+        ", MaxVelocity: " + figures_of(plan.max_velocity) +
+        ", MaxAcceleration: " + figures_of(plan.max_acceleration) +
+        (by_torque ? ", MaxTorque: " + figures_of(plan.max_torque) : ", MaxPositionError: 3 deg") +
+        (!by_torque && plan.start != 0.0 ? ", InitialPos: " + figures_of(plan.start) : "") + "}}\n";
   }
   return text;
 }
@@ -77,10 +76,12 @@ std::string joint_lines(const Plans& plans, bool by_torque) {
 std::string controller_lines(const Plans& plans, bool by_torque) {
   if (!by_torque) {
     return "  # The drives follow positions by gains of their own.\n"
-           "  Controller: {model: ControllerNPosition, peers: [Sampler, Arming], properties: {joints: "
+           "  Controller: {model: ControllerNPosition, peers: [Sampler, Arming], properties: "
+           "{joints: "
            "\"${joints}\"}}\n";
   }
-  return "  # Kp = w^2 I and Kd = 2 w I: both poles at -w as far as the sampled loop has a margin in "
+  return "  # Kp = w^2 I and Kd = 2 w I: both poles at -w as far as the sampled loop has a margin "
+         "in "
          "all poses. The check tries it anew.\n"
          "  Controller:\n"
          "    model: ControllerGravityPD\n"
@@ -102,27 +103,28 @@ Words words_for(const RobotWish& wish, const std::string& library, const Plans& 
   const Kind kind = kind_of(wish.drive);
   const bool by_torque = wish.drive != DriveKind::kCia402;
   const Words name{{"name", library}};
-  return {{"name", library},
-          {"Name", camel_case(wish.name)},
-          {"joints", std::to_string(plans.size())},
-          {"nodes", nodes_up_to(plans.size())},
-          {"joint", std::string(kind.joint)},
-          {"demux", std::string(kind.demux)},
-          {"command", std::string(kind.command)},
-          {"actuator", std::string(kind.actuator)},
-          {"drive", by_torque ? camel_case(wish.name) + "Drive" : "Cia402Drive"},
-          {"libraries", by_torque ? "\"${here}/build/lib/armature/lib" + library + ".so\"" : "cia402"},
-          {"rotor", figures_of(rotor_inertia(wish))},
-          {"delay", figures_of(kind.delay_s)},
-          {"joint_lines", joint_lines(plans, by_torque)},
-          {"controller", filled(controller_lines(plans, by_torque), name)},
-          {"max_vel", in_list(plans, &JointPlan::motion_velocity)},
-          {"max_acc", in_list(plans, &JointPlan::motion_acceleration)},
-          {"lower", in_list(plans, &JointPlan::lower)},
-          {"upper", in_list(plans, &JointPlan::upper)},
-          {"start", each(plans, &JointPlan::start)},
-          {"target", each(plans, &JointPlan::target)},
-          {"torques", in_list(plans, &JointPlan::max_torque)}};
+  return {
+      {"name", library},
+      {"Name", camel_case(wish.name)},
+      {"joints", std::to_string(plans.size())},
+      {"nodes", nodes_up_to(plans.size())},
+      {"joint", std::string(kind.joint)},
+      {"demux", std::string(kind.demux)},
+      {"command", std::string(kind.command)},
+      {"actuator", std::string(kind.actuator)},
+      {"drive", by_torque ? camel_case(wish.name) + "Drive" : "Cia402Drive"},
+      {"libraries", by_torque ? "\"${here}/build/lib/armature/lib" + library + ".so\"" : "cia402"},
+      {"rotor", figures_of(rotor_inertia(wish))},
+      {"delay", figures_of(kind.delay_s)},
+      {"joint_lines", joint_lines(plans, by_torque)},
+      {"controller", filled(controller_lines(plans, by_torque), name)},
+      {"max_vel", in_list(plans, &JointPlan::motion_velocity)},
+      {"max_acc", in_list(plans, &JointPlan::motion_acceleration)},
+      {"lower", in_list(plans, &JointPlan::lower)},
+      {"upper", in_list(plans, &JointPlan::upper)},
+      {"start", each(plans, &JointPlan::start)},
+      {"target", each(plans, &JointPlan::target)},
+      {"torques", in_list(plans, &JointPlan::max_torque)}};
 }
 
 base::Result<std::string> description_of(const RobotWish& wish, const std::string& library) {

@@ -28,9 +28,9 @@ struct RobotWish {
 inline constexpr std::size_t kMostNewJoints = 7;
 
 /// Writes a robot that moves in simulation into a new folder below `parent`: description,
-/// deployment, gains, a script, a test and the classes of its drives. Refused, with nothing written,
-/// for a name that is taken or no C++ identifier, a folder that exists, a description that does not
-/// fit or cannot be read.
+/// deployment, gains, a script, a test and the classes of its drives. Refused, with nothing
+/// written, for a name that is taken or no C++ identifier, a folder that exists, a description that
+/// does not fit or cannot be read.
 base::Result<NewFolder> make_robot(const RobotWish& wish, const std::string& parent);
 
 }  // namespace armature::cli

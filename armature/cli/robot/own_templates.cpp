@@ -37,7 +37,7 @@ constexpr std::string_view kOwnLibrary = R"(#include <algorithm>
 #include <vector>
 
 #include "@name@_drive.hpp"
-#include "@name@_simulated_arm.hpp"
+#include "@name@_plant.hpp"
 #include "armature/component/registry.hpp"
 
 namespace @name@ {
@@ -49,7 +49,7 @@ class Simulated@Name@ final : public @Name@Host {
 
  private:
   Outcome on_configure() override {
-    auto arm = SimulatedArm::load(file_, start_, rotor_inertia_);
+    auto arm = @Name@Plant::load(file_, start_, rotor_inertia_);
     if (!arm) return refused(arm.error());
     arm_.emplace(std::move(arm).value());
     return accepted();
@@ -90,7 +90,7 @@ class Simulated@Name@ final : public @Name@Host {
   Property<std::string> file_{this, "robot_description", "", "the URDF of the arm", "", mandatory};
   Property<std::vector<double>> start_{this, "start", {}, "where each joint begins", "rad", mandatory};
   Property<double> rotor_inertia_{this, "rotor_inertia", 0.0, "of each motor, at its joint", "kg m^2"};
-  std::optional<SimulatedArm> arm_;
+  std::optional<@Name@Plant> arm_;
   armature::base::Time now_{};
 };
 
@@ -131,7 +131,7 @@ If Armature is not installed in /usr or /usr/local, tell CMake where: `-DCMAKE_P
 | `simulated.yaml` | the simulated drives; write `real.yaml` beside it with yours |
 | `@name@_host.hpp` | what a host of drives does: extend it |
 | `@name@_drive.hpp`, `@name@_drive.cpp` | the drive of one joint |
-| `@name@.cpp`, `@name@_simulated_arm.hpp` | the simulated drives |
+| `@name@.cpp`, `@name@_plant.hpp` | the simulated drives |
 | `move.lua` | a motion, which asserts that it arrives |
 | `recorded.yaml` | the simulated arm with a recording for `armature report` |
 
@@ -143,7 +143,7 @@ constexpr std::array<FileTemplate, 8> kFilesOfOwn = {{
     {"@name@_host.hpp", kHostTemplate},
     {"@name@_drive.hpp", kDriveTemplate},
     {"@name@_drive.cpp", kDriveSourceTemplate},
-    {"@name@_simulated_arm.hpp", kArmTemplate},
+    {"@name@_plant.hpp", kArmTemplate},
     {"@name@.cpp", kOwnLibrary},
     {"simulated.yaml", kOwnSimulated},
     {"README.md", kOwnReadme},

@@ -6,7 +6,8 @@
 namespace armature::cli {
 namespace {
 
-constexpr std::string_view kRobotController = R"(# Everything between the drives and the motions, for any number of joints. It is yours to change; the robot is @name@.yaml.
+constexpr std::string_view kRobotController =
+    R"(# Everything between the drives and the motions, for any number of joints. It is yours to change; the robot is @name@.yaml.
 libraries: [robot]
 parameters: {joints: 1, period: 2 ms}
 components:
@@ -45,7 +46,8 @@ connections:
   - Actuator.@command@{i} -> Joint{i}.@command@
 )";
 
-constexpr std::string_view kRobotFile = R"(# The robot: its description, limits and gains. It is run by simulated.yaml, which has its drives.
+constexpr std::string_view kRobotFile =
+    R"(# The robot: its description, limits and gains. It is run by simulated.yaml, which has its drives.
 include: controller.yaml
 application: @name@
 libraries: [@libraries@]
@@ -69,7 +71,8 @@ components:
       upper: @upper@
 )";
 
-constexpr std::string_view kRobotRecorded = R"(# armature run --sim --script move.lua --out out recorded.yaml && armature report out
+constexpr std::string_view kRobotRecorded =
+    R"(# armature run --sim --script move.lua --out out recorded.yaml && armature report out
 include: simulated.yaml
 libraries: [record]
 components:

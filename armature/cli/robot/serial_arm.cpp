@@ -89,9 +89,10 @@ std::string serial_arm(const std::string& name, std::size_t joints) {
   for (std::size_t i = 0; i < joints; ++i, mass = rounded(mass * kLighter)) {
     links.masses.push_back(mass);
   }
-  std::string text = "<?xml version=\"1.0\"?>\n<!-- An arm to begin with: put your own in its place. "
-                     "m, kg, kg m^2, rad, Nm. -->\n<robot name=\"" +
-                     name + "\">\n  <link name=\"base\"/>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<!-- An arm to begin with: put your own in its place. "
+      "m, kg, kg m^2, rad, Nm. -->\n<robot name=\"" +
+      name + "\">\n  <link name=\"base\"/>\n";
   for (std::size_t i = 0; i < joints; ++i) text += filled(kLink, words_of(links, i));
   for (std::size_t i = 0; i < joints; ++i) text += filled(kJoint, words_of(links, i));
   return text + "</robot>\n";

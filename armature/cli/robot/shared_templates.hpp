@@ -185,11 +185,11 @@ inline constexpr std::string_view kArmTemplate = R"(#pragma once
 namespace @name@ {
 
 /// The arm of the description with ideal drives and brakes, in place of the real one.
-class SimulatedArm {
+class @Name@Plant {
  public:
   /// @param start  [rad] where each joint begins
   /// @param rotor_inertia  [kg m^2] of each motor, at its joint
-  static armature::base::Result<SimulatedArm> load(const std::string& file,
+  static armature::base::Result<@Name@Plant> load(const std::string& file,
                                                    const std::vector<double>& start,
                                                    double rotor_inertia) {
     auto plant = armature::sim::Plant::load(file, {});
@@ -205,7 +205,7 @@ class SimulatedArm {
                                    file + "' " + std::to_string(plant.value().joints()) +
                                    " joints that move"};
     }
-    SimulatedArm arm(std::move(plant).value());
+    @Name@Plant arm(std::move(plant).value());
     for (std::size_t i = 0; i < start.size(); ++i) {
       arm.plant_.set_state(i, start[i], 0.0);
       arm.set_power(i, Power::kOff);
@@ -228,7 +228,7 @@ class SimulatedArm {
   void step(armature::base::Duration dt) { plant_.step(dt); }
 
  private:
-  explicit SimulatedArm(armature::sim::Plant plant)
+  explicit @Name@Plant(armature::sim::Plant plant)
       : plant_(std::move(plant)), power_(plant_.joints(), Power::kOff) {}
 
   static constexpr double kHoldingTorque = 1000.0;  // Nm
