@@ -24,7 +24,7 @@
 #include "armature/platform/file.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/process.hpp"
-#include "armature/platform/service_manager.hpp"
+#include "armature/platform/sockets/service_manager.hpp"
 #include "armature/platform/stop_priority.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/runner/burial.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/platform/service_manager.hpp"
+#include "armature/platform/sockets/service_manager.hpp"
 
 #include <chrono>
 #include <cstddef>
