@@ -2,6 +2,8 @@
 # What `cmake --install` gives beyond the libraries and the program: headers, and what
 # find_package(armature) needs. armature::armature is all libraries at once.
 include(CMakePackageConfigHelpers)
+# All of it is for building: the package armature-dev.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/armature)
 
 get_property(libraries GLOBAL PROPERTY ARMATURE_LIBRARIES)
@@ -17,7 +19,7 @@ install(DIRECTORY armature DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHIN
         REGEX "armature/(guard|testing/model)$" EXCLUDE
         PATTERN "test_*" EXCLUDE)
 
-install(FILES LICENSE DESTINATION share/doc/armature)
+install(FILES LICENSE DESTINATION share/doc/armature COMPONENT armature)
 
 write_basic_package_version_file(armatureConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/armatureConfig.cmake cmake/ArmatureComponentLibrary.cmake

@@ -160,7 +160,10 @@ endfunction()
 # no part of armature::armature.
 function(armature_install_library name)
   set_target_properties(armature_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS armature_${name} EXPORT armature)
+  # Without a version, links and archives are what others are linked with.
+  install(TARGETS armature_${name} EXPORT armature
+          LIBRARY NAMELINK_COMPONENT dev
+          ARCHIVE COMPONENT dev)
   if(NOT name MATCHES "^(guard|testing)$")
     set_property(GLOBAL APPEND PROPERTY ARMATURE_LIBRARIES armature::${name})
   endif()

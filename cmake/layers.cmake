@@ -33,7 +33,7 @@ set(ARMATURE_LAYERS
     "studio: base platform rt ride websocket remote document deploy inspect edit"
     "lua: base inspect exec component rt types platform"
     "browser: base remote ride lua inspect exec component platform"
-    "controllers: base component control guardian types"
+    "controllers: base component control guardian platform rt types"
     "general: base component record rt"
     "sim: base control"
     "canopen: base can"

@@ -314,6 +314,9 @@ Result<Unit> parse_unit(std::string_view text) {
 
 namespace {
 
+/// Between the units of which a value may be in either, such as "rad or m".
+constexpr std::string_view kOr = " or ";
+
 /// What follows the digits of a number begins as the fraction of one does where commas are usual.
 bool has_decimal_comma(std::string_view rest) {
   return rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9';
@@ -345,6 +348,12 @@ Result<Quantity> parse_quantity(std::string_view text) {
 }
 
 Result<double> convert(double value, std::string_view from, std::string_view to) {
+  if (const auto at = to.find(kOr); at != std::string_view::npos) {
+    const Result<double> one = convert(value, from, to.substr(0, at));
+    if (one) return one;
+    const Result<double> other = convert(value, from, to.substr(at + kOr.size()));
+    return other ? other : one;
+  }
   const Result<Unit> source = parse_unit(from);
   if (!source) return Error{source.error()};
   const Result<Unit> target = parse_unit(to);

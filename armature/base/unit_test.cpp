@@ -113,6 +113,12 @@ TEST(Unit, IsTheSameIfANumberInItIs) {
   EXPECT_FALSE(same("rad/s", "Hz"));
 }
 
+TEST(Units, OfSeveralThatAValueMayBeInTheOneOfItsKindCounts) {
+  EXPECT_EQ(convert(500, "mm/s", "rad/s or m/s").value(), 0.5);
+  EXPECT_EQ(convert(2, "rad/s", "rad/s or m/s").value(), 2);
+  EXPECT_FALSE(convert(2, "V", "rad/s or m/s"));
+}
+
 TEST(Unit, IgnoresSpaceAroundItsParts) {
   EXPECT_EQ(convert(1, "  N  m / rad ", "Nm/rad").value(), 1);
   EXPECT_EQ(convert(1, "V / ( rad / s )", "V/(rad/s)").value(), 1);

@@ -18,10 +18,11 @@ void add_bundle(const CommandLine& to);
 void add_generate(const CommandLine& to);
 void add_studio(const CommandLine& to);
 void add_new(const CommandLine& to);
+void add_complete(const CommandLine& to);
 
 /// In the order of the help.
 inline constexpr void (*kCommands[])(const CommandLine& to) = {
-    add_run,     add_browse, add_check,  add_graph,    add_models, add_report,
-    add_convert, add_edit,   add_bundle, add_generate, add_studio, add_new};
+    add_run,  add_browse, add_check,    add_graph,  add_models, add_report,  add_convert,
+    add_edit, add_bundle, add_generate, add_studio, add_new,    add_complete};
 
 }  // namespace armature::cli

@@ -25,7 +25,7 @@ class NewComponentTest : public ::testing::Test {
   }
   ~NewComponentTest() override { fs::remove_all(parent_); }
 
-  base::Result<NewComponent> make(const std::string& name) {
+  base::Result<NewFolder> make(const std::string& name) {
     return make_component_library(name, parent_.string());
   }
   std::string folder_of(const std::string& name) {

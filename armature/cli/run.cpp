@@ -24,6 +24,7 @@
 #include "armature/platform/file.hpp"
 #include "armature/platform/printer.hpp"
 #include "armature/platform/process.hpp"
+#include "armature/platform/sockets/service_manager.hpp"
 #include "armature/platform/stop_priority.hpp"
 #include "armature/platform/stop_signal.hpp"
 #include "armature/runner/burial.hpp"
@@ -104,10 +105,11 @@ report::RunFacts facts_of(const RunArguments& arguments) {
   return facts;
 }
 
-/// @param companions, network, facts  outlive the application
+/// @param companions, network, service, facts  outlive the application
 exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArguments& arguments,
                                     const Companions& companions, NetworkOnDemand& network,
-                                    const Console& console, report::RunFacts& facts) {
+                                    platform::ServiceManager& service, const Console& console,
+                                    report::RunFacts& facts) {
   exec::ApplicationOptions options = std::move(deployment.options);
   runner::apply(arguments, options);
   options.log = [&](const rt::LogRecord& record) {
@@ -124,7 +126,12 @@ exec::ApplicationOptions options_of(deploy::Deployment& deployment, const RunArg
   const bool scripted = companions.script != nullptr;
   const bool browsed = companions.browser != nullptr;
   options.ready = [=] { release_what_is_not_needed(networked, browsed, scripted); };
-  if (networked) options.attend = [&network] { network.serve(); };
+  if (networked || service.wants_signs_of_life()) {
+    options.attend = [&network, &service, networked] {
+      service.is_alive(platform::monotonic_now());
+      if (networked) network.serve();
+    };
+  }
   return options;
 }
 
@@ -231,9 +238,10 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
   report::RunFacts facts = facts_of(arguments);
   if (!arguments.simulated) console.set_begin(facts.begin);
   const platform::StopSignal stop;
+  platform::ServiceManager service;
   exec::Application application(
       std::move(deployment.blueprint),
-      options_of(deployment, arguments, companions, network, console, facts));
+      options_of(deployment, arguments, companions, network, service, console, facts));
   const runner::Burial burial(application, console);
   {
     // What peers ask for may be an E-stop.
@@ -249,7 +257,9 @@ int run_checked(deploy::Deployment& deployment, const Aboard& aboard) {
     return failed;
   }
   const runner::Urgency urgency(arguments, stop);
+  service.ready();
   let_run(application, companions, arguments, stop, mistakes, facts);
+  service.is_stopping();
   const bool mistaken =
       !mistakes.ok() || (companions.browser && companions.browser->mistakes() > 0);
   const base::Diagnostics left = leave(application, companions, stop, facts.end, mistaken);

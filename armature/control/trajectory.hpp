@@ -10,6 +10,7 @@
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
+#include "armature/control/motion_limit.hpp"
 #include "armature/control/trapezoid.hpp"
 
 namespace armature::control {
@@ -32,18 +33,6 @@ enum class Refusal {
 /// A few words for a message, such as "a target is outside the limits of its axis".
 /// @rt nonblocking, no allocation
 std::string_view to_text(Refusal refusal);
-
-/// What limits a motion besides the limits of each axis, such as the speed of a robot's tip. It
-/// grows with the velocities as they do: at half the velocities half of it is used.
-class MotionLimit {
- public:
-  /// @return the share that is used of what is allowed, above 1 if it is too fast
-  /// @rt nonblocking, no allocation
-  virtual double used(std::span<const double> positions, std::span<const double> velocities) = 0;
-
- protected:
-  ~MotionLimit() = default;
-};
 
 /// Moves several axes from rest to rest with trapezoidal velocities. All start and end together:
 /// each axis takes its shortest motion, and all are scaled in time to the slowest (paper 2, section
@@ -133,6 +122,8 @@ class Trajectory {
   bool under_way() const { return elapsed_s() < duration_s_; }
   double elapsed_s() const { return static_cast<double>(elapsed_.count()) * 1e-9; }
   double duration_s() const { return duration_s_; }  ///< of the present or last motion
+  double remaining_s() const { return under_way() ? duration_s_ - elapsed_s() : 0.0; }
+  double progress() const { return under_way() ? elapsed_s() / duration_s_ : 1.0; }  ///< 0..1
   std::size_t axes() const { return axes_.size(); }
 
   /// One number per axis; valid until the trajectory is gone.

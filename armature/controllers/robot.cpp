@@ -21,6 +21,8 @@
 #include "armature/controllers/robot_model/robot_model.hpp"
 #include "armature/controllers/sampler/sampler.hpp"
 #include "armature/controllers/sensor_mux/sensor_mux.hpp"
+#include "armature/controllers/teach/axes_generator_taught.hpp"
+#include "armature/controllers/teach/teacher.hpp"
 #include "armature/controllers/velocity_pid/velocity_pid.hpp"
 
 using namespace armature::controllers;
@@ -76,5 +78,8 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
                                  {{"nAxisGenPos"}, {"nAxesGenerator"}});
   registry.add<AxesGeneratorOnline>(
       "nAxesGeneratorOnline", "moves N axes from any motion to any target, with limited jerk");
+  registry.add<AxesGeneratorTaught>("nAxesGeneratorTaught",
+                                    "does so, and plays what a hand taught at any speed");
+  registry.add<Teacher>("Teacher", "records motions that a hand shows, and keeps poses by name");
   registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }

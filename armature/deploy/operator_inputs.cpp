@@ -20,6 +20,10 @@ using exec::Index;
 
 /// Voltage, current, force, torque or power, whatever the prefix.
 bool is_effort(std::string_view text) {
+  constexpr std::string_view kOr = " or ";  // of axes of both kinds: "Nm or N"
+  if (const auto at = text.find(kOr); at != std::string_view::npos) {
+    return is_effort(text.substr(0, at)) || is_effort(text.substr(at + kOr.size()));
+  }
   const auto unit = base::parse_unit(text);
   if (!unit) return false;
   return std::ranges::any_of(std::array{"V", "A", "N", "N m", "W"}, [&](const char* effort) {

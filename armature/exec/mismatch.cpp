@@ -41,12 +41,25 @@ std::string hint_about_units(const OutputPortBase& output, const InputPortBase& 
   return "connect ports of the same unit, or convert in a component between them";
 }
 
+/// A port of axes of both kinds is in "rad or m": it suits what is in one of them.
+bool suit(std::string_view from, std::string_view to) {
+  constexpr std::string_view kOr = " or ";
+  if (const auto at = from.find(kOr); at != std::string_view::npos) {
+    return suit(from.substr(0, at), to) || suit(from.substr(at + kOr.size()), to);
+  }
+  if (const auto at = to.find(kOr); at != std::string_view::npos) {
+    return suit(from, to.substr(0, at)) || suit(from, to.substr(at + kOr.size()));
+  }
+  const auto one = base::parse_unit(from);
+  const auto other = base::parse_unit(to);
+  return one && other && one.value().same_as(other.value());
+}
+
 std::optional<Mismatch> mismatch_of_units(const OutputPortBase& output,
                                           const InputPortBase& input) {
-  if (output.unit() == input.unit()) return std::nullopt;
+  if (output.unit() == input.unit() || suit(output.unit(), input.unit())) return std::nullopt;
   const auto from = base::parse_unit(output.unit());
   const auto to = base::parse_unit(input.unit());
-  if (from && to && from.value().same_as(to.value())) return std::nullopt;
   return Mismatch{path(output) + " is in " + unit_text(output.unit()) + ", but " + path(input) +
                       " expects " + unit_text(input.unit()),
                   !from ? unknown_unit(output)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 
 namespace armature::canopen {
@@ -57,6 +58,21 @@ const DataTypeRow* row_of(DataType type) noexcept {
 }
 
 }  // namespace
+
+std::optional<Address> parse_address(std::string_view text) noexcept {
+  if (text.starts_with("0x")) text.remove_prefix(2);
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  Address address;
+  const auto parse = [](std::string_view digits, auto& number) {
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+    return error == std::errc() && end == digits.data() + digits.size();
+  };
+  if (!parse(text.substr(0, colon), address.index)) return std::nullopt;
+  if (colon == text.size()) return address;
+  if (!parse(text.substr(colon + 1), address.subindex)) return std::nullopt;
+  return address;
+}
 
 std::string to_text(Address address) {
   std::array<char, 16> text{};

@@ -3,7 +3,9 @@
 
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace armature::canopen {
 
@@ -17,6 +19,8 @@ struct Address {
 
 /// As people write it: `0x6040:00`.
 std::string to_text(Address address);
+/// The address that a text is, both numbers hexadecimal: `0x6040:00`, `0x6040`, `2000:1a`.
+std::optional<Address> parse_address(std::string_view text) noexcept;
 
 /// Types of objects, with the numbers that EDS files give them (CiA 301, 7.4.7).
 enum class DataType : std::uint16_t {

@@ -63,7 +63,13 @@ base::Result<std::int64_t> SdoChannel::read(Address address, DataType type) {
 base::Result<void> SdoChannel::write(Address address, DataType type, std::int64_t value) {
   std::array<std::uint8_t, 8> bytes{};
   store(bytes, static_cast<std::uint64_t>(value));
-  return download(address, std::span(bytes).first(bytes_of_bits(bits_of(type))));
+  const unsigned count = bytes_of_bits(bits_of(type));
+  auto written = download(address, std::span(bytes).first(count));
+  if (written && record_ != nullptr && count <= SdoClient::kNumberBytes) {
+    record_->push_back({address, static_cast<std::uint8_t>(count),
+                        static_cast<std::uint32_t>(load(std::span(bytes).first(count))), true});
+  }
+  return written;
 }
 
 }  // namespace armature::canopen

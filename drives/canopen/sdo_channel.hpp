@@ -15,6 +15,14 @@
 
 namespace armature::canopen {
 
+/// A number of a device, as it was written or has to be.
+struct SdoStep {
+  Address address;
+  std::uint8_t bytes = 4;  ///< 1 to 4
+  std::uint32_t value = 0;
+  bool is_written = true;  ///< else it is read and compared
+};
+
 /// Reads and writes a device's objects while its host configures it: waits for each answer.
 /// Errors name device, object and the device's reason.
 /// @thread the host's, and not in its cycle
@@ -34,6 +42,8 @@ class SdoChannel {
   /// Reads a number and checks that it has as many bytes as its type.
   /// @return its value; of a real number, its bits
   base::Result<std::int64_t> read(Address address, DataType type);
+  /// Keeps what is written from now on, to be written again to the device after it lost its power.
+  void record(std::vector<SdoStep>& steps) { record_ = &steps; }
   /// @param value  in the type's range; its lowest bits are sent
   base::Result<void> write(Address address, DataType type, std::int64_t value);
 
@@ -44,6 +54,7 @@ class SdoChannel {
   can::Link& link_;
   SdoClient client_;
   Listener listener_;
+  std::vector<SdoStep>* record_ = nullptr;
 };
 
 /// How a device describes one of its PDOs.

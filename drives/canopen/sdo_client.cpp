@@ -76,7 +76,7 @@ std::optional<can::Frame> SdoClient::take_first(const can::Frame& frame) {
     return std::nullopt;
   }
   if ((frame.data[0] & kSizeBit) != 0) announced_ = load(frame.bytes().subspan(4, 4));
-  if (announced_ > kMostSdoBytes) return abort(AbortCode::kOutOfMemory);
+  if (announced_ > most_bytes_) return abort(AbortCode::kOutOfMemory);
   in_segments_ = true;
   return segment_request();
 }
@@ -85,7 +85,7 @@ std::optional<can::Frame> SdoClient::take_segment(const can::Frame& frame) {
   if (specifier_of(frame) != response::kUploadSegment) return abort(AbortCode::kUnknownCommand);
   if (toggle_of(frame) != toggle_) return abort(AbortCode::kToggleBit);
   const auto segment = segment_bytes(frame);
-  if (bytes_.size() + segment.size() > kMostSdoBytes) return abort(AbortCode::kOutOfMemory);
+  if (bytes_.size() + segment.size() > most_bytes_) return abort(AbortCode::kOutOfMemory);
   bytes_.insert(bytes_.end(), segment.begin(), segment.end());
   toggle_ = !toggle_;
   if (!is_last(frame)) return segment_request();

@@ -30,9 +30,17 @@ class SdoClient {
     kAborted,  ///< by either side: see `abort_code`
   };
 
-  /// @param patience  with each answer of the device
-  explicit SdoClient(NodeId node, base::Duration patience = kPatience)
-      : node_(node), patience_(patience) {}
+  static constexpr std::size_t kMostBytes = 64 * 1024;
+  /// As many as one frame carries: a client that never has more allocates nothing.
+  static constexpr std::size_t kNumberBytes = 4;
+
+  /// @param patience    with each answer of the device
+  /// @param most_bytes  that may be read; more is refused
+  explicit SdoClient(NodeId node, base::Duration patience = kPatience,
+                     std::size_t most_bytes = kMostBytes)
+      : node_(node), patience_(patience), most_bytes_(most_bytes) {
+    bytes_.reserve(kNumberBytes);
+  }
 
   /// Begins to read; what was under way is forgotten.
   can::Frame begin_upload(Address address, base::Time now);
@@ -65,6 +73,7 @@ class SdoClient {
 
   const NodeId node_;
   const base::Duration patience_;
+  const std::size_t most_bytes_;
   Status status_ = Status::kIdle;
   AbortCode code_ = AbortCode::kNone;
   Address address_;

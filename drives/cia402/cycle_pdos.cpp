@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "drives/cia402/drive_settings.hpp"
 #include "drives/cia402/objects.hpp"
 
 namespace armature::cia402 {
@@ -35,6 +36,23 @@ class EdsCheck {
     if ((modes & supported_bit(wish_.mode)) != 0) return;
     error("object 0x6502:00 has no mode " + std::string(to_text(wish_.mode)),
           "it has: " + supported_text(modes));
+  }
+
+  /// What is written at the start has to be within the limits that the file has.
+  void compare_settings() {
+    const auto settings = settings_of(wish_);
+    if (!settings) return error(settings.error(), "");
+    for (const Setting& setting : settings.value()) {
+      const canopen::EdsObject* const found = eds_.find(setting.address);
+      if (found == nullptr) continue;
+      const bool low = found->low && setting.value < *found->low;
+      const bool high = found->high && setting.value > *found->high;
+      if (!low && !high) continue;
+      error("object " + to_text(setting.address) + " '" + found->name + "' would be " +
+                std::to_string(setting.value) + ", and its " + (low ? "least" : "greatest") +
+                " value is " + std::to_string(low ? *found->low : *found->high),
+            "choose another period, heartbeat or mode");
+    }
   }
 
   void compare_objects(const std::vector<Pdo>& pdos, PdoDirection direction) {
@@ -121,6 +139,7 @@ bool check_eds(const canopen::Eds& eds, const std::string& file, const DriveWish
   EdsCheck check(eds, file, wish, own);
   check.compare_identity();
   check.compare_mode();
+  check.compare_settings();
   check.compare_objects(receive_pdos(wish), PdoDirection::kReceive);
   check.compare_objects(transmit_pdos(wish), PdoDirection::kTransmit);
   diagnostics.append(own);

@@ -17,7 +17,8 @@ std::vector<canopen::Pdo> receive_pdos(const DriveWish& wish);
 std::vector<canopen::Pdo> transmit_pdos(const DriveWish& wish);
 
 /// Compares what a host wants of a drive with the EDS of its maker, without the drive: identity,
-/// mode, and whether each object of a cycle is there, has its bits and may be mapped.
+/// mode, whether what is written at the start is within limits, and whether each object of a cycle
+/// is there, has its bits and may be mapped.
 /// @param file  of the EDS, for messages
 /// @return false after an error; each names the drive, the object, what was expected and found
 bool check_eds(const canopen::Eds& eds, const std::string& file, const DriveWish& wish,

@@ -105,6 +105,11 @@ base::Result<DriveGroup> DriveGroup::make(std::vector<DriveConfig> drives,
   return group;
 }
 
+void DriveGroup::set_heartbeat(canopen::NodeId node, base::Duration period, base::Time now) {
+  heartbeat_ = canopen::HeartbeatProducer(node);
+  heartbeat_.set_period(period, now);
+}
+
 void DriveGroup::take(const can::Arrival& arrival) noexcept {
   heartbeats_.take(arrival.frame, arrival.time);
   const auto emergency = canopen::parse_emergency(arrival.frame);
@@ -214,6 +219,9 @@ std::size_t DriveGroup::step(can::Bus& bus, base::Time now) noexcept {
     }
   }
   send(sync_.step());
+  if (const auto heartbeat = heartbeat_.step(canopen::NmtState::kOperational, now)) {
+    send(*heartbeat);
+  }
   return refused;
 }
 

@@ -13,6 +13,7 @@
 #include "drives/canopen/emergency.hpp"
 #include "drives/canopen/heartbeat.hpp"
 #include "drives/canopen/pdo.hpp"
+#include "drives/canopen/sdo_channel.hpp"
 #include "drives/canopen/sync.hpp"
 #include "drives/cia402/mode.hpp"
 #include "drives/cia402/power.hpp"
@@ -30,6 +31,8 @@ struct DriveConfig {
   std::vector<canopen::Pdo> transmit;    ///< the drive's; with status word and position
   base::Duration heartbeat_timeout{};    ///< 0: its heartbeat is not watched
   std::uint32_t most_silent_cycles = 5;  ///< without an answer, then it is told to stop quickly
+  std::vector<canopen::SdoStep> preparation{};  ///< for when it lost its power
+  std::vector<canopen::Address> slow{};         ///< numbers that are asked by SDO, now and then
 };
 
 /// What is known of a drive after a cycle.
@@ -75,6 +78,11 @@ class DriveGroup {
   const DriveConfig& config(std::size_t drive) const { return drives_[drive].config; }
   const DriveState& state(std::size_t drive) const { return drives_[drive].state; }
 
+  /// From now on drives hear that their host is there.
+  /// @param node    of the host
+  /// @param period  0: they do not
+  void set_heartbeat(canopen::NodeId node, base::Duration period, base::Time now);
+
   /// Uses a frame that has come, of whatever kind.
   /// @rt nonblocking, no allocation, O(drives)
   void take(const can::Arrival& arrival) noexcept;
@@ -91,7 +99,7 @@ class DriveGroup {
   /// @rt nonblocking, no allocation
   void set_target(std::size_t drive, double target) noexcept;
 
-  /// Sends all targets and then SYNC.
+  /// Sends all targets, SYNC, and the heartbeat that is due.
   /// @return how many frames the bus did not take
   /// @rt nonblocking, no allocation, O(drives)
   std::size_t step(can::Bus& bus, base::Time now) noexcept;
@@ -132,6 +140,7 @@ class DriveGroup {
   std::vector<Drive> drives_;
   canopen::SyncProducer sync_;
   canopen::HeartbeatConsumer heartbeats_;
+  canopen::HeartbeatProducer heartbeat_{0};
 };
 
 }  // namespace armature::cia402

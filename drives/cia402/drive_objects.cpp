@@ -133,6 +133,7 @@ void add_drive_objects(canopen::ObjectDictionary& dictionary, const Factors& fac
   dictionary.add_bytes(
       {.address = {0x2000, 0}, .name = "The user's own text", .type = DataType::kVisibleString},
       {});
+  objects.actual(object::kEmulatedTemperature, "Temperature of the motor", DataType::kInteger16);
   add_checks(dictionary);
 }
 

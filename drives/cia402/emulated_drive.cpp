@@ -212,6 +212,17 @@ void EmulatedDrive::step(base::Time now) {
   } else {
     axis_.step(0.0, kStep);
   }
+  warm();
+}
+
+/// With the square of its torque, as its winding; to 85 °C in the end at the most that it can give.
+void EmulatedDrive::warm() {
+  constexpr double kMostRise = 60.0;       // [K]
+  constexpr double kTimeConstant = 120.0;  // [s]
+  const double part = axis_.torque() / axis_.config().most_torque;
+  const double settled = kAmbient + kMostRise * part * part;
+  const double by = std::chrono::duration<double>(kStep).count();
+  temperature_ += (settled - temperature_) * by / kTimeConstant;
 }
 
 double EmulatedDrive::stop_torque() {
@@ -340,6 +351,7 @@ void EmulatedDrive::write_actual() {
   const std::int16_t raw_torque = scaling_.raw_torque(torque);
   set(object::kTorque, raw_torque);
   set(object::kCurrent, raw_torque);
+  set(object::kEmulatedTemperature, std::lround(10.0 * temperature_));
 }
 
 }  // namespace armature::cia402

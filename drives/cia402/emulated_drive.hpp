@@ -34,6 +34,8 @@ class EmulatedDrive {
     bool brake = true;  ///< holds the axis while the drive does not
   };
   static constexpr base::Duration kStep = std::chrono::microseconds(100);
+  /// Of a motor that was never driven [°C].
+  static constexpr double kAmbient = 25.0;
 
   /// @param config  its factors above 0
   /// @param bus     open, and lives as long
@@ -80,6 +82,7 @@ class EmulatedDrive {
   void write_actual();
   std::uint16_t mode_bits() const;
   void take_set_point(std::uint16_t control);
+  void warm();
   void on_sync(base::Time now);
   void at_power_on();
   std::int64_t number(canopen::Address address) const {
@@ -115,6 +118,7 @@ class EmulatedDrive {
   bool deaf_to_sync_ = false;
   bool frozen_ = false;
   bool powerless_ = false;
+  double temperature_ = kAmbient;  ///< [°C], of the motor
 };
 
 }  // namespace armature::cia402

@@ -45,6 +45,8 @@ constexpr Address kInterpolationTime{0x60c2, 1};
 constexpr Address kInterpolationExponent{0x60c2, 2};
 constexpr Address kTargetVelocity{0x60ff, 0};
 constexpr Address kSupportedModes{0x6502, 0};
+/// Of the emulated drive alone [0.1 °C]; CiA 402 has no temperature.
+constexpr Address kEmulatedTemperature{0x2001, 0};
 }  // namespace object
 
 }  // namespace armature::cia402

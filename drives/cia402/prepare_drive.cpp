@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "drives/cia402/cycle_pdos.hpp"
+#include "drives/cia402/drive_settings.hpp"
 #include "drives/cia402/objects.hpp"
 
 namespace armature::cia402 {
@@ -22,6 +23,30 @@ std::string hexadecimal(std::int64_t number) {
   std::array<char, 24> text{};
   std::snprintf(text.data(), text.size(), "0x%llX", static_cast<unsigned long long>(number));
   return text.data();
+}
+
+/// `0x6040:00, 0x607A:00`.
+std::string mapping_text(const canopen::Pdo& pdo) {
+  std::string text;
+  for (const canopen::MappedObject& object : pdo.objects) {
+    text += (text.empty() ? "" : ", ") + to_text(object.address);
+  }
+  return text.empty() ? "no object" : text;
+}
+
+/// A mapping that was there before is not written, and has to be there again.
+void keep_mapping(PdoDirection direction, const std::vector<canopen::Pdo>& pdos,
+                  std::vector<canopen::SdoStep>& steps) {
+  unsigned number = 0;
+  for (const canopen::Pdo& pdo : pdos) {
+    const std::uint16_t mapping = canopen::mapping_index(direction, ++number);
+    const auto count = static_cast<std::uint32_t>(pdo.objects.size());
+    steps.push_back({{mapping, 0}, 1, count, false});
+    for (std::uint8_t i = 0; i < count; ++i) {
+      const Address entry{mapping, static_cast<std::uint8_t>(i + 1)};
+      steps.push_back({entry, 4, canopen::mapping_entry(pdo.objects[i]), false});
+    }
+  }
 }
 
 /// One drive on its way to a configuration; errors go to the diagnostics, with its name.
@@ -61,21 +86,26 @@ class Preparation {
   }
 
   void write_parameters() {
-    using std::chrono::duration_cast;
-    const auto cycle_us = duration_cast<std::chrono::microseconds>(wish_.cycle).count();
-    const auto heartbeat_ms = duration_cast<std::chrono::milliseconds>(wish_.heartbeat).count();
-    write({0x1006, 0}, DataType::kUnsigned32, cycle_us);
-    write({0x1017, 0}, DataType::kUnsigned16, heartbeat_ms);
-    write_interpolation(cycle_us);
-    write(object::kMode, DataType::kInteger8, static_cast<int>(wish_.mode));
+    const auto settings = settings_of(wish_);
+    if (!settings) return error(settings.error());
+    for (const Setting& setting : settings.value()) {
+      const auto written = channel_.write(setting.address, setting.type, setting.value);
+      const bool watches = setting.address == kConsumedHeartbeat;
+      if (!written) error(written.error(), watches ? "leave out the host's heartbeat" : "");
+    }
   }
 
   void write_pdos(const DriveConfig& config) {
-    for (unsigned i = 0; i < config.receive.size(); ++i) {
-      keep(canopen::write_pdo(channel_, PdoDirection::kReceive, i + 1, config.receive[i]));
-    }
-    for (unsigned i = 0; i < config.transmit.size(); ++i) {
-      keep(canopen::write_pdo(channel_, PdoDirection::kTransmit, i + 1, config.transmit[i]));
+    write_pdos(PdoDirection::kReceive, config.receive);
+    write_pdos(PdoDirection::kTransmit, config.transmit);
+  }
+
+  /// Who it is now, so that nobody else is prepared in its place.
+  void keep_identity(std::vector<canopen::SdoStep>& steps) {
+    for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+      const Address address{0x1018, sub};
+      const auto found = channel_.read(address, DataType::kUnsigned32);
+      if (found) steps.push_back({address, 4, static_cast<std::uint32_t>(found.value()), false});
     }
   }
 
@@ -98,10 +128,6 @@ class Preparation {
     error(value.error());
     return std::nullopt;
   }
-  void write(Address address, DataType type, std::int64_t value) {
-    keep(channel_.write(address, type, value));
-  }
-
   void compare_identity(const canopen::Identity& wanted) {
     const std::array<std::pair<const char*, std::uint32_t>, 4> numbers = {
         {{"vendor", wanted.vendor},
@@ -118,23 +144,22 @@ class Preparation {
     }
   }
 
-  /// 0x60C2 in the largest unit that needs at most a byte.
-  void write_interpolation(std::int64_t cycle_us) {
-    if (wish_.mode != Mode::kCyclicPosition) return;
-    std::int64_t value = cycle_us;
-    int exponent = -6;
-    while (value % 10 == 0 && value > 0 && exponent < 0) {
-      value /= 10;
-      ++exponent;
+  /// Some drives take a mapping, and keep their own.
+  void write_pdos(PdoDirection direction, const std::vector<canopen::Pdo>& pdos) {
+    unsigned number = 0;
+    for (const canopen::Pdo& wanted : pdos) {
+      ++number;
+      const auto written = canopen::write_pdo(channel_, direction, number, wanted);
+      const auto found = canopen::read_pdo(channel_, direction, number);
+      if (!found || found.value().objects != wanted.objects) {
+        error(std::string(to_text(direction)) + " " + std::to_string(number) + " has " +
+                  (found ? mapping_text(found.value()) : found.error()) + ", expected " +
+                  mapping_text(wanted) + (written ? "" : ": " + written.error()),
+              "map it so with its maker's tool, if this host may not");
+      } else {
+        keep(written);
+      }
     }
-    if (value > 255) {
-      error("its interpolation time 0x60C2 has no form for a cycle of " + std::to_string(cycle_us) +
-                " us",
-            "choose a cycle of at most three digits, such as 2 ms");
-      return;
-    }
-    write(object::kInterpolationTime, DataType::kUnsigned8, value);
-    write(object::kInterpolationExponent, DataType::kInteger8, exponent);
   }
 
   canopen::SdoChannel& channel_;
@@ -181,6 +206,9 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
     diagnostics.append(own);
     return std::nullopt;
   }
+  std::vector<canopen::SdoStep> steps;
+  preparation.keep_identity(steps);
+  channel.record(steps);
   DriveConfig config{.node = wish.node,
                      .name = wish.name,
                      .mode = wish.mode,
@@ -190,6 +218,9 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
                      .heartbeat_timeout = wish.heartbeat * kHeartbeatsToMiss};
   preparation.write_parameters();
   preparation.write_pdos(config);
+  keep_mapping(PdoDirection::kReceive, config.receive, steps);
+  keep_mapping(PdoDirection::kTransmit, config.transmit, steps);
+  config.preparation = std::move(steps);
   diagnostics.append(own);
   if (!own.ok()) return std::nullopt;
   return config;

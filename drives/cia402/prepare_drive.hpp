@@ -14,6 +14,13 @@
 
 namespace armature::cia402 {
 
+/// The heartbeat of a host, by which its drives know that it is there.
+struct HostHeartbeat {
+  canopen::NodeId node = 127;
+  base::Duration period{};   ///< above 0
+  base::Duration timeout{};  ///< without one for so long, drives react by their 0x1029 and 0x6007
+};
+
 /// What a host expects of a drive, and how it wants it to be.
 struct DriveWish {
   canopen::NodeId node = 1;
@@ -23,11 +30,12 @@ struct DriveWish {
   PositionUnit unit = PositionUnit::kIncrements;
   base::Duration cycle = std::chrono::milliseconds(2);        ///< between two SYNCs
   base::Duration heartbeat = std::chrono::milliseconds(100);  ///< of the drive; 0: none
-  bool with_velocity = false;  ///< a second TPDO has its velocity and error code
+  std::optional<HostHeartbeat> host = {};  ///< that the drive watches (0x1016:01)
+  bool with_velocity = false;              ///< a second TPDO has its velocity and error code
 };
 
 /// Reads who the drive is and what its units are, compares it with `wish`, and makes its PDOs,
-/// heartbeat, SYNC period and mode. It has to be pre-operational.
+/// heartbeats, SYNC period and mode; PDOs are read again. It has to be pre-operational.
 /// @return how it takes part in a `DriveGroup`; none after errors, each of which names the drive,
 ///         the object, what was expected and what was found
 std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const DriveWish& wish,

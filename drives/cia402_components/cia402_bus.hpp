@@ -17,6 +17,7 @@ class Cia402Bus final : public Cia402Host {
 
  private:
   void on_check(component::Check& check) const override {
+    Cia402Host::on_check(check);
     if (!can::is_virtual(bus_.get())) check.drives_hardware(bus_.get());
   }
   base::Result<std::unique_ptr<can::Link>> make_link() override {
@@ -26,14 +27,9 @@ class Cia402Bus final : public Cia402Host {
   bool is_guarded() override;
   void rest() override { guard_.rest(); }
   void end_guard() override { guard_.end(); }
-  std::uint32_t bit_rate() const { return static_cast<std::uint32_t>(bit_rate_.get()); }
 
   component::Property<std::string> bus_{
       this, "bus", "can0", "the CAN interface, or virtual: and the socket file of another process"};
-  component::Property<int> bit_rate_{
-      this,      "bit_rate",
-      1'000'000, "of this host on a virtual bus; an interface has its own",
-      "",        component::range(1, 1'000'000)};
   controllers::GuardedBus guard_{this};
 };
 

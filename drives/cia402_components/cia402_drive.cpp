@@ -38,6 +38,10 @@ const char* text_of(int power) {
 
 /// Host and joint have to mean the same.
 void Cia402Drive::on_check(component::Check& check) const {
+  if (!temperature_object_.get().empty() && !canopen::parse_address(temperature_object_.get())) {
+    check.error("temperature is '" + temperature_object_.get() + "'",
+                "write index and subindex of the object in hexadecimal digits: 0x2110:01");
+  }
   const Cia402Host* host = nullptr;
   for (const component::Component* const peer : check.peers()) {
     if (const auto* found = dynamic_cast<const Cia402Host*>(peer)) host = found;
@@ -52,19 +56,47 @@ void Cia402Drive::on_check(component::Check& check) const {
         "node " + std::to_string(node_.get()) + " is not among the nodes of '" + host->name() + "'",
         "add it there, or set the node that the drive has");
   }
-  const std::string_view wanted = controllers::names_of(host->command()).actuator;
+  const std::string_view wanted = controllers::names_of(command_of(mode_on(*host))).actuator;
+  const std::string whose =
+      mode_ == DriveMode::kBus ? "the mode of '" + host->name() + "'" : "its mode";
   for (const component::InputPortBase* const input : component::interface_of(*this).inputs) {
     if (!input->name().ends_with("Actuator") || input->name() == wanted) continue;
     if (check.writers_of(*input).empty()) continue;
-    check.error("its input " + input->name() + " has a writer, and the mode of '" + host->name() +
-                    "' needs " + std::string(wanted),
-                "set the mode of the bus, or use the kind of joint that fits it");
+    check.error("its input " + input->name() + " has a writer, and " + whose + " needs " +
+                    std::string(wanted),
+                "set the mode of the bus or of the drive, or use the kind of joint that fits it");
   }
+}
+
+bool Cia402Drive::is_on(const Cia402Host& host, const component::Check& check) const {
+  const component::OperationBase* const serves = check.target_of(read_drive_);
+  return serves != nullptr && &serves->owner() == &host;
+}
+
+void Cia402Drive::refine(DrivePlan& plan) const {
+  plan.wish.name = name();
+  if (mode_ == DriveMode::kTorque) plan.mode = CyclicMode::kTorque;
+  if (mode_ == DriveMode::kVelocity) plan.mode = CyclicMode::kVelocity;
+  if (mode_ == DriveMode::kPosition) plan.mode = CyclicMode::kPosition;
+  plan.wish.mode = mode_of(plan.mode);
+  if (vendor_ != 0) plan.wish.identity->vendor = static_cast<std::uint32_t>(vendor_.get());
+  if (product_ != 0) plan.wish.identity->product = static_cast<std::uint32_t>(product_.get());
+  if (!eds_.get().empty()) plan.eds_file = eds_;
+  plan.temperature = canopen::parse_address(temperature_object_.get());
+  plan.temperature_scale = temperature_scale_;
+  plan.temperature_offset = temperature_offset_;
+}
+
+CyclicMode Cia402Drive::mode_on(const Cia402Host& host) const {
+  DrivePlan plan;
+  plan.mode = host.mode();
+  plan.expect(0, 0);
+  refine(plan);
+  return plan.mode;
 }
 
 Outcome Cia402Drive::on_start() {
   want(Wanted::kOff);
-  reboots_ = -1;
   return component::accepted();
 }
 
@@ -75,6 +107,8 @@ bool Cia402Drive::sensor_read() {
   if (answer.status != CallStatus::kDone) return false;
   show(answer.value);
   if (!usable(answer.value)) return false;
+  if (answer.value.has_current) current_.write(answer.value.current);
+  if (answer.value.has_temperature) temperature_.write(answer.value.temperature);
   velocity_.write(answer.value.velocity);
   effort_.write(answer.value.effort);
   sensor_.write(answer.value.position);
@@ -84,16 +118,18 @@ bool Cia402Drive::sensor_read() {
 void Cia402Drive::show(const DriveSample& sample) {
   power_.assign(sample.power);
   error_code_.assign(sample.error_code);
-  warns_.assign(sample.warns);
-  limited_.assign(sample.limited);
+  const DriveStatus status = status_of(static_cast<std::uint16_t>(sample.status));
+  warns_.assign(status.warning);
+  limited_.assign(status.internal_limit);
+  status_.write(status);
 }
 
 bool Cia402Drive::usable(const DriveSample& sample) {
-  if (reboots_ < 0) reboots_ = sample.reboots;
   if (sample.no_bus) {
     fault("the bus of the drive is gone");
-  } else if (sample.reboots != reboots_) {
-    fault("the drive rebooted: configure its host again");
+  } else if (sample.unprepared) {
+    lose_position();
+    fault("the drive rebooted: call resetDrive of its bus, which prepares it again");
   } else if (sample.lost) {
     fault("the drive's heartbeat is missing: look at its power and its cable");
   } else if (sample.silent_cycles > kMostSilent) {

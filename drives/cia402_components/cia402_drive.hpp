@@ -8,8 +8,12 @@
 
 namespace armature::cia402 {
 
+/// How one drive is commanded: as its bus says, or otherwise.
+enum class DriveMode : std::uint8_t { kBus, kTorque, kVelocity, kPosition };
+ARMATURE_ENUM(DriveMode, kBus, kTorque, kVelocity, kPosition);
+
 /// One drive by CiA 402: the hardware of a joint. Its peer is the host of the bus that the drive is
-/// on, whose mode has to be that of the input which is connected.
+/// on. Its mode, its own or that of the bus, has to be that of the input which is connected.
 ///
 /// PositionSensor is of the driving shaft, behind the drive's own gear and feed; so the joint's
 /// GearRatio is 1 unless there is another gear behind. Switched on, the drive is powered and its
@@ -17,9 +21,10 @@ namespace armature::cia402 {
 /// without Brake both happen at once. Disarmed, it stops quickly, by its own deceleration.
 ///
 /// It faults, and so stops its joint, when the bus is gone, when the drive failed, rebooted, went
-/// silent or lost its heartbeat, and when it switched off by itself or does not switch on, and when
-/// its torque is not what it was told. A drive that failed is reset by the operator alone, by
-/// `resetDrive` of the host.
+/// silent or lost its heartbeat, when it switched off by itself or does not switch on, and when its
+/// torque is not what it was told. A drive
+/// that failed is reset by the operator alone, by `resetDrive` of the host, which also prepares one
+/// that rebooted; where that one is, the operator confirms (`position_confirmed`).
 /// @rt nonblocking, no allocation
 class Cia402Drive final : public controllers::JointHardware {
  public:
@@ -28,6 +33,13 @@ class Cia402Drive final : public controllers::JointHardware {
                       {controllers::JointCommand::kTorque, controllers::JointCommand::kVelocity,
                        controllers::JointCommand::kPosition},
                       Sensor::kAbsolute) {}
+
+  /// @thread configuration only, as for the next ones
+  int node() const { return node_; }
+  /// Whether that host serves it.
+  bool is_on(const Cia402Host& host, const component::Check& check) const;
+  /// Puts what it says of itself in place of what the bus says of all.
+  void refine(DrivePlan& plan) const;
 
  private:
   void on_check(component::Check& check) const override;
@@ -42,6 +54,7 @@ class Cia402Drive final : public controllers::JointHardware {
   bool brake_apply() override;
   bool brake_release() override;
 
+  CyclicMode mode_on(const Cia402Host& host) const;
   bool energize(bool enable);
   bool make_safe(bool quick_stop);
   bool usable(const DriveSample& sample);
@@ -56,6 +69,21 @@ class Cia402Drive final : public controllers::JointHardware {
       this, "node", 1, "of the drive", "", component::mandatory, component::range(1, 127)};
   component::Property<bool> brake_{this, "Brake", false,
                                    "the drive has a brake, which it opens when it is enabled"};
+  component::Property<DriveMode> mode_{
+      this, "mode", DriveMode::kBus,
+      "torque (CST), velocity (CSV), position (CSP), or as its bus says of all drives"};
+  component::Property<int> vendor_{this, "vendor", 0,
+                                   "that the drive says it is of (0x1018:01); 0: as its bus says"};
+  component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};
+  component::Property<std::string> eds_{
+      this, "eds", "", "the file in which its maker describes it; empty: as its bus says"};
+  component::Property<std::string> temperature_object_{
+      this, "temperature", "", "the object that has it, such as 0x2110:01; empty: none"};
+  component::Property<double> temperature_scale_{this, "temperature_scale", 1.0,
+                                                 "what one in that object is", "K"};
+  component::Property<double> temperature_offset_{
+      this, "temperature_offset", 273.15, "what 0 in that object is; as it is for degrees Celsius",
+      "K"};
   component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive", "has the drive read"};
   component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort",
                                                                             "sets its torque"};
@@ -69,6 +97,10 @@ class Cia402Drive final : public controllers::JointHardware {
                                                                "stops it, switches it off"};
   component::OutputPort<double> velocity_{this, "Velocity", "of the driving shaft", "rad/s"};
   component::OutputPort<double> effort_{this, "Effort", "that the drive gives, at its shaft", "Nm"};
+  component::OutputPort<double> current_{this, "Current", "of the motor, asked now and then", "A"};
+  component::OutputPort<double> temperature_{
+      this, "Temperature", "of the property temperature, asked now and then", "K"};
+  component::OutputPort<DriveStatus> status_{this, "Status", "its status word, bit by bit"};
   component::Attribute<int> power_{this, "power", -1,
                                    "state of CiA 402: 0 not ready, 1 switch-on disabled, 2 ready, "
                                    "3 switched on, 4 enabled, 5 quick stop, 6 fault reaction, 7 "
@@ -80,7 +112,6 @@ class Cia402Drive final : public controllers::JointHardware {
   Wanted wanted_ = Wanted::kOff;
   base::Time wanted_since_{};
   bool was_enabled_ = false;  ///< since that was wanted
-  int reboots_ = -1;          ///< as first seen in this run
 };
 
 }  // namespace armature::cia402

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drives/cia402_components/cia402_host.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -8,14 +9,18 @@
 #include "armature/base/as_reason.hpp"
 #include "armature/base/seconds.hpp"
 #include "armature/controllers/base/max_age.hpp"
+#include "drives/canopen/count_devices.hpp"
 #include "drives/canopen/nmt.hpp"
 #include "drives/canopen/sdo_channel.hpp"
+#include "drives/cia402/compare_eds.hpp"
+#include "drives/cia402/drive_settings.hpp"
+#include "drives/cia402/objects.hpp"
 #include "drives/cia402/prepare_drive.hpp"
+#include "drives/cia402_components/bus_plan.hpp"
 
 namespace armature::cia402 {
 
 using component::Outcome;
-using controllers::JointCommand;
 
 namespace {
 
@@ -28,10 +33,17 @@ constexpr int kLastNode = 127;
 /// two until it acts, and what currents take to grow.
 constexpr int kMostTorqueError = 50;
 constexpr int kMostDisobeyed = 10;
+/// Drives take as many of the host's for a loss.
+constexpr int kHeartbeatsToMiss = 3;
+/// Where their answers are among a drive's slow numbers.
+constexpr std::size_t kSlowCurrent = 0;
+constexpr std::size_t kSlowTemperature = 1;
 
-Mode mode_of(CyclicMode mode) {
-  if (mode == CyclicMode::kTorque) return Mode::kCyclicTorque;
-  return mode == CyclicMode::kVelocity ? Mode::kCyclicVelocity : Mode::kCyclicPosition;
+/// Between two questions, so that each drive answers all of its own within `period`.
+base::Duration pause_between(const DriveGroup& drives, base::Duration period) {
+  std::size_t questions = 0;
+  for (std::size_t i = 0; i < drives.size(); ++i) questions += drives.config(i).slow.size();
+  return questions > 0 ? period / static_cast<int>(questions) : period;
 }
 
 void pass_time(can::Link& link, base::Duration time) {
@@ -41,14 +53,41 @@ void pass_time(can::Link& link, base::Duration time) {
 
 }  // namespace
 
-JointCommand Cia402Host::command() const {
-  if (mode_ == CyclicMode::kTorque) return JointCommand::kTorque;
-  return mode_ == CyclicMode::kVelocity ? JointCommand::kVelocity : JointCommand::kPosition;
+// --- what the deployment says --------------------------------------------------------------------
+
+void Cia402Host::on_check(component::Check& check) const {
+  check_nodes(nodes_, host_heartbeat_ > 0.0 ? host_node_.get() : 0, check);
+  plan_by_own_words();
+  refine_plans(*this, plans_, check);
+  check_bus_time(plans_, bit_rate(), cycle(), check);
 }
+
+DrivePlan Cia402Host::plan_of(int node) const {
+  DrivePlan plan;
+  plan.wish = {.node = static_cast<canopen::NodeId>(node),
+               .name = name() + "." + std::to_string(node),
+               .mode = mode_of(mode_),
+               .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed : PositionUnit::kIncrements,
+               .cycle = cycle(),
+               .heartbeat = base::from_seconds(heartbeat_)};
+  if (host_heartbeat_ > 0.0) {
+    const base::Duration period = base::from_seconds(host_heartbeat_);
+    plan.wish.host = HostHeartbeat{.node = static_cast<canopen::NodeId>(host_node_.get()),
+                                   .period = period,
+                                   .timeout = kHeartbeatsToMiss * period};
+  }
+  plan.mode = mode_;
+  plan.eds_file = eds_;
+  plan.expect(vendor_, product_);
+  return plan;
+}
+
+// --- the start -----------------------------------------------------------------------------------
 
 Outcome Cia402Host::on_configure() {
   if (Outcome outcome = period_.known(); !outcome) return outcome;
-  if (Outcome outcome = find_places(); !outcome) return outcome;
+  if (Outcome outcome = know_plans(); !outcome) return outcome;
+  find_places();
   auto link = make_link();
   if (!link) return component::refused(link.error());
   link_ = std::move(link).value();
@@ -60,21 +99,26 @@ Outcome Cia402Host::on_configure() {
   return begin_to_guard();
 }
 
-Outcome Cia402Host::find_places() {
+/// The check has made them, and sees what each drive says of itself; a host by itself has only its
+/// own words.
+Outcome Cia402Host::know_plans() {
+  if (plans_.empty()) plan_by_own_words();
+  const auto is_of = [](const DrivePlan& plan, int node) { return plan.wish.node == node; };
+  if (std::ranges::equal(plans_, nodes_.get(), is_of)) return component::accepted();
+  return component::refused("nodes are not those of the check: start the application anew");
+}
+
+void Cia402Host::plan_by_own_words() const {
+  plans_.clear();
+  for (const int node : nodes_.get()) plans_.push_back(plan_of(node));
+}
+
+void Cia402Host::find_places() {
   place_of_.assign(kLastNode + 1, std::nullopt);
-  if (nodes_.get().empty()) return component::refused("nodes is empty: name the drives' numbers");
   for (std::size_t i = 0; i < nodes_.get().size(); ++i) {
-    const int node = nodes_.get()[i];
-    if (node < 1 || node > kLastNode) {
-      return component::refused("nodes has " + std::to_string(node) + ", expected 1 to 127");
-    }
-    if (place_of_[static_cast<std::size_t>(node)]) {
-      return component::refused("nodes has " + std::to_string(node) + " twice");
-    }
-    place_of_[static_cast<std::size_t>(node)] = i;
+    place_of_[static_cast<std::size_t>(nodes_.get()[i])] = i;
   }
   accounts_.assign(nodes_.get().size(), {});
-  return component::accepted();
 }
 
 /// All that is wrong with all drives is told at once.
@@ -84,26 +128,38 @@ Outcome Cia402Host::prepare() {
   pass_time(*link_, kNmtTime);
   base::Diagnostics diagnostics;
   std::vector<DriveConfig> configs;
-  for (const int node : nodes_.get()) {
-    DriveWish wish{
-        .node = static_cast<canopen::NodeId>(node),
-        .name = name() + "." + std::to_string(node),
-        .mode = mode_of(mode_),
-        .unit = unit_ == DriveUnit::kFeed ? PositionUnit::kFeed : PositionUnit::kIncrements,
-        .cycle = cycle(),
-        .heartbeat = base::from_seconds(heartbeat_)};
-    wish.identity = {.vendor = static_cast<std::uint32_t>(vendor_.get()),
-                     .product = static_cast<std::uint32_t>(product_.get())};
-    canopen::SdoChannel channel(*link_, wish.node);
-    if (auto config = prepare_drive(channel, wish, diagnostics)) configs.push_back(*config);
+  for (const DrivePlan& plan : plans_) {
+    if (auto config = prepare(plan, diagnostics)) configs.push_back(*std::move(config));
   }
   if (!diagnostics.ok()) return component::refused(base::as_reason(diagnostics));
   auto group = DriveGroup::make(std::move(configs));
   if (!group) return component::refused(group.error());
   group_.emplace(std::move(group).value());
+  background_.emplace(*group_, pause_between(*group_, base::from_seconds(slow_period_)));
   link_->bus().send(canopen::nmt_frame(NmtCommand::kStart, canopen::kEveryNode));
   pass_time(*link_, kNmtTime);
   return component::accepted();
+}
+
+std::optional<DriveConfig> Cia402Host::prepare(const DrivePlan& plan,
+                                               base::Diagnostics& diagnostics) {
+  const DriveWish& wish = plan.wish;
+  if (const int devices = canopen::count_devices(*link_, wish.node); devices > 1) {
+    diagnostics.error({},
+                      "drive '" + wish.name + "', node " + std::to_string(wish.node) + ": " +
+                          std::to_string(devices) + " devices answer as this node, expected one",
+                      std::string("give each device on the bus its own number"));
+    return std::nullopt;
+  }
+  canopen::SdoChannel channel(*link_, wish.node);
+  const bool is_described =
+      !plan.eds || compare_with_eds(channel, *plan.eds, plan.eds_file, wish, diagnostics);
+  if (!is_described) return std::nullopt;
+  auto config = prepare_drive(channel, wish, diagnostics);
+  if (!config || slow_period_ <= 0.0) return config;
+  config->slow = {object::kCurrent};
+  if (plan.temperature) config->slow.push_back(*plan.temperature);
+  return config;
 }
 
 /// With a SYNC whose answers are there when the first cycle begins.
@@ -114,16 +170,43 @@ Outcome Cia402Host::on_start() {
   take_frames();
   for (std::size_t i = 0; i < group_->size(); ++i) {
     group_->set_goal(i, PowerGoal::kOff);
-    accounts_[i] = {.seen = group_->state(i).time};
+    accounts_[i].seen = group_->state(i).time;
+    accounts_[i].target_at = {};
+    accounts_[i].dropped = false;
   }
+  begin_heartbeat();
   static_cast<void>(group_->step(link_->bus(), link_->now()));
   pass_time(*link_, cycle());
   link_->begin_run(time());
   return component::accepted();
 }
 
+/// Drives do not wait for the heartbeat of a host that has ended in good order.
+void Cia402Host::on_stop() {
+  make_safe();
+  if (host_heartbeat_ <= 0.0) return;
+  background_->end_heartbeat(link_->bus(), link_->now());
+  group_->set_heartbeat(static_cast<canopen::NodeId>(host_node_.get()), {}, link_->now());
+}
+
+/// A drive that does not take it now is seen by its missing answers.
+void Cia402Host::begin_heartbeat() {
+  if (host_heartbeat_ <= 0.0) return;
+  for (const DrivePlan& plan : plans_) {
+    canopen::SdoChannel channel(*link_, plan.wish.node);
+    const auto settings = settings_of(plan.wish);
+    for (const Setting& setting : settings.value()) {
+      if (setting.address != kConsumedHeartbeat) continue;
+      static_cast<void>(channel.write(setting.address, setting.type, setting.value));
+    }
+  }
+  group_->set_heartbeat(static_cast<canopen::NodeId>(host_node_.get()),
+                        base::from_seconds(host_heartbeat_), link_->now());
+}
+
 void Cia402Host::on_cleanup() {
   end_guard();
+  background_.reset();
   group_.reset();
   link_.reset();
 }
@@ -133,7 +216,10 @@ void Cia402Host::on_cleanup() {
 DriveSample Cia402Host::read_drive(int node) {
   const auto place = place_of(node);
   if (!place || state() != component::State::kRunning) return {.no_bus = true};
-  if (!in_cycle()) return {.no_bus = true};
+  if (cycle_at_ != time()) {
+    if (!is_guarded()) return {.no_bus = true};
+    begin_cycle();
+  }
   const DriveState& drive = group_->state(*place);
   Account& account = accounts_[*place];
   const can::BusState bus = link_->bus().state();
@@ -145,23 +231,30 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.effort = drive.effort;
   sample.power = drive.power ? static_cast<int>(*drive.power) : -1;
   sample.silent_cycles = static_cast<int>(drive.silent_cycles);
-  sample.reboots = static_cast<int>(drive.reboots);
   sample.error_code = drive.emergency ? drive.emergency->code : drive.error_code;
   sample.lost = drive.presence == canopen::Presence::kLost;
-  sample.warns = drive.warns();
-  sample.limited = drive.limited();
   sample.obeys = account.disobeyed <= kMostDisobeyed;
+  sample.status = drive.status;
+  sample.unprepared = is_unprepared(*place);
+  read_slow(*place, sample);
   account.seen = drive.time;
   return sample;
 }
 
-/// Once at each time. Drives whose components are out of service are told to stop all the same,
-/// and hear the operator's reset.
-bool Cia402Host::in_cycle() {
-  if (cycle_at_ == time()) return true;
-  if (!is_guarded()) return false;
-  begin_cycle();
-  return true;
+void Cia402Host::read_slow(std::size_t place, DriveSample& sample) const {
+  const DriveConfig& drive = group_->config(place);
+  for (std::size_t i = 0; i < drive.slow.size(); ++i) {
+    const auto number = background_->number(place, i);
+    if (!number) continue;
+    if (i == kSlowCurrent) {
+      sample.has_current = true;
+      sample.current = drive.scaling.current(*number);
+    } else if (i == kSlowTemperature) {
+      sample.has_temperature = true;
+      sample.temperature = plans_[place].temperature_offset +
+                           plans_[place].temperature_scale * static_cast<double>(*number);
+    }
+  }
 }
 
 void Cia402Host::begin_cycle() {
@@ -172,6 +265,8 @@ void Cia402Host::begin_cycle() {
   const std::size_t refused = group_->step(link_->bus(), link_->now());
   if (refused > 0) refused_frames_.assign(refused_frames_() + static_cast<int>(refused));
   watch_torques();
+  background_->step(link_->bus(), link_->now());
+  follow_preparation();
   int silent = 0;
   for (std::size_t i = 0; i < group_->size(); ++i) silent += group_->state(i).silent_cycles > 1;
   if (silent > 0) lost_answers_.assign(lost_answers_() + silent);
@@ -180,8 +275,8 @@ void Cia402Host::begin_cycle() {
 /// Nobody else finds a drive without current, or values that are frozen: controllers would ask for
 /// ever more torque.
 void Cia402Host::watch_torques() {
-  if (mode_ != CyclicMode::kTorque) return;
   for (std::size_t i = 0; i < group_->size(); ++i) {
+    if (plans_[i].mode != CyclicMode::kTorque) continue;
     const DriveState& drive = group_->state(i);
     Account& account = accounts_[i];
     const double most = std::abs(group_->config(i).scaling.torque(kMostTorqueError));
@@ -190,9 +285,19 @@ void Cia402Host::watch_torques() {
   }
 }
 
+/// Drives whose components have ended hear how they stop, that their host is there, and what the
+/// operator says.
+void Cia402Host::keep_cycle() {
+  const bool was_read = cycle_at_ != base::Time::min() && time() < cycle_at_ + 3 * cycle() / 2;
+  if (!was_read && is_guarded()) begin_cycle();
+}
+
 void Cia402Host::take_frames() {
   can::Arrival arrival;
-  while (link_->bus().receive(arrival) == can::ReceiveStatus::kReceived) group_->take(arrival);
+  while (link_->bus().receive(arrival) == can::ReceiveStatus::kReceived) {
+    group_->take(arrival);
+    background_->take(arrival.frame, arrival.time);
+  }
 }
 
 /// Who set them is gone. A position is held where the drive is when that is found.
@@ -207,15 +312,15 @@ void Cia402Host::drop_old_targets() {
 }
 
 double Cia402Host::no_target(std::size_t drive) const {
-  return mode_ == CyclicMode::kPosition ? group_->state(drive).position : 0.0;
+  return plans_[drive].mode == CyclicMode::kPosition ? group_->state(drive).position : 0.0;
 }
 
 // --- what drives are told ------------------------------------------------------------------------
 
-/// Only of the kind that the drives are in: 0 of another kind could be a place to go to.
+/// Only of the kind that the drive is in: 0 of another kind could be a place to go to.
 bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
   const auto place = place_of(node);
-  if (!place || mode != mode_ || !std::isfinite(target)) return false;
+  if (!place || mode != plans_[*place].mode || !std::isfinite(target)) return false;
   group_->set_target(*place, target);
   accounts_[*place].target_at = time();
   accounts_[*place].target = target;
@@ -226,6 +331,7 @@ bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
 bool Cia402Host::energize_drive(int node, bool enable, control::DrivePermit permit) {
   const auto place = place_of(node);
   if (!permit || !place || state() != component::State::kRunning) return false;
+  if (is_unprepared(*place)) return false;
   group_->set_goal(*place, enable ? PowerGoal::kEnabled : PowerGoal::kSwitchedOn);
   return true;
 }
@@ -240,8 +346,39 @@ bool Cia402Host::make_drive_safe(int node, bool quick_stop) {
 bool Cia402Host::reset_drive(int node) {
   const auto place = place_of(node);
   if (!place) return false;
-  group_->ask_reset(*place);
+  if (!is_unprepared(*place)) {
+    group_->ask_reset(*place);
+    return true;
+  }
+  accounts_[*place].is_preparing = true;
+  accounts_[*place].preparing = group_->state(*place).reboots;
+  background_->prepare_again(*place);
   return true;
+}
+
+bool Cia402Host::is_unprepared(std::size_t place) const {
+  return accounts_[place].reboots != group_->state(place).reboots;
+}
+
+/// Once more rebooted meanwhile, it still has to be prepared.
+void Cia402Host::follow_preparation() {
+  for (std::size_t i = 0; i < accounts_.size(); ++i) {
+    Account& account = accounts_[i];
+    const auto preparation = background_->preparation(i);
+    if (!account.is_preparing || preparation == BackgroundSdo::Preparation::kUnderWay) continue;
+    account.is_preparing = false;
+    const int node = nodes_.get()[i];
+    if (preparation == BackgroundSdo::Preparation::kDone) {
+      account.reboots = account.preparing;
+      log_info("the drive at node {} is who it was, and prepared again", node);
+      continue;
+    }
+    const canopen::Address address = background_->refused_at(i);
+    log_error(
+        "the drive at node {} is not prepared: its object {} (index), {} (subindex) is not what it "
+        "was at the start, or it does not answer; exchange it back, or configure its host again",
+        node, int{address.index}, int{address.subindex});
+  }
 }
 
 void Cia402Host::make_safe() {

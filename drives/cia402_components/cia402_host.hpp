@@ -10,65 +10,46 @@
 
 #include "armature/can/link.hpp"
 #include "armature/component/author.hpp"
-#include "armature/controllers/base/joint_command.hpp"
 #include "armature/controllers/base/limited_effort.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 #include "armature/types/enum.hpp"
+#include "drives/cia402/background_sdo.hpp"
 #include "drives/cia402/drive_group.hpp"
+#include "drives/cia402_components/drive_plan.hpp"
+#include "drives/cia402_components/drive_sample.hpp"
 
 namespace armature::cia402 {
-
-/// How all drives of a bus are commanded: CST, CSV or CSP.
-enum class CyclicMode : std::uint8_t { kTorque, kVelocity, kPosition };
-ARMATURE_ENUM(CyclicMode, kTorque, kVelocity, kPosition);
 
 /// What the position unit of the drives is: see cia402::PositionUnit.
 enum class DriveUnit : std::uint8_t { kIncrements, kFeed };
 ARMATURE_ENUM(DriveUnit, kIncrements, kFeed);
 
-/// What a drive said of itself lately, when its host looked.
-struct DriveSample {
-  bool no_bus = false;    ///< the bus is off or down, or the host does not run
-  bool fresh = false;     ///< it has answered since the look before
-  double position = 0.0;  ///< [rad] of the driving shaft
-  double velocity = 0.0;  ///< [rad/s]
-  double effort = 0.0;    ///< [Nm]
-  int power = -1;         ///< PowerState, -1: unknown
-  int silent_cycles = 0;
-  int reboots = 0;
-  int error_code = 0;  ///< of its emergency, else of 0x603F
-  bool lost = false;   ///< its heartbeat is missing
-  bool warns = false;
-  bool limited = false;  ///< an internal limit is active
-  bool obeys = true;     ///< in mode torque: it gives the torque that it was told
-};
-ARMATURE_STRUCT(DriveSample, no_bus, fresh, position, velocity, effort, power, silent_cycles,
-                reboots, error_code, lost, warns, limited, obeys);
-
 /// The host of drives by CiA 402 on one bus, which the components Cia402Drive use as their peer: to
 /// be extended by what the bus is.
 ///
 /// At the configuration it compares each drive with what is declared, and maps its PDOs. The first
-/// drive that is read in a cycle, or the Sample, begins the cycle on the bus, also when nobody
-/// reads them any more: what has come is used, the targets of the cycle before are sent, and one
-/// SYNC, at which all drives take their targets and answer. So an answer to a sample acts two SYNCs
-/// later; the check of gains knows that as the Robot's `effort_delay`. A target that was not set
-/// anew for 100 ms is torque 0, velocity 0, or the position where the drive is. Whenever the host
-/// stops, its drives stop quickly and switch off.
+/// drive that is read in a cycle, or the Sample where none is read any more, begins the cycle on
+/// the bus: what has come is used, the targets of the cycle before are sent, and one SYNC, at which
+/// all drives take their targets and answer. So an answer to a sample acts two SYNCs later; the
+/// check of gains knows that as the Robot's `effort_delay`. A target that was not set anew for 100
+/// ms is torque 0, velocity 0, or the position where the drive is. Whenever the host stops, its
+/// drives stop quickly and switch off.
 /// @rt nonblocking, no allocation
 class Cia402Host : public component::Component {
  public:
   using Component::Component;
 
-  /// What drives are given in its mode.
-  /// @thread configuration only
-  controllers::JointCommand command() const;
+  /// Of all drives that do not say another.
+  /// @thread configuration only, as for nodes
+  CyclicMode mode() const { return mode_; }
   const std::vector<int>& nodes() const { return nodes_; }
+  void on_check(component::Check& check) const override;
 
  protected:
   /// Not opened yet.
   virtual base::Result<std::unique_ptr<can::Link>> make_link() = 0;
   base::Duration cycle() const { return period_.duration(); }
+  std::uint32_t bit_rate() const { return static_cast<std::uint32_t>(bit_rate_.get()); }
   const DriveGroup* group() const { return group_ ? &*group_ : nullptr; }
   /// Quick stop, then off: at once on the bus.
   void make_safe();
@@ -83,7 +64,7 @@ class Cia402Host : public component::Component {
 
   component::Outcome on_configure() override;
   component::Outcome on_start() override;
-  void on_stop() override { make_safe(); }
+  void on_stop() override;
   void on_cleanup() override;
 
  private:
@@ -100,14 +81,21 @@ class Cia402Host : public component::Component {
   bool energize_drive(int node, bool enable, control::DrivePermit permit);
   bool make_drive_safe(int node, bool quick_stop);
   bool reset_drive(int node);
+  void read_slow(std::size_t place, DriveSample& sample) const;
+  bool is_unprepared(std::size_t place) const;
+  void follow_preparation();
+  void begin_heartbeat();
 
-  component::Outcome find_places();
+  DrivePlan plan_of(int node) const;
+  component::Outcome know_plans();
+  void plan_by_own_words() const;
+  void find_places();
   component::Outcome prepare();
+  std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
   bool set_target(int node, CyclicMode mode, double target);
-  bool in_cycle();
   void watch_torques();
-  void on_sample() { static_cast<void>(in_cycle()); }
   void begin_cycle();
+  void keep_cycle();
   void take_frames();
   void drop_old_targets();
   double no_target(std::size_t drive) const;
@@ -117,15 +105,31 @@ class Cia402Host : public component::Component {
       this, "nodes", {}, "numbers of the drives, 1 to 127", "", component::mandatory};
   component::Property<CyclicMode> mode_{
       this, "mode", CyclicMode::kPosition,
-      "how the drives are commanded: torque (CST), velocity (CSV) or position (CSP)"};
+      "how drives are commanded that do not say it: torque (CST), velocity (CSV), position (CSP)"};
   component::Property<DriveUnit> unit_{
       this, "unit", DriveUnit::kIncrements,
       "of positions in the drives: increments of the encoder, or feed by their feed constant"};
   component::Property<int> vendor_{this, "vendor", 0,
                                    "that every drive says it is of (0x1018:01); 0: not compared"};
   component::Property<int> product_{this, "product", 0, "likewise (0x1018:02)"};
+  component::Property<std::string> eds_{
+      this, "eds", "", "the file in which the drives' maker describes them; empty: not compared"};
+  component::Property<int> bit_rate_{
+      this,      "bit_rate",
+      1'000'000, "of the bus; a CAN interface has its own, which has to be this one",
+      "",        component::range(1, 1'000'000)};
   component::Property<double> heartbeat_{
       this, "heartbeat", 0.1, "of the drives; 0: none", "s", component::range(0.0, 10.0)};
+  component::Property<int> host_node_{
+      this, "host_node", 127, "of this host among heartbeats", "", component::range(1, 127)};
+  component::Property<double> host_heartbeat_{
+      this, "host_heartbeat",
+      0.1,  "of this host; drives that miss three of them stop by themselves; 0: none",
+      "s",  component::range(0.0, 10.0)};
+  component::Property<double> slow_period_{
+      this, "slow_period",
+      0.1,  "in which each drive is asked for its current and temperature; 0: never",
+      "s",  component::range(0.0, 60.0)};
   controllers::SamplingPeriod period_{this};
   component::Operation<DriveSample(int)> read_drive_{this,
                                                      "readDrive",
@@ -168,17 +172,19 @@ class Cia402Host : public component::Component {
       "has a drive stop quickly, or switch off",
       component::args("node", "quick_stop"),
       component::in_own_thread};
-  component::Operation<bool(int)> reset_drive_{this,
-                                               "resetDrive",
-                                               component::serve<&Cia402Host::reset_drive>,
-                                               "has a drive that failed leave its fault",
-                                               component::by_operator,
-                                               component::args("node"),
-                                               component::in_own_thread};
+  component::Operation<bool(int)> reset_drive_{
+      this,
+      "resetDrive",
+      component::serve<&Cia402Host::reset_drive>,
+      "has a drive that failed leave its fault; prepares one "
+      "that lost its power as at the start",
+      component::by_operator,
+      component::args("node"),
+      component::in_own_thread};
   component::EventHandler<> sample_{this,
                                     "Sample",
-                                    component::serve<&Cia402Host::on_sample>,
-                                    "a cycle of the bus, whether its drives are read or not",
+                                    component::serve<&Cia402Host::keep_cycle>,
+                                    "keeps the cycle on the bus when no drive is read any more",
                                     component::optional,
                                     component::leads_to_nothing()};
   component::Attribute<int> lost_answers_{this, "lost_answers", 0,
@@ -188,14 +194,19 @@ class Cia402Host : public component::Component {
 
   /// What a drive's component has taken and given.
   struct Account {
-    base::Time seen{};       ///< when the position came that was taken last
-    base::Time target_at{};  ///< when its target was set last
-    bool dropped = false;    ///< that target is too old
-    double target = 0.0;     ///< that it has
-    int disobeyed = 0;       ///< cycles in a row
+    base::Time seen{};            ///< when the position came that was taken last
+    base::Time target_at{};       ///< when its target was set last
+    bool dropped = false;         ///< that target is too old
+    std::uint32_t reboots = 0;    ///< after which it was prepared
+    std::uint32_t preparing = 0;  ///< after which it is being prepared
+    bool is_preparing = false;
+    double target = 0.0;  ///< that it has
+    int disobeyed = 0;    ///< cycles in a row
   };
+  mutable std::vector<DrivePlan> plans_;  ///< by place; made by the check, which sees all drives
   std::unique_ptr<can::Link> link_;
   std::optional<DriveGroup> group_;
+  std::optional<BackgroundSdo> background_;
   std::vector<Account> accounts_;
   std::vector<std::optional<std::size_t>> place_of_;  ///< by the drive's node
   base::Time cycle_at_ = base::Time::min();

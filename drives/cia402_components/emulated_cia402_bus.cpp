@@ -11,6 +11,7 @@ namespace armature::cia402 {
 base::Result<std::unique_ptr<can::Link>> EmulatedCia402Bus::make_link() {
   const auto [least, most] = std::minmax_element(nodes().begin(), nodes().end());
   EmulatedBus::Config config;
+  config.bit_rate = bit_rate();
   config.first_node = static_cast<canopen::NodeId>(*least);
   config.drives = static_cast<std::size_t>(*most - *least + 1);
   config.drive.axis.inertia = inertia_;

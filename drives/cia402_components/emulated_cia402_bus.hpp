@@ -8,8 +8,6 @@ namespace armature::cia402 {
 
 /// The host of emulated drives in this process, each with an axis of its own, in simulated or real
 /// time, as the application is run. Their nodes follow each other.
-///
-/// Time passes for them in each cycle of their host.
 class EmulatedCia402Bus final : public Cia402Host {
  public:
   using Cia402Host::Cia402Host;

@@ -156,6 +156,7 @@ class WamHardware final : public component::Component,
   component::Outcome shift_activate() {
     return press(&EmulatedOperator::press_activate, shift_activate_);
   }
+  bool lead_by_hand(const Vector& velocities);
   component::Outcome carry_home() { return press(&EmulatedOperator::carry_home, carry_home_); }
 
   component::Property<int> joints_{
@@ -279,6 +280,14 @@ class WamHardware final : public component::Component,
   component::Command<> shift_activate_{
       this, "shiftActivate", component::serve<&WamHardware::shift_activate>,
       "presses Shift+Activate of the emulated pendant", component::by_operator};
+  component::Operation<bool(const Vector&)> lead_by_hand_{
+      this,
+      "leadByHand",
+      component::serve<&WamHardware::lead_by_hand>,
+      "a hand moves the emulated arm with these velocities, and lets go; false: there is none",
+      component::args("velocities [rad/s]"),
+      component::by_operator,
+      component::in_own_thread};
   component::Command<> carry_home_{
       this,
       "carryHome",

@@ -279,6 +279,15 @@ double WamHardware::motion_limit_used(const Vector& positions, const Vector& vel
   return TipSpeed::of(positions, velocities) / kFastestTip;
 }
 
+/// What a hand does to a real arm needs no operation.
+bool WamHardware::lead_by_hand(const Vector& velocities) {
+  const bool fit = velocities.size() == static_cast<std::size_t>(joints_.get()) &&
+                   std::ranges::all_of(velocities, [](double each) { return std::isfinite(each); });
+  if (emulated() == nullptr || !fit) return false;
+  emulated()->motors().push(velocities);
+  return true;
+}
+
 Outcome WamHardware::move_home() {
   if (!armed()) return component::refused("the arm is not armed");
   return way_home_.begin({numbers_->home, motion_->positions(), time()});

@@ -45,8 +45,14 @@ class CampaignArm final : public DeployedRobot {
   void arm() {
     const auto asked = application().begin("Arming", "arm", {});
     ASSERT_TRUE(asked) << asked.error();
-    for (int i = 0; i < 1000 && !armed(); ++i) cycle();
-    ASSERT_TRUE(armed()) << log;
+    for (int i = 0; i < 5000 && !armed() && !asked.value().ended(); ++i) cycle();
+    ASSERT_TRUE(armed()) << asked.value().reason() << "\n" << log;
+  }
+  /// The operator has looked where each joint is whose drive lost its power.
+  void confirm_positions() {
+    for (std::size_t joint = 1; joint <= kJoints; ++joint) {
+      set(("Drive" + std::to_string(joint)).c_str(), "position_confirmed", true);
+    }
   }
   /// One period of the application, and as much for the drives.
   void cycle() {

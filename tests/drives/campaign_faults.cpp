@@ -73,13 +73,17 @@ void somebody_says(CampaignArm& arm, const can::Frame& frame) {
   station.send(frame);
 }
 /// A control word that takes away what an enabled drive has.
+can::Frame control_word(canopen::NodeId node, std::uint8_t word) {
+  return can::data_frame(canopen::cob_id::sdo_request(node),
+                         {0x2b, 0x40, 0x60, 0x00, word, 0, 0, 0});
+}
 void somebody_switches_off(CampaignArm& arm, Random& random) {
-  constexpr std::array<std::uint8_t, 4> kWords{0x00, 0x02, 0x06, 0x07};
-  can::Frame frame;
-  frame.id = canopen::cob_id::sdo_request(any_node(random));
-  frame.size = 8;
-  frame.data = {0x2b, 0x40, 0x60, 0x00, kWords[random() % kWords.size()]};
-  somebody_says(arm, frame);
+  constexpr std::array<std::uint8_t, 3> kWords{0x00, 0x02, 0x06};
+  somebody_says(arm, control_word(any_node(random), kWords[random() % kWords.size()]));
+}
+/// The host's next control word enables it again, before the drive has said how it is.
+void somebody_disables_for_less_than_a_cycle(CampaignArm& arm, Random& random) {
+  somebody_says(arm, control_word(any_node(random), 0x07));
 }
 Happens somebody_commands(canopen::NmtCommand command) {
   return [command](CampaignArm& arm, Random& random) {
@@ -163,7 +167,7 @@ Happens writes(double number) {
     }
   };
 }
-/// In place of the generator's. The limiters are what is left, until the operator disarms.
+/// In place of the generator's, which is silent from then on.
 void absurd_reference(CampaignArm& arm, Random& random) {
   ASSERT_TRUE(arm.application().stop_component("Generator"));
   Vector all = arm.believed();
@@ -171,6 +175,9 @@ void absurd_reference(CampaignArm& arm, Random& random) {
   arm.write("Generator", "nAxesDesiredPosition", all);
   arm.write("Generator", "nAxesDesiredVelocity", Vector(all.size(), 1e9));
   arm.write("Generator", "nAxesDesiredAcceleration", Vector(all.size(), -1e9));
+}
+void absurd_reference_until_disarmed(CampaignArm& arm, Random& random) {
+  absurd_reference(arm, random);
   arm.run_for(std::chrono::milliseconds(2 + random() % 500));
   EXPECT_EQ(arm.call("Arming", "disarm"), "");
 }
@@ -260,6 +267,9 @@ std::vector<Breakage> of_the_bus() {
       {.name = "SomebodySwitchesADriveOff",
        .happens = somebody_switches_off,
        .said = {"switched off by itself"}},
+      {.name = "SomebodyDisablesADriveForLessThanACycle",
+       .happens = somebody_disables_for_less_than_a_cycle,
+       .after = After::kGoesOn},
       {.name = "SomebodyStopsADrive",
        .happens = somebody_commands(canopen::NmtCommand::kStop),
        .after = After::kLost,
@@ -279,7 +289,12 @@ std::vector<Breakage> of_the_application() {
       {.name = "ANumberIsInfinite",
        .happens = writes(std::numeric_limits<double>::infinity()),
        .said = {"not finite", "no number", "inf"}},
-      {.name = "ReferenceIsAbsurdUntilDisarmed", .happens = absurd_reference, .said = {}},
+      {.name = "ReferenceIsAbsurdAndSilentThen",
+       .happens = absurd_reference,
+       .after = After::kBrakes},
+      {.name = "ReferenceIsAbsurdUntilDisarmed",
+       .happens = absurd_reference_until_disarmed,
+       .said = {}},
       {.name = "GeneratorStops", .happens = stops("Generator"), .after = After::kBrakes},
       {.name = "ControllerStops", .happens = stops("Controller"), .said = {}},
       {.name = "ActuatorStops", .happens = stops("Actuator"), .said = {}},

@@ -16,8 +16,10 @@ using Random = std::mt19937;
 
 /// What becomes of the arm.
 enum class After {
-  kGoesOn,   ///< the motion is made to its end
-  kBrakes,   ///< it comes to rest, armed still, and the motion is not gone on with
+  kGoesOn,  ///< the motion is made to its end
+  kBrakes,  ///< it comes to rest, armed still, and the motion is not gone on with
+  kRests,   ///< one of these two: what was desired has torques wind up, and who stands still for it
+            ///< is watched
   kStopped,  ///< it comes to rest, no drive is enabled; reset, start and arm bring it back
   kLost,     ///< the same, and reset and start alone do not: the program is begun again
 };

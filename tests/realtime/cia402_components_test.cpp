@@ -56,5 +56,11 @@ TEST(RealtimeCia402, Drive) {
   EXPECT_EQ(drive.state(), State::kException);
 }
 
+TEST(RealtimeCia402, AStatusWord) {
+  DriveStatus status;
+  expect_realtime("cia402_components::status_of", [&] { status = status_of(0x0237); });
+  EXPECT_TRUE(status.operation_enabled);
+}
+
 }  // namespace
 }  // namespace armature::cia402

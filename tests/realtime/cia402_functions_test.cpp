@@ -9,6 +9,7 @@
 #include "armature/base/diagnostic.hpp"
 #include "armature/can/virtual_bus.hpp"
 #include "drives/canopen/nmt.hpp"
+#include "drives/cia402/background_sdo.hpp"
 #include "drives/cia402/drive_group.hpp"
 #include "drives/cia402/objects.hpp"
 #include "tests/realtime/expect_realtime.hpp"
@@ -104,6 +105,32 @@ TEST(RealtimeCia402, AGroupOfDrives) {
   can::Arrival sent;
   ASSERT_EQ(drive.receive(sent), can::ReceiveStatus::kReceived);
   EXPECT_EQ(sent.frame, can::data_frame(0x201, {0x0f, 0x01, 8, 0, 0, 0}));
+}
+
+TEST(RealtimeCia402, WhatIsAskedBesideTheCycle) {
+  base::Time now{};
+  can::VirtualBus bus("can0", 1'000'000, [&] { return now; });
+  can::VirtualStation& host = bus.add_station("host");
+  can::VirtualStation& drive = bus.add_station("drive");
+  base::Diagnostics diagnostics;
+  ASSERT_TRUE(host.open({}, diagnostics) && drive.open({}, diagnostics));
+  DriveConfig config = make_group().config(0);
+  config.slow = {object::kCurrent};
+  const DriveGroup group = std::move(DriveGroup::make({config})).value();
+  BackgroundSdo background(group, 1ms);
+  const can::Frame current = can::data_frame(0x581, {0x4b, 0x78, 0x60, 0x00, 7, 0, 0, 0});
+  expect_realtime("BackgroundSdo::step", [&] {
+    background.step(host, now);
+    bus.advance_to(now += 2ms);
+  });
+  expect_realtime("BackgroundSdo::take", [&] { background.take(current, now); });
+  EXPECT_EQ(background.number(0, 0), 7);
+  expect_realtime("BackgroundSdo::prepare_again", [&] { background.prepare_again(0); });
+  EXPECT_EQ(background.preparation(0), BackgroundSdo::Preparation::kUnderWay);
+  expect_realtime("BackgroundSdo::end_heartbeat", [&] {
+    background.end_heartbeat(host, now);
+    bus.advance_to(now += 2ms);
+  });
 }
 
 }  // namespace

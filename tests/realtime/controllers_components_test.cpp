@@ -410,6 +410,39 @@ TEST(RealtimeComponents, AxesGeneratorOnline) {
   EXPECT_EQ(follows, 100);
 }
 
+TEST(RealtimeComponents, AxesGeneratorOnlineJogsAndKeepsALimitOfAPeer) {
+  testing::Harness generator(std::make_unique<AxesGeneratorOnline>("Generator"));
+  generator.set("num_axes", 2);
+  for (const char* name : {"max_vel", "max_acc", "upper"}) generator.set(name, "[1.0]");
+  generator.set("lower", "[-1.0]");
+  generator.serve<double(const Vector&, const Vector&)>(
+      "motionLimitUsed", [](const Vector&, const Vector& v) { return 4.0 * (v[0] + v[1]); });
+  start(generator);
+  const Vector zero(2, 0.0);
+  const Vector half(2, 0.5);
+  generator.write("nAxesSensorPosition", zero);
+  int motions = 0;
+  int jogs = 0;
+  expect_realtime_on_bench("AxesGeneratorOnline", [&] {
+    generator.write("nAxesSensorPosition", zero);
+    generator.run_cycles();
+    auto motion = generator.send("moveTo", half, 0.0);
+    if (motion.stage() == component::CommandStage::kAccepted) ++motions;
+    generator.run_cycles(3);
+    motion.cancel();
+    EXPECT_TRUE(generator.call("resetPosition"));
+    generator.run_cycles(3);
+    auto jog = generator.send("jog", 1, 0.1);
+    if (jog.stage() == component::CommandStage::kAccepted) ++jogs;
+    EXPECT_TRUE(generator.call<bool>("keepJogging", 1, 0.1).value());
+    generator.run_cycles(3);
+    jog.cancel();
+    EXPECT_TRUE(generator.call("resetPosition"));
+  });
+  EXPECT_EQ(motions, 100);
+  EXPECT_EQ(jogs, 100);
+}
+
 template <typename Model>
 void expect_realtime_restart(const char* model,
                              const std::vector<std::pair<const char*, const char*>>& properties) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "armature/component/host.hpp"
+#include "armature/controllers/axes_generator/held_jog.hpp"
 #include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/controllers/base/sample_watch.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
@@ -17,6 +18,19 @@ namespace armature::controllers {
 namespace {
 
 using namespace std::chrono_literals;
+
+TEST(RealtimeFunctions, AJogThatIsHeld) {
+  HeldJog jog;
+  bool renewed = false;
+  bool let_go = false;
+  expect_realtime("HeldJog", [&] {
+    jog.begin(1, 0.5, base::Time(1s));
+    renewed = jog.renew(1, 0.5, base::Time(1100ms));
+    let_go = jog.let_go(base::Time(1250ms));
+  });
+  EXPECT_TRUE(renewed);
+  EXPECT_TRUE(let_go);
+}
 
 class Sampled final : public component::Component {
  public:

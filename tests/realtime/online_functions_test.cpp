@@ -9,6 +9,7 @@
 #include "armature/control/online/bring_within.hpp"
 #include "armature/control/online/online_trajectory.hpp"
 #include "armature/control/online/plateau.hpp"
+#include "armature/control/online/stops.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::control {
@@ -22,7 +23,7 @@ constexpr MotionSample kTarget{1.0, 0.2, 0.1};
 
 TEST(RealtimeFunctions, OnlineTrajectory) {
   auto trajectory =
-      OnlineTrajectory::make({std::vector(7, OnlineTrajectory::Axis{1, 2, 20})}).value();
+      OnlineTrajectory::make({std::vector(7, OnlineTrajectory::Axis{1, 2, 20, -9, 9})}).value();
   const std::vector<double> zero(7, 0.0);
   const std::vector<double> half(7, 0.5);
   bool accepted = true;
@@ -38,6 +39,9 @@ TEST(RealtimeFunctions, OnlineTrajectory) {
     there = !there;
     accepted = accepted && trajectory.move_to({there ? half : zero, half}).accepted();
     trajectory.step(10ms);
+  });
+  expect_realtime("OnlineTrajectory::jog", [&] {
+    accepted = accepted && trajectory.hold(zero).accepted() && trajectory.jog(1, 0.5).accepted();
   });
   std::string_view text;
   expect_realtime("control::to_text", [&] {
@@ -70,6 +74,15 @@ TEST(RealtimeFunctions, AxisProblem) {
   expect_realtime("PhasedMotion::extent", [&] { highest = motion.extent().highest; });
   EXPECT_NEAR(std::max(highest, 1.0), highest, 1e-9) << "no less than where it ends";
   expect_realtime("PhasedMotion::append", [&] { motion.append(0.1, 1.0); });
+}
+
+TEST(RealtimeFunctions, Stops) {
+  PhasedMotion motion;
+  expect_realtime("control::stop_from", [&] { motion = stop_from(kLimits, kStart); });
+  EXPECT_NEAR(motion.end().velocity, 0.0, 1e-9);
+  PhasedMotion::Extent extent{};
+  expect_realtime("control::extent_of_stops", [&] { extent = extent_of_stops(kLimits, motion); });
+  EXPECT_GE(extent.highest, motion.end().position - 1e-9);
 }
 
 TEST(RealtimeFunctions, FurthestReach) {

@@ -50,7 +50,8 @@ const std::vector<Arrangement> kAll = {
     {"OwnRobot", EXAMPLES "/07_own_robot/arm.yaml"},
     {"TorqueDrives", EXAMPLES "/11_drives/torque.yaml"},
     {"VelocityDrives", EXAMPLES "/11_drives/velocity.yaml"},
-    {"PositionDrives", EXAMPLES "/11_drives/position.yaml"}};
+    {"PositionDrives", EXAMPLES "/11_drives/position.yaml"},
+    {"Rail", EXAMPLES "/11_drives/rail.yaml"}};
 
 /// An arrangement in which some components have another Sampler, which fires when it is told to.
 class Robot {

@@ -33,7 +33,7 @@ TEST(ArmCheck, FindsNothingInAnyDeploymentOfTheArm) {
     }
   }
   for (const char* file : {"npid_feed_forward7.yaml", "controller_wam_velocities7.yaml",
-                           "sample_port7.yaml", "tool7.yaml"}) {
+                           "online7.yaml", "sample_port7.yaml", "tool7.yaml"}) {
     EXPECT_EQ(said(file), "") << file;
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions that cannot be are refused, and those that are accepted do not end in the board's fault.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -102,6 +103,54 @@ TEST(WamMotions, AJogMovesOneJointAsLongAsItIsRenewed) {
   EXPECT_EQ(arm.desired(), rest) << "renewals that come late move nothing";
   for (const std::size_t other : {0u, 2u, 3u}) EXPECT_EQ(rest[other], before[other]);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(arm.positions()[i], rest[i], 0.02);
+  EXPECT_TRUE(arm.armed()) << arm.reason("WAM");
+}
+
+/// The WAM with the other generator, exchanged by one line.
+class WamMovedOnline : public ::testing::Test {
+ protected:
+  WamMovedOnline() : arm("online7.yaml") {
+    arm.start_armed();
+    arm.run_for(1s);
+  }
+  /// Of the motion as it is desired, in so many cycles.
+  double fastest_tip(int cycles) {
+    double fastest = 0.0;
+    for (int k = 0; k < cycles; ++k) {
+      arm.cycle();
+      const Vector velocities = arm.value<Vector>("Generator", "nAxesDesiredVelocity");
+      fastest = std::max(fastest, TipSpeed::of(arm.desired(), velocities));
+    }
+    return fastest;
+  }
+  Arm arm;
+};
+
+TEST_F(WamMovedOnline, IsAtItsFastestWithinWhatTheBoardAllows) {
+  const Vector there{1.2, 0.2, 0.0, 1.5, 0.3, 0.0, 0.2};
+  EXPECT_THAT(arm.move_to(there, 0.1), HasSubstr("s at least, found 0.1 s"));
+  ASSERT_EQ(arm.move_to(there, 0.0), "");
+  EXPECT_NEAR(fastest_tip(3000), 0.9 * 0.95, 0.02) << "[m/s]";
+  EXPECT_EQ(arm.state("WAM"), component::State::kRunning) << arm.reason("WAM");
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(arm.positions()[i], there[i], 0.02) << i;
+}
+
+TEST_F(WamMovedOnline, IsJoggedAsLongAsItIsRenewed) {
+  const auto asked = [this](const char* operation) {
+    return arm.call("Generator", operation, {types::Value::of(2), types::Value::of(0.5)});
+  };
+  const Vector before = arm.desired();
+  ASSERT_EQ(asked("jog"), "");
+  for (int i = 0; i < 20; ++i) {
+    arm.run_for(50ms);
+    ASSERT_EQ(asked("keepJogging"), "");
+  }
+  const Vector let_go = arm.desired();
+  EXPECT_NEAR(let_go[1] - before[1], 0.5, 0.1);
+  arm.run_for(1s);
+  EXPECT_LT(arm.desired()[1] - let_go[1], 0.5 * 0.15 + 0.1);
+  EXPECT_EQ(arm.value<Vector>("Generator", "nAxesDesiredVelocity"), Vector(7, 0.0));
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(arm.positions()[i], arm.desired()[i], 0.02);
   EXPECT_TRUE(arm.armed()) << arm.reason("WAM");
 }
 

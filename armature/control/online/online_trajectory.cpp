@@ -7,7 +7,7 @@
 
 #include "armature/control/internal/mistakes.hpp"
 #include "armature/control/online/bring_within.hpp"
-#include "armature/control/online/plateau.hpp"
+#include "armature/control/online/stops.hpp"
 
 namespace armature::control {
 namespace {
@@ -16,6 +16,11 @@ namespace {
 constexpr double kAsFastOnline = 1.0 - 1e-6;
 /// By which rounding may leave the position limits.
 constexpr double kPositionRounding = 1e-9;
+/// So often along a motion its other limits are looked at.
+constexpr int kOnlineLooks = 128;
+/// So often it is made longer until it keeps them, and then shorter by halves of what that was.
+constexpr int kMostLonger = 6;
+constexpr int kBisections = 6;
 
 bool all_finite(std::span<const double> numbers, std::size_t& axis) {
   for (axis = 0; axis < numbers.size(); ++axis) {
@@ -29,34 +34,6 @@ bool at_rest(const MotionSample& state) {
 }
 
 }  // namespace
-
-std::string_view to_text(TargetRefusal refusal) {
-  switch (refusal) {
-    case TargetRefusal::kNone:
-      return "accepted";
-    case TargetRefusal::kWrongNumber:
-      return "expected one number for each axis";
-    case TargetRefusal::kNotFinite:
-      return "a number is not finite";
-    case TargetRefusal::kOutsideLimits:
-      return "a target is outside the limits of its axis";
-    case TargetRefusal::kVelocityTooHigh:
-      return "a velocity is above the limit of its axis";
-    case TargetRefusal::kAccelerationTooHigh:
-      return "an acceleration is above what the limits of its axis allow at this velocity";
-    case TargetRefusal::kLeavesLimits:
-      return "the motion would leave the limits of its axis on the way";
-    case TargetRefusal::kNegativeTime:
-      return "the time is negative";
-    case TargetRefusal::kTooFast:
-      return "the motion is faster than the limits allow";
-    case TargetRefusal::kTooLong:
-      return "the motion would take more than 1e9 s";
-    case TargetRefusal::kNoPosition:
-      return "the positions of the axes are not known yet: try again in the next cycle";
-  }
-  return "unknown";
-}
 
 base::Result<void> OnlineTrajectory::check(const Config& config) {
   internal::Mistakes mistakes("OnlineTrajectory");
@@ -84,6 +61,8 @@ OnlineTrajectory::OnlineTrajectory(const Config& config)
       problems_(axes_.size()),
       within_s_(axes_.size()),
       targets_(axes_.size()),
+      looked_at_(axes_.size()),
+      velocities_there_(axes_.size()),
       positions_(axes_.size()),
       velocities_(axes_.size()),
       accelerations_(axes_.size()) {}
@@ -166,12 +145,13 @@ MotionSample OnlineTrajectory::now(std::size_t axis) const {
 }
 
 /// The problem that remains where the axis is within its limits.
-void OnlineTrajectory::pose(std::size_t axis, const MotionSample& target) {
+void OnlineTrajectory::pose(std::size_t axis, const MotionSample& target,
+                            const JerkLimits& limits) {
   PhasedMotion& motion = next_[axis];
   motion.begin(now(axis));
-  bring_within(limits_of(axis), motion);
+  bring_within(limits, motion);
   within_s_[axis] = motion.duration_s();
-  problems_[axis].emplace(limits_of(axis), motion.end(), target);
+  problems_[axis].emplace(limits, motion.end(), target);
 }
 
 /// The first duration from `from_s` on that is possible for all axes.
@@ -193,66 +173,147 @@ double OnlineTrajectory::least_duration_s(double from_s) const {
   return duration_s;
 }
 
-OnlineTrajectory::Answer OnlineTrajectory::move_to(const State& target, double time_s) {
+OnlineTrajectory::Answer OnlineTrajectory::move_to(const State& target, double time_s,
+                                                   MotionLimit* limit) {
   if (const Answer answer = check_target(target, time_s); !answer.accepted()) return answer;
   if (!position_known_) return {TargetRefusal::kNoPosition};
   if (goes_there(target, time_s)) return {};
-  for (std::size_t i = 0; i < axes_.size(); ++i) pose(i, state_of(target, i));
+  const Answer answer =
+      limit == nullptr ? plan(target, time_s) : plan_within(target, time_s, *limit);
+  if (!answer.accepted()) return answer;
+  for (std::size_t i = 0; i < axes_.size(); ++i) targets_[i] = state_of(target, i);
+  has_target_ = true;
+  asked_s_ = time_s;
+  begin(planned_s_);
+  return {};
+}
+
+/// Lets `next_` be the motion to `target`.
+OnlineTrajectory::Answer OnlineTrajectory::plan(const State& target, double time_s) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) pose(i, state_of(target, i), limits_of(i));
   const double shortest_s = least_duration_s(0.0);
   if (time_s > 0.0 && time_s < kAsFastOnline * shortest_s) {
     return {TargetRefusal::kTooFast, kNoAxis, shortest_s};
   }
-  const double duration_s = time_s > shortest_s ? least_duration_s(time_s) : shortest_s;
-  if (!(duration_s <= kLongest_s)) return {TargetRefusal::kTooLong};
+  planned_s_ = time_s > shortest_s ? least_duration_s(time_s) : shortest_s;
+  if (!(planned_s_ <= kLongest_s)) return {TargetRefusal::kTooLong};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!solve(i, state_of(target, i), duration_s)) return {TargetRefusal::kLeavesLimits, i};
+    if (!solve(i, state_of(target, i), planned_s_, limits_of(i)))
+      return {TargetRefusal::kLeavesLimits, i};
   }
-  for (std::size_t i = 0; i < axes_.size(); ++i) targets_[i] = state_of(target, i);
+  return {};
+}
+
+/// The fastest first, so that a refusal says how long it takes.
+OnlineTrajectory::Answer OnlineTrajectory::plan_within(const State& target, double time_s,
+                                                       MotionLimit& limit) {
+  const Answer answer = lengthen(target, 0.0, limit);
+  if (!answer.accepted() || time_s == 0.0) return answer;
+  if (time_s < kAsFastOnline * planned_s_) return {TargetRefusal::kTooFast, kNoAxis, planned_s_};
+  return time_s > planned_s_ ? lengthen(target, time_s, limit) : answer;
+}
+
+/// What it uses of the limit falls with the duration; the least one that is found is taken. A
+/// motion between rest and rest keeps it if it takes longer by the share that was used: scaled in
+/// time it would just keep it, and its plateaus are no faster than then.
+OnlineTrajectory::Answer OnlineTrajectory::lengthen(const State& target, double time_s,
+                                                    MotionLimit& limit) {
+  Answer answer = plan(target, time_s);
+  if (!answer.accepted()) return answer;
+  double too_short_s = planned_s_;
+  double used = most_used(limit);
+  if (used <= 1.0) return answer;
+  for (int round = 0; round < kMostLonger && used > 1.0; ++round) {
+    if (!std::isfinite(used)) break;
+    too_short_s = planned_s_;
+    answer = plan(target, planned_s_ * used * (1.0 + 1e-6));
+    if (!answer.accepted()) return answer;
+    used = most_used(limit);
+  }
+  if (used > 1.0) return {TargetRefusal::kMotionLimit};
+  double kept_s = planned_s_;
+  for (int round = 0; round < kBisections; ++round) {
+    const double middle_s = 0.5 * (too_short_s + kept_s);
+    const bool keeps = plan(target, middle_s).accepted() && most_used(limit) <= 1.0;
+    (keeps ? kept_s : too_short_s) = middle_s;
+  }
+  return plan(target, kept_s);
+}
+
+/// Along `next_`.
+double OnlineTrajectory::most_used(MotionLimit& limit) {
+  double most = 0.0;
+  for (int k = 1; k < kOnlineLooks; ++k) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const MotionSample there = next_[i].at(planned_s_ * k / kOnlineLooks);
+      looked_at_[i] = there.position;
+      velocities_there_[i] = there.velocity;
+    }
+    most = std::max(most, limit.used(looked_at_, velocities_there_));
+  }
+  return most;
+}
+
+OnlineTrajectory::Answer OnlineTrajectory::jog(std::size_t axis, double velocity,
+                                               MotionLimit* limit) {
+  if (!std::isfinite(velocity)) return {TargetRefusal::kNotFinite, axis};
+  if (velocity == 0.0) return {TargetRefusal::kZeroVelocity, axis};
+  if (std::abs(velocity) > axes_[axis].max_velocity) {
+    return {TargetRefusal::kTooFast, axis, 0.0, axes_[axis].max_velocity};
+  }
+  if (!position_known_) return {TargetRefusal::kNoPosition};
+  for (std::size_t i = 0; i < axes_.size(); ++i) brake(i);
+  const double limit_there = velocity > 0.0 ? axes_[axis].upper : axes_[axis].lower;
+  if (!std::isfinite(limit_there)) return {TargetRefusal::kTooLong, axis};
+  const double room = (limit_there - next_[axis].end().position) * std::copysign(1.0, velocity);
+  if (room <= kPositionRounding) return {TargetRefusal::kAtLimit, axis};
+  const MotionSample target{limit_there, 0.0, 0.0};
+  JerkLimits limits = limits_of(axis);
+  limits.velocity = std::abs(velocity);
+  pose(axis, target, limits);
+  const double own_s = within_s_[axis] + problems_[axis]->first_duration(0.0);
+  if (!(own_s <= kLongest_s)) return {TargetRefusal::kTooLong, axis};
+  if (!solve(axis, target, own_s, limits)) return {TargetRefusal::kLeavesLimits, axis};
+  planned_s_ = 0.0;
+  for (const PhasedMotion& each : next_) planned_s_ = std::max(planned_s_, each.duration_s());
+  const double used = limit == nullptr ? 0.0 : most_used(*limit);
+  if (used > 1.0) return {TargetRefusal::kTooFast, axis, 0.0, std::abs(velocity) / used};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    targets_[i] = {next_[i].end().position, 0.0, 0.0};
+  }
   has_target_ = true;
-  asked_s_ = time_s;
-  begin(duration_s);
+  asked_s_ = -1.0;  // no motion is the same as this one
+  begin(planned_s_);
   return {};
 }
 
 /// @return whether the axis stays within its position limits
-bool OnlineTrajectory::solve(std::size_t axis, const MotionSample& target, double duration_s) {
+bool OnlineTrajectory::solve(std::size_t axis, const MotionSample& target, double duration_s,
+                             const JerkLimits& limits) {
   PhasedMotion& motion = next_[axis];
   const AxisProblem& problem = *problems_[axis];
   problem.append_to(motion, duration_s - within_s_[axis]);
   motion.end_in(target);
-  if (stays_within(axis, target)) return true;
+  if (stays_within(axis)) return true;
   if (!at_rest(target)) return false;
   motion.begin(now(axis));
-  bring_within(limits_of(axis), motion);
+  bring_within(limits, motion);
   problem.append_to(motion, problem.first_duration(0.0));
   motion.end_in(target);
-  return stays_within(axis, target);
+  return stays_within(axis);
 }
 
-/// Where an axis is outside already, it goes no further. A stop from the target counts, too.
-bool OnlineTrajectory::stays_within(std::size_t axis, const MotionSample& target) const {
+/// Where an axis is outside already, it goes no further. A stop at any moment counts, too.
+bool OnlineTrajectory::stays_within(std::size_t axis) const {
   const double start = now(axis).position;
   const double lower = std::min(axes_[axis].lower, start) - kPositionRounding;
   const double upper = std::max(axes_[axis].upper, start) + kPositionRounding;
-  const auto fits = [lower, upper](const PhasedMotion& motion) {
-    const auto [lowest, highest] = motion.extent();
-    return lowest >= lower && highest <= upper;
-  };
-  if (!fits(next_[axis])) return false;
-  if (at_rest(target)) return true;
-  PhasedMotion stop;
-  stop.begin(target);
-  VelocityRamp::make(limits_of(axis), target.velocity, target.acceleration, 0.0).append_to(stop);
-  return fits(stop);
+  const auto [lowest, highest] = extent_of_stops(limits_of(axis), next_[axis]);
+  return lowest >= lower && highest <= upper;
 }
 
 void OnlineTrajectory::brake(std::size_t axis) {
-  PhasedMotion& motion = next_[axis];
-  motion.begin(now(axis));
-  bring_within(limits_of(axis), motion);
-  const auto [position, velocity, acceleration] = motion.end();
-  VelocityRamp::make(limits_of(axis), velocity, acceleration, 0.0).append_to(motion);
-  motion.end_in({motion.end().position, 0.0, 0.0});
+  next_[axis] = stop_from(limits_of(axis), now(axis));
 }
 
 void OnlineTrajectory::stop() {

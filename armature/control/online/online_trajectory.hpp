@@ -5,34 +5,16 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
+#include "armature/control/motion_limit.hpp"
 #include "armature/control/online/axis_problem.hpp"
 #include "armature/control/online/phased_motion.hpp"
+#include "armature/control/online/target_refusal.hpp"
 
 namespace armature::control {
-
-/// Why an `OnlineTrajectory` did not take a target.
-enum class TargetRefusal {
-  kNone,                 ///< it did
-  kWrongNumber,          ///< not one number for each axis
-  kNotFinite,            ///< a position, velocity, acceleration or time is not a finite number
-  kOutsideLimits,        ///< a position is outside the position limits of its axis
-  kVelocityTooHigh,      ///< a velocity is above the limit of its axis
-  kAccelerationTooHigh,  ///< an acceleration is, or leads the velocity beyond its limit
-  kLeavesLimits,         ///< the motion, or a stop from its end, leaves the position limits
-  kNegativeTime,
-  kTooFast,     ///< the limits allow it in a longer time: the answer has which
-  kTooLong,     ///< it would take more than `OnlineTrajectory::kLongest_s`
-  kNoPosition,  ///< where the axes are was never said: hold() or begin_at() comes first
-};
-
-/// A few words for a message, such as "a velocity is above the limit of its axis".
-/// @rt nonblocking, no allocation
-std::string_view to_text(TargetRefusal refusal);
 
 /// Moves several axes from any state of motion to any other, as fast as the limits of velocity,
 /// acceleration and jerk of each allow; a new target may come at any time. All arrive together:
@@ -42,10 +24,11 @@ std::string_view to_text(TargetRefusal refusal);
 /// An axis that is beyond its limits is brought back first, as fast as its jerk allows. Axes that
 /// arrive in motion, and are given no other target, brake to rest from there. Where the position
 /// limits of an axis forbid the motion that arrives with the others, it arrives at rest sooner.
+/// A `MotionLimit` is kept by motions, not by stops: axes that brake on their own may add up.
 /// What is refused changes nothing. One thread uses it.
 ///
-/// From all motions to targets at rest stop() stays within the position limits. On the way to a
-/// target in motion that begins with a run-up, it may leave them by A^3 / 24J^2.
+/// stop() stays within the position limits at any moment of any motion that was taken: what a stop
+/// may come to counts as part of it (`extent_of_stops`).
 class OnlineTrajectory {
  public:
   static constexpr std::size_t kNoAxis = static_cast<std::size_t>(-1);
@@ -73,7 +56,8 @@ class OnlineTrajectory {
   struct [[nodiscard]] Answer {
     TargetRefusal refusal = TargetRefusal::kNone;
     std::size_t axis = kNoAxis;  ///< the first one it is about, if it is about one
-    double shortest_s = 0.0;     ///< of kTooFast: the time that the limits allow
+    double shortest_s = 0.0;     ///< of a motion's kTooFast: the time that the limits allow
+    double fastest = 0.0;        ///< of a jog's kTooFast: the velocity that the limits allow
 
     bool accepted() const { return refusal == TargetRefusal::kNone; }
   };
@@ -99,9 +83,20 @@ class OnlineTrajectory {
 
   /// Goes to `target` from the present state. The target that it goes to already changes nothing.
   /// @param time_s  what it takes, or the next longer time that is possible; 0: the shortest
-  /// @return any refusal of the enumeration
+  /// @param limit   looked at along the motion, or nullptr. Where it is exceeded, the motion takes
+  ///                longer, until it is kept.
+  /// @return any refusal of the enumeration but kZeroVelocity and kAtLimit
   /// @rt nonblocking, no allocation, O(axes)
-  Answer move_to(const State& target, double time_s = 0.0);
+  Answer move_to(const State& target, double time_s = 0.0, MotionLimit* limit = nullptr);
+
+  /// Moves one axis with `velocity` to its limit from the present state, while the others brake to
+  /// rest: who lets go of it says stop().
+  /// @param axis      < axes()
+  /// @param velocity  in the axis' unit and seconds, not 0; its sign is the direction
+  /// @param limit     looked at along the motion, or nullptr
+  /// @return kNotFinite, kZeroVelocity, kTooFast, kAtLimit, kNoPosition, kTooLong, kLeavesLimits
+  /// @rt nonblocking, no allocation, O(axes)
+  Answer jog(std::size_t axis, double velocity, MotionLimit* limit = nullptr);
 
   /// Brakes each axis to rest as fast as its limits allow, and holds there. Nothing happens if it
   /// is stopping already.
@@ -117,6 +112,7 @@ class OnlineTrajectory {
   double elapsed_s() const { return static_cast<double>(elapsed_.count()) * 1e-9; }
   double duration_s() const { return duration_s_; }  ///< of the present or last motion
   double remaining_s() const { return under_way() ? duration_s_ - elapsed_s() : 0.0; }
+  double progress() const { return under_way() ? elapsed_s() / duration_s_ : 1.0; }  ///< 0..1
   std::size_t axes() const { return axes_.size(); }
   /// @param axis  < axes()
   const PhasedMotion& motion(std::size_t axis) const { return motions_[axis]; }
@@ -134,10 +130,15 @@ class OnlineTrajectory {
   Answer check_state(const State& state) const;
   bool goes_there(const State& target, double time_s) const;
   MotionSample now(std::size_t axis) const;
-  void pose(std::size_t axis, const MotionSample& target);
+  void pose(std::size_t axis, const MotionSample& target, const JerkLimits& limits);
   double least_duration_s(double from_s) const;
-  bool solve(std::size_t axis, const MotionSample& target, double duration_s);
-  bool stays_within(std::size_t axis, const MotionSample& target) const;
+  Answer plan(const State& target, double time_s);
+  Answer plan_within(const State& target, double time_s, MotionLimit& limit);
+  Answer lengthen(const State& target, double time_s, MotionLimit& limit);
+  double most_used(MotionLimit& limit);
+  bool solve(std::size_t axis, const MotionSample& target, double duration_s,
+             const JerkLimits& limits);
+  bool stays_within(std::size_t axis) const;
   void brake(std::size_t axis);
   void brake_all();
   void begin(double duration_s);
@@ -149,6 +150,9 @@ class OnlineTrajectory {
   std::vector<std::optional<AxisProblem>> problems_;
   std::vector<double> within_s_;  ///< when an axis is within its limits
   std::vector<MotionSample> targets_;
+  std::vector<double> looked_at_;  ///< positions where a `MotionLimit` looks, and the velocities
+  std::vector<double> velocities_there_;
+  double planned_s_ = 0.0;  ///< duration of `next_`
   base::Duration elapsed_{};
   double duration_s_ = 0.0;
   double asked_s_ = 0.0;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -220,6 +221,43 @@ TEST(OnlineTrajectory, FromAnyStateRandomTargetsAreReachedByAllAxesAtOnce) {
       ASSERT_NEAR(last.acceleration, ta[i], 1e-9) << round;
     }
   }
+}
+
+/// The speed of the tip of two links of 0.6 m, of which 0.9 m/s are allowed.
+class TipOfTwoLinks final : public MotionLimit {
+ public:
+  double used(std::span<const double> q, std::span<const double> qd) override {
+    const double both = qd[0] + qd[1];
+    const double x = -0.6 * std::sin(q[0]) * qd[0] - 0.6 * std::sin(q[0] + q[1]) * both;
+    const double y = 0.6 * std::cos(q[0]) * qd[0] + 0.6 * std::cos(q[0] + q[1]) * both;
+    return std::hypot(x, y) / 0.9;
+  }
+};
+
+TEST(OnlineTrajectory, RandomMotionsKeepTheLimitOfTheTip) {
+  testing::RandomMotion random(7);
+  TipOfTwoLinks tip;
+  constexpr OnlineTrajectory::Axis kWide{2.0, 4.0, 40.0, -3.0, 3.0};
+  OnlineTrajectory trajectory = make(2, kWide);
+  ASSERT_TRUE(trajectory.hold(Vector{0.0, 0.0}).accepted());
+  double most = 0.0;
+  int taken = 0;
+  constexpr int kTargets = 500;
+  for (int round = 0; round < kTargets; ++round) {
+    const Vector target{random.between(-2.9, 2.9), random.between(-2.9, 2.9)};
+    const auto answer = trajectory.move_to({target}, 0.0, &tip);
+    ASSERT_TRUE(answer.accepted() || answer.refusal == TargetRefusal::kMotionLimit);
+    taken += answer.accepted() ? 1 : 0;
+    // Half of them are redirected on the way.
+    const double share = round % 2 == 0 ? 1.0 : random.between(0.1, 0.9);
+    for (double end_s = share * trajectory.remaining_s(); end_s > 0.0; end_s -= 1e-3) {
+      trajectory.step(1ms);
+      most = std::max(most, tip.used(trajectory.positions(), trajectory.velocities()));
+    }
+  }
+  EXPECT_LE(most, 1.02) << "between the looks";
+  EXPECT_GE(most, 0.95);
+  EXPECT_GE(taken, kTargets * 9 / 10);
 }
 
 }  // namespace

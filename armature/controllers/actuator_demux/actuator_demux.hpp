@@ -33,8 +33,8 @@ class ActuatorNDemux : public Actuator, public DrivesJoints {
   void actuate(const std::vector<double>& act) override;
 
   const JointCommandNames& names_;
-  component::OutputPorts<double> commands_{this, names_.command, joints_, "for each joint",
-                                           names_.unit};
+  component::OutputPorts<double> commands_{
+      this, names_.command, joints_, "for each joint", "", component::unit_of(signals_unit_)};
   component::Event<> act_{this, "Act", "all joints apply their commands"};
 };
 

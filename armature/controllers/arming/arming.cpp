@@ -78,8 +78,12 @@ void Arming::wait_for_reference() {
     if (!out_of_patience(patience_)) return;
     component::Reason why("joint ");
     append_number(why, static_cast<double>(apart + 1)).append(" is at ");
-    append_number(why, measured.value[apart]).append(" rad, its reference at ");
-    return give_up(append_number(why, desired.value[apart]).append(" rad"));
+    append_number(why, measured.value[apart])
+        .append(" ")
+        .append(units_.position().get())
+        .append(", its reference at ");
+    return give_up(
+        append_number(why, desired.value[apart]).append(" ").append(units_.position().get()));
   }
   if (out_of_patience(patience_)) give_up("no reference came: check that a generator is running");
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/max_age.hpp"
 #include "armature/controllers/base/missing_answers.hpp"
 
@@ -55,27 +56,32 @@ class Arming final : public component::Component {
 
   enum class Phase { kDisarmed, kSettling, kArming, kArmed };
 
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::Property<double> tolerance_{
-      this,  "tolerance",
-      0.01,  "largest difference of desired and measured position when it arms",
-      "rad", component::range(0.0, 1.0)};
+      this,
+      "tolerance",
+      0.01,
+      "largest difference of desired and measured position when it arms",
+      "",
+      component::range(0.0, 1.0),
+      component::unit_of(units_.position())};
   component::Property<double> patience_{
       this, "patience", 1.0, "how long to wait for references", "s", component::range(0.0, 60.0)};
   component::Property<double> joint_patience_{
       this, "joint_patience",
       5.0,  "how long to wait for joints, which are held before they are let go",
       "s",  component::range(0.0, 120.0)};
-  component::InputPort<std::vector<double>> measured_{this, "nAxesSensorPosition",
-                                                      "measured position of each joint", "rad",
-                                                      component::size_of(joints_)};
-  component::InputPort<std::vector<double>> desired_{this, "nAxesDesiredPosition",
-                                                     "desired position of each joint", "rad",
-                                                     component::size_of(joints_)};
-  component::InputPort<std::vector<double>> desired_velocity_{this, "nAxesDesiredVelocity",
-                                                              "desired velocity of each joint",
-                                                              "rad/s", component::size_of(joints_)};
+  component::InputPort<std::vector<double>> measured_{
+      this, "nAxesSensorPosition",       "measured position of each joint",
+      "",   component::size_of(joints_), component::unit_of(units_.position())};
+  component::InputPort<std::vector<double>> desired_{
+      this, "nAxesDesiredPosition",      "desired position of each joint",
+      "",   component::size_of(joints_), component::unit_of(units_.position())};
+  component::InputPort<std::vector<double>> desired_velocity_{
+      this, "nAxesDesiredVelocity",      "desired velocity of each joint",
+      "",   component::size_of(joints_), component::unit_of(units_.velocity())};
   component::InputPorts<bool> joint_armed_{this, "Armed", joints_, "each joint is armed"};
 
   component::Event<> settle_event_{this, "Settle", "desired := measured; the past is forgotten",

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/controllers/axes_generator/axes_generator.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
 #include <string_view>
 
 #include "armature/control/per_joint.hpp"
@@ -53,9 +49,8 @@ void AxesGeneratorPos::on_update() {
   trajectory_->step(time() - stepped_at_);
   stepped_at_ = time();
   brake_jog_let_go();
-  if (move_to_.active() && trajectory_->under_way()) {
-    move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
-  }
+  tell_progress(trajectory_->progress(), trajectory_->remaining_s());
+  if (move_to_.active() && trajectory_->under_way()) move_to_.report(trajectory_->progress());
   write_desired(trajectory_->positions(), trajectory_->velocities(), trajectory_->accelerations());
 }
 
@@ -69,7 +64,7 @@ Outcome AxesGeneratorPos::begin_move(const std::vector<double>& positions, doubl
   if (!may_move()) return component::refused(kNotArmed);
   if (jog_.active()) return component::refused(control::to_text(Refusal::kUnderWay));
   const Trajectory::Answer answer =
-      trajectory_->move_to(positions, time_s, limit_used_.bound() ? &peers_limit_ : nullptr);
+      trajectory_->move_to(positions, time_s, peers_limit_.where_bound());
   if (!answer.accepted()) return component::refused(refusal_of(answer, positions, time_s));
   stepped_at_ = time();
   return component::accepted();
@@ -92,26 +87,20 @@ Outcome AxesGeneratorPos::begin_jog(int axis, double velocity) {
     append_number(why, axes_);
     return component::refused(why);
   }
-  const Trajectory::Answer answer = trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity,
-                                                     limit_used_.bound() ? &peers_limit_ : nullptr);
+  const Trajectory::Answer answer =
+      trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity, peers_limit_.where_bound());
   if (!answer.accepted()) return component::refused(refusal_of_jog(answer, axis, velocity));
   stepped_at_ = time();
-  jogging_ = {axis, velocity, time(), false};
+  jogging_.begin(axis, velocity, time());
   return component::accepted();
 }
 
-/// The same velocity means the same number: a renewal is for the jog that it was sent for.
 bool AxesGeneratorPos::keep_jogging(int axis, double velocity) {
-  const bool its_own = axis == jogging_.axis && velocity == jogging_.velocity;
-  if (!jog_.active() || jogging_.let_go || !its_own) return false;
-  jogging_.renewed_at = time();
-  return true;
+  return jog_.active() && jogging_.renew(axis, velocity, time());
 }
 
 void AxesGeneratorPos::brake_jog_let_go() {
-  if (!jog_.active() || time() - jogging_.renewed_at < kJogPatience) return;
-  jogging_.let_go = true;
-  trajectory_->stop();
+  if (jog_.active() && jogging_.let_go(time())) trajectory_->stop();
 }
 
 void AxesGeneratorPos::reset_position() {
@@ -128,21 +117,6 @@ void AxesGeneratorPos::settle() {
     return;
   }
   begin_anew(trajectory_->hold(measured_.read().value), kWhy);
-}
-
-void AxesGeneratorPos::PeersLimit::resize(std::size_t axes) {
-  positions_.assign(axes, 0.0);
-  velocities_.assign(axes, 0.0);
-}
-
-/// A peer that does not answer allows nothing.
-double AxesGeneratorPos::PeersLimit::used(std::span<const double> positions,
-                                          std::span<const double> velocities) {
-  std::ranges::copy(positions, positions_.begin());
-  std::ranges::copy(velocities, velocities_.begin());
-  const auto answer = generator_.limit_used_(positions_, velocities_);
-  const bool usable = answer && std::isfinite(answer.value);
-  return usable ? answer.value : std::numeric_limits<double>::infinity();
 }
 
 /// @param answer  of the trajectory, which begins where the axes are
@@ -211,7 +185,10 @@ Reason AxesGeneratorPos::refusal_of_jog(const Trajectory::Answer& answer, int ax
     append_number(why.append(": "), velocity);
   }
   if (answer.refusal == Refusal::kTooFast) {
-    append_number(why.append(" rad/s, expected at most "), answer.fastest).append(" rad/s");
+    append_number(why.append(" ").append(units_.velocity().get()).append(", expected at most "),
+                  answer.fastest)
+        .append(" ")
+        .append(units_.velocity().get());
   }
   return why;
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
 #include "armature/component/author.hpp"
 #include "armature/control/trajectory.hpp"
 #include "armature/controllers/axes_generator/generator_of_axes.hpp"
+#include "armature/controllers/axes_generator/held_jog.hpp"
+#include "armature/controllers/axes_generator/peers_limit.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -75,20 +75,6 @@ class AxesGeneratorPos final : public GeneratorOfAxes {
   void stop() override;
 
   static constexpr std::size_t kMostWaiting = 8;
-  static constexpr base::Duration kJogPatience = std::chrono::milliseconds(150);
-
-  /// What a peer says of it.
-  class PeersLimit final : public control::MotionLimit {
-   public:
-    explicit PeersLimit(AxesGeneratorPos& generator) : generator_(generator) {}
-    void resize(std::size_t axes);
-    double used(std::span<const double> positions, std::span<const double> velocities) override;
-
-   private:
-    AxesGeneratorPos& generator_;
-    Vector positions_;
-    Vector velocities_;
-  };
 
   component::Command<const Vector&, double> move_to_{
       this,
@@ -121,15 +107,8 @@ class AxesGeneratorPos final : public GeneratorOfAxes {
   Changes changes_{axes_, max_velocity_, max_acceleration_, lower_, upper_};
 
   std::optional<control::Trajectory> trajectory_;
-  PeersLimit peers_limit_{*this};
-  /// What moves while it is renewed.
-  struct Jog {
-    int axis = 0;
-    double velocity = 0.0;
-    base::Time renewed_at{};
-    bool let_go = false;  ///< it brakes, and is renewed no more
-  };
-  Jog jogging_;
+  PeersLimit peers_limit_{limit_used_};
+  HeldJog jogging_;
 };
 
 }  // namespace armature::controllers

@@ -48,26 +48,16 @@ Outcome AxesGeneratorOnline::set_up() {
   }
   auto made = OnlineTrajectory::make(config);
   if (!made) return component::refused(made.error());
+  limits_ = config;
   trajectory_ = std::move(made.value());
   resize(axes);
+  peers_limit_.resize(axes);
   move_to_.prepare(Vector(axes), 0.0);
   changes_.take();
   return component::accepted();
 }
 
-/// Its motions would be faster than the robot allows.
-void AxesGeneratorOnline::on_check(component::Check& check) const {
-  if (check.target_of(limit_used_) == nullptr) return;
-  check.error("a peer limits motions by motionLimitUsed, which this generator does not keep",
-              "use the model nAxesGeneratorPos");
-}
-
 Outcome AxesGeneratorOnline::on_start() {
-  if (limit_used_.bound()) {
-    return component::refused(
-        "a peer limits motions by motionLimitUsed, which this generator does not keep: use the "
-        "model nAxesGeneratorPos");
-  }
   begin_run();
   refused_references_.assign(0);
   return changes_.take() ? set_up() : component::accepted();
@@ -76,13 +66,11 @@ Outcome AxesGeneratorOnline::on_start() {
 /// A reference counts before the step: what it says is where the axes are to be now.
 void AxesGeneratorOnline::on_update() {
   if (!knows_position()) return;
-  trajectory_->step(time() - stepped_at_);
-  stepped_at_ = time();
+  step_to_now();
   if (follow_.active()) follow_reference();
-  remaining_.assign(trajectory_->remaining_s());
-  if (move_to_.active() && trajectory_->under_way()) {
-    move_to_.report(trajectory_->elapsed_s() / trajectory_->duration_s());
-  }
+  if (jog_.active() && jogging_.let_go(time())) brake();
+  tell_progress(trajectory_->progress(), trajectory_->remaining_s());
+  if (move_to_.active() && trajectory_->under_way()) move_to_.report(trajectory_->progress());
   write_desired(trajectory_->positions(), trajectory_->velocities(), trajectory_->accelerations());
 }
 
@@ -96,17 +84,22 @@ Outcome AxesGeneratorOnline::may_begin() {
   return may_move() ? component::accepted() : component::refused(kNotArmed);
 }
 
+void AxesGeneratorOnline::step_to_now() {
+  trajectory_->step(time() - stepped_at_);
+  stepped_at_ = time();
+}
+
 /// From where the axes are now, not where they were in the last cycle.
 OnlineTrajectory::Answer AxesGeneratorOnline::go_to(const OnlineTrajectory::State& target,
                                                     double time_s) {
-  trajectory_->step(time() - stepped_at_);
-  stepped_at_ = time();
-  return trajectory_->move_to(target, time_s);
+  step_to_now();
+  return trajectory_->move_to(target, time_s, peers_limit_.where_bound());
 }
 
 Outcome AxesGeneratorOnline::begin_move(const Vector& positions, double time_s) {
   if (const Outcome outcome = may_begin(); !outcome) return outcome;
   if (follow_.active()) return component::refused("follow is under way: cancel it first");
+  if (jog_.active()) return component::refused("a jog is under way: let go of it first");
   const Answer answer = go_to({positions}, time_s);
   if (!answer.accepted()) return component::refused(refusal_of(answer, positions, time_s));
   return component::accepted();
@@ -119,6 +112,27 @@ Outcome AxesGeneratorOnline::may_wait(const Vector& positions, double time_s) co
                            : component::refused(refusal_of(answer, positions, time_s));
 }
 
+Outcome AxesGeneratorOnline::begin_jog(int axis, double velocity) {
+  if (const Outcome outcome = may_begin(); !outcome) return outcome;
+  if (move_to_.active()) return component::refused("moveTo is under way: cancel it first");
+  if (follow_.active()) return component::refused("follow is under way: cancel it first");
+  if (axis < 1 || axis > axes_) {
+    Reason why("axis ");
+    append_number(append_number(why, axis).append(": expected 1 to "), axes_);
+    return component::refused(why);
+  }
+  step_to_now();
+  const Answer answer =
+      trajectory_->jog(static_cast<std::size_t>(axis - 1), velocity, peers_limit_.where_bound());
+  if (!answer.accepted()) return component::refused(refusal_of_jog(answer, axis, velocity));
+  jogging_.begin(axis, velocity, time());
+  return component::accepted();
+}
+
+bool AxesGeneratorOnline::keep_jogging(int axis, double velocity) {
+  return jog_.active() && jogging_.renew(axis, velocity, time());
+}
+
 bool AxesGeneratorOnline::change_target(const Vector& positions) {
   return move_to_.active() && may_move() && go_to({positions}, 0.0).accepted();
 }
@@ -126,6 +140,7 @@ bool AxesGeneratorOnline::change_target(const Vector& positions) {
 Outcome AxesGeneratorOnline::begin_follow() {
   if (const Outcome outcome = may_begin(); !outcome) return outcome;
   if (move_to_.active()) return component::refused("moveTo is under way: cancel it first");
+  if (jog_.active()) return component::refused("a jog is under way: let go of it first");
   const auto reference = reference_.read();
   if (!reference || !is_of_this_run(reference, started_)) {
     return component::refused("nAxesReferencePosition has no new value: its writer must run first");
@@ -146,7 +161,8 @@ void AxesGeneratorOnline::follow_reference() {
   if (with_velocity) target.velocities = velocity.value;
   // A target in motion is where the axes are to be when it comes, not in each cycle after it.
   if (with_velocity && !reference.is_new()) return;
-  if (!trajectory_->move_to(target).accepted() && reference.is_new()) {
+  if (!trajectory_->move_to(target, 0.0, peers_limit_.where_bound()).accepted() &&
+      reference.is_new()) {
     refused_references_.assign(refused_references_ + 1);
   }
 }
@@ -176,6 +192,7 @@ void AxesGeneratorOnline::stop() {
 void AxesGeneratorOnline::end_commands(std::string_view why) {
   move_to_.fail(why);
   follow_.fail(why);
+  jog_.fail(why);
 }
 
 Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& positions,
@@ -211,6 +228,23 @@ Reason AxesGeneratorOnline::refusal_of(const Answer& answer, const Vector& posit
     default:
       break;
   }
+  return why;
+}
+
+Reason AxesGeneratorOnline::refusal_of_jog(const Answer& answer, int axis, double velocity) const {
+  Reason why;
+  if (answer.axis != OnlineTrajectory::kNoAxis)
+    append_number(why.append("axis "), axis).append(": ");
+  why.append(control::to_text(answer.refusal));
+  const bool too_fast = answer.refusal == TargetRefusal::kTooFast;
+  if (too_fast || answer.refusal == TargetRefusal::kNotFinite) {
+    append_number(why.append(": "), velocity);
+  }
+  if (too_fast)
+    append_number(why.append(" ").append(units_.velocity().get()).append(", expected at most "),
+                  answer.fastest)
+        .append(" ")
+        .append(units_.velocity().get());
   return why;
 }
 

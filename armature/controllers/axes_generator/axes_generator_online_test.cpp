@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two axes with 1 rad/s, 2 rad/s^2, 20 rad/s^3, -0.5 to 4.5 rad, in simulated cycles of 10 ms.
-#include "armature/controllers/axes_generator/axes_generator_online.hpp"
-
-#include <chrono>
-#include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "armature/controllers/internal/test_generator.hpp"
+#include "armature/controllers/internal/test_online_generator.hpp"
 
 namespace armature::controllers {
 namespace {
@@ -22,46 +17,12 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-class OnlineGenerator : public AxesGenerator {
- protected:
-  OnlineGenerator() : AxesGenerator(std::make_unique<AxesGeneratorOnline>("Generator")) {}
-  /// At each of which the limits are looked at.
-  void cycle(int count = 1) override {
-    for (int i = 0; i < count; ++i) {
-      const Vector before = desired_of("nAxesDesiredAcceleration");
-      generator.write("nAxesSensorPosition", measured);
-      generator.run_cycles();
-      if (generator.writes("nAxesDesiredPosition") == 0u) return;
-      for (std::size_t k = 0; k < 2; ++k) {
-        EXPECT_LE(std::abs(velocity()[k]), 1.0 + 1e-9);
-        EXPECT_LE(std::abs(acceleration()[k]), 2.0 + 1e-9);
-        EXPECT_GE(desired()[k], -0.5 - 1e-9);
-        EXPECT_LE(desired()[k], 4.5 + 1e-9);
-        if (before.size() == 2) {
-          EXPECT_LE(std::abs(acceleration()[k] - before[k]), 20.0 * 0.01 + 1e-9);
-        }
-      }
-    }
-  }
-  Vector desired_of(const char* port) {
-    return generator.writes(port) == 0u ? Vector{} : generator.output<Vector>(port);
-  }
-};
-
 TEST_F(OnlineGenerator, TheReferenceIsTheMeasuredPositionBeforeTheFirstMotion) {
   start_at({0.25, 0.5});
   measured = {0.3, 0.4};
   cycle(3);
   EXPECT_THAT(desired(), ElementsAre(0.25, 0.5));
   EXPECT_THAT(velocity(), Each(0.0));
-}
-
-/// It would move faster than the robot allows.
-TEST_F(OnlineGenerator, IsRefusedForARobotThatLimitsMotionsItself) {
-  generator.serve<double(const Vector&, const Vector&)>(
-      "motionLimitUsed", [](const Vector&, const Vector&) { return 0.5; });
-  EXPECT_THAT(std::string(generator.start().reason()),
-              ::testing::HasSubstr("motionLimitUsed, which this generator does not keep"));
 }
 
 TEST_F(OnlineGenerator, AllAxesArriveTogetherAtTheirTargets) {
@@ -89,6 +50,18 @@ TEST_F(OnlineGenerator, AMotionIsRedirectedOnTheWayWithoutAStop) {
   EXPECT_EQ(motion.stage(), CommandStage::kDone);
   EXPECT_THAT(desired(), ElementsAre(4.0, 0.0));
   EXPECT_FALSE(generator.call<bool>("changeTarget", Vector{1.0, 0.0}).value()) << "none is";
+}
+
+TEST_F(OnlineGenerator, TellsHowFarAMotionIsAndHowLongItStillTakes) {
+  start_at({0.0, 0.5});
+  auto motion = generator.send("moveTo", Vector{2.0, 1.0}, 0.0);
+  cycle(65);  // of 2.6 s
+  EXPECT_NEAR(generator.get<double>("progress"), 0.25, 1e-6);
+  EXPECT_NEAR(generator.get<double>("remaining_time"), 1.95, 1e-6);
+  EXPECT_NEAR(motion.progress(), 0.25, 1e-6);
+  cycle(200);
+  EXPECT_EQ(generator.get<double>("progress"), 1.0);
+  EXPECT_EQ(generator.get<double>("remaining_time"), 0.0);
 }
 
 TEST_F(OnlineGenerator, StopBrakesOnTheWayAndHoldsThere) {

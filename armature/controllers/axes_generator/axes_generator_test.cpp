@@ -138,6 +138,8 @@ TEST(AxesGeneratorWithEvents, BelievesAnArmingThatCannotBeAskedItsEvents) {
   options.simulated = true;
   exec::Application application(std::move(blueprint), std::move(options));
   for (component::PropertyBase* property : component::interface_of(generator).properties) {
+    static constexpr std::string_view kOthers[] = {"Unit", "progress", "remaining_time"};
+    if (std::ranges::find(kOthers, property->name()) != std::end(kOthers)) continue;
     const bool axes = property->name() == "num_axes";
     const double limit = property->name() == "lower" ? -0.5 : 4.5;
     ASSERT_TRUE(property->set(axes ? types::Value::of(2) : types::Value::of(Vector{limit})));
@@ -186,6 +188,19 @@ TEST_F(WithALimitOfAPeer, AskedForNoTimeItKeepsWithinThatToo) {
   }
   EXPECT_EQ(cycles, 500);
   EXPECT_NEAR(fastest, 0.5, 1e-9);
+}
+
+TEST_F(AxesGenerator, TellsHowFarAMotionIsAndHowLongItStillTakes) {
+  start_at({0.0, 0.0});
+  EXPECT_EQ(generator.get<double>("progress"), 1.0);
+  auto motion = generator.send("moveTo", Vector{1.0, 1.0}, 4.0);
+  cycle(100);
+  EXPECT_NEAR(generator.get<double>("progress"), 0.25, 1e-6);
+  EXPECT_NEAR(generator.get<double>("remaining_time"), 3.0, 1e-6);
+  EXPECT_NEAR(motion.progress(), 0.25, 1e-6);
+  cycle(300);
+  EXPECT_EQ(generator.get<double>("progress"), 1.0);
+  EXPECT_EQ(generator.get<double>("remaining_time"), 0.0);
 }
 
 TEST_F(AxesGenerator, CancellingIsASmoothStopWhereItThenHolds) {

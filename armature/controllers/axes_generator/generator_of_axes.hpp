@@ -9,6 +9,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/controllers/axes_generator/axes_check.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
 namespace armature::controllers {
@@ -44,25 +45,54 @@ class GeneratorOfAxes : public component::Component {
   void refuse_measured(std::size_t axis);
   void write_desired(std::span<const double> positions, std::span<const double> velocities,
                      std::span<const double> accelerations);
+  /// How far the motion under way is, for scripts and tools.
+  void tell_progress(double progress, double remaining_s) {
+    progress_.assign(progress);
+    remaining_.assign(remaining_s);
+  }
   /// The number of `axis`, where there may be one for all.
   static double limit_of(const Vector& numbers, std::size_t axis) {
     return numbers.size() == 1 ? numbers.front() : numbers[axis];
   }
 
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> axes_{
       this, "num_axes", 1, "number of axes", "", component::mandatory, component::range(1, 100000)};
-  component::Property<Vector> max_velocity_{
-      this, "max_vel", {}, "largest velocity of each axis, > 0", "rad/s", component::mandatory};
-  component::Property<Vector> max_acceleration_{this,      "max_acc",
-                                                {},        "largest acceleration of each axis, > 0",
-                                                "rad/s^2", component::mandatory};
-  component::Property<Vector> lower_{
-      this, "lower", {}, "smallest position of each axis", "rad", component::mandatory};
-  component::Property<Vector> upper_{
-      this, "upper", {}, "largest position of each axis", "rad", component::mandatory};
-  component::InputPort<Vector> measured_{
-      this,  "nAxesSensorPosition",     "measured position of each axis",
-      "rad", component::size_of(axes_), component::max_age(kMaxAge)};
+  component::Property<Vector> max_velocity_{this,
+                                            "max_vel",
+                                            {},
+                                            "largest velocity of each axis, > 0",
+                                            "",
+                                            component::mandatory,
+                                            component::unit_of(units_.velocity())};
+  component::Property<Vector> max_acceleration_{this,
+                                                "max_acc",
+                                                {},
+                                                "largest acceleration of each axis, > 0",
+                                                "",
+                                                component::mandatory,
+                                                component::unit_of(units_.acceleration())};
+  component::Property<Vector> lower_{this,
+                                     "lower",
+                                     {},
+                                     "smallest position of each axis",
+                                     "",
+                                     component::mandatory,
+                                     component::unit_of(units_.position())};
+  component::Property<Vector> upper_{this,
+                                     "upper",
+                                     {},
+                                     "largest position of each axis",
+                                     "",
+                                     component::mandatory,
+                                     component::unit_of(units_.position())};
+  component::InputPort<Vector> measured_{this,
+                                         "nAxesSensorPosition",
+                                         "measured position of each axis",
+                                         "",
+                                         component::size_of(axes_),
+                                         component::max_age(kMaxAge),
+                                         component::unit_of(units_.position())};
   component::OperationCaller<bool()> is_armed_{this, "isArmed", "whether motions may begin",
                                                component::optional};
   component::OperationCaller<double(const Vector&, const Vector&)> limit_used_{
@@ -78,15 +108,18 @@ class GeneratorOfAxes : public component::Component {
     settle();
   }
 
-  component::OutputPort<Vector> position_{this, "nAxesDesiredPosition",
-                                          "desired position of each axis", "rad",
-                                          component::size_of(axes_)};
-  component::OutputPort<Vector> velocity_{this, "nAxesDesiredVelocity",
-                                          "desired velocity of each axis", "rad/s",
-                                          component::size_of(axes_)};
-  component::OutputPort<Vector> acceleration_{this, "nAxesDesiredAcceleration",
-                                              "desired acceleration of each axis", "rad/s^2",
-                                              component::size_of(axes_)};
+  component::Attribute<double> progress_{this, "progress", 1.0,
+                                         "of the motion under way, 0..1; 1 if there is none"};
+  component::Attribute<double> remaining_{this, "remaining_time", 0.0, "until the axes arrive [s]"};
+  component::OutputPort<Vector> position_{
+      this, "nAxesDesiredPosition",    "desired position of each axis",
+      "",   component::size_of(axes_), component::unit_of(units_.position())};
+  component::OutputPort<Vector> velocity_{
+      this, "nAxesDesiredVelocity",    "desired velocity of each axis",
+      "",   component::size_of(axes_), component::unit_of(units_.velocity())};
+  component::OutputPort<Vector> acceleration_{
+      this, "nAxesDesiredAcceleration", "desired acceleration of each axis",
+      "",   component::size_of(axes_),  component::unit_of(units_.acceleration())};
   component::EventHandler<> settle_{this,
                                     "Settle",
                                     component::serve<&GeneratorOfAxes::settle>,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/max_age.hpp"
 #include "armature/controllers/base/sample_input.hpp"
 
@@ -44,13 +45,21 @@ class Actuator : public component::Component {
 
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
+  AxisUnit axes_unit_{this, AxisUnit::Of::kAxes};
 
  private:
-  std::string_view unit_;
+  std::string_view unit_;  ///< of axes that turn
+
+ protected:
+  DerivedUnit signals_unit_{
+      this, {&axes_unit_}, [this] { return unit_for(unit_, axes_unit_.get()); }};
+
+ private:
   component::InputPort<std::vector<double>> act_{this,
                                                  "act",
                                                  "control signals [u1..uN]",
-                                                 unit_,
+                                                 "",
+                                                 component::unit_of(signals_unit_),
                                                  component::on_data<&Actuator::actuate>,
                                                  component::size_of(joints_),
                                                  component::max_age(kMaxAge)};

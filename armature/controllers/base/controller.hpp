@@ -13,6 +13,7 @@
 #include "armature/control/arming/hand_over.hpp"
 #include "armature/control/arming/reference_brake.hpp"
 #include "armature/control/arming/resting_mean.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/max_age.hpp"
@@ -102,6 +103,7 @@ class Controller : public component::Component, public PassesSamples, public Dri
   /// Runs in real time: nonblocking, no allocation.
   const std::vector<double>* reference_now(const std::vector<double>& measured);
 
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::Property<std::vector<double>> max_acceleration_{
@@ -110,7 +112,8 @@ class Controller : public component::Component, public PassesSamples, public Dri
       {},
       "with which a joint is braked when its reference stays away, one for each or one for all; "
       "none: the component stops then",
-      "rad/s^2"};
+      "",
+      component::unit_of(units_.acceleration())};
   SamplingPeriod period_{this, SamplingPeriod::Need::kIfAsked};  ///< with MaxAcceleration
   component::InputPort<std::vector<double>> reference_{
       this,
@@ -153,7 +156,8 @@ class Controller : public component::Component, public PassesSamples, public Dri
   bool all_rest(const std::vector<double>& reference, const std::vector<double>& measured) const;
   void take_over();
   const Controller* predecessor() const;
-  void begin_to_brake(const std::vector<double>& last);
+  void begin_to_brake(const std::vector<double>& last, const std::vector<double>& measured);
+  void know_motion(const std::vector<double>& measured);
   void take_over_reference(const std::vector<double>& measured);
   void forget_other() { hand_over_.reset(); }
 
@@ -169,10 +173,11 @@ class Controller : public component::Component, public PassesSamples, public Dri
       this,
       "sensor",
       "measured [q1..qN, d1..dN]: positions, then displacements since the sample before",
-      "rad",
+      "",
       component::on_data<&Controller::sensor_arrived>,
       component::size_of(joints_, 2),
-      component::max_age(kMaxAge)};
+      component::max_age(kMaxAge),
+      component::unit_of(units_.position())};
   component::EventHandler<> sample_{this, "Sample", component::serve<&Controller::sample_now>,
                                     "a sampling period begins", component::optional};
   component::InputPort<std::uint64_t> sample_port_{

@@ -64,10 +64,12 @@ class ControllerOfPids : public Controller {
                                      component::unit_of(out_unit_),
                                      component::on_data<&ControllerOfPids::on_out>,
                                      component::leads_to("act")};
-  component::OutputPorts<double> ref_{this, "Ref", joints_, "desired position, for each PID",
-                                      "rad"};
-  component::OutputPorts<double> sen_{this, "Sen", joints_, "measured position, for each PID",
-                                      "rad"};
+  component::OutputPorts<double> ref_{this,    "Ref",
+                                      joints_, "desired position, for each PID",
+                                      "",      component::unit_of(units_.position())};
+  component::OutputPorts<double> sen_{this,    "Sen",
+                                      joints_, "measured position, for each PID",
+                                      "",      component::unit_of(units_.position())};
   MissingAnswers missing_{this};
   Changes changes_{joints_, missing_.limit()};
   std::optional<control::Gathering> answers_;

@@ -33,7 +33,8 @@ struct DrivenJoint {
   double most_weight = 0.0;         ///< [N m] to be held, in any pose
   std::array<double, 3> gravity{};  ///< [m/s^2] in the axes of its base
   HoldsWeight holds_weight = HoldsWeight::kAnybody;
-  // What its limiter lets through [rad, rad/s, rad/s^2]; unlimited if nobody says.
+  std::string unit = "rad";  ///< of its position; m of a linear axis
+  // What its limiter lets through, in its unit and seconds; unlimited if nobody says.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double max_velocity = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/sample_input.hpp"
 
 namespace armature::controllers {
@@ -31,12 +32,16 @@ class Sensor : public component::Component {
     return component::accepted();
   }
 
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::OutputPort<std::vector<double>> sensor_{
-      this, "sensor",
-      "measured [q1..qN, d1..dN]: positions, then displacements since the sample before", "rad",
-      component::size_of(joints_, 2)};
+      this,
+      "sensor",
+      "measured [q1..qN, d1..dN]: positions, then displacements since the sample before",
+      "",
+      component::size_of(joints_, 2),
+      component::unit_of(units_.position())};
 
  private:
   component::EventHandler<> sample_{this, "Sample", component::serve<&Sensor::sample_now>,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -28,28 +29,32 @@ class Bridge final : public component::Component, public DrivesJoints {
   void on_desired(const std::vector<double>& desired);
 
   using Vector = std::vector<double>;
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::InputPorts<double> position_{this,
                                           "Position",
                                           joints_,
                                           "measured position of each joint",
-                                          "rad",
+                                          "",
                                           component::on_data<&Bridge::on_position>,
-                                          component::leads_to("nAxesSensorPosition")};
+                                          component::leads_to("nAxesSensorPosition"),
+                                          component::unit_of(units_.position())};
   component::InputPort<Vector> desired_{this,
                                         "nAxesDesiredPosition",
                                         "desired position of each joint",
-                                        "rad",
+                                        "",
                                         component::on_data<&Bridge::on_desired>,
                                         component::size_of(joints_),
                                         component::max_age(kMaxAge),
-                                        component::leads_to("Ref")};
-  component::OutputPort<Vector> positions_{this, "nAxesSensorPosition",
-                                           "measured position of each joint", "rad",
-                                           component::size_of(joints_)};
-  component::OutputPorts<double> ref_{this, "Ref", joints_, "desired position of each joint",
-                                      "rad"};
+                                        component::leads_to("Ref"),
+                                        component::unit_of(units_.position())};
+  component::OutputPort<Vector> positions_{
+      this, "nAxesSensorPosition",       "measured position of each joint",
+      "",   component::size_of(joints_), component::unit_of(units_.position())};
+  component::OutputPorts<double> ref_{this,    "Ref",
+                                      joints_, "desired position of each joint",
+                                      "",      component::unit_of(units_.position())};
 
   Vector measured_;
   std::vector<bool> came_;  ///< since the start

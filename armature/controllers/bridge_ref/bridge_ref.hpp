@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -34,40 +35,45 @@ class BridgeRef final : public component::Component, public DrivesJoints {
   void take(Part part, const std::vector<double>& desired);
 
   using Vector = std::vector<double>;
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
   component::InputPort<Vector> sensor_{this,
                                        "sensor",
                                        "measured [q1..qN, d1..dN]: positions, then displacements",
-                                       "rad",
+                                       "",
                                        component::on_data<&BridgeRef::on_sensor>,
                                        component::size_of(joints_, 2),
                                        component::max_age(kMaxAge),
-                                       component::leads_to("nAxesSensorPosition")};
+                                       component::leads_to("nAxesSensorPosition"),
+                                       component::unit_of(units_.position())};
   component::InputPort<Vector> position_{this,
                                          "nAxesDesiredPosition",
                                          "desired position of each joint",
-                                         "rad",
+                                         "",
                                          component::on_data<&BridgeRef::on_position>,
                                          component::size_of(joints_),
-                                         component::leads_to("reference")};
+                                         component::leads_to("reference"),
+                                         component::unit_of(units_.position())};
   component::InputPort<Vector> velocity_{this,
                                          "nAxesDesiredVelocity",
                                          "desired velocity of each joint",
-                                         "rad/s",
+                                         "",
                                          component::on_data<&BridgeRef::on_velocity>,
                                          component::size_of(joints_),
-                                         component::leads_to("reference")};
+                                         component::leads_to("reference"),
+                                         component::unit_of(units_.velocity())};
   component::InputPort<Vector> acceleration_{this,
                                              "nAxesDesiredAcceleration",
                                              "desired acceleration of each joint",
-                                             "rad/s^2",
+                                             "",
                                              component::on_data<&BridgeRef::on_acceleration>,
                                              component::size_of(joints_),
-                                             component::leads_to("reference")};
-  component::OutputPort<Vector> sensor_position_{this, "nAxesSensorPosition",
-                                                 "measured position of each joint", "rad",
-                                                 component::size_of(joints_)};
+                                             component::leads_to("reference"),
+                                             component::unit_of(units_.acceleration())};
+  component::OutputPort<Vector> sensor_position_{
+      this, "nAxesSensorPosition",       "measured position of each joint",
+      "",   component::size_of(joints_), component::unit_of(units_.position())};
   component::OutputPort<Vector> reference_{
       this, "reference", "desired [q1..qN, qd1..qdN, qdd1..qddN]: rad, rad/s, rad/s^2", "",
       component::size_of(joints_, 3)};

@@ -229,8 +229,13 @@ void Joint::on_position(double of_motor) {
   switch_off();
   component::Reason why("PositionSensor says that it moved by ");
   append_number(why, reading.displacement)
-      .append(" rad since the sample before, expected at most ");
-  fault(append_number(why, reading.possible).append(" rad by MaxVelocity; look at the sensor"));
+      .append(" ")
+      .append(units_.position().get())
+      .append(" since the sample before, expected at most ");
+  fault(append_number(why, reading.possible)
+            .append(" ")
+            .append(units_.position().get())
+            .append(" by MaxVelocity; look at the sensor"));
 }
 
 void Joint::moved(double displacement, double to) {

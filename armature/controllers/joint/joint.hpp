@@ -39,6 +39,9 @@ namespace armature::controllers {
 /// The hardware tells how far its axis turned (DisplacementSensor), or where it is
 /// (PositionSensor); a jump that the joint cannot have made is a fault.
 ///
+/// With `Unit: m` it is a linear axis, which a motor that turns moves by a rack or a spindle: it
+/// has m, m/s, m/s^2 and N in place of rad, rad/s, rad/s^2 and Nm, and GearRatio is in m/rad.
+///
 /// After a start, also one behind a fault, the joint is disarmed: motor off, brake applied, effort
 /// 0. Only Arm, an event of the component Arming, changes that, and only if the joint was measured
 /// just before. It is held before it is let go (control::ArmingSequence): the effort grows against
@@ -156,7 +159,8 @@ class Joint : public component::Component,
   component::Property<bool> brake_{this, "Brake", false, "the joint has a brake"};
   component::Property<bool> sampler_{this, "Sampler", true, "follows the events Sample and Act"};
 
-  JointProperties settings_{this, way_};
+  JointUnits units_{this, way_};
+  JointProperties settings_{this, way_, units_};
   SamplingPeriod period_{this};
 
   JointModel model_{this, settings_, way_};
@@ -242,13 +246,15 @@ class Joint : public component::Component,
   component::InputPort<double> command_{this,
                                         names_.command,
                                         "to apply at Act; may stay open without Sampler",
-                                        names_.unit,
+                                        "",
+                                        component::unit_of(units_.command()),
                                         component::max_age(kMaxAge),
                                         component::may_stay_open};
   CommandOutput command_output_{this, way_};
-  component::OutputPort<double> displacement_{this, "Displacement", "since the sample before",
-                                              "rad"};
-  component::OutputPort<double> position_{this, "Position", "of the joint", "rad"};
+  component::OutputPort<double> displacement_{this, "Displacement", "since the sample before", "",
+                                              component::unit_of(units_.position())};
+  component::OutputPort<double> position_{this, "Position", "of the joint", "",
+                                          component::unit_of(units_.position())};
   component::OutputPort<bool> index_{this, "Index", "the index switch is closed"};
   component::OutputPort<bool> armed_{this, "Armed", "efforts are passed"};
 
@@ -273,7 +279,7 @@ class Joint : public component::Component,
       component::in_own_thread};
   component::Operation<double()> read_sensor_{
       this, "sensorRead", component::serve<&Joint::sensor_read>,
-      "has the sensors read, and returns the displacement [rad]; nan if none came meanwhile",
+      "has the sensors read, and returns the displacement; nan if none came meanwhile",
       component::in_own_thread};
   component::Operation<bool()> brake_apply_{this,
                                             "brakeApply",
@@ -292,9 +298,13 @@ class Joint : public component::Component,
       component::only_if(brake_)};
 
   component::Attribute<double> arming_moved_{
-      this, "arming_moved", 0.0, "by how much it moved when it was armed last, or failed to [rad]"};
+      this, "arming_moved",
+      0.0,  "by how much it moved when it was armed last, or failed to",
+      "",   component::unit_of(units_.position())};
   component::Attribute<double> sunk_{
-      this, "sunk", 0.0, "by how much it moved since it was disarmed, against its brake [rad]"};
+      this, "sunk",
+      0.0,  "by how much it moved since it was disarmed, against its brake",
+      "",   component::unit_of(units_.position())};
   component::Attribute<int> clipped_{this, "clipped", 0,
                                      "commands since the configuration that the limiter changed"};
 

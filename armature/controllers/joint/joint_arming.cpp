@@ -107,9 +107,15 @@ void Joint::fail_to_arm(const Reason& why) {
 
 Reason Joint::not_held() const {
   Reason why("it moved by ");
-  append_number(why, told(sequence_->moved())).append(" rad when ");
+  append_number(why, told(sequence_->moved()))
+      .append(" ")
+      .append(units_.position().get())
+      .append(" when ");
   why.append(brake_ ? "its brake opened at " : "its motor was switched on at ");
-  append_number(why, told(sent_)).append(" ").append(names_.unit).append(" (ArmingMotion: ");
+  append_number(why, told(sent_))
+      .append(" ")
+      .append(units_.command().get())
+      .append(" (ArmingMotion: ");
   append_number(why, settings_->arming_motion);
   why.append(brake_ ? "), so it is braked again" : "), so it is off again");
   return why.append(
@@ -118,7 +124,10 @@ Reason Joint::not_held() const {
 
 Reason Joint::moved_before() const {
   Reason why("it moved by ");
-  append_number(why, told(sequence_->moved())).append(" rad ");
+  append_number(why, told(sequence_->moved()))
+      .append(" ")
+      .append(units_.position().get())
+      .append(" ");
   why.append(brake_ ? "against its closed brake" : "before its motor was on");
   append_number(why.append(" (ArmingMotion: "), settings_->arming_motion);
   return why.append("), expected that it rests");
@@ -126,9 +135,9 @@ Reason Joint::moved_before() const {
 
 Reason Joint::never_settled() const {
   Reason why("what is to hold it did not settle: ");
-  append_number(why, told(brake_ ? sent_ : commanded_)).append(" ").append(names_.unit);
+  append_number(why, told(brake_ ? sent_ : commanded_)).append(" ").append(units_.command().get());
   if (is_effort(way_)) {
-    append_number(why.append(" of "), max_effort()).append(" ").append(names_.unit);
+    append_number(why.append(" of "), max_effort()).append(" ").append(units_.command().get());
   }
   why.append(" at the position ");
   append_number(why, told(measured_.position));
@@ -156,7 +165,7 @@ void Joint::watch_drive() {
   const double is = by_velocity ? measured_.velocity : measured_.position;
   if (following_.step(is - sent_, time())) return;
   Reason why(by_velocity ? "its drive moves it at " : "its drive has it at ");
-  append_number(why, told(is)).append(" ").append(names_.unit).append(" and was told ");
+  append_number(why, told(is)).append(" ").append(units_.command().get()).append(" and was told ");
   append_number(why, told(sent_)).append(" (").append(names_.limit).append(": ");
   append_number(why, settings_->max_error).append("): braked. Look for what blocks it");
   switch_off();
@@ -168,11 +177,15 @@ void Joint::brake_because(const HoldingWatch::Finding& finding) {
   switch (finding.verdict) {
     case HoldingWatch::Verdict::kMoved:
       append_number(why.append("moved by "), told(finding.measured))
-          .append(" rad (HoldingMotion: ");
+          .append(" ")
+          .append(units_.position().get())
+          .append(" (HoldingMotion: ");
       break;
     case HoldingWatch::Verdict::kFast:
       append_number(why.append("moves at "), told(finding.measured))
-          .append(" rad/s (HoldingVelocity: ");
+          .append(" ")
+          .append(units_.velocity().get())
+          .append(" (HoldingVelocity: ");
       break;
     default:
       append_number(why.append("its effort changes its sign in a share of "),
@@ -192,8 +205,8 @@ void Joint::note_sinking(double displacement) {
   sunk_.assign(sunk_ + displacement);
   if (told_of_sinking_ || std::abs(sunk_) <= settings_->holding_motion) return;
   told_of_sinking_ = true;
-  log_warning("sinks: it moved by {} rad since it was disarmed, although its brake is applied",
-              told(sunk_));
+  log_warning("sinks: it moved by {} {} since it was disarmed, although its brake is applied",
+              told(sunk_), units_.position().get() == "m" ? "m" : "rad");
 }
 
 // --- disarming -------------------------------------------------------------------------------

@@ -158,6 +158,7 @@ base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) co
   if (!joint) return base::Error{joint.error()};
   Known known{.joint = std::move(joint).value(), .described = {}};
   known.joint.name = owner_.name();
+  known.joint.unit = settings_.units().position().get();
   known.joint.most_effort = settings_->max_effort;
   known.joint.lower = settings_->lowest();
   known.joint.upper = settings_->highest();
@@ -168,44 +169,46 @@ base::Result<JointModel::Known> JointModel::find(const DescribesRobot& robot) co
 }
 
 std::string JointModel::objection(const Known& known, const JointSettings& limits) const {
-  std::string wrong = objection_to_motion(known.described, limits);
+  std::string wrong = objection_to_motion(known.described, limits, known.joint.unit);
   if (wrong.empty() && is_effort(command_)) wrong = objection_to_effort(known, limits);
   return wrong.empty() ? objection_to_gear(known, limits.gear_ratio) : wrong;
 }
 
 std::string JointModel::objection_to_motion(const JointLimits& described,
-                                            const JointSettings& limits) {
+                                            const JointSettings& limits, const std::string& unit) {
   if (limits.lowest() < described.lower - kBeyond) {
     return versus(limits.continuous ? "Continuous: PositionMin" : "PositionMin", limits.lowest(),
-                  "rad", "the joint ends at", described.lower);
+                  unit, "the joint ends at", described.lower);
   }
   if (limits.highest() > described.upper + kBeyond) {
     return versus(limits.continuous ? "Continuous: PositionMax" : "PositionMax", limits.highest(),
-                  "rad", "the joint ends at", described.upper);
+                  unit, "the joint ends at", described.upper);
   }
   if (limits.max_velocity > kFaster * described.max_velocity) {
-    return versus("MaxVelocity", limits.max_velocity, "rad/s", "the description allows",
+    return versus("MaxVelocity", limits.max_velocity, unit + "/s", "the description allows",
                   described.max_velocity);
   }
   return {};
 }
 
 std::string JointModel::objection_to_effort(const Known& known, const JointSettings& limits) const {
+  const std::string torques = unit_for("Nm", known.joint.unit);
   const std::string limit(names_of(command_).limit);
   const double torque = known.joint.lightest.torque_per_effort * limits.max_effort;
   const double braking =
       known.joint.heaviest.inertia * limits.max_acceleration + known.joint.most_weight;
   if (torque > kRoundedFigures * known.described.max_effort) {
-    return versus(limit + " " + figure(limits.max_effort) + ": its torque", torque, "Nm",
+    return versus(limit + " " + figure(limits.max_effort) + ": its torque", torque, torques,
                   "the description allows", known.described.max_effort);
   }
   if (known.joint.most_weight > torque) {
-    return versus(limit + " " + figure(limits.max_effort) + ": its torque", torque, "Nm",
+    return versus(limit + " " + figure(limits.max_effort) + ": its torque", torque, torques,
                   "the joint weighs up to", known.joint.most_weight);
   }
   if (braking > kRoundedFigures * torque) {
-    return versus("MaxAcceleration " + figure(limits.max_acceleration) + " rad/s^2: its torque",
-                  braking, "Nm", limit + " gives", torque);
+    return versus("MaxAcceleration " + figure(limits.max_acceleration) + " " + known.joint.unit +
+                      "/s^2: its torque",
+                  braking, torques, limit + " gives", torque);
   }
   return {};
 }

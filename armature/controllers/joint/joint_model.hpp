@@ -45,7 +45,7 @@ class JointModel final : public component::Checked, public component::PropertyFo
   double sensor_turns(const component::Check& check) const;
   std::string objection(const Known& known, const JointSettings& limits) const;
   static std::string objection_to_motion(const control::JointLimits& described,
-                                         const JointSettings& limits);
+                                         const JointSettings& limits, const std::string& unit);
   std::string objection_to_effort(const Known& known, const JointSettings& limits) const;
   static std::string objection_to_gear(const Known& known, double gear_ratio);
 

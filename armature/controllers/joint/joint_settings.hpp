@@ -4,12 +4,13 @@
 #include <limits>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/joint_command.hpp"
 
 namespace armature::controllers {
 
-/// What a Joint is told of itself. Positions in rad, of the joint; efforts in the unit of its
-/// command.
+/// What a Joint is told of itself. Positions of the joint, in its unit (rad or m); efforts in the
+/// unit of its command.
 struct JointSettings {
   // Of the hardware; paper 1, section 3.1.
   double actuator_sign = 1.0;
@@ -41,10 +42,40 @@ struct JointSettings {
   double highest() const { return continuous ? std::numeric_limits<double>::infinity() : upper; }
 };
 
+/// What a Joint's numbers are in: those of `Unit`, which is rad, or m of a linear axis. The motor
+/// behind it turns in both cases: GearRatio tells by how much the joint moves for it.
+class JointUnits {
+ public:
+  JointUnits(component::Component* owner, JointCommand command)
+      : axis_(owner, AxisUnit::Of::kOneAxis),
+        command_(
+            owner, {&axis_.position()},
+            [this, command] { return unit_for(names_of(command).unit, axis_.position().get()); }),
+        gear_(owner, {&axis_.position()},
+              [this] { return axis_.position().get() == "m" ? "m/rad" : ""; }) {}
+
+  const AxisUnit& position() const { return axis_.position(); }
+  const DerivedUnit& velocity() const { return axis_.velocity(); }
+  const DerivedUnit& acceleration() const { return axis_.acceleration(); }
+  const DerivedUnit& command() const { return command_; }
+  const DerivedUnit& gear() const { return gear_; }
+
+ private:
+  AxisUnits axis_;
+  DerivedUnit command_;
+  DerivedUnit gear_;
+};
+
 /// They are the properties of a Joint.
 class JointProperties final : public component::Properties<JointSettings> {
  public:
-  JointProperties(component::Component* owner, JointCommand command);
+  /// @param units  of the joint; outlive this
+  JointProperties(component::Component* owner, JointCommand command, const JointUnits& units);
+
+  const JointUnits& units() const { return units_; }
+
+ private:
+  const JointUnits& units_;
 };
 
 }  // namespace armature::controllers

@@ -55,8 +55,9 @@ std::optional<sys_seconds> date_of(const std::string& text) {
   return at;
 }
 
-std::string range_text(const JointSettings& settings) {
-  return figure(settings.lowest()) + " to " + figure(settings.highest()) + " rad";
+std::string range_text(const JointProperties& settings) {
+  return figure(settings->lowest()) + " to " + figure(settings->highest()) + " " +
+         settings.units().position().get();
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ bool KeptPosition::is_believable(const KeepingMoment& moment, const base::Locati
   if (found_.date.empty() && found_.owner.empty()) {
     diagnostics.warning(where,
                         joint + " begins at InitialPos, " + figure(settings_->initial_position) +
-                            " rad: no position is kept yet",
+                            " " + settings_.units().position().get() + ": no position is kept yet",
                         "set position_confirmed of its hardware once it is there");
     return false;
   }
@@ -97,7 +98,8 @@ bool KeptPosition::is_believable(const KeepingMoment& moment, const base::Locati
   if (found_.at_rest && !old) return true;
   diagnostics.warning(
       where,
-      joint + " begins at InitialPos, " + figure(settings_->initial_position) + " rad: " +
+      joint + " begins at InitialPos, " + figure(settings_->initial_position) + " " +
+          settings_.units().position().get() + ": " +
           (found_.at_rest ? "its last position is of " + found_.date + ", more than 30 days ago"
                           : "the run of " + found_.date +
                                 " did not end with the joint at rest where it is known to be"),
@@ -118,7 +120,8 @@ std::string KeptPosition::objection(const KeepingMoment& moment) const {
   const double position = found_.position;
   if (!std::isfinite(position) || position < settings_->lowest() ||
       position > settings_->highest()) {
-    return "is " + figure(position) + " rad, expected " + range_text(settings_.get());
+    return "is " + figure(position) + " " + settings_.units().position().get() + ", expected " +
+           range_text(settings_);
   }
   return {};
 }
@@ -144,7 +147,8 @@ std::string KeptPosition::end(const KeepingMoment& moment) {
   const bool within =
       stop_.position >= settings_->lowest() && stop_.position <= settings_->highest();
   if (!within) {
-    return "it is at " + figure(stop_.position) + " rad, outside " + range_text(settings_.get());
+    return "it is at " + figure(stop_.position) + " " + settings_.units().position().get() +
+           ", outside " + range_text(settings_);
   }
   last_.assign({.position = stop_.position,
                 .date = doubtful_ ? found_.date : date_text(stopped_at_),
@@ -156,13 +160,18 @@ std::string KeptPosition::end(const KeepingMoment& moment) {
 component::Reason KeptPosition::question(double position) const {
   component::Reason why("it began ");
   if (proposal_) {
-    append_number(why.append("at "), *proposal_).append(" rad, where it was on ");
+    append_number(why.append("at "), *proposal_)
+        .append(" ")
+        .append(settings_.units().position().get())
+        .append(", where it was on ");
     why.append(found_.date);
   } else {
     why.append("at InitialPos, as its last position is not known");
   }
   append_number(why.append(": look whether it is where its Position says, "), position);
-  return why.append(" rad, then set position_confirmed of its hardware");
+  return why.append(" ")
+      .append(settings_.units().position().get())
+      .append(", then set position_confirmed of its hardware");
 }
 
 void KeptPosition::note_stop(const Stop& stop) {

@@ -122,6 +122,10 @@ void Pid::on_check(component::Check& check) const {
 
 std::string Pid::objection(const DrivenJoint& joint, double period_s,
                            const CheckedGains::Wanted& wanted) const {
+  if (joint.unit != unit_.get()) {
+    return "its Unit is " + unit_.get() + ", but that of " + joint.name + " is " + joint.unit +
+           ": set Unit to " + joint.unit;
+  }
   const Config gains = wanted.value_of(config_);
   if (const auto checked = control::Pid::check(gains); !checked) return checked.error();
   if (std::string wrong = objection_to_range(gains.u_min, gains.u_max); !wrong.empty())

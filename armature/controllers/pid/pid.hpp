@@ -10,6 +10,7 @@
 #include "armature/component/face.hpp"
 #include "armature/control/arming/gain_fade.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/checked_gains.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
@@ -57,15 +58,19 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
   using Config = control::Pid::Config;
   component::Property<std::string> out_unit_{this, "OutUnit", "V",
                                              "of Out, UMin, UMax: what the drive is given"};
+  AxisUnit unit_{this, AxisUnit::Of::kOneAxis};
+  DerivedUnit gains_unit_{
+      this, {&unit_, &out_unit_}, [this] { return gain_unit(out_unit_.get(), unit_.get()); }};
   component::Properties<Config> config_{
       this,
       {.u_min = -1.0, .u_max = 1.0},
-      component::member(&Config::kp, "Kp", "proportional gain", "V/rad", kGains, kLive),
+      component::member(&Config::kp, "Kp", "proportional gain", "", kGains, kLive,
+                        component::unit_of(gains_unit_)),
       component::member(&Config::ki, "Ki", "integral gain, of one sample: the period is part of it",
-                        "V/rad", kGains, kLive),
+                        "", kGains, kLive, component::unit_of(gains_unit_)),
       component::member(&Config::kd, "Kd",
-                        "differential gain, of one sample: the period is part of it", "V/rad",
-                        kGains, kLive),
+                        "differential gain, of one sample: the period is part of it", "", kGains,
+                        kLive, component::unit_of(gains_unit_)),
       component::member(&Config::u_min, "UMin", "lower limit of the output", "",
                         component::mandatory, component::unit_of(out_unit_)),
       component::member(&Config::u_max, "UMax", "upper limit of the output", "",
@@ -76,12 +81,13 @@ class Pid final : public component::Component, public ControlsJoint, public Driv
       "s",  component::range(0.0, 60.0)};
   component::Property<std::string> peer_name_{
       this, "PeerName", "", "the joint that it reads and drives itself; none: others do"};
-  component::InputPort<double> reference_{this, "Ref", "desired position", "rad",
-                                          component::max_age(kMaxAge)};
+  component::InputPort<double> reference_{
+      this, "Ref", "desired position", "", component::unit_of(unit_), component::max_age(kMaxAge)};
   component::InputPort<double> measured_{this,
                                          "Sen",
                                          "measured position",
-                                         "rad",
+                                         "",
+                                         component::unit_of(unit_),
                                          component::on_data<&Pid::step>,
                                          component::max_age(kMaxAge)};
   component::OutputPort<double> output_{this, "Out", "control signal", "",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "armature/component/author.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/max_age.hpp"
 
 namespace armature::controllers {
@@ -27,12 +28,16 @@ class Reference final : public component::Component {
   void follow_motion();
 
   using Vector = std::vector<double>;
+  AxisUnits units_{this, AxisUnit::Of::kAxes};
   component::Property<int> joints_{
       this, "joints", 1, "number of joints", "", component::mandatory, component::range(1, 100000)};
-  component::Property<Vector> position_{
-      this,  "jointPosition",
-      {},    "where the joints are to be; at the start, where they are",
-      "rad", component::changeable_while_running};
+  component::Property<Vector> position_{this,
+                                        "jointPosition",
+                                        {},
+                                        "where the joints are to be; at the start, where they are",
+                                        "",
+                                        component::changeable_while_running,
+                                        component::unit_of(units_.position())};
   component::Property<double> time_{this,
                                     "moveTime",
                                     5.0,
@@ -43,11 +48,12 @@ class Reference final : public component::Component {
   component::InputPort<Vector> measured_{this,
                                          "nAxesSensorPosition",
                                          "measured position of each joint",
-                                         "rad",
+                                         "",
                                          component::on_data<&Reference::on_measured>,
                                          component::size_of(joints_),
                                          component::max_age(kMaxAge),
-                                         component::leads_to_nothing()};
+                                         component::leads_to_nothing(),
+                                         component::unit_of(units_.position())};
   component::CommandCaller<const Vector&, double> generator_{this, "moveTo", "moves the joints"};
   component::Command<> move_{this, "moveToRefOperation", component::serve<&Reference::begin_move>,
                              "moves the joints to jointPosition, in moveTime",

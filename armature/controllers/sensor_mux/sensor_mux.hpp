@@ -57,16 +57,18 @@ class SensorNMux final : public Sensor, public PassesSamples {
                                           "Position",
                                           joints_,
                                           "of each joint",
-                                          "rad",
+                                          "",
                                           component::on_data<&SensorNMux::on_position>,
-                                          component::leads_to("sensor")};
+                                          component::leads_to("sensor"),
+                                          component::unit_of(units_.position())};
   component::InputPorts<double> displacement_{this,
                                               "Displacement",
                                               joints_,
                                               "of each joint since the sample before",
-                                              "rad",
+                                              "",
                                               component::on_data<&SensorNMux::on_displacement>,
-                                              component::leads_to("sensor")};
+                                              component::leads_to("sensor"),
+                                              component::unit_of(units_.position())};
   MissingAnswers missing_{this};
   Changes changes_{joints_, missing_.limit()};
   std::optional<control::Gathering> measured_;

@@ -7,6 +7,7 @@
 
 #include "armature/component/author.hpp"
 #include "armature/control/pid.hpp"
+#include "armature/controllers/base/axis_units.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/checked_gains.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
@@ -48,23 +49,33 @@ class VelocityPid final : public component::Component, public DrivesJoints {
   using Config = control::Pid::Config;
   component::Property<std::string> out_unit_{this, "OutUnit", "V",
                                              "of Out, UMin, UMax: what the drive is given"};
+  AxisUnits units_{this, AxisUnit::Of::kOneAxis};
+  DerivedUnit gains_unit_{this, {&units_.position(), &out_unit_}, [this] {
+                            return gain_unit(out_unit_.get(), units_.position().get(), "s");
+                          }};
   component::Properties<Config> config_{
       this,
       {.u_min = -1.0, .u_max = 1.0},
-      component::member(&Config::kp, "Kp", "proportional gain", "V s/rad", kGains),
+      component::member(&Config::kp, "Kp", "proportional gain", "", kGains,
+                        component::unit_of(gains_unit_)),
       component::member(&Config::ki, "Ki", "integral gain, of one sample: the period is part of it",
-                        "V s/rad", kGains),
+                        "", kGains, component::unit_of(gains_unit_)),
       component::member(&Config::u_min, "UMin", "lower limit of the output", "",
                         component::mandatory, component::unit_of(out_unit_)),
       component::member(&Config::u_max, "UMax", "upper limit of the output", "",
                         component::mandatory, component::unit_of(out_unit_))};
   SamplingPeriod period_{this};
-  component::InputPort<double> reference_{this, "Ref", "desired velocity", "rad/s",
+  component::InputPort<double> reference_{this,
+                                          "Ref",
+                                          "desired velocity",
+                                          "",
+                                          component::unit_of(units_.velocity()),
                                           component::max_age(kMaxAge)};
   component::InputPort<double> measured_{this,
                                          "Sen",
                                          "displacement since the sample before",
-                                         "rad",
+                                         "",
+                                         component::unit_of(units_.position()),
                                          component::on_data<&VelocityPid::step>,
                                          component::max_age(kMaxAge)};
   component::OutputPort<double> output_{this, "Out", "control signal", "",
