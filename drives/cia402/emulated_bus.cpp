@@ -24,6 +24,7 @@ EmulatedBus::EmulatedBus(const Config& config) : bus_(config.name, config.bit_ra
     drive.identity.serial = drive.node;
     can::VirtualStation& station = bus_.add_station("node" + std::to_string(drive.node));
     static_cast<void>(station.open({}, none));
+    stations_.push_back(&station);
     drives_.push_back(std::make_unique<EmulatedDrive>(drive, station, config.begin));
   }
 }

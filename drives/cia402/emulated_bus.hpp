@@ -35,6 +35,8 @@ class EmulatedBus {
   can::VirtualBus& bus() { return bus_; }
   std::size_t size() const { return drives_.size(); }
   EmulatedDrive& drive(std::size_t i) { return *drives_[i]; }
+  /// By which drive `i` is on the bus, for what breaks there.
+  can::VirtualStation& station(std::size_t i) { return *stations_[i]; }
   /// nullptr if there is none.
   EmulatedDrive* find(unsigned node);
 
@@ -45,6 +47,7 @@ class EmulatedBus {
   explicit EmulatedBus(const Config& config);
 
   can::VirtualBus bus_;
+  std::vector<can::VirtualStation*> stations_;
   std::vector<std::unique_ptr<EmulatedDrive>> drives_;
 };
 

@@ -20,6 +20,8 @@ constexpr std::uint32_t kServoDrive = 0x0002'0192;
 constexpr double kStanding = 0.01;  // [rad/s]
 constexpr double kReached = 0.002;  // [rad], [rad/s]
 constexpr base::Duration kMostStopping = std::chrono::seconds(1);
+/// Of the connection: its option code (0x6007) is as at power-on, which is a malfunction.
+constexpr std::uint16_t kStoppedByMaster = 0x8100;
 /// As many periods without SYNC are a fault.
 constexpr int kSyncsToMiss = 3;
 
@@ -180,6 +182,7 @@ void EmulatedDrive::watch(base::Time now) {
   device_.set_sync_timeout(period * kSyncsToMiss);
   if (machine_.state() != PowerState::kOperationEnabled) return;
   if (is_cyclic(mode_) && device_.sync_missing(now)) fail(canopen::emergency_code::kSyncLost);
+  if (device_.state() != canopen::NmtState::kOperational) fail(kStoppedByMaster);
   if (device_.lost_node()) fail(canopen::emergency_code::kHeartbeatLost);
   const bool positioned = mode_ == Mode::kCyclicPosition || mode_ == Mode::kProfilePosition;
   const double window = scaling_.position(number(object::kFollowingErrorWindow));
@@ -229,7 +232,7 @@ double EmulatedDrive::stop_torque() {
 }
 
 double EmulatedDrive::torque_in_operation() {
-  const double most = scaling_.torque(number(object::kMostTorque));
+  const double most = powerless_ ? 0.0 : scaling_.torque(number(object::kMostTorque));
   return std::clamp(torque_of_mode(), -most, most);
 }
 
@@ -333,6 +336,7 @@ std::uint16_t EmulatedDrive::mode_bits() const {
 }
 
 void EmulatedDrive::write_actual() {
+  if (frozen_) return;
   const double torque = axis_.torque();
   const bool limited = std::abs(torque) >= axis_.config().most_torque;
   std::uint16_t status =

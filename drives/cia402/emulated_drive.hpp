@@ -57,6 +57,12 @@ class EmulatedDrive {
   void fail(std::uint16_t code);
   /// It hears no SYNC any more.
   void set_deaf_to_sync(bool deaf) { deaf_to_sync_ = deaf; }
+  /// It tells for ever how it was and what it measured when this began.
+  void set_frozen(bool frozen) { frozen_ = frozen; }
+  /// Its motor gets no current, and it does not notice.
+  void set_powerless(bool powerless) { powerless_ = powerless; }
+  /// Its encoder loses its place: from now on it tells a position that is `by` [rad] beyond.
+  void shift_encoder(double by) { offset_ += by; }
   /// It says that it is somebody else.
   void set_identity(const canopen::Identity& identity);
   /// Loses its power for a moment: the axis runs out, the drive boots.
@@ -110,6 +116,8 @@ class EmulatedDrive {
   bool stopping_ = false;  ///< a quick stop or fault reaction brakes
   base::Time stopping_since_{};
   bool deaf_to_sync_ = false;
+  bool frozen_ = false;
+  bool powerless_ = false;
   double temperature_ = kAmbient;  ///< [°C], of the motor
 };
 

@@ -51,10 +51,16 @@ bool obey(EmulatedDrive& drive, const std::string& verb, const std::vector<unsig
     drive.device().set_stuck_pdos(true);
   } else if (verb == "silent") {
     drive.device().set_silent_heartbeat(true);
+  } else if (verb == "frozen") {
+    drive.set_frozen(true);
+  } else if (verb == "powerless") {
+    drive.set_powerless(true);
   } else if (verb == "reboot") {
     drive.reboot(now);
   } else if (verb == "mend") {
     drive.set_deaf_to_sync(false);
+    drive.set_frozen(false);
+    drive.set_powerless(false);
     drive.device().set_stuck_pdos(false);
     drive.device().set_silent_heartbeat(false);
   } else {
@@ -72,6 +78,8 @@ std::string emulator_commands() {
          "  deaf NODE                     it hears no SYNC\n"
          "  stuck NODE                    it sends no PDOs\n"
          "  silent NODE                   it sends no heartbeats\n"
+         "  frozen NODE                   it tells for ever what it told last\n"
+         "  powerless NODE                its motor gets no current, and it does not notice\n"
          "  mend NODE                     it hears and sends again\n"
          "  reboot NODE                   it loses its power for a moment\n"
          "  identity NODE VENDOR PRODUCT  it says that it is another drive\n";

@@ -140,6 +140,8 @@ bool Cia402Drive::usable(const DriveSample& sample) {
     Reason why("the drive failed with error code ");
     fault(append_number(why, sample.error_code)
               .append(": mend what its manual says of it, then call resetDrive of its bus"));
+  } else if (!sample.obeys) {
+    fault("the drive does not give the torque that it was told: look at its motor and its limits");
   } else if (!does_what_it_was_told(sample)) {
     Reason why(was_enabled_ ? "the drive switched off by itself: it is "
                             : "the drive does not switch on: it is ");

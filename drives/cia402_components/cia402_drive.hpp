@@ -21,7 +21,8 @@ ARMATURE_ENUM(DriveMode, kBus, kTorque, kVelocity, kPosition);
 /// without Brake both happen at once. Disarmed, it stops quickly, by its own deceleration.
 ///
 /// It faults, and so stops its joint, when the bus is gone, when the drive failed, rebooted, went
-/// silent or lost its heartbeat, and when it switched off by itself or does not switch on. A drive
+/// silent or lost its heartbeat, when it switched off by itself or does not switch on, and when its
+/// torque is not what it was told. A drive
 /// that failed is reset by the operator alone, by `resetDrive` of the host, which also prepares one
 /// that rebooted; where that one is, the operator confirms (`position_confirmed`).
 /// @rt nonblocking, no allocation

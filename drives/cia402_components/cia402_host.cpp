@@ -29,6 +29,10 @@ using namespace std::chrono_literals;
 /// In which a drive takes a command of NMT.
 constexpr base::Duration kNmtTime = 5ms;
 constexpr int kLastNode = 127;
+/// Of the rated torque, in thousandths, by which a drive may miss its target for as many cycles:
+/// two until it acts, and what currents take to grow.
+constexpr int kMostTorqueError = 50;
+constexpr int kMostDisobeyed = 10;
 /// Drives take as many of the host's for a loss.
 constexpr int kHeartbeatsToMiss = 3;
 /// Where their answers are among a drive's slow numbers.
@@ -229,6 +233,7 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.silent_cycles = static_cast<int>(drive.silent_cycles);
   sample.error_code = drive.emergency ? drive.emergency->code : drive.error_code;
   sample.lost = drive.presence == canopen::Presence::kLost;
+  sample.obeys = account.disobeyed <= kMostDisobeyed;
   sample.status = drive.status;
   sample.unprepared = is_unprepared(*place);
   read_slow(*place, sample);
@@ -259,11 +264,25 @@ void Cia402Host::begin_cycle() {
   drop_old_targets();
   const std::size_t refused = group_->step(link_->bus(), link_->now());
   if (refused > 0) refused_frames_.assign(refused_frames_() + static_cast<int>(refused));
+  watch_torques();
   background_->step(link_->bus(), link_->now());
   follow_preparation();
   int silent = 0;
   for (std::size_t i = 0; i < group_->size(); ++i) silent += group_->state(i).silent_cycles > 1;
   if (silent > 0) lost_answers_.assign(lost_answers_() + silent);
+}
+
+/// Nobody else finds a drive without current, or values that are frozen: controllers would ask for
+/// ever more torque.
+void Cia402Host::watch_torques() {
+  for (std::size_t i = 0; i < group_->size(); ++i) {
+    if (plans_[i].mode != CyclicMode::kTorque) continue;
+    const DriveState& drive = group_->state(i);
+    Account& account = accounts_[i];
+    const double most = std::abs(group_->config(i).scaling.torque(kMostTorqueError));
+    const bool obeys = !drive.enabled() || std::abs(drive.effort - account.target) <= most;
+    account.disobeyed = obeys ? 0 : account.disobeyed + 1;
+  }
 }
 
 /// Drives whose components have ended hear how they stop, that their host is there, and what the
@@ -286,7 +305,9 @@ void Cia402Host::drop_old_targets() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
     Account& account = accounts_[i];
     const bool old = time() - account.target_at > controllers::kMaxAge;
-    if (old && !std::exchange(account.dropped, true)) group_->set_target(i, no_target(i));
+    if (!old || std::exchange(account.dropped, true)) continue;
+    account.target = no_target(i);
+    group_->set_target(i, account.target);
   }
 }
 
@@ -302,6 +323,7 @@ bool Cia402Host::set_target(int node, CyclicMode mode, double target) {
   if (!place || mode != plans_[*place].mode || !std::isfinite(target)) return false;
   group_->set_target(*place, target);
   accounts_[*place].target_at = time();
+  accounts_[*place].target = target;
   accounts_[*place].dropped = false;
   return true;
 }

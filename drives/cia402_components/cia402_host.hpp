@@ -93,6 +93,7 @@ class Cia402Host : public component::Component {
   component::Outcome prepare();
   std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
   bool set_target(int node, CyclicMode mode, double target);
+  void watch_torques();
   void begin_cycle();
   void keep_cycle();
   void take_frames();
@@ -199,6 +200,8 @@ class Cia402Host : public component::Component {
     std::uint32_t reboots = 0;    ///< after which it was prepared
     std::uint32_t preparing = 0;  ///< after which it is being prepared
     bool is_preparing = false;
+    double target = 0.0;  ///< that it has
+    int disobeyed = 0;    ///< cycles in a row
   };
   mutable std::vector<DrivePlan> plans_;  ///< by place; made by the check, which sees all drives
   std::unique_ptr<can::Link> link_;

@@ -63,9 +63,10 @@ struct DriveSample {
   double current = 0.0;  ///< [A]
   bool has_temperature = false;
   double temperature = 0.0;  ///< [K]
+  bool obeys = true;         ///< in mode torque: it gives the torque that it was told
 };
 ARMATURE_STRUCT(DriveSample, no_bus, fresh, unprepared, position, velocity, effort, power, status,
-                silent_cycles, error_code, lost, has_current, current, has_temperature,
-                temperature);
+                silent_cycles, error_code, lost, has_current, current, has_temperature, temperature,
+                obeys);
 
 }  // namespace armature::cia402

@@ -15,6 +15,7 @@ class EmulatedCia402Bus final : public Cia402Host {
   /// For tests that break something.
   /// @thread the component's own, or any while it does not run
   EmulatedBus& drives() { return link_->drives(); }
+  can::VirtualStation& station() { return link_->station(); }
 
  private:
   base::Result<std::unique_ptr<can::Link>> make_link() override;

@@ -29,6 +29,8 @@ class EmulatedLink final : public can::Link {
   void wait_for_news(base::Time deadline) override;
 
   EmulatedBus& drives() { return *drives_; }
+  /// By which the host is on the bus.
+  can::VirtualStation& station() { return *host_; }
 
  private:
   explicit EmulatedLink(Time time, base::Time now) : time_(time), now_(now) {}

@@ -213,6 +213,42 @@ TEST_P(EachMode, ADriveThatFailsStopsTheArm) {
   EXPECT_EQ(arm.drive(2).power(), PowerState::kFault) << "the operator alone resets it";
 }
 
+/// Nobody reads a drive any more whose component is out of service; its host speaks to it still.
+TEST_P(EachMode, ADriveThatFailedIsResetByTheOperatorAndMovesAgain) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.begin_motion();
+  arm.drive(2).fail(0x2310);
+  arm.expect_rest_within(500ms);
+  EXPECT_EQ(arm.drive(1).power(), PowerState::kSwitchOnDisabled) << "told to, not for want of SYNC";
+  ASSERT_TRUE(arm.application().call("Bus", "resetDrive", {types::Value::of(2)}));
+  arm.run_for(20ms);
+  EXPECT_EQ(arm.drive(2).power(), PowerState::kSwitchOnDisabled);
+  for (int round = 0; round < 2; ++round) {
+    for (const auto& entry : arm.application().blueprint().components) {
+      const std::string& name = entry.component->name();
+      static_cast<void>(arm.application().reset_component(name));
+      static_cast<void>(arm.application().start_component(name));
+    }
+    arm.run_for(20ms);
+  }
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  EXPECT_EQ(arm.move_to(0.2, -0.2), CommandStage::kDone);
+}
+
+TEST_P(EachMode, ADriveWhoseValuesAreFrozenStopsTheArm) {
+  Arm arm(GetParam());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  arm.begin_motion();
+  arm.drive(2).set_frozen(true);
+  arm.run_for(500ms);
+  EXPECT_FALSE(arm.armed());
+  for (unsigned node = 1; node <= 2; ++node) {
+    EXPECT_NEAR(arm.drive(node).axis().velocity(), 0.0, 1e-3) << node;
+    EXPECT_LT(std::abs(arm.drive(node).axis().position()), 1.5708) << node;
+  }
+}
+
 TEST_P(EachMode, ADriveThatRebootsStopsTheArm) {
   Arm arm(GetParam());
   ASSERT_EQ(arm.arm(), CommandStage::kDone);

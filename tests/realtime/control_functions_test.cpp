@@ -225,6 +225,9 @@ TEST(RealtimeFunctions, ReferenceBrake) {
   const std::vector<double> last{1.0, 2.0, 0.5, 0.0, 0.0, 0.0};
   const std::vector<double> measured{1.0, 2.0, 0.0, 0.0};
   expect_realtime("ReferenceBrake::begin", [&] { brake.begin(last); });
+  bool near = false;
+  expect_realtime("ReferenceBrake::rests_near", [&] { near = brake.rests_near(last, 0.1); });
+  EXPECT_TRUE(near);
   expect_realtime("ReferenceBrake::step", [&] { brake.step(); });
   EXPECT_EQ(brake.step()[2], 0.0);
   bool may = true;

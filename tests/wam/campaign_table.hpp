@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // How often what may break breaks, and a table of what came of it.
-//
-//     WAM_CAMPAIGN_RUNS=1000 wam_deployed_campaign    as many runs of each, and the table
-//     WAM_CAMPAIGN_RUN=16 wam_deployed_campaign       that run of each, such as one that failed
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
-#include <vector>
+
+#include "tests/campaign/runs.hpp"
 
 namespace armature::wam {
 
@@ -19,15 +16,12 @@ namespace armature::wam {
 constexpr std::size_t kCyclesKept = 500;
 
 /// What all runs of a breakage had at most.
-struct CampaignFigures {
-  int runs = 0;
-  std::vector<int> failed;  ///< their numbers
+struct CampaignFigures : campaign::Account {
   double step = 0.0;
   double torque = 0.0;
   double moved = 0.0;
   double sinking = 0.0;
   std::optional<std::size_t> cycles_kept;  ///< the least, before a fault
-  std::set<std::string> states;
 };
 std::map<std::string, CampaignFigures>& campaign_table();
 

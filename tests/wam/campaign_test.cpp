@@ -152,15 +152,7 @@ class CampaignRun {
   /// What an operator does when the cause is gone.
   void put_back_into_service() {
     for (int round = 0; round < 3; ++round) {
-      for (const auto& entry : arm_.application().blueprint().components) {
-        const std::string& name = entry.component->name();
-        if (arm_.state(name) == State::kException) {
-          static_cast<void>(arm_.application().reset_component(name));
-        }
-        if (arm_.state(name) == State::kStopped) {
-          static_cast<void>(arm_.application().start_component(name));
-        }
-      }
+      arm_.reset_and_start_everything();
       run_for(20ms);
     }
   }

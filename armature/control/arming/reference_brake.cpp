@@ -36,6 +36,18 @@ void ReferenceBrake::begin(const std::vector<double>& last) {
   std::copy_n(last.begin(), reference_.size(), reference_.begin());
 }
 
+double ReferenceBrake::rest_of(std::size_t joint, const std::vector<double>& motion) const {
+  const double velocity = motion[joints_ + joint];
+  return motion[joint] + velocity * std::abs(velocity) / (2.0 * max_acceleration_[joint]);
+}
+
+bool ReferenceBrake::rests_near(const std::vector<double>& motion, double most) const {
+  for (std::size_t i = 0; i < joints_; ++i) {
+    if (!(std::abs(rest_of(i, reference_) - rest_of(i, motion)) <= most)) return false;
+  }
+  return true;
+}
+
 const std::vector<double>& ReferenceBrake::step() {
   double* const positions = reference_.data();
   double* const velocities = positions + joints_;

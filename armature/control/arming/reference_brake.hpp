@@ -32,6 +32,12 @@ class ReferenceBrake {
   /// @rt nonblocking, no allocation, O(joints)
   void begin(const std::vector<double>& last);
 
+  /// Whether each joint would come to rest within `most` of where a motion would that brakes as
+  /// hard.
+  /// @param motion  positions and velocities of the joints first, as of a reference
+  /// @rt nonblocking, no allocation, O(joints)
+  bool rests_near(const std::vector<double>& motion, double most) const;
+
   /// The reference of the next period.
   /// @rt nonblocking, no allocation, O(joints)
   const std::vector<double>& step();
@@ -43,6 +49,7 @@ class ReferenceBrake {
                        const std::vector<double>& measured) const;
 
  private:
+  double rest_of(std::size_t joint, const std::vector<double>& motion) const;
   explicit ReferenceBrake(const Config& config, std::vector<double> max_acceleration);
 
   std::size_t joints_;

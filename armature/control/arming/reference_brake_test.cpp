@@ -57,6 +57,17 @@ TEST(ReferenceBrake, GivesWayOnlyAtRestToAReferenceThatRestsWhereTheJointsAre) {
   EXPECT_FALSE(brake.may_give_way_to({nan, 2.0, 0.0, 0.0, 0.0, 0.0}, measured));
 }
 
+TEST(ReferenceBrake, KnowsWhetherItWouldRestNearAMotion) {
+  ReferenceBrake brake = make_brake();
+  brake.begin({1.0, -1.0, 1.0, 0.0, 0.0, 0.0});
+  EXPECT_TRUE(brake.rests_near({1.0, -1.0, 1.0, 0.0}, 1e-9));
+  EXPECT_TRUE(brake.rests_near({1.25, -1.0, 0.0, 0.0}, 1e-9)) << "1^2 / (2 * 2) further";
+  EXPECT_FALSE(brake.rests_near({1.0, -1.0, -1.0, 0.0}, 0.49)) << "the other way";
+  EXPECT_FALSE(brake.rests_near({1.25, 0.0, 0.0, 0.0}, 0.9)) << "the second joint is elsewhere";
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(brake.rests_near({nan, -1.0, 0.0, 0.0}, 1.0));
+}
+
 TEST(ReferenceBrake, NamesEveryNumberThatIsWrong) {
   const auto made = ReferenceBrake::make(
       {.joints = 3, .max_acceleration = {1.0, -1.0, 1.0}, .period = 0ms, .tolerance = 0.0});

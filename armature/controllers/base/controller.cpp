@@ -141,7 +141,7 @@ const std::vector<double>* Controller::choose_reference(const std::vector<double
     stop_because("input 'reference': its data is older than declared");
     return nullptr;
   }
-  begin_to_brake(reference.value);
+  begin_to_brake(reference.value, measured);
   return &brake_->step();
 }
 
@@ -157,18 +157,28 @@ void Controller::take_over_reference(const std::vector<double>& measured) {
   if (followed) {
     started_ = reference.time;
   } else if (brake_) {
-    for (std::size_t i = 0; i < joints; ++i) {
-      motion_[i] = measured[i];
-      motion_[joints + i] = measured[joints + i] / period_.seconds();
-    }
-    begin_to_brake(motion_);
+    know_motion(measured);
+    begin_to_brake(motion_, measured);
   }
 }
 
-void Controller::begin_to_brake(const std::vector<double>& last) {
+void Controller::know_motion(const std::vector<double>& measured) {
+  const auto joints = static_cast<std::size_t>(joints_.get());
+  for (std::size_t i = 0; i < joints; ++i) {
+    motion_[i] = measured[i];
+    motion_[joints + i] = measured[joints + i] / period_.seconds();
+  }
+}
+
+/// What was desired last may have been absurd: joints are not driven to where that would rest.
+void Controller::begin_to_brake(const std::vector<double>& last,
+                                const std::vector<double>& measured) {
+  constexpr double kAbsurd = 0.5;  // [rad], far more than a controller that follows lags behind
   braking_ = true;
   brakings_.assign(brakings_ + 1);
   if (!std::exchange(late_, false)) brake_->begin(last);
+  know_motion(measured);
+  if (!brake_->rests_near(motion_, kAbsurd)) brake_->begin(motion_);
   log_warning(
       "the reference is older than declared: brakes, and holds until a reference rests where the "
       "joints are");

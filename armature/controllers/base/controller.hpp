@@ -156,7 +156,8 @@ class Controller : public component::Component, public PassesSamples, public Dri
   bool all_rest(const std::vector<double>& reference, const std::vector<double>& measured) const;
   void take_over();
   const Controller* predecessor() const;
-  void begin_to_brake(const std::vector<double>& last);
+  void begin_to_brake(const std::vector<double>& last, const std::vector<double>& measured);
+  void know_motion(const std::vector<double>& measured);
   void take_over_reference(const std::vector<double>& measured);
   void forget_other() { hand_over_.reset(); }
 
