@@ -291,7 +291,7 @@ std::vector<Breakage> of_the_application() {
        .said = {"not finite", "no number", "inf"}},
       {.name = "ReferenceIsAbsurdAndSilentThen",
        .happens = absurd_reference,
-       .after = After::kBrakes},
+       .after = After::kRests},
       {.name = "ReferenceIsAbsurdUntilDisarmed",
        .happens = absurd_reference_until_disarmed,
        .said = {}},

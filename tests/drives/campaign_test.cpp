@@ -110,8 +110,9 @@ class Run {
     EXPECT_LT(largest_apart(arm_.positions(), at_rest), 0.005);
     expect_moves();
   }
+  /// The integral of a PID takes seconds to unwind.
   void expect_rests() {
-    arm_.run_for(1500ms);
+    arm_.run_for(4s);
     EXPECT_LT(arm_.fastest(), kAtRest);
     if (arm_.armed()) return expect_brakes();
     expect_stops();
