@@ -12,15 +12,15 @@
 namespace armature::cli {
 namespace {
 
-using Words = std::vector<std::string>;
+using CompletionWords = std::vector<std::string>;
 
 /// The command that the words before the last one choose, and what follows it.
 struct Chosen {
   const CLI::App* command;
-  Words rest;
+  CompletionWords rest;
 };
 
-Chosen chosen_by(const CLI::App& program, const Words& words) {
+Chosen chosen_by(const CLI::App& program, const CompletionWords& words) {
   Chosen chosen{&program, {}};
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     const auto commands = chosen.command->get_subcommands({});
@@ -34,16 +34,16 @@ Chosen chosen_by(const CLI::App& program, const Words& words) {
   return chosen;
 }
 
-Words commands_of(const CLI::App& command) {
-  Words names;
+CompletionWords commands_of(const CLI::App& command) {
+  CompletionWords names;
   for (const CLI::App* each : command.get_subcommands({})) {
     if (!each->get_group().empty()) names.push_back(each->get_name());
   }
   return names;
 }
 
-Words options_of(const CLI::App& command) {
-  Words names;
+CompletionWords options_of(const CLI::App& command) {
+  CompletionWords names;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
@@ -51,7 +51,7 @@ Words options_of(const CLI::App& command) {
 }
 
 /// The first word that is a deployment's file.
-std::string deployment_among(const Words& words) {
+std::string deployment_among(const CompletionWords& words) {
   for (const std::string& word : words) {
     const std::string ending = std::filesystem::path(word).extension().string();
     std::error_code none;
@@ -63,14 +63,14 @@ std::string deployment_among(const Words& words) {
   return {};
 }
 
-void append(Words& to, const Words& names, std::string_view ending = "") {
+void append(CompletionWords& to, const CompletionWords& names, std::string_view ending = "") {
   std::ranges::transform(names, std::back_inserter(to),
                          [ending](const std::string& name) { return name + std::string(ending); });
 }
 
 /// Components first, and their properties once one is chosen: a robot has thousands.
-Words settings(const DeploymentNames& names, const std::string& begun) {
-  Words all;
+CompletionWords settings(const DeploymentNames& names, const std::string& begun) {
+  CompletionWords all;
   if (begun.find('.') == std::string::npos) {
     append(all, names.components, ".");
     append(all, names.parameters, "=");
@@ -81,7 +81,8 @@ Words settings(const DeploymentNames& names, const std::string& begun) {
 }
 
 /// Of an option that takes a name of the deployment.
-Words values_of(const std::string& option, const DeploymentNames& names, const std::string& begun) {
+CompletionWords values_of(const std::string& option, const DeploymentNames& names,
+                          const std::string& begun) {
   if (option == "--set" || option == "--unset") return settings(names, begun);
   if (option == "--mode" || option == "--no-mode" || option == "--initial-mode") return names.modes;
   static constexpr std::string_view kComponents[] = {"--only", "--remove", "--dissolve", "--split"};
@@ -89,19 +90,19 @@ Words values_of(const std::string& option, const DeploymentNames& names, const s
   static constexpr std::string_view kBegins[] = {"--rename", "--peer",     "--no-peer",
                                                  "--calls",  "--superior", "--no-superior"};
   if (std::ranges::find(kBegins, option) == std::end(kBegins)) return {};
-  Words all;
+  CompletionWords all;
   append(all, names.components, "=");
   return all;
 }
 
 }  // namespace
 
-std::vector<std::string> completions(const CLI::App& program, const Words& words,
+std::vector<std::string> completions(const CLI::App& program, const CompletionWords& words,
                                      const ReadNames& read) {
   if (words.empty()) return commands_of(program);
   const std::string& begun = words.back();
   const Chosen chosen = chosen_by(program, words);
-  Words all;
+  CompletionWords all;
   if (begun.starts_with('-')) {
     all = options_of(*chosen.command);
   } else if (!chosen.rest.empty() && chosen.rest.back().starts_with('-')) {
