@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drives/canopen/nmt.hpp"
 #include "drives/canopen/sdo_channel.hpp"
 #include "drives/canopen/test_link.hpp"
 #include "drives/cia402/emulated_bus.hpp"
@@ -28,6 +29,8 @@ class OneDrive : public ::testing::Test {
  protected:
   OneDrive() {
     link_.add_party([this](base::Time now) { drive_.advance_to(now); });
+    link_.advance(1ms);
+    link_.bus().send(canopen::nmt_frame(canopen::NmtCommand::kStart, canopen::kEveryNode));
     link_.advance(1ms);
   }
   void write(canopen::Address address, DataType type, std::int64_t value) {

@@ -43,7 +43,7 @@ class Completion(unittest.TestCase):
         self.assertIn("run", complete(""))
         self.assertNotIn("complete", complete(""))
         self.assertEqual(complete("stu"), ["studio"])
-        self.assertEqual(complete("new", ""), ["component"])
+        self.assertEqual(complete("new", ""), ["component", "robot"])
 
     def test_of_a_dash_are_the_options_of_the_command(self):
         self.assertEqual(complete("run", "--scr"), ["--script"])

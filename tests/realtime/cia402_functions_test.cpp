@@ -123,10 +123,14 @@ TEST(RealtimeCia402, WhatIsAskedBesideTheCycle) {
     background.step(host, now);
     bus.advance_to(now += 2ms);
   });
-  expect_realtime("BackgroundSdo::take", [&] { background.take(current, now); });
+  expect_realtime("BackgroundSdo::take", [&] {
+    background.step(host, now);
+    background.take(current, now);
+    bus.advance_to(now += 2ms);
+  });
   EXPECT_EQ(background.number(0, 0), 7);
   expect_realtime("BackgroundSdo::prepare_again", [&] { background.prepare_again(0); });
-  EXPECT_EQ(background.preparation(0), BackgroundSdo::Preparation::kUnderWay);
+  EXPECT_NE(background.preparation(0), BackgroundSdo::Preparation::kRefused);
   expect_realtime("BackgroundSdo::end_heartbeat", [&] {
     background.end_heartbeat(host, now);
     bus.advance_to(now += 2ms);

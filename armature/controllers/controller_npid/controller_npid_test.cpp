@@ -171,6 +171,11 @@ class ControllerThatBrakes : public ControllerNpid {
     controller.set("MaxAcceleration", std::vector<double>{2.0});
     controller.set("Period", 0.01);
   }
+  /// As fast as they are to be.
+  void measure(double first, double second) {
+    controller.raise("Sample");
+    controller.write("sensor", std::vector<double>{first, second, 0.001, 0.002});
+  }
   /// A sampling period in which the joints are where they are to be.
   void follow() {
     controller.advance(10ms);
@@ -194,6 +199,21 @@ class ControllerThatBrakes : public ControllerNpid {
 TEST_F(ControllerThatBrakes, BringsTheJointsToRestAndHoldsThemIfTheReferenceIsTooOld) {
   lose_reference();
   EXPECT_EQ(controller.state(), component::State::kRunning);
+  EXPECT_EQ(controller.get<int>("brakings"), 1);
+  EXPECT_NEAR(output("Ref1"), 1.0 + 0.1 * 0.1 / 4.0, 1e-9);
+  EXPECT_NEAR(output("Ref2"), 2.0 + 0.2 * 0.2 / 4.0, 1e-9);
+}
+
+TEST_F(ControllerThatBrakes, AfterAnAbsurdReferenceFromWhatIsMeasured) {
+  start();
+  measure(1.0, 2.0);
+  controller.write("reference", std::vector<double>{1e9, -1e9, 1e9, 1e9, 0.0, 0.0});
+  for (int i = 0; i < 30; ++i) {
+    controller.advance(10ms);
+    measure(1.0, 2.0);
+    answer(1, 0.0);
+    answer(2, 0.0);
+  }
   EXPECT_EQ(controller.get<int>("brakings"), 1);
   EXPECT_NEAR(output("Ref1"), 1.0 + 0.1 * 0.1 / 4.0, 1e-9);
   EXPECT_NEAR(output("Ref2"), 2.0 + 0.2 * 0.2 / 4.0, 1e-9);
