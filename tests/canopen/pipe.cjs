@@ -10,6 +10,7 @@ class Pipe {
         this.told = [];
         this.frames = [];
         this.waiting = [];
+        this.child.stdin.on('error', () => {}); // a program that has ended reads no more
         this.ended = new Promise((resolve) => this.child.on('exit', resolve));
         createInterface({ input: this.child.stdout }).on('line', (line) => {
             const [id, data] = line.split('#');
