@@ -76,11 +76,14 @@ class Installed:
         parent.mkdir()
         (parent / "taken").mkdir()
         wam = self.source / "robots/wam/wam7.urdf"
+        sliding = self.work / "sliding.urdf"
+        sliding.write_text(wam.read_text().replace('type="revolute"', 'type="prismatic"', 1))
         for words, said in {
             ("taken", "--joints", "2", "--drive", "none"): "'taken' exists already",
             ("janus", "--joints", "2", "--drive", "none"): "is that of a library of Armature",
             ("arm", "--joints", "9", "--drive", "none"): "expected 1 to 7 joints, found 9",
             ("arm", "--joints", "3", "--drive", "can", "--urdf", wam): "has 7 joints that move, expected 3; give --joints 7",
+            ("arm", "--joints", "7", "--drive", "cia402", "--urdf", sliding): "slides, and what is written here is for joints that turn",
             ("arm", "--joints", "3", "--drive", "can", "--urdf", "no.urdf"): "cannot read 'no.urdf'",
             ("arm", "--joints", "3", "--drive", "ethercat"): "(known: cia402, can, none)",
         }.items():

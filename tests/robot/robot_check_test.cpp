@@ -68,6 +68,12 @@ TEST(RobotCheck, RefusesLimitsBeyondDescriptionAndDrives) {
               HasSubstr("MaxVoltage 12: its torque is 12 Nm, the joint weighs up to 15 Nm"));
 }
 
+TEST(RobotCheck, RefusesALinearAxisWhereTheDescriptionHasOneThatTurns) {
+  EXPECT_THAT(head("pid.yaml", {"Joint1.Unit=m"}),
+              HasSubstr("'Joint1': Unit is 'm', and in the description the joint turns: expected "
+                        "'rad'"));
+}
+
 TEST(RobotCheck, RefusesAGearThatIsAnotherThanTheRobots) {
   EXPECT_THAT(head("pid.yaml", {"Joint1.GearRatio=0.03"}),
               HasSubstr("'Joint1': GearRatio is 0.03, expected 0.01: the Robot's motor_gear_ratio "

@@ -76,6 +76,10 @@ double told(double limit, double otherwise) {
 }
 
 std::string choose_limits(const JointLimits& limits, const JointRange& joint, JointPlan& plan) {
+  if (limits.slides == true) {
+    return "slides, and what is written here is for joints that turn; begin with a robot that has "
+           "none, and add a joint with 'Unit: m'";
+  }
   choose_positions(limits, plan);
   if (!(plan.upper > plan.lower)) return "has no room between its limits";
   if (limits.max_velocity <= 0.0) return "has the velocity limit 0; write what it can do";

@@ -40,8 +40,8 @@ struct JointDrive {
 /// @param urdf    its text
 /// @param file    what errors call it
 /// @param joints  that it is expected to have
-/// @return an error for a description that cannot be read, has another number of joints, or a joint
-///         that cannot carry its own weight
+/// @return an error for a description that cannot be read, has another number of joints, a joint
+///         that slides, or one that cannot carry its own weight
 base::Result<std::vector<JointPlan>> plan_joints(const std::string& urdf, const std::string& file,
                                                  std::size_t joints, const JointDrive& drive);
 

@@ -85,7 +85,7 @@ bool turns(const urdf::Joint& joint) {
 
 /// Of what the description leaves out or gives as 0 nothing is known.
 JointLimits limits_of(const urdf::Joint& joint) {
-  JointLimits limits;
+  JointLimits limits{.slides = joint.type == urdf::Joint::PRISMATIC};
   if (!joint.limits) return limits;
   if (joint.limits->lower < joint.limits->upper) {
     limits.lower = joint.limits->lower;

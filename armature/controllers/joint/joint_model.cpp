@@ -176,6 +176,10 @@ std::string JointModel::objection(const Known& known, const JointSettings& limit
 
 std::string JointModel::objection_to_motion(const JointLimits& described,
                                             const JointSettings& limits, const std::string& unit) {
+  if (described.slides && *described.slides != (unit == "m")) {
+    return "Unit is '" + unit + "', and in the description the joint " +
+           (*described.slides ? "slides: expected 'm'" : "turns: expected 'rad'");
+  }
   if (limits.lowest() < described.lower - kBeyond) {
     return versus(limits.continuous ? "Continuous: PositionMin" : "PositionMin", limits.lowest(),
                   unit, "the joint ends at", described.lower);
