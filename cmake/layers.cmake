@@ -37,7 +37,7 @@ set(ARMATURE_LAYERS
     "general: base component record rt"
     "sim: base control"
     "canopen: base can"
-    "cia402: base can canopen platform"
+    "cia402: base can canopen control platform sim"
     "cia402_components: base can canopen cia402 component controllers guardian platform rt types"
     "robots: base platform rt types controllers component can control vision guardian sim"
     "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim"

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "armature/base/seconds.hpp"
+#include "drives/cia402/emulated_arm.hpp"
 
 namespace armature::cia402 {
 
 void Axis::step(double torque_Nm, base::Duration by) {
   const double dt = base::to_seconds(by);
   torque_ = std::clamp(torque_Nm, -config_.most_torque, config_.most_torque);
+  if (config_.arm != nullptr) return config_.arm->push(config_.joint, torque_);
   // Friction is solved for implicitly: it stops the axis and never turns it round.
   const double driven = velocity_ + torque_ / config_.inertia * dt;
   const double damped = driven / (1.0 + config_.viscous / config_.inertia * dt);
@@ -22,6 +24,15 @@ void Axis::step(double torque_Nm, base::Duration by) {
 void Axis::hold() {
   velocity_ = 0.0;
   torque_ = 0.0;
+  if (config_.arm != nullptr) config_.arm->hold(config_.joint);
+}
+
+double Axis::position() const {
+  return config_.arm != nullptr ? config_.arm->position(config_.joint) : position_;
+}
+
+double Axis::velocity() const {
+  return config_.arm != nullptr ? config_.arm->velocity(config_.joint) : velocity_;
 }
 
 void Profile::step_to_velocity(Demand& demand, double target, base::Duration by) const {

@@ -1,36 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "armature/base/time.hpp"
 
 namespace armature::cia402 {
 
-/// A motor and what it moves, at the driving shaft: J a = torque - viscous v - friction sign(v).
+class EmulatedArm;
+
+/// A motor and what it moves, at the driving shaft: J a = torque - viscous v - friction sign(v), or
+/// a joint of an arm.
 class Axis {
  public:
   struct Config {
-    double inertia = 0.1;     ///< [kg m2], above 0
-    double viscous = 0.1;     ///< [N m s/rad]
-    double friction = 0.2;    ///< [N m], of Coulomb
-    double most_torque = 50;  ///< [N m], that the drive can give
-    double low = -3.0;        ///< [rad], where the negative limit switch is
-    double high = 3.0;        ///< [rad], where the positive limit switch is
+    double inertia = 0.1;        ///< [kg m2], above 0
+    double viscous = 0.1;        ///< [N m s/rad]
+    double friction = 0.2;       ///< [N m], of Coulomb
+    double most_torque = 50;     ///< [N m], that the drive can give
+    double low = -3.0;           ///< [rad], where the negative limit switch is
+    double high = 3.0;           ///< [rad], where the positive limit switch is
+    EmulatedArm* arm = nullptr;  ///< whose joint it moves, with friction of the arm's own
+    std::size_t joint = 0;       ///< of the arm
   };
 
   Axis() = default;
   explicit Axis(const Config& config) : config_(config) {}
 
+  /// The joint of an arm goes on when the arm is stepped.
   /// @param torque_Nm  of the drive, limited to what it can give
   void step(double torque_Nm, base::Duration by);
   /// Holds the axis at once, as a closed brake does.
   void hold();
 
   const Config& config() const { return config_; }
-  double position() const { return position_; }  ///< [rad]
-  double velocity() const { return velocity_; }  ///< [rad/s]
-  double torque() const { return torque_; }      ///< [N m], that was given last
-  bool at_low_switch() const { return position_ <= config_.low; }
-  bool at_high_switch() const { return position_ >= config_.high; }
+  double position() const;                   ///< [rad]
+  double velocity() const;                   ///< [rad/s]
+  double torque() const { return torque_; }  ///< [N m], that was given last
+  bool at_low_switch() const { return position() <= config_.low; }
+  bool at_high_switch() const { return position() >= config_.high; }
 
  private:
   Config config_{};

@@ -10,6 +10,7 @@
 #include "armature/base/result.hpp"
 #include "armature/base/time.hpp"
 #include "armature/can/virtual_bus.hpp"
+#include "drives/cia402/emulated_arm.hpp"
 #include "drives/cia402/emulated_drive.hpp"
 
 namespace armature::cia402 {
@@ -23,7 +24,9 @@ class EmulatedBus {
     std::size_t drives = 1;  ///< 1 to 127
     canopen::NodeId first_node = 1;
     EmulatedDrive::Config drive{};  ///< of all; its node is set here, its serial number, too
-    can::VirtualBus::Clock clock;   ///< the time that it is
+    std::shared_ptr<EmulatedArm>
+        arm{};                     ///< that they move, with a joint for each; none: an axis each
+    can::VirtualBus::Clock clock;  ///< the time that it is
     base::Time begin{};
   };
 
@@ -45,7 +48,10 @@ class EmulatedBus {
 
  private:
   explicit EmulatedBus(const Config& config);
+  void advance_arm_to(base::Time now);
 
+  std::shared_ptr<EmulatedArm> arm_;
+  base::Time arm_now_;
   can::VirtualBus bus_;
   std::vector<can::VirtualStation*> stations_;
   std::vector<std::unique_ptr<EmulatedDrive>> drives_;

@@ -21,6 +21,7 @@
 #include "drives/cia402/emulated_bus.hpp"
 #include "drives/cia402/emulator_command.hpp"
 #include "drives/cia402/pipe_wire.hpp"
+#include "drives/cia402/plant_arm.hpp"
 
 namespace armature::cia402 {
 namespace {
@@ -37,6 +38,7 @@ constexpr std::uint32_t kBitRate = 1'000'000;
 struct Arguments {
   std::string bus;
   std::size_t drives = 1;
+  std::string urdf;
   unsigned first_node = 1;
   double inertia = 0.1;
   bool no_brake = false;
@@ -45,7 +47,7 @@ struct Arguments {
 
 void say(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
 
-EmulatedBus::Config make_config(const Arguments& arguments) {
+base::Result<EmulatedBus::Config> make_config(const Arguments& arguments) {
   EmulatedBus::Config config;
   config.name = arguments.bus;
   config.bit_rate = arguments.bus.starts_with(kVirtual) ? kBitRate : can::kTimelessBitRate;
@@ -54,6 +56,12 @@ EmulatedBus::Config make_config(const Arguments& arguments) {
   config.drive.axis.inertia = arguments.inertia;
   config.drive.brake = !arguments.no_brake;
   config.clock = platform::monotonic_now;
+  if (!arguments.urdf.empty()) {
+    auto arm = PlantArm{.file = arguments.urdf, .rotor_inertia = arguments.inertia}.make();
+    if (!arm) return base::Error{arm.error()};
+    config.arm = std::move(arm).value();
+    config.drives = config.arm->joints();
+  }
   config.begin = platform::monotonic_now();
   return config;
 }
@@ -143,7 +151,9 @@ int print_eds(EmulatedBus& drives) {
 
 int run(const Arguments& arguments) {
   const platform::StopSignal stop;
-  auto drives = EmulatedBus::make(make_config(arguments));
+  const auto config = make_config(arguments);
+  if (!config) return fail(config.error());
+  auto drives = EmulatedBus::make(config.value());
   if (!drives) return fail(drives.error());
   if (arguments.eds) return print_eds(*drives.value());
   can::VirtualBus& bus = drives.value()->bus();
@@ -176,15 +186,22 @@ int run_command_line(int argc, char** argv) {
                  "standard input and output, a line each as candump writes it; any other name is a "
                  "CAN interface, such as vcan0")
       ->type_name("BUS");
-  app.add_option("--drives", arguments.drives, "how many")
-      ->check(CLI::Range(1, 127))
-      ->type_name("N")
-      ->capture_default_str();
+  CLI::Option* const drives = app.add_option("--drives", arguments.drives, "how many")
+                                  ->check(CLI::Range(1, 127))
+                                  ->type_name("N")
+                                  ->capture_default_str();
+  app.add_option(
+         "--urdf", arguments.urdf,
+         "the description of an arm that they move, a drive for each joint; none: an axis each")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE")
+      ->excludes(drives);
   app.add_option("--first-node", arguments.first_node, "of the first; the others follow")
       ->check(CLI::Range(1, 127))
       ->type_name("NODE")
       ->capture_default_str();
-  app.add_option("--inertia", arguments.inertia, "of each axis [kg m2]")
+  app.add_option("--inertia", arguments.inertia,
+                 "of each axis; of an arm, of each motor at its joint [kg m2]")
       ->check(CLI::Range(1e-4, 1e3))
       ->type_name("J")
       ->capture_default_str();

@@ -11,8 +11,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 PROGRAM = sys.argv.pop(1)
+WAM = str(Path(__file__).parents[2] / "robots/wam/wam7.urdf")
 PATIENCE = 20  # seconds
 
 
@@ -50,6 +52,18 @@ class Program(unittest.TestCase):
         self.assertIn("done: fail 6 0x2310", told.stderr)
         self.assertIn("no drive has node 9, expected 5 to 6", told.stderr)
         self.assertIn("'nonsense' is not understood", told.stderr)
+
+    def test_an_arm_has_a_drive_for_each_joint(self):
+        told = run("--bus", "-", "--urdf", WAM, text="state\n")
+        self.assertEqual(told.returncode, 0)
+        self.assertIn("node 7: pre-operational", told.stderr)
+        self.assertNotIn("node 8", told.stderr)
+
+    def test_what_is_no_arm_is_refused(self):
+        told = run("--bus", "-", "--urdf", __file__)
+        self.assertEqual(told.returncode, 1)
+        self.assertIn("emulator_program_test.py", told.stderr)
+        self.assertEqual(run("--bus", "-", "--urdf", WAM, "--drives", "7").returncode, 2)
 
     def test_quit_ends_it(self):
         told = run("--bus", "-", text="quit\n000#0101\n")

@@ -20,11 +20,15 @@ add_test(NAME @name@_moves COMMAND armature::program run --sim --for 60s --scrip
 constexpr std::string_view kCia402Simulated =
     R"(# armature run --sim --script move.lua simulated.yaml
 #
-# The drives are emulated in the same process, each with an axis of its own. on_can.yaml is the same arm on a bus.
+# The drives are emulated in the same process, and move the arm of the description. on_can.yaml is the same arm on a bus.
 include: @name@.yaml
+libraries: [cia402_arm]
 grants: {script: [Arming.arm]}  # nobody stands beside a simulated arm
 components:
-  Bus: {model: EmulatedCia402Bus, peers: [Sampler], properties: {nodes: [@nodes@], mode: position}}
+  Bus:
+    model: EmulatedCia402Arm
+    peers: [Sampler]
+    properties: {nodes: [@nodes@], mode: position, robot_description: "${here}/@name@.urdf", start: [@start@], rotor_inertia: @simulated_rotor@}
 )";
 
 constexpr std::string_view kCia402OnCan = R"(# armature run --browse on_can.yaml

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/cli/robot/new_robot.hpp"
 
-#include <functional>
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +22,10 @@ constexpr double kPeriod = 0.002;  // s
 /// [kg m^2] at the joint: of the arm that is written, as motors behind gears have it; a description
 /// says nothing of it.
 double rotor_inertia(const RobotWish& wish) { return wish.urdf.empty() ? 0.1 : 0.0; }
+
+/// [kg m^2] of simulated motors where a description says nothing: without, light joints are not to
+/// be simulated in steps.
+constexpr double kLeastRotor = 0.01;
 
 /// Libraries that Armature has: a deployment would find two of a name.
 constexpr std::string_view kLibraries = " cia402 controls janus record robot rover wam ";
@@ -115,6 +119,7 @@ Words words_for(const RobotWish& wish, const std::string& library, const Plans& 
       {"drive", by_torque ? camel_case(wish.name) + "Drive" : "Cia402Drive"},
       {"libraries", by_torque ? "\"${here}/build/lib/armature/lib" + library + ".so\"" : "cia402"},
       {"rotor", figures_of(rotor_inertia(wish))},
+      {"simulated_rotor", figures_of(std::max(rotor_inertia(wish), kLeastRotor))},
       {"delay", figures_of(kind.delay_s)},
       {"joint_lines", joint_lines(plans, by_torque)},
       {"controller", filled(controller_lines(plans, by_torque), name)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drives/cia402_components/emulated_cia402_bus.hpp"
+#include "drives/cia402_components/emulated_cia402_host.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,14 +8,13 @@
 
 namespace armature::cia402 {
 
-base::Result<std::unique_ptr<can::Link>> EmulatedCia402Bus::make_link() {
+base::Result<std::unique_ptr<can::Link>> EmulatedCia402Host::make_link() {
   const auto [least, most] = std::minmax_element(nodes().begin(), nodes().end());
   EmulatedBus::Config config;
   config.bit_rate = bit_rate();
   config.first_node = static_cast<canopen::NodeId>(*least);
   config.drives = static_cast<std::size_t>(*most - *least + 1);
-  config.drive.axis.inertia = inertia_;
-  config.drive.axis.viscous = viscous_friction_;
+  if (const auto added = add_load(config); !added) return base::Error{added.error()};
   const bool simulated = is_simulated();
   auto made = EmulatedLink::make(
       config, simulated ? EmulatedLink::Time::kSimulated : EmulatedLink::Time::kReal,
