@@ -155,7 +155,20 @@ PowerCommand next_command(PowerState state, PowerGoal goal) noexcept {
   return PowerCommand::kDisableVoltage;
 }
 
-void PowerControl::set_goal(PowerGoal goal) noexcept { goal_ = goal; }
+void PowerControl::set_goal(PowerGoal goal) noexcept {
+  goal_ = goal;
+  reached_ = false;
+}
+
+/// By itself, or by somebody else's word.
+bool PowerControl::has_fallen(PowerState state) noexcept {
+  const bool enabled = state == PowerState::kOperationEnabled;
+  const bool there = goal_ == PowerGoal::kEnabled      ? enabled
+                     : goal_ == PowerGoal::kSwitchedOn ? enabled || state == PowerState::kSwitchedOn
+                                                       : true;
+  reached_ = reached_ || there;
+  return reached_ && !there;
+}
 
 std::uint16_t PowerControl::step(std::optional<PowerState> state) noexcept {
   const bool failed = state == PowerState::kFault || state == PowerState::kFaultReactionActive;
@@ -168,6 +181,7 @@ std::uint16_t PowerControl::step(std::optional<PowerState> state) noexcept {
     goal_ = PowerGoal::kQuickStop;
   }
   if (!state) return encode_command(PowerCommand::kDisableVoltage);
+  if (has_fallen(*state)) set_goal(PowerGoal::kOff);
   return encode_command(next_command(*state, goal_));
 }
 

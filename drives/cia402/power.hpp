@@ -84,8 +84,9 @@ enum class PowerGoal : std::uint8_t {
 /// The host's side: the control word that brings a drive a step nearer to its goal.
 ///
 /// A fault is left at the operator's word alone: `ask_reset` makes one rising edge of the reset
-/// bit. After a fault, a reset or a quick stop the goal `kEnabled` counts only when it has been
-/// given anew, so a drive never starts again by itself.
+/// bit. After a fault, a reset or a quick stop, and once a drive that had reached its goal is no
+/// more there, a goal counts only when it has been given anew, so a drive never starts again by
+/// itself.
 class PowerControl {
  public:
   /// @rt nonblocking, no allocation
@@ -103,8 +104,10 @@ class PowerControl {
 
  private:
   std::uint16_t in_fault() noexcept;
+  bool has_fallen(PowerState state) noexcept;
 
   PowerGoal goal_ = PowerGoal::kOff;
+  bool reached_ = false;  ///< the goal, since it was given
   bool reset_asked_ = false;
   bool resetting_ = false;
 };

@@ -245,6 +245,43 @@ TEST(PowerControl, BringsADriveToItsGoalInAtMostThreeSteps) {
   }
 }
 
+/// Two program the same drive, or it has a switch of its own.
+TEST(PowerControl, ADriveThatWasSwitchedOffElsewhereDoesNotStartByItself) {
+  for (const PowerGoal goal : {PowerGoal::kSwitchedOn, PowerGoal::kEnabled}) {
+    for (const std::uint16_t word : std::array<std::uint16_t, 3>{0x00, 0x06, 0x07}) {
+      PowerMachine machine = machine_in(kSwitchOnDisabled);
+      PowerControl control;
+      control.set_goal(goal);
+      for (int step = 0; step < 4; ++step) machine.take_control(control.step(machine.state()));
+      const PowerState reached = machine.state();
+      machine.take_control(word);
+      if (machine.state() == reached) continue;  // it has what it was given
+      for (int step = 0; step < 10; ++step) {
+        machine.take_control(control.step(machine.state()));
+        ASSERT_NE(machine.state(), kOperationEnabled) << word;
+      }
+      EXPECT_EQ(machine.state(), kSwitchOnDisabled) << word;
+      EXPECT_EQ(control.goal(), PowerGoal::kOff);
+      control.set_goal(goal);
+      for (int step = 0; step < 4; ++step) machine.take_control(control.step(machine.state()));
+      EXPECT_EQ(machine.state(), reached) << "given anew";
+    }
+  }
+}
+
+TEST(PowerControl, ADriveThatIsOnItsWayToItsGoalHasNotFallen) {
+  PowerMachine machine = machine_in(kSwitchedOn);
+  PowerControl control;
+  control.set_goal(PowerGoal::kSwitchedOn);
+  machine.take_control(control.step(machine.state()));
+  control.set_goal(PowerGoal::kEnabled);
+  // Its answers are cycles old.
+  for (int step = 0; step < 3; ++step) control.step(kSwitchedOn);
+  machine.take_control(control.step(machine.state()));
+  EXPECT_EQ(machine.state(), kOperationEnabled);
+  EXPECT_EQ(control.goal(), PowerGoal::kEnabled);
+}
+
 TEST(PowerControl, AfterAFaultOrAQuickStopADriveDoesNotStartByItself) {
   for (const PowerState stop : {kFault, kQuickStopActive}) {
     PowerMachine machine = machine_in(kOperationEnabled);

@@ -142,6 +142,10 @@ bool Cia402Drive::usable(const DriveSample& sample) {
               .append(": mend what its manual says of it, then call resetDrive of its bus"));
   } else if (!sample.obeys) {
     fault("the drive does not give the torque that it was told: look at its motor and its limits");
+  } else if (sample.frozen) {
+    fault(
+        "the drive tells the same values in each cycle while it was told other torques: look at "
+        "its sensor, and for what blocks it");
   } else if (!does_what_it_was_told(sample)) {
     Reason why(was_enabled_ ? "the drive switched off by itself: it is "
                             : "the drive does not switch on: it is ");

@@ -29,10 +29,8 @@ using namespace std::chrono_literals;
 /// In which a drive takes a command of NMT.
 constexpr base::Duration kNmtTime = 5ms;
 constexpr int kLastNode = 127;
-/// Of the rated torque, in thousandths, by which a drive may miss its target for as many cycles:
-/// two until it acts, and what currents take to grow.
-constexpr int kMostTorqueError = 50;
-constexpr int kMostDisobeyed = 10;
+/// What torques of drives are told in: thousandths of the rated one.
+constexpr int kRated = 1000;
 /// Drives take as many of the host's for a loss.
 constexpr int kHeartbeatsToMiss = 3;
 /// Where their answers are among a drive's slow numbers.
@@ -233,7 +231,8 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.silent_cycles = static_cast<int>(drive.silent_cycles);
   sample.error_code = drive.emergency ? drive.emergency->code : drive.error_code;
   sample.lost = drive.presence == canopen::Presence::kLost;
-  sample.obeys = account.disobeyed <= kMostDisobeyed;
+  sample.obeys = account.torque != TorqueWatch::Finding::kDisobeys;
+  sample.frozen = account.torque == TorqueWatch::Finding::kFrozen;
   sample.status = drive.status;
   sample.unprepared = is_unprepared(*place);
   read_slow(*place, sample);
@@ -277,11 +276,9 @@ void Cia402Host::begin_cycle() {
 void Cia402Host::watch_torques() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
     if (plans_[i].mode != CyclicMode::kTorque) continue;
-    const DriveState& drive = group_->state(i);
     Account& account = accounts_[i];
-    const double most = std::abs(group_->config(i).scaling.torque(kMostTorqueError));
-    const bool obeys = !drive.enabled() || std::abs(drive.effort - account.target) <= most;
-    account.disobeyed = obeys ? 0 : account.disobeyed + 1;
+    const double rated = std::abs(group_->config(i).scaling.torque(kRated));
+    account.torque = account.watch.step(group_->state(i), account.target, rated);
   }
 }
 

@@ -17,6 +17,7 @@
 #include "drives/cia402/drive_group.hpp"
 #include "drives/cia402_components/drive_plan.hpp"
 #include "drives/cia402_components/drive_sample.hpp"
+#include "drives/cia402_components/torque_watch.hpp"
 
 namespace armature::cia402 {
 
@@ -201,7 +202,8 @@ class Cia402Host : public component::Component {
     std::uint32_t preparing = 0;  ///< after which it is being prepared
     bool is_preparing = false;
     double target = 0.0;  ///< that it has
-    int disobeyed = 0;    ///< cycles in a row
+    TorqueWatch watch{};  ///< in mode torque
+    TorqueWatch::Finding torque = TorqueWatch::Finding::kGood;
   };
   mutable std::vector<DrivePlan> plans_;  ///< by place; made by the check, which sees all drives
   std::unique_ptr<can::Link> link_;

@@ -64,9 +64,10 @@ struct DriveSample {
   bool has_temperature = false;
   double temperature = 0.0;  ///< [K]
   bool obeys = true;         ///< in mode torque: it gives the torque that it was told
+  bool frozen = false;       ///< likewise: its values are the same to the bit, and should not be
 };
 ARMATURE_STRUCT(DriveSample, no_bus, fresh, unprepared, position, velocity, effort, power, status,
                 silent_cycles, error_code, lost, has_current, current, has_temperature, temperature,
-                obeys);
+                obeys, frozen);
 
 }  // namespace armature::cia402

@@ -64,8 +64,11 @@ class DeployedRobot {
     return answer ? "" : answer.error();
   }
   std::string move_to(const Vector& positions, double time) {
+    target_ = positions;
     return call("Generator", "moveTo", {types::Value::of(positions), types::Value::of(time)});
   }
+  /// Of the last motion.
+  const Vector& target() const { return target_; }
   template <typename T>
   T value(const char* component, const char* item) {
     const auto value = application_->value_of(component, item);
@@ -106,6 +109,7 @@ class DeployedRobot {
   std::string log;
 
  private:
+  Vector target_;
   deploy::Deployment deployment_;
   std::unique_ptr<exec::Application> application_;
 };

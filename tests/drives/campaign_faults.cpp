@@ -65,6 +65,18 @@ Happens loses_syncs(std::uint64_t count) {
   };
 }
 
+/// The one that still has the longest way to go.
+EmulatedDrive& moving_drive(CampaignArm& arm) {
+  const Vector now = arm.positions();
+  const Vector& target = arm.target();
+  std::size_t furthest = 0;
+  const auto way = [&](std::size_t joint) { return std::abs(target[joint] - now[joint]); };
+  for (std::size_t joint = 1; joint < CampaignArm::kJoints; ++joint) {
+    if (way(joint) > way(furthest)) furthest = joint;
+  }
+  return arm.drive(furthest);
+}
+
 /// Another program on the bus says one thing.
 void somebody_says(CampaignArm& arm, const can::Frame& frame) {
   can::VirtualStation& station = arm.drives().bus().add_station("somebody");
@@ -127,6 +139,18 @@ void reset_a_sound_drive(CampaignArm& arm, Random& random) {
   EXPECT_EQ(arm.call("Bus", "resetDrive", {types::Value::of(node)}), "");
 }
 
+/// Nobody can know it as long as the joint is to stand: it is found when it is told to move.
+Happens at_rest(void (*act)(EmulatedDrive&)) {
+  return [act](CampaignArm& arm, Random& random) {
+    arm.run_for(3200ms);
+    const std::size_t joint = any_joint(random);
+    act(arm.drive(joint));
+    Vector target = arm.target();
+    target[joint] += target[joint] > 0.0 ? -0.3 : 0.3;
+    EXPECT_EQ(arm.move_to(target, 1.0), "");
+  };
+}
+
 // --- the application -----------------------------------------------------------------------------
 
 Happens stops(const char* component) {
@@ -186,6 +210,9 @@ void brake(CampaignArm& arm, Random&) { EXPECT_EQ(arm.call("Arming", "stop"), ""
 
 // --- what is promised ----------------------------------------------------------------------------
 
+const std::vector<std::string> kNotAsTold{"to the bit", "the same values", "was told",
+                                          "the drive failed"};
+
 std::vector<Breakage> of_drives() {
   return {
       {.name = "DriveFails",
@@ -208,12 +235,20 @@ std::vector<Breakage> of_drives() {
        .said = {"the drive did not answer"},
        .ends = mend},
       {.name = "StatusAndPositionFrozen",
-       .happens = drive_does([](EmulatedDrive& drive) { drive.set_frozen(true); }),
-       .said = {"was told"},
+       .happens = [](CampaignArm& arm, Random&) { moving_drive(arm).set_frozen(true); },
+       .said = kNotAsTold,
+       .ends = mend},
+      {.name = "StatusAndPositionFrozenAtRest",
+       .happens = at_rest([](EmulatedDrive& drive) { drive.set_frozen(true); }),
+       .said = kNotAsTold,
        .ends = mend},
       {.name = "DriveDoesNotObey",
-       .happens = drive_does([](EmulatedDrive& drive) { drive.set_powerless(true); }),
-       .said = {"was told", "the drive failed"},
+       .happens = [](CampaignArm& arm, Random&) { moving_drive(arm).set_powerless(true); },
+       .said = kNotAsTold,
+       .ends = mend},
+      {.name = "DriveDoesNotObeyAtRest",
+       .happens = at_rest([](EmulatedDrive& drive) { drive.set_powerless(true); }),
+       .said = kNotAsTold,
        .ends = mend},
       {.name = "EncoderJumps",
        .happens = shift_encoder,

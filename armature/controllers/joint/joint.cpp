@@ -30,6 +30,11 @@ constexpr base::Duration kSettlingPatience = 2s;
 constexpr base::Duration kWatchTime = 200ms;
 /// For which a drive may be slower or faster than it was told.
 constexpr base::Duration kVelocityPatience = 100ms;
+/// Of the error that is allowed: the way that a joint may be told to go while its position is the
+/// same to the bit.
+constexpr double kStillShare = 1.0 / 3.0;
+/// Of velocities: slower ones than what is allowed in this time may be rounded away by a drive.
+constexpr double kStillMemory = 1.0;  // s
 /// Over which signs of the effort are counted.
 constexpr base::Duration kAlternationTime = 500ms;
 /// A joint that was not measured for so long, and for two periods, may have moved when it stops.
@@ -120,6 +125,7 @@ Outcome Joint::set_up() {
   following_ = control::FollowingWatch(
       {.max_error = settings_->max_error,
        .patience = way_ == JointCommand::kVelocity ? kVelocityPatience : base::Duration{}});
+  still_ = control::StillWatch(still());
   sequence_ = sequence.value();
   watch_ = watch.value();
   sensor_ratio_ = settings_->sensor_sign * settings_->gear_ratio;
@@ -132,6 +138,12 @@ Outcome Joint::set_up() {
   clipped_.assign(0);
   changes_.take();
   return component::accepted();
+}
+
+control::StillWatch::Config Joint::still() const {
+  if (way_ == JointCommand::kPosition) return {.most = kStillShare * settings_->max_error};
+  return {.most = settings_->max_error * base::to_seconds(kVelocityPatience),
+          .memory = kStillMemory};
 }
 
 /// Of a joint whose drive controls it: the drive has its own.
@@ -278,7 +290,9 @@ void Joint::on_act() {
 /// True if it was passed unchanged.
 bool Joint::apply(double command) {
   commanded_ = command;
+  const double before = sent_;
   const JointLimiter::Status status = limit_and_write(command);
+  way_told_ += way_ == JointCommand::kVelocity ? sent_ * period_.seconds() : sent_ - before;
   passed_ = status == JointLimiter::Status::kPassed;
   if (passed_) return true;
   if (status == JointLimiter::Status::kClipped) clipped_.assign(clipped_ + 1);

@@ -13,6 +13,7 @@
 #include "armature/control/arming/holding_watch.hpp"
 #include "armature/control/following_watch.hpp"
 #include "armature/control/joint_limiter.hpp"
+#include "armature/control/still_watch.hpp"
 #include "armature/controllers/base/changes.hpp"
 #include "armature/controllers/base/joint_command.hpp"
 #include "armature/controllers/base/max_age.hpp"
@@ -34,7 +35,8 @@ namespace armature::controllers {
 /// A drive is given voltages, currents or torques, or follows velocities or positions by itself:
 /// each way is a model of its own (JointOf), whose ports and limits are called by it. Torques are
 /// those of the joint, behind its gear. A drive that follows is watched: a joint that is not where,
-/// or as fast as, the drive was told is braked, and faults (control::FollowingWatch).
+/// or as fast as, the drive was told is braked, and faults (control::FollowingWatch); so is one
+/// whose position stays the same to the bit while it was told to move (control::StillWatch).
 ///
 /// The hardware tells how far its axis turned (DisplacementSensor), or where it is
 /// (PositionSensor); a jump that the joint cannot have made is a fault.
@@ -97,6 +99,7 @@ class Joint : public component::Component,
   control::JointLimiter::Config limits() const;
   control::ArmingSequence::Config arming_steps() const;
   control::HoldingWatch::Config holding() const;
+  control::StillWatch::Config still() const;
 
   // Measuring.
   void on_sample();
@@ -128,6 +131,7 @@ class Joint : public component::Component,
   // Standing: joint_arming.cpp.
   void watch();
   void watch_drive();
+  void fault_still();
   void brake_because(const control::HoldingWatch::Finding& finding);
   void on_rest();
   void on_motion() { watch_->move(); }
@@ -315,9 +319,11 @@ class Joint : public component::Component,
   std::optional<control::HoldingWatch> watch_;
   std::optional<control::AbsolutePosition> absolute_;
   control::FollowingWatch following_;
+  control::StillWatch still_;
   Phase phase_ = Phase::kDisarmed;
   double commanded_ = 0.0;  ///< last, whatever became of it
   double sent_ = 0.0;       ///< of it, last, in the unit of the command
+  double way_told_ = 0.0;   ///< since the last sample, of a drive that follows by itself
   bool passed_ = false;     ///< it is what was commanded
   control::JointLimiter::Measured measured_;
   SampleWatch intervals_;

@@ -2,6 +2,7 @@
 // What lets a joint move, what watches it while it is to stand, and what stops it.
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "armature/base/seconds.hpp"
 #include "armature/controllers/base/reason_text.hpp"
@@ -94,6 +95,8 @@ void Joint::be_armed() {
   phase_ = Phase::kArmed;
   watch_->move();
   following_.reset();
+  still_.reset();
+  way_told_ = 0.0;
   armed_.write(true);
   log_info("armed");
 }
@@ -163,11 +166,24 @@ void Joint::watch() {
 void Joint::watch_drive() {
   const bool by_velocity = way_ == JointCommand::kVelocity;
   const double is = by_velocity ? measured_.velocity : measured_.position;
+  const bool moves =
+      still_.step(measured_.position, std::exchange(way_told_, 0.0), period_.seconds());
+  if (!moves) return fault_still();
   if (following_.step(is - sent_, time())) return;
   Reason why(by_velocity ? "its drive moves it at " : "its drive has it at ");
   append_number(why, told(is)).append(" ").append(units_.command().get()).append(" and was told ");
   append_number(why, told(sent_)).append(" (").append(names_.limit).append(": ");
   append_number(why, settings_->max_error).append("): braked. Look for what blocks it");
+  switch_off();
+  fault(why);
+}
+
+void Joint::fault_still() {
+  Reason why("its position has stayed ");
+  append_number(why, told(measured_.position)).append(" ").append(units_.position().get());
+  why.append(
+      " to the bit while its drive was told to move it: braked. Look at its sensor, and for "
+      "what blocks it");
   switch_off();
   fault(why);
 }

@@ -151,12 +151,25 @@ TEST_F(PositionJoint, WhoseDriveDoesNotFollowIsBrakedAndFaults) {
   start_armed();
   for (int k = 0; k < 100 && armed(); ++k) {
     told(2.0);
-    measure(-50.0);
+    measure(-50.0 - 1e-6 * k);
   }
   EXPECT_FALSE(armed());
   EXPECT_EQ(joint.state(), State::kException);
   EXPECT_THAT(joint.reason(), HasSubstr("its drive has it at 1 rad and was told 1.05"));
   EXPECT_THAT(joint.reason(), HasSubstr("MaxPositionError: 0.05"));
+  EXPECT_THAT(commands(), ElementsAre("brakeApply", "actuatorOff"));
+}
+
+TEST_F(PositionJoint, WhosePositionStaysTheSameWhileItIsToldToMoveFaultsBefore) {
+  start_armed();
+  double told_last = 0.0;
+  for (int k = 0; k < 1000 && armed(); ++k) {
+    told_last = told(1.0 + 0.0005 * k);
+    measure(-50.0);
+  }
+  EXPECT_FALSE(armed());
+  EXPECT_THAT(joint.reason(), HasSubstr("its position has stayed 1 rad to the bit"));
+  EXPECT_NEAR(told_last, -50.0 - 100.0 * 0.05 / 3.0, 0.1) << "a third of MaxPositionError";
   EXPECT_THAT(commands(), ElementsAre("brakeApply", "actuatorOff"));
 }
 
@@ -249,13 +262,35 @@ TEST_F(VelocityJoint, WhoseDriveDoesNotFollowForATenthOfASecondIsBrakedAndFaults
   int periods = 0;
   for (; periods < 100 && armed(); ++periods) {
     told(1.0);
-    sample();
+    sample(1e-9);
   }
   EXPECT_FALSE(armed());
-  EXPECT_THAT(joint.reason(), HasSubstr("its drive moves it at 0 rad/s and was told"));
+  EXPECT_THAT(joint.reason(), HasSubstr("and was told"));
   EXPECT_GE(periods, 10);
   EXPECT_LE(periods, 20);
   EXPECT_EQ(joint.output<control::LimitedVelocity>("VelocityActuator"), 0.0);
+}
+
+TEST_F(VelocityJoint, WhosePositionStaysTheSameWhileItIsToldToMoveSlowlyFaults) {
+  start_armed();
+  int periods = 0;
+  for (; periods < 200 && armed(); ++periods) {
+    told(0.1);  // within MaxVelocityError
+    sample();
+  }
+  EXPECT_FALSE(armed());
+  EXPECT_THAT(joint.reason(), HasSubstr("to the bit while its drive was told to move it"));
+  EXPECT_GE(periods, 20);
+  EXPECT_LE(periods, 30);
+}
+
+TEST_F(VelocityJoint, WhoseDriveRoundsASlowVelocityToNoneStaysArmed) {
+  start_armed();
+  for (int k = 0; k < 2000; ++k) {
+    told(0.015);
+    sample();
+  }
+  EXPECT_TRUE(armed());
 }
 
 }  // namespace
