@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drives/cia402/background_sdo.hpp"
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "drives/canopen/test_link.hpp"
@@ -119,6 +122,59 @@ TEST_F(TwoDrives, WithoutTheirHostsHeartbeatDrivesStop) {
   cycle(50);
   EXPECT_EQ(drives[0]->power(), PowerState::kFault);
   EXPECT_EQ(group->state(0).emergency->code, canopen::emergency_code::kHeartbeatLost);
+}
+
+/// 0x6007.
+TEST_F(TwoDrives, ADriveThatWouldGoOnWithoutItsHostIsToldToFault) {
+  for (const int found : {0, 2, 3}) {
+    drives[0]->device().dictionary().set_number(object::kAbortConnection, found);
+    canopen::SdoChannel channel(link, 1);
+    ASSERT_TRUE(prepare_drive(channel,
+                              {.node = 1,
+                               .name = "J",
+                               .mode = Mode::kCyclicVelocity,
+                               .host = HostHeartbeat{127, 20ms, 60ms}},
+                              diagnostics))
+        << diagnostics.to_text();
+    EXPECT_EQ(drives[0]->device().dictionary().number(object::kAbortConnection),
+              found == 0 ? 1 : found);
+  }
+}
+
+TEST_F(TwoDrives, ADriveThatKeepsGoingOnWithoutItsHostIsRefused) {
+  auto& objects = drives[0]->device().dictionary();
+  objects.set_number(object::kAbortConnection, 0);
+  objects.set_check(object::kAbortConnection,
+                    [](std::uint64_t) { return canopen::AbortCode::kInvalidValue; });
+  canopen::SdoChannel channel(link, 1);
+  EXPECT_FALSE(prepare_drive(channel,
+                             {.node = 1,
+                              .name = "J",
+                              .mode = Mode::kCyclicVelocity,
+                              .host = HostHeartbeat{127, 20ms, 60ms}},
+                             diagnostics));
+  EXPECT_THAT(
+      diagnostics.to_text(),
+      ::testing::HasSubstr("object 0x6007:00 is 0, so it goes on moving when it loses its host"));
+}
+
+TEST_F(TwoDrives, ADriveDoesWhatItsOptionSaysWhenItLosesItsHost) {
+  const std::array<std::pair<int, PowerState>, 3> kEnds{{{0, PowerState::kOperationEnabled},
+                                                         {2, PowerState::kSwitchOnDisabled},
+                                                         {3, PowerState::kSwitchOnDisabled}}};
+  for (const auto& [option, end] : kEnds) {
+    drives[1]->device().dictionary().set_number(object::kAbortConnection, option);
+    group->set_heartbeat(127, 20ms, link.now());
+    cycle(50);
+    group->set_goal(1, PowerGoal::kEnabled);
+    cycle(100);
+    ASSERT_EQ(drives[1]->power(), PowerState::kOperationEnabled) << option;
+    group->set_heartbeat(127, 0ms, link.now());
+    cycle(50);
+    EXPECT_EQ(drives[1]->power(), end) << option;
+    group->set_goal(1, PowerGoal::kOff);
+    cycle(50);
+  }
 }
 
 TEST_F(TwoDrives, AHostThatEndsInGoodOrderIsNotMissed) {

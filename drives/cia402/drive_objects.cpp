@@ -69,6 +69,8 @@ void add_cyclic(Objects& objects) {
 
 void add_parameters(Objects& objects, const Scaling& scaling) {
   const auto speed = [&](double rad_s) { return scaling.raw_velocity(rad_s); };
+  objects.parameter(object::kAbortConnection, "Abort connection option code", DataType::kInteger16,
+                    1);
   objects.parameter(object::kQuickStopOption, "Quick stop option code", DataType::kInteger16, 2);
   objects.parameter(object::kFollowingErrorWindow, "Following error window", DataType::kUnsigned32,
                     scaling.raw_position(0.2));

@@ -126,7 +126,8 @@ void EmulatedDrive::read_commands() {
   if (wanted != mode_) change_mode(wanted);
   const PowerState before = machine_.state();
   if (control != control_) {
-    machine_.take_control(control);
+    constexpr std::uint16_t kOn = control_bit::kSwitchOn | control_bit::kEnableOperation;
+    machine_.take_control(without_mains_ ? control & ~kOn : control);
     take_set_point(control);
   }
   control_ = control;
@@ -182,12 +183,25 @@ void EmulatedDrive::watch(base::Time now) {
   device_.set_sync_timeout(period * kSyncsToMiss);
   if (machine_.state() != PowerState::kOperationEnabled) return;
   if (is_cyclic(mode_) && device_.sync_missing(now)) fail(canopen::emergency_code::kSyncLost);
-  if (device_.state() != canopen::NmtState::kOperational) fail(kStoppedByMaster);
-  if (device_.lost_node()) fail(canopen::emergency_code::kHeartbeatLost);
+  if (device_.state() != canopen::NmtState::kOperational) lose_host(kStoppedByMaster);
+  if (device_.lost_node()) lose_host(canopen::emergency_code::kHeartbeatLost);
   const bool positioned = mode_ == Mode::kCyclicPosition || mode_ == Mode::kProfilePosition;
   const double window = scaling_.position(number(object::kFollowingErrorWindow));
   if (positioned && std::abs(demand_.position - axis_.position()) > window) {
     fail(canopen::emergency_code::kFollowingError);
+  }
+}
+
+void EmulatedDrive::lose_host(std::uint16_t code) {
+  switch (number(object::kAbortConnection)) {
+    case 0:
+      return;
+    case 2:
+      return machine_.take_control(encode_command(PowerCommand::kDisableVoltage));
+    case 3:
+      return machine_.take_control(encode_command(PowerCommand::kQuickStop));
+    default:
+      return fail(code);
   }
 }
 

@@ -61,6 +61,8 @@ class EmulatedDrive {
   void set_frozen(bool frozen) { frozen_ = frozen; }
   /// Its motor gets no current, and it does not notice.
   void set_powerless(bool powerless) { powerless_ = powerless; }
+  /// What its motor is fed by has no voltage: it is never switched on.
+  void set_without_mains(bool without) { without_mains_ = without; }
   /// Its encoder loses its place: from now on it tells a position that is `by` [rad] beyond.
   void shift_encoder(double by) { offset_ += by; }
   /// It says that it is somebody else.
@@ -73,6 +75,7 @@ class EmulatedDrive {
   void step(base::Time now);
   void read_commands();
   void watch(base::Time now);
+  void lose_host(std::uint16_t code);
   void change_mode(Mode mode);
   double torque_in_operation();
   double torque_of_mode();
@@ -118,6 +121,7 @@ class EmulatedDrive {
   bool deaf_to_sync_ = false;
   bool frozen_ = false;
   bool powerless_ = false;
+  bool without_mains_ = false;
   double temperature_ = kAmbient;  ///< [°C], of the motor
 };
 

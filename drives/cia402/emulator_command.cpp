@@ -55,12 +55,15 @@ bool obey(EmulatedDrive& drive, const std::string& verb, const std::vector<unsig
     drive.set_frozen(true);
   } else if (verb == "powerless") {
     drive.set_powerless(true);
+  } else if (verb == "nomains") {
+    drive.set_without_mains(true);
   } else if (verb == "reboot") {
     drive.reboot(now);
   } else if (verb == "mend") {
     drive.set_deaf_to_sync(false);
     drive.set_frozen(false);
     drive.set_powerless(false);
+    drive.set_without_mains(false);
     drive.device().set_stuck_pdos(false);
     drive.device().set_silent_heartbeat(false);
   } else {
@@ -80,6 +83,7 @@ std::string emulator_commands() {
          "  silent NODE                   it sends no heartbeats\n"
          "  frozen NODE                   it tells for ever what it told last\n"
          "  powerless NODE                its motor gets no current, and it does not notice\n"
+         "  nomains NODE                  it is not switched on any more, for want of voltage\n"
          "  mend NODE                     it hears and sends again\n"
          "  reboot NODE                   it loses its power for a moment\n"
          "  identity NODE VENDOR PRODUCT  it says that it is another drive\n";

@@ -8,6 +8,9 @@ namespace armature::cia402 {
 /// Where CiA 402 has what this library uses.
 namespace object {
 using canopen::Address;
+/// What a drive does that loses its host (CiA 402-2): 0 nothing, 1 fault, 2 voltage off, 3 quick
+/// stop.
+constexpr Address kAbortConnection{0x6007, 0};
 constexpr Address kErrorCode{0x603f, 0};
 constexpr Address kControlWord{0x6040, 0};
 constexpr Address kStatusWord{0x6041, 0};

@@ -95,6 +95,18 @@ class Preparation {
     }
   }
 
+  /// A drive that has the object and does nothing when it loses its host is told to fault.
+  void have_it_stop_without_host() {
+    if (!wish_.host) return;
+    const auto found = channel_.read(object::kAbortConnection, DataType::kInteger16);
+    if (!found || found.value() != 0) return;
+    constexpr int kFault = 1;
+    const auto written = channel_.write(object::kAbortConnection, DataType::kInteger16, kFault);
+    if (written) return;
+    error("object 0x6007:00 is 0, so it goes on moving when it loses its host: " + written.error(),
+          "set it to 1, fault, with its maker's tool, or leave out the host's heartbeat");
+  }
+
   void write_pdos(const DriveConfig& config) {
     write_pdos(PdoDirection::kReceive, config.receive);
     write_pdos(PdoDirection::kTransmit, config.transmit);
@@ -217,6 +229,7 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
                      .transmit = transmit_pdos(wish),
                      .heartbeat_timeout = wish.heartbeat * kHeartbeatsToMiss};
   preparation.write_parameters();
+  preparation.have_it_stop_without_host();
   preparation.write_pdos(config);
   keep_mapping(PdoDirection::kReceive, config.receive, steps);
   keep_mapping(PdoDirection::kTransmit, config.transmit, steps);

@@ -53,6 +53,7 @@ class Cia402Drive final : public controllers::JointHardware {
   bool sensor_read() override;
   bool brake_apply() override;
   bool brake_release() override;
+  bool is_as_told() const override { return wanted_ == Wanted::kOff || was_enabled_; }
 
   CyclicMode mode_on(const Cia402Host& host) const;
   bool energize(bool enable);

@@ -261,6 +261,20 @@ TEST_P(EachMode, ADriveThatRebootsStopsTheArm) {
   EXPECT_NE(arm.drive(1).power(), PowerState::kOperationEnabled);
 }
 
+TEST_P(EachMode, ADriveThatDoesNotSwitchOnIsNotArmed) {
+  Arm arm(GetParam());
+  arm.drive(2).set_without_mains(true);
+  EXPECT_NE(arm.arm(), CommandStage::kDone);
+  EXPECT_THAT(arm.reason_of("Drive2"),
+              HasSubstr("the drive does not switch on: it is ready to switch on"));
+  EXPECT_FALSE(arm.armed());
+  arm.run_for(500ms);
+  for (unsigned node = 1; node <= 2; ++node) {
+    EXPECT_EQ(arm.drive(node).power(), PowerState::kSwitchOnDisabled) << node;
+    EXPECT_NEAR(arm.drive(node).axis().position(), 0.0, 1e-6) << node;
+  }
+}
+
 TEST_P(EachMode, ADriveThatHearsNoSyncStopsTheArm) {
   Arm arm(GetParam());
   ASSERT_EQ(arm.arm(), CommandStage::kDone);

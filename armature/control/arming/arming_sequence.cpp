@@ -39,19 +39,23 @@ Next ArmingSequence::step(const Measured& measured, base::Time now) {
   state_.moved = std::max(state_.moved, moved);
   if (!(moved <= config_.max_motion)) return state_.let_go ? Next::kNotHeld : Next::kMovedBefore;
   if (!state_.let_go) return wait_for_effort(measured, now);
-  return now - state_.since >= config_.watch_time ? Next::kDone : Next::kWait;
+  if (!measured.driven) {
+    state_.driven = now;
+    return now - state_.since >= config_.patience ? Next::kNotDriven : Next::kWait;
+  }
+  return now - state_.driven >= config_.watch_time ? Next::kDone : Next::kWait;
 }
 
 Next ArmingSequence::wait_for_effort(const Measured& measured, base::Time now) {
   const bool within = std::abs(measured.effort - state_.effort) <= config_.effort_tolerance;
-  if (!measured.caught_up || !within) {
+  if (!measured.caught_up || !measured.driven || !within) {
     state_.effort = measured.effort;
     state_.settled = now;
     state_.steps = 0;
   }
   ++state_.steps;
   if (state_.steps > kFewestSteps && now - state_.settled >= config_.settling_time) {
-    state_ = {.let_go = true, .since = now, .place = measured.position};
+    state_ = {.let_go = true, .since = now, .driven = now, .place = measured.position};
     return Next::kLetGo;
   }
   return now - state_.since >= config_.patience ? Next::kNeverSettled : Next::kWait;

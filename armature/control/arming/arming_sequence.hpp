@@ -11,8 +11,9 @@ namespace armature::control {
 /// what to do next.
 ///
 /// With a brake the effort grows against it, as the joint's limiter lets it, until it has settled.
-/// Without one nothing is driven until the command has settled; the motor begins with that. One
-/// thread uses it.
+/// Without one nothing is driven until the command has settled; the motor begins with that. A drive
+/// takes its time to do what it was told: the effort counts from when the motor is on, and the
+/// joint is watched from when the brake is open. One thread uses it.
 class ArmingSequence {
  public:
   /// Positions in the unit of the joint (rad or m); efforts in that of the actuator.
@@ -20,7 +21,8 @@ class ArmingSequence {
     double max_motion = 0.0;         ///< of the joint, before and after it is let go; > 0
     double effort_tolerance = 0.0;   ///< an effort that stays within has settled; > 0
     base::Duration settling_time{};  ///< for which it has to stay within, five steps at least; > 0
-    base::Duration patience{};       ///< until it has settled, at the longest; > settling_time
+    base::Duration patience{};       ///< until it has settled, and until it is driven once it was
+                                     ///< let go, at the longest; > settling_time
     base::Duration watch_time{};     ///< after it was let go; > 0
   };
 
@@ -32,6 +34,7 @@ class ArmingSequence {
     kMovedBefore,   ///< fail: it moved before it was let go
     kNeverSettled,  ///< fail
     kNotHeld,       ///< fail: it moved when it was let go
+    kNotDriven,     ///< fail: its drive has not done what it was told
   };
 
   /// What one step needs to know of the joint.
@@ -39,6 +42,7 @@ class ArmingSequence {
     double position = 0.0;
     double effort = 0.0;    ///< that is sent; without a brake, that would be
     bool caught_up = true;  ///< the effort is what is commanded
+    bool driven = true;     ///< motor and brake have done what they were told last
   };
 
   /// An error names every field that is wrong, and what it should be.
@@ -59,6 +63,7 @@ class ArmingSequence {
   struct State {
     bool let_go = false;
     base::Time since{};    ///< it began, or was let go
+    base::Time driven{};   ///< since it was let go
     base::Time settled{};  ///< from when on the effort has been within
     int steps = 0;         ///< since then
     double place = 0.0;

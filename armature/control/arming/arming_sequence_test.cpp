@@ -52,6 +52,35 @@ TEST_F(Arming, LetsGoWhenTheEffortHasSettledAndIsDoneWhenTheJointWasHeldForAWhil
   EXPECT_NEAR(sequence_.moved(), 0.004, 1e-12);
 }
 
+TEST_F(Arming, WaitsForADriveThatTakesItsTime) {
+  begin();
+  for (int k = 0; k < 50; ++k) {
+    ASSERT_EQ(step({1.0, 4.0, true, false}), Next::kWait) << "it is not on";
+  }
+  EXPECT_EQ(wait({1.0, 4.0, true, true}, steps_), Next::kLetGo);
+  EXPECT_EQ(steps_, 10);
+  for (int k = 0; k < 50; ++k) {
+    ASSERT_EQ(step({1.0, 4.0, true, false}), Next::kWait) << "its brake is not open";
+  }
+  EXPECT_EQ(wait({1.0, 4.0, true, true}, steps_), Next::kDone);
+  EXPECT_EQ(steps_, 20) << "watched from when it is";
+}
+
+TEST_F(Arming, ADriveThatDoesNotDoWhatItWasToldFails) {
+  begin();
+  ASSERT_EQ(wait({1.0, 4.0, true, true}, steps_), Next::kLetGo);
+  EXPECT_EQ(wait({1.0, 4.0, true, false}, steps_), Next::kNotDriven);
+  EXPECT_EQ(steps_, 200) << "the patience";
+  begin();
+  EXPECT_EQ(wait({1.0, 4.0, true, false}, steps_), Next::kNeverSettled);
+}
+
+TEST_F(Arming, AJointThatMovesBeforeItsDriveIsOnFails) {
+  begin();
+  ASSERT_EQ(wait({1.0, 4.0, true, true}, steps_), Next::kLetGo);
+  EXPECT_EQ(step({1.02, 4.0, true, false}), Next::kNotHeld);
+}
+
 TEST_F(Arming, AnEffortOfBeforeIsNotTakenForTheOneThatHolds) {
   begin();
   ASSERT_EQ(step({1.0, 12.0, true}), Next::kWait);

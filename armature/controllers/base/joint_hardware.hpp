@@ -53,6 +53,9 @@ class JointHardware : public component::Component {
   virtual bool sensor_read() = 0;
   virtual bool brake_apply() = 0;
   virtual bool brake_release() = 0;
+  /// What it was told of its actuator and brake last has been done. Hardware that takes its time
+  /// says so; a joint is not armed before, and if it takes longer than a few seconds never.
+  virtual bool is_as_told() const { return true; }
 
   /// A sample was lost, and what moved meanwhile with it: where the joint is, is not known until
   /// the operator has looked. It goes on if it is armed, and is not armed again before.
@@ -94,6 +97,7 @@ class JointHardware : public component::Component {
     return true;
   }
   bool position_exact() { return is_exact_; }
+  bool as_told() { return is_as_told(); }
   void tell_exact() { position_exact_.assign(is_exact_ && !is_doubted_); }
 
   /// Whatever it is that ends a run: a stop, a fault, an exception.
@@ -171,6 +175,9 @@ class JointHardware : public component::Component {
       "the joint is not armed before the operator has confirmed where it is",
       component::in_own_thread,
       component::in_any_state};
+  component::Operation<bool()> is_as_told_{
+      this, "isAsTold", component::serve<&JointHardware::as_told>,
+      "actuator and brake have done what they were told last", component::in_own_thread};
   component::Operation<bool()> is_position_exact_{this,
                                                   "positionExact",
                                                   component::serve<&JointHardware::position_exact>,

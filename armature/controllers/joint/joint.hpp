@@ -172,6 +172,9 @@ class Joint : public component::Component,
 
   component::OperationCaller<bool()> read_hardware_{this, "sensorRead", "has the sensors read",
                                                     component::from(peer_name_)};
+  component::OperationCaller<bool()> is_as_told_{
+      this, "isAsTold", "actuator and brake have done what they were told last",
+      component::from(peer_name_), component::optional};
   component::OperationCaller<bool()> position_known_{
       this, "positionKnown", "nothing that moved was lost", component::from(peer_name_),
       component::optional};

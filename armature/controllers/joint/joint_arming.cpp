@@ -56,10 +56,12 @@ void Joint::go_on_arming() {
   const bool waits_for_motor = !brake_ && !sequence_->let_go();
   const double effort = effort_of(waits_for_motor ? commanded_ : sent_);
   const bool affordable = std::abs(effort) < max_effort();
-  const auto next = sequence_->step({.position = measured_.position,
-                                     .effort = effort,
-                                     .caught_up = affordable && (passed_ || waits_for_motor)},
-                                    time());
+  const auto next =
+      sequence_->step({.position = measured_.position,
+                       .effort = effort,
+                       .caught_up = affordable && (passed_ || waits_for_motor),
+                       .driven = waits_for_motor || !is_as_told_.bound() || succeeds(is_as_told_)},
+                      time());
   arming_moved_.assign(sequence_->moved());
   switch (next) {
     case ArmingSequence::Next::kWait:
@@ -74,6 +76,8 @@ void Joint::go_on_arming() {
       return fail_to_arm(never_settled());
     case ArmingSequence::Next::kNotHeld:
       return fail_to_arm(not_held());
+    case ArmingSequence::Next::kNotDriven:
+      return fail_to_arm("its drive does not switch on, or its brake does not open");
   }
 }
 

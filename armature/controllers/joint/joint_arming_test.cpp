@@ -189,6 +189,41 @@ TEST_F(JointTest, IsNotArmedIfItsHardwareDoesNotSwitchOn) {
   }
 }
 
+TEST_F(JointTest, IsArmedOnlyWhenItsDriveIsOnAndItsBrakeOpen) {
+  bool as_told = false;
+  joint.serve<bool()>("isAsTold", [&] { return as_told; });
+  start();
+  joint.raise("Arm");
+  const auto wait = [&] {
+    for (int k = 0; k < 50; ++k) {
+      act(0.0);
+      sample();
+    }
+  };
+  wait();
+  EXPECT_THAT(commands(), ElementsAre("actuatorOn")) << "it is not on";
+  as_told = true;
+  for (int k = 0; k < 50 && commands().size() < 2; ++k) {
+    act(0.0);
+    sample();
+  }
+  EXPECT_THAT(commands(), ElementsAre("actuatorOn", "brakeRelease"));
+  as_told = false;
+  wait();
+  EXPECT_FALSE(armed()) << "its brake is not open";
+  as_told = true;
+  wait();
+  EXPECT_TRUE(armed());
+}
+
+TEST_F(JointTest, IsNotArmedIfItsDriveNeverSwitchesOn) {
+  joint.serve<bool()>("isAsTold", [] { return false; });
+  start();
+  arm();
+  EXPECT_FALSE(armed());
+  EXPECT_EQ(commands().back(), "actuatorOff");
+}
+
 TEST_F(JointTest, AfterArmingTheVoltageGrowsSlowly) {
   joint.set("ArmingTime", 1.0);
   start();
