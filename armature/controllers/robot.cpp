@@ -7,6 +7,7 @@
 #include "armature/controllers/axes_generator/axes_generator_online.hpp"
 #include "armature/controllers/bridge/bridge.hpp"
 #include "armature/controllers/bridge_ref/bridge_ref.hpp"
+#include "armature/controllers/cartesian/path_planner.hpp"
 #include "armature/controllers/computed_torque/controller_computed_torque.hpp"
 #include "armature/controllers/controller_following/controller_position.hpp"
 #include "armature/controllers/controller_following/controller_velocity.hpp"
@@ -80,6 +81,7 @@ ARMATURE_COMPONENT_LIBRARY(robot, registry) {
       "nAxesGeneratorOnline", "moves N axes from any motion to any target, with limited jerk");
   registry.add<AxesGeneratorTaught>("nAxesGeneratorTaught",
                                     "does so, and plays what a hand taught at any speed");
+  registry.add<PathPlanner>("PathPlanner", "moves a tool on lines, arcs and paths through poses");
   registry.add<Teacher>("Teacher", "records motions that a hand shows, and keeps poses by name");
   registry.add<Reference>("Reference", "where an operator wants the joints, through a generator");
 }
