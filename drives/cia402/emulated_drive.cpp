@@ -146,7 +146,7 @@ void EmulatedDrive::read_commands() {
 
 void EmulatedDrive::change_mode(Mode mode) {
   mode_ = mode;
-  homing_ = false;
+  homing_ = homed_ = homing_failed_ = false;
   demand_ = {axis_.position(), axis_.velocity()};
   set_point_ = cycle_target_ = axis_.position();
   acknowledged_ = false;
@@ -163,7 +163,7 @@ void EmulatedDrive::take_set_point(std::uint16_t control) {
     set_point_ = relative ? set_point_ + target : target - offset_;
   }
   if (mode_ != Mode::kHoming) return;
-  if (rises) {
+  if (rises && machine_.state() == PowerState::kOperationEnabled) {
     homed_ = homing_failed_ = false;
     homing_ = true;
   }

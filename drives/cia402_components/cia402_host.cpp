@@ -14,6 +14,7 @@
 #include "drives/canopen/sdo_channel.hpp"
 #include "drives/cia402/compare_eds.hpp"
 #include "drives/cia402/drive_settings.hpp"
+#include "drives/cia402/homing.hpp"
 #include "drives/cia402/objects.hpp"
 #include "drives/cia402/prepare_drive.hpp"
 #include "drives/cia402_components/bus_plan.hpp"
@@ -117,6 +118,12 @@ void Cia402Host::find_places() {
     place_of_[static_cast<std::size_t>(nodes_.get()[i])] = i;
   }
   accounts_.assign(nodes_.get().size(), {});
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    const DriveWish& wish = plans_[i].wish;
+    if (!wish.homing) continue;
+    const auto method = find_homing_method(wish.homing->method);
+    accounts_[i].homing.emplace(wish.mode, !method || method->mark != HomingMark::kHere);
+  }
 }
 
 /// All that is wrong with all drives is told at once.
@@ -157,6 +164,7 @@ std::optional<DriveConfig> Cia402Host::prepare(const DrivePlan& plan,
   if (!config || slow_period_ <= 0.0) return config;
   config->slow = {object::kCurrent};
   if (plan.temperature) config->slow.push_back(*plan.temperature);
+  if (wish.homing) config->slow.push_back(object::kModeDisplay);
   return config;
 }
 
@@ -235,6 +243,7 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.frozen = account.torque == TorqueWatch::Finding::kFrozen;
   sample.status = drive.status;
   sample.unprepared = is_unprepared(*place);
+  if (account.homing) sample.homing = static_cast<int>(account.homing->stage());
   read_slow(*place, sample);
   account.seen = drive.time;
   return sample;
@@ -248,7 +257,7 @@ void Cia402Host::read_slow(std::size_t place, DriveSample& sample) const {
     if (i == kSlowCurrent) {
       sample.has_current = true;
       sample.current = drive.scaling.current(*number);
-    } else if (i == kSlowTemperature) {
+    } else if (i == kSlowTemperature && plans_[place].temperature) {
       sample.has_temperature = true;
       sample.temperature = plans_[place].temperature_offset +
                            plans_[place].temperature_scale * static_cast<double>(*number);
@@ -261,6 +270,7 @@ void Cia402Host::begin_cycle() {
   link_->begin_cycle(time());
   take_frames();
   drop_old_targets();
+  step_homing();
   const std::size_t refused = group_->step(link_->bus(), link_->now());
   if (refused > 0) refused_frames_.assign(refused_frames_() + static_cast<int>(refused));
   watch_torques();
@@ -277,8 +287,28 @@ void Cia402Host::watch_torques() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
     if (plans_[i].mode != CyclicMode::kTorque) continue;
     Account& account = accounts_[i];
+    if (account.homing && account.homing->stage() != HomingStage::kIdle) {
+      account.watch = {};
+      account.torque = TorqueWatch::Finding::kGood;
+      continue;
+    }
     const double rated = std::abs(group_->config(i).scaling.torque(kRated));
     account.torque = account.watch.step(group_->state(i), account.target, rated);
+  }
+}
+
+/// A drive that is in its cyclic mode is told so, too: nobody else has it in another.
+void Cia402Host::step_homing() {
+  for (std::size_t i = 0; i < group_->size(); ++i) {
+    Account& account = accounts_[i];
+    if (!account.homing) continue;
+    const DriveState& drive = group_->state(i);
+    const auto order = account.homing->step(
+        {.power = drive.power,
+         .status = drive.status,
+         .mode = background_->number(i, group_->config(i).slow.size() - 1)});
+    group_->set_mode(i, order.mode, order.starts);
+    if (order.enables) group_->set_goal(i, PowerGoal::kEnabled);
   }
 }
 
@@ -329,6 +359,8 @@ bool Cia402Host::energize_drive(int node, bool enable, control::DrivePermit perm
   const auto place = place_of(node);
   if (!permit || !place || state() != component::State::kRunning) return false;
   if (is_unprepared(*place)) return false;
+  const auto& homing = accounts_[*place].homing;
+  if (homing && homing->stage() != HomingStage::kIdle) return false;
   group_->set_goal(*place, enable ? PowerGoal::kEnabled : PowerGoal::kSwitchedOn);
   return true;
 }
@@ -336,8 +368,17 @@ bool Cia402Host::energize_drive(int node, bool enable, control::DrivePermit perm
 bool Cia402Host::make_drive_safe(int node, bool quick_stop) {
   const auto place = place_of(node);
   if (!place) return false;
+  if (accounts_[*place].homing) accounts_[*place].homing->leave();
   group_->set_goal(*place, quick_stop ? PowerGoal::kQuickStop : PowerGoal::kOff);
   return true;
+}
+
+bool Cia402Host::home_drive(int node, control::DrivePermit permit) {
+  const auto place = place_of(node);
+  if (!permit || !place || state() != component::State::kRunning) return false;
+  if (is_unprepared(*place)) return false;
+  auto& homing = accounts_[*place].homing;
+  return homing && homing->begin();
 }
 
 bool Cia402Host::reset_drive(int node) {
@@ -380,9 +421,11 @@ void Cia402Host::follow_preparation() {
 
 void Cia402Host::make_safe() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
+    if (accounts_[i].homing) accounts_[i].homing->leave();
     group_->set_target(i, no_target(i));
     group_->set_goal(i, PowerGoal::kQuickStop);
   }
+  step_homing();
   static_cast<void>(group_->step(link_->bus(), link_->now()));
   rest();
 }
