@@ -79,12 +79,16 @@ void Cia402Drive::check_homing(const Cia402Host& host, component::Check& check) 
     check.error("homing_method is given, and slow_period of '" + host.name() + "' is 0",
                 "set it above 0: the drive is asked in which mode it is");
   }
+  if (!host.has_heartbeat()) {
+    check.error("homing_method is given, and host_heartbeat of '" + host.name() + "' is 0",
+                "set it above 0: a drive that moves by itself has to stop when its host is gone");
+  }
   if (homing_method_ < 0 || find_homing_method(static_cast<std::int8_t>(homing_method_.get()))) {
     return;
   }
-  check.error("homing_method is " + std::to_string(homing_method_.get()) +
-                  ", which CiA 402 does not have",
-              "set a method that the drive's manual has, such as 17, 18, 33, 34 or 37");
+  check.error(
+      "homing_method is " + std::to_string(homing_method_.get()) + ", which CiA 402 does not have",
+      "set a method that the drive's manual has, such as 17, 18, 33, 34 or 37");
 }
 
 bool Cia402Drive::is_on(const Cia402Host& host, const component::Check& check) const {

@@ -92,24 +92,22 @@ class Cia402Drive final : public controllers::JointHardware {
       this, "temperature_offset", 273.15, "what 0 in that object is; as it is for degrees Celsius",
       "K"};
   component::Property<int> homing_method_{
-      this, "homing_method", 0,
-      "by which it homes by itself, as 0x6098 has it; below 0: its maker's; 0: it does not", "",
-      component::range(-128, 37)};
+      this, "homing_method",
+      0,    "by which it homes by itself, as 0x6098 has it; below 0: its maker's; 0: it does not",
+      "",   component::range(-128, 37)};
   component::Property<double> homing_speed_{
-      this,    "homing_speed",             0.1, "of its shaft, until it finds the mark (0x6099:01)",
+      this,    "homing_speed",
+      0.1,     "of its shaft, until it finds the mark (0x6099:01)",
       "rad/s", component::range(1e-6, 1e3)};
   component::Property<double> homing_slow_speed_{
       this,    "homing_slow_speed",        0.02, "until it finds the mark's edge (0x6099:02)",
       "rad/s", component::range(1e-6, 1e3)};
-  component::Property<double> homing_acceleration_{this,
-                                                   "homing_acceleration",
-                                                   1.0,
-                                                   "with which it begins and ends (0x609A)",
-                                                   "rad/s^2",
-                                                   component::range(1e-6, 1e4)};
-  component::Property<double> home_offset_{
-      this,  "home_offset",              0.0, "that it says where it finds home (0x607C)",
-      "rad", component::range(-1e6, 1e6)};
+  component::Property<double> homing_acceleration_{
+      this,      "homing_acceleration",      1.0, "with which it begins and ends (0x609A)",
+      "rad/s^2", component::range(1e-6, 1e4)};
+  component::Property<double> home_offset_{this,  "home_offset",
+                                           0.0,   "that it says where it finds home (0x607C)",
+                                           "rad", component::range(-1e6, 1e6)};
   component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive", "has the drive read"};
   component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort",
                                                                             "sets its torque"};

@@ -242,7 +242,7 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.obeys = account.torque != TorqueWatch::Finding::kDisobeys;
   sample.frozen = account.torque == TorqueWatch::Finding::kFrozen;
   sample.status = drive.status;
-  sample.unprepared = is_unprepared(*place);
+  sample.unprepared = has_rebooted(*place);
   if (account.homing) sample.homing = static_cast<int>(account.homing->stage());
   read_slow(*place, sample);
   account.seen = drive.time;
@@ -302,14 +302,32 @@ void Cia402Host::step_homing() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
     Account& account = accounts_[i];
     if (!account.homing) continue;
+    stop_silent(i);
     const DriveState& drive = group_->state(i);
-    const auto order = account.homing->step(
-        {.power = drive.power,
-         .status = drive.status,
-         .mode = background_->number(i, group_->config(i).slow.size() - 1)});
+    const auto order =
+        account.homing->step({.power = drive.power,
+                              .status = drive.status,
+                              .mode = background_->number(i, group_->config(i).slow.size() - 1)});
     group_->set_mode(i, order.mode, order.starts);
     if (order.enables) group_->set_goal(i, PowerGoal::kEnabled);
   }
+}
+
+/// A drive that homes plans its motion itself, and its control words come with SYNC: one that hears
+/// no SYNC would move on. NMT reaches it, and it stops as its object 0x6007 has it.
+void Cia402Host::stop_silent(std::size_t place) {
+  Account& account = accounts_[place];
+  const DriveState& drive = group_->state(place);
+  const bool is_gone = drive.silent_cycles > group_->config(place).most_silent_cycles ||
+                       drive.presence == canopen::Presence::kLost;
+  if (account.is_started_again && !is_gone) {
+    account.is_started_again = account.is_nmt_stopped = false;
+  }
+  if (!is_gone || account.is_nmt_stopped || account.homing->stage() == HomingStage::kIdle) return;
+  account.homing->leave();
+  account.is_nmt_stopped = true;
+  const canopen::NodeId node = group_->config(place).node;
+  link_->bus().send(canopen::nmt_frame(canopen::NmtCommand::kStop, node));
 }
 
 /// Drives whose components have ended hear how they stop, that their host is there, and what the
@@ -388,13 +406,17 @@ bool Cia402Host::reset_drive(int node) {
     group_->ask_reset(*place);
     return true;
   }
+  if (accounts_[*place].is_nmt_stopped) {
+    const auto who = static_cast<canopen::NodeId>(node);
+    link_->bus().send(canopen::nmt_frame(canopen::NmtCommand::kEnterPreOperational, who));
+  }
   accounts_[*place].is_preparing = true;
   accounts_[*place].preparing = group_->state(*place).reboots;
   background_->prepare_again(*place);
   return true;
 }
 
-bool Cia402Host::is_unprepared(std::size_t place) const {
+bool Cia402Host::has_rebooted(std::size_t place) const {
   return accounts_[place].reboots != group_->state(place).reboots;
 }
 
@@ -408,6 +430,7 @@ void Cia402Host::follow_preparation() {
     const int node = nodes_.get()[i];
     if (preparation == BackgroundSdo::Preparation::kDone) {
       account.reboots = account.preparing;
+      account.is_started_again = account.is_nmt_stopped;
       log_info("the drive at node {} is who it was, and prepared again", node);
       continue;
     }

@@ -47,6 +47,8 @@ class Cia402Host : public component::Component {
   const std::vector<int>& nodes() const { return nodes_; }
   /// Whether it asks drives for numbers that no PDO has.
   bool asks_slowly() const { return slow_period_ > 0.0; }
+  /// Whether drives know of its end.
+  bool has_heartbeat() const { return host_heartbeat_ > 0.0; }
   void on_check(component::Check& check) const override;
 
  protected:
@@ -87,7 +89,10 @@ class Cia402Host : public component::Component {
   bool home_drive(int node, control::DrivePermit permit);
   bool reset_drive(int node);
   void read_slow(std::size_t place, DriveSample& sample) const;
-  bool is_unprepared(std::size_t place) const;
+  bool has_rebooted(std::size_t place) const;
+  bool is_unprepared(std::size_t place) const {
+    return has_rebooted(place) || accounts_[place].is_nmt_stopped;
+  }
   void follow_preparation();
   void begin_heartbeat();
 
@@ -100,6 +105,7 @@ class Cia402Host : public component::Component {
   bool set_target(int node, CyclicMode mode, double target);
   void watch_torques();
   void step_homing();
+  void stop_silent(std::size_t place);
   void begin_cycle();
   void keep_cycle();
   void take_frames();
@@ -217,6 +223,8 @@ class Cia402Host : public component::Component {
     TorqueWatch watch{};  ///< in mode torque
     TorqueWatch::Finding torque = TorqueWatch::Finding::kGood;
     std::optional<HomingRun> homing{};  ///< of one that can home
+    bool is_nmt_stopped = false;        ///< since it did not answer while it homed
+    bool is_started_again = false;      ///< behind that, and has not answered yet
   };
   mutable std::vector<DrivePlan> plans_;  ///< by place; made by the check, which sees all drives
   std::unique_ptr<can::Link> link_;

@@ -368,8 +368,8 @@ class Joint : public component::Component,
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
   base::Time homing_since_{};
-  double homing_way_ = 0.0;      ///< by which the hardware has moved it, with its sign
-  bool homing_jumped_ = false;   ///< its position became new
+  double homing_way_ = 0.0;         ///< by which the hardware has moved it, with its sign
+  bool homing_jumped_ = false;      ///< its position became new
   double sensor_ratio_ = 1.0;       ///< motion of the joint for one of the motor
   double effort_ratio_ = 1.0;       ///< effort of the motor for one of the joint
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan
