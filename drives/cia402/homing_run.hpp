@@ -22,7 +22,6 @@ enum class HomingStage : std::uint8_t {
 /// to move, and switched on when it shows that it is in it; then the start bit is raised, once. It
 /// is left only when the drive has no power to move any more, so no drive follows the targets of a
 /// cyclic mode behind its homing before it is switched on anew.
-/// @rt nonblocking, no allocation
 class HomingRun {
  public:
   /// What the drive says in a cycle.
@@ -44,10 +43,13 @@ class HomingRun {
 
   HomingStage stage() const;
   /// False, and nothing happens, unless it is idle.
+  /// @rt nonblocking, no allocation
   bool begin() noexcept;
   /// The drive is told to stop, by whoever: the start bit falls at once.
+  /// @rt nonblocking, no allocation
   void leave() noexcept;
   /// Once a cycle.
+  /// @rt nonblocking, no allocation
   Order step(const Seen& seen) noexcept;
 
  private:

@@ -14,7 +14,6 @@
 #include "drives/canopen/sdo_channel.hpp"
 #include "drives/cia402/compare_eds.hpp"
 #include "drives/cia402/drive_settings.hpp"
-#include "drives/cia402/homing.hpp"
 #include "drives/cia402/objects.hpp"
 #include "drives/cia402/prepare_drive.hpp"
 #include "drives/cia402_components/bus_plan.hpp"
@@ -118,12 +117,7 @@ void Cia402Host::find_places() {
     place_of_[static_cast<std::size_t>(nodes_.get()[i])] = i;
   }
   accounts_.assign(nodes_.get().size(), {});
-  for (std::size_t i = 0; i < plans_.size(); ++i) {
-    const DriveWish& wish = plans_[i].wish;
-    if (!wish.homing) continue;
-    const auto method = find_homing_method(wish.homing->method);
-    accounts_[i].homing.emplace(wish.mode, !method || method->mark != HomingMark::kHere);
-  }
+  find_homing();
 }
 
 /// All that is wrong with all drives is told at once.
@@ -297,39 +291,6 @@ void Cia402Host::watch_torques() {
   }
 }
 
-/// A drive that is in its cyclic mode is told so, too: nobody else has it in another.
-void Cia402Host::step_homing() {
-  for (std::size_t i = 0; i < group_->size(); ++i) {
-    Account& account = accounts_[i];
-    if (!account.homing) continue;
-    stop_silent(i);
-    const DriveState& drive = group_->state(i);
-    const auto order =
-        account.homing->step({.power = drive.power,
-                              .status = drive.status,
-                              .mode = background_->number(i, group_->config(i).slow.size() - 1)});
-    group_->set_mode(i, order.mode, order.starts);
-    if (order.enables) group_->set_goal(i, PowerGoal::kEnabled);
-  }
-}
-
-/// A drive that homes plans its motion itself, and its control words come with SYNC: one that hears
-/// no SYNC would move on. NMT reaches it, and it stops as its object 0x6007 has it.
-void Cia402Host::stop_silent(std::size_t place) {
-  Account& account = accounts_[place];
-  const DriveState& drive = group_->state(place);
-  const bool is_gone = drive.silent_cycles > group_->config(place).most_silent_cycles ||
-                       drive.presence == canopen::Presence::kLost;
-  if (account.is_started_again && !is_gone) {
-    account.is_started_again = account.is_nmt_stopped = false;
-  }
-  if (!is_gone || account.is_nmt_stopped || account.homing->stage() == HomingStage::kIdle) return;
-  account.homing->leave();
-  account.is_nmt_stopped = true;
-  const canopen::NodeId node = group_->config(place).node;
-  link_->bus().send(canopen::nmt_frame(canopen::NmtCommand::kStop, node));
-}
-
 /// Drives whose components have ended hear how they stop, that their host is there, and what the
 /// operator says.
 void Cia402Host::keep_cycle() {
@@ -389,14 +350,6 @@ bool Cia402Host::make_drive_safe(int node, bool quick_stop) {
   if (accounts_[*place].homing) accounts_[*place].homing->leave();
   group_->set_goal(*place, quick_stop ? PowerGoal::kQuickStop : PowerGoal::kOff);
   return true;
-}
-
-bool Cia402Host::home_drive(int node, control::DrivePermit permit) {
-  const auto place = place_of(node);
-  if (!permit || !place || state() != component::State::kRunning) return false;
-  if (is_unprepared(*place)) return false;
-  auto& homing = accounts_[*place].homing;
-  return homing && homing->begin();
 }
 
 bool Cia402Host::reset_drive(int node) {

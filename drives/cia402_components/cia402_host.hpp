@@ -100,6 +100,7 @@ class Cia402Host : public component::Component {
   component::Outcome know_plans();
   void plan_by_own_words() const;
   void find_places();
+  void find_homing();
   component::Outcome prepare();
   std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
   bool set_target(int node, CyclicMode mode, double target);
