@@ -106,7 +106,7 @@ void Joint::homing_jumped(double position) {
 void Joint::be_homed() {
   home_.complete();
   switch_off();
-  log_info("homed: it is at {} {}, disarmed", measured_.position,
+  log_info("homed: it is at {} {}, disarmed", std::round(measured_.position * 1e4) / 1e4,
            units_.position().get() == "m" ? "m" : "rad");
 }
 
