@@ -33,9 +33,8 @@ class EdsCheck {
     // Many files leave it to the drive.
     if (supported == nullptr || !supported->value || *supported->value == 0) return;
     const auto modes = static_cast<std::uint32_t>(*supported->value);
-    if ((modes & supported_bit(wish_.mode)) != 0) return;
-    error("object 0x6502:00 has no mode " + std::string(to_text(wish_.mode)),
-          "it has: " + supported_text(modes));
+    compare_mode(modes, wish_.mode);
+    if (wish_.homing) compare_mode(modes, Mode::kHoming);
   }
 
   /// What is written at the start has to be within the limits that the file has.
@@ -62,6 +61,11 @@ class EdsCheck {
   }
 
  private:
+  void compare_mode(std::uint32_t modes, Mode wanted) {
+    if ((modes & supported_bit(wanted)) != 0) return;
+    error("object 0x6502:00 has no mode " + std::string(to_text(wanted)),
+          "it has: " + supported_text(modes));
+  }
   void error(const std::string& what, const std::string& hint) {
     diagnostics_.error({file_, 0, 0}, "drive '" + wish_.name + "': " + what, hint);
   }
@@ -115,6 +119,7 @@ std::vector<Pdo> receive_pdos(const DriveWish& wish) {
       pdo.objects.push_back({object::kTargetPosition, 32});
       break;
   }
+  if (wish.homing) pdo.objects.push_back({object::kMode, 8});
   return {pdo};
 }
 

@@ -81,6 +81,7 @@ base::Result<DriveGroup::Drive> DriveGroup::make_drive(DriveConfig config) {
   drive.error_code = find(config.transmit, object::kErrorCode);
   drive.sent = values_for(config.receive);
   drive.received = values_for(config.transmit);
+  drive.told_mode = config.mode;
   drive.config = std::move(config);
   return drive;
 }
@@ -164,6 +165,11 @@ void DriveGroup::ask_reset(std::size_t drive) noexcept { drives_[drive].power.as
 
 void DriveGroup::set_halt(std::size_t drive, bool halt) noexcept { drives_[drive].halt = halt; }
 
+void DriveGroup::set_mode(std::size_t drive, Mode mode, bool start) noexcept {
+  drives_[drive].told_mode = mode;
+  drives_[drive].start = start;
+}
+
 void DriveGroup::set_target(std::size_t drive, double target) noexcept {
   if (drives_[drive].state.enabled()) drives_[drive].wanted = target;
 }
@@ -195,13 +201,16 @@ void DriveGroup::fill(Drive& drive) noexcept {
   }
   std::uint16_t control = drive.power.step(drive.state.power);
   if (drive.halt) control = static_cast<std::uint16_t>(control | control_bit::kHalt);
+  if (drive.start && drive.state.enabled()) {
+    control = static_cast<std::uint16_t>(control | control_bit::kModeSpecific);
+  }
   const std::int32_t target = drive.config.mode == Mode::kCyclicTorque
                                   ? scaling.raw_torque(drive.wanted)
                                   : scaling.raw_position(drive.wanted);
   drive.sent[drive.control.pdo][drive.control.object] = control;
   drive.sent[drive.target.pdo][drive.target.object] = static_cast<std::uint64_t>(target);
   if (drive.mode) {
-    drive.sent[drive.mode->pdo][drive.mode->object] = static_cast<std::uint64_t>(drive.config.mode);
+    drive.sent[drive.mode->pdo][drive.mode->object] = static_cast<std::uint64_t>(drive.told_mode);
   }
 }
 

@@ -95,6 +95,9 @@ class DriveGroup {
   void ask_reset(std::size_t drive) noexcept;
   /// @rt nonblocking, no allocation
   void set_halt(std::size_t drive, bool halt) noexcept;
+  /// The mode that it is told, where an RPDO has it, and the bit of that mode in the control word.
+  /// @rt nonblocking, no allocation
+  void set_mode(std::size_t drive, Mode mode, bool start) noexcept;
   /// @param target  [rad], [rad/s] or [N m], as the drive's mode has it
   /// @rt nonblocking, no allocation
   void set_target(std::size_t drive, double target) noexcept;
@@ -126,6 +129,8 @@ class DriveGroup {
     std::optional<Place> error_code;
     double wanted = 0.0;
     bool halt = false;
+    Mode told_mode = Mode::kNone;
+    bool start = false;  ///< the bit of that mode
     bool answered = false;
     std::uint32_t boot_ups = 0;
   };

@@ -106,7 +106,7 @@ void add_checks(canopen::ObjectDictionary& dictionary) {
   });
   dictionary.set_check(object::kHomingMethod, [](std::uint64_t raw) {
     const auto method = find_homing_method(static_cast<std::int8_t>(raw));
-    const bool has = method && !method->with_index && method->mark != HomingMark::kHomeSwitch;
+    const bool has = method && method->mark != HomingMark::kHomeSwitch;
     return has ? AbortCode::kNone : AbortCode::kInvalidValue;
   });
 }

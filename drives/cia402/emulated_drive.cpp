@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "drives/canopen/emergency.hpp"
 #include "drives/cia402/homing.hpp"
@@ -146,7 +147,7 @@ void EmulatedDrive::read_commands() {
 
 void EmulatedDrive::change_mode(Mode mode) {
   mode_ = mode;
-  homing_ = false;
+  homing_ = homed_ = homing_failed_ = false;
   demand_ = {axis_.position(), axis_.velocity()};
   set_point_ = cycle_target_ = axis_.position();
   acknowledged_ = false;
@@ -163,9 +164,10 @@ void EmulatedDrive::take_set_point(std::uint16_t control) {
     set_point_ = relative ? set_point_ + target : target - offset_;
   }
   if (mode_ != Mode::kHoming) return;
-  if (rises) {
-    homed_ = homing_failed_ = false;
+  if (rises && machine_.state() == PowerState::kOperationEnabled) {
+    found_mark_ = homed_ = homing_failed_ = false;
     homing_ = true;
+    turn_.reset();
   }
   if (!bit) homing_ = false;
 }
@@ -292,22 +294,31 @@ void EmulatedDrive::home() {
     profile.step_to_velocity(demand_, 0.0, kStep);
     return;
   }
-  switch (method->mark) {
-    case HomingMark::kHere:
-      finish_homing(axis_.position());
-      return;
-    case HomingMark::kNegativeLimit:
-      profile.step_to_velocity(demand_, -profile.velocity, kStep);
-      if (axis_.at_low_switch()) finish_homing(axis_.config().low);
-      return;
-    case HomingMark::kPositiveLimit:
-      profile.step_to_velocity(demand_, profile.velocity, kStep);
-      if (axis_.at_high_switch()) finish_homing(axis_.config().high);
-      return;
-    default:
-      homing_failed_ = true;
-      homing_ = false;
+  if (method->mark == HomingMark::kHere) return finish_homing(axis_.position());
+  const bool negative = method->first == HomingDirection::kNegative;
+  const double sign = negative ? -1.0 : 1.0;
+  if (method->mark == HomingMark::kNothing) return find_index(sign);
+  const bool at_switch = negative ? axis_.at_low_switch() : axis_.at_high_switch();
+  if (!found_mark_) profile.step_to_velocity(demand_, sign * profile.velocity, kStep);
+  if (at_switch && !method->with_index) {
+    return finish_homing(negative ? axis_.config().low : axis_.config().high);
   }
+  found_mark_ = found_mark_ || at_switch;
+  if (at_switch) turn_.reset();  // indices count behind its edge
+  if (found_mark_) find_index(-sign);
+}
+
+/// The encoder at the motor has one a turn.
+void EmulatedDrive::find_index(double sign) {
+  const Profile profile{.velocity = speed(object::kHomingSlowSpeed),
+                        .acceleration = speed(object::kHomingAcceleration)};
+  profile.step_to_velocity(demand_, sign * profile.velocity, kStep);
+  const double pitch =
+      2.0 * std::numbers::pi * config_.factors.gear_shaft / config_.factors.gear_motor;
+  const double turn = std::floor(axis_.position() / pitch);
+  const double before = turn_.value_or(turn);
+  turn_ = turn;
+  if (turn != before) finish_homing(std::max(turn, before) * pitch);
 }
 
 void EmulatedDrive::finish_homing(double position) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "armature/base/time.hpp"
@@ -80,6 +81,7 @@ class EmulatedDrive {
   double torque_in_operation();
   double torque_of_mode();
   void home();
+  void find_index(double sign);
   void finish_homing(double position);
   double stop_torque();
   void write_actual();
@@ -116,7 +118,9 @@ class EmulatedDrive {
   bool homing_ = false;
   bool homed_ = false;
   bool homing_failed_ = false;
-  bool stopping_ = false;  ///< a quick stop or fault reaction brakes
+  bool found_mark_ = false;     ///< the switch, and goes back to an index
+  std::optional<double> turn_;  ///< of the motor, at the step before
+  bool stopping_ = false;       ///< a quick stop or fault reaction brakes
   base::Time stopping_since_{};
   bool deaf_to_sync_ = false;
   bool frozen_ = false;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -109,6 +110,47 @@ TEST_F(OneDrive, HomesAtItsLimitSwitch) {
   EXPECT_NE(status() & status_bit::kFollowsCommand, 0) << "homing attained";
   const auto position = channel_.read(object::kPosition, DataType::kInteger32).value();
   EXPECT_NEAR(drive_.scaling().position(position), drive_.axis().position() + 3.0, 1e-4);
+}
+
+/// The motor turns a hundred times for a turn of the shaft.
+constexpr double kIndexPitch = 2.0 * 3.14159265358979 / 100.0;
+
+TEST_F(OneDrive, HomesAtTheNextIndex) {
+  for (const int method : {33, 34}) {
+    write(object::kHomingMethod, DataType::kInteger8, method);
+    enable(Mode::kHoming);
+    const double before = drive_.axis().position();
+    control(0x1f);
+    link_.advance(3s);
+    EXPECT_NE(status() & status_bit::kFollowsCommand, 0) << "homing attained";
+    const double position =
+        drive_.scaling().position(channel_.read(object::kPosition, DataType::kInteger32).value());
+    const double home = drive_.axis().position() - position;
+    EXPECT_NEAR(std::remainder(home, kIndexPitch), 0.0, 1e-4);
+    EXPECT_EQ(home < before, method == 33);
+    control(0x06);
+    enable(Mode::kNone);
+  }
+}
+
+TEST_F(OneDrive, HomesAtTheIndexBehindItsLimitSwitch) {
+  for (const int method : {1, 2}) {
+    write(object::kHomingMethod, DataType::kInteger8, method);
+    write(object::kHomingSpeed, DataType::kUnsigned32, drive_.scaling().raw_velocity(2.0));
+    enable(Mode::kHoming);
+    control(0x1f);
+    link_.advance(12s);
+    EXPECT_NE(status() & status_bit::kFollowsCommand, 0) << "homing attained";
+    const double position =
+        drive_.scaling().position(channel_.read(object::kPosition, DataType::kInteger32).value());
+    const double home = drive_.axis().position() - position;
+    EXPECT_NEAR(std::remainder(home, kIndexPitch), 0.0, 1e-4);
+    EXPECT_LT(std::abs(home), 3.0) << "back from the switch";
+    EXPECT_GT(std::abs(home), 3.0 - kIndexPitch);
+    EXPECT_EQ(home < 0.0, method == 1);
+    control(0x06);
+    enable(Mode::kNone);
+  }
 }
 
 TEST_F(OneDrive, RefusesModesAndHomingMethodsThatItDoesNotHave) {

@@ -66,9 +66,9 @@ class Preparation {
     }
     if (wish_.identity) compare_identity(*wish_.identity);
     const auto supported = read(object::kSupportedModes, DataType::kUnsigned32);
-    if (supported && (*supported & supported_bit(wish_.mode)) == 0) {
-      error("it does not support mode " + std::string(to_text(wish_.mode)),
-            "it has: " + supported_text(static_cast<std::uint32_t>(*supported)));
+    if (supported) compare_mode(static_cast<std::uint32_t>(*supported), wish_.mode);
+    if (supported && wish_.homing) {
+      compare_mode(static_cast<std::uint32_t>(*supported), Mode::kHoming);
     }
     return diagnostics_.ok();
   }
@@ -92,6 +92,25 @@ class Preparation {
       const auto written = channel_.write(setting.address, setting.type, setting.value);
       const bool watches = setting.address == kConsumedHeartbeat;
       if (!written) error(written.error(), watches ? "leave out the host's heartbeat" : "");
+    }
+  }
+
+  /// How it homes, in its own units.
+  void write_homing(const Scaling& scaling) {
+    if (!wish_.homing) return;
+    const HomingWish& homing = *wish_.homing;
+    const std::array<Setting, 5> settings = {
+        {{object::kHomingMethod, DataType::kInteger8, homing.method},
+         {object::kHomingSpeed, DataType::kUnsigned32, scaling.raw_velocity(homing.speed)},
+         {object::kHomingSlowSpeed, DataType::kUnsigned32, scaling.raw_velocity(homing.slow_speed)},
+         {object::kHomingAcceleration, DataType::kUnsigned32,
+          scaling.raw_velocity(homing.acceleration)},
+         {object::kHomeOffset, DataType::kInteger32, scaling.raw_position(homing.offset)}}};
+    for (const Setting& setting : settings) {
+      const auto written = channel_.write(setting.address, setting.type, setting.value);
+      if (!written) {
+        error(written.error(), "choose another homing method or speed, or leave out homing_method");
+      }
     }
   }
 
@@ -139,6 +158,11 @@ class Preparation {
     if (value) return value.value();
     error(value.error());
     return std::nullopt;
+  }
+  void compare_mode(std::uint32_t supported, Mode wanted) {
+    if ((supported & supported_bit(wanted)) != 0) return;
+    error("it does not support mode " + std::string(to_text(wanted)),
+          "it has: " + supported_text(supported));
   }
   void compare_identity(const canopen::Identity& wanted) {
     const std::array<std::pair<const char*, std::uint32_t>, 4> numbers = {
@@ -229,6 +253,7 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
                      .transmit = transmit_pdos(wish),
                      .heartbeat_timeout = wish.heartbeat * kHeartbeatsToMiss};
   preparation.write_parameters();
+  preparation.write_homing(*scaling);
   preparation.have_it_stop_without_host();
   preparation.write_pdos(config);
   keep_mapping(PdoDirection::kReceive, config.receive, steps);

@@ -21,6 +21,15 @@ struct HostHeartbeat {
   base::Duration timeout{};  ///< without one for so long, drives react by their 0x1029 and 0x6007
 };
 
+/// How a drive homes by itself, in mode HM. Motion of the driving shaft.
+struct HomingWish {
+  std::int8_t method = 37;    ///< 0x6098; below 0: its maker's
+  double speed = 0.0;         ///< [rad/s], until it finds the mark (0x6099:01)
+  double slow_speed = 0.0;    ///< [rad/s], until it finds its edge or the index (0x6099:02)
+  double acceleration = 0.0;  ///< [rad/s^2] (0x609A)
+  double offset = 0.0;        ///< [rad], that it says where it finds home (0x607C)
+};
+
 /// What a host expects of a drive, and how it wants it to be.
 struct DriveWish {
   canopen::NodeId node = 1;
@@ -31,6 +40,7 @@ struct DriveWish {
   base::Duration cycle = std::chrono::milliseconds(2);        ///< between two SYNCs
   base::Duration heartbeat = std::chrono::milliseconds(100);  ///< of the drive; 0: none
   std::optional<HostHeartbeat> host = {};  ///< that the drive watches (0x1016:01)
+  std::optional<HomingWish> homing = {};   ///< its mode is in an RPDO then
   bool with_velocity = false;              ///< a second TPDO has its velocity and error code
 };
 

@@ -8,6 +8,7 @@
 
 #include "armature/component/interface.hpp"
 #include "armature/controllers/base/reason_text.hpp"
+#include "drives/cia402/homing.hpp"
 
 namespace armature::cia402 {
 
@@ -22,6 +23,8 @@ using namespace std::chrono_literals;
 
 /// As long a drive may take to be as it was told; brakes and voltages take their time.
 constexpr base::Duration kPatience = 1s;
+/// Before it is switched on to home, it changes its mode.
+constexpr base::Duration kHomingPatience = 3s;
 /// Two in a row are lost now and then; a joint that is not measured stops by itself later.
 constexpr int kMostSilent = 3;
 
@@ -56,6 +59,7 @@ void Cia402Drive::on_check(component::Check& check) const {
         "node " + std::to_string(node_.get()) + " is not among the nodes of '" + host->name() + "'",
         "add it there, or set the node that the drive has");
   }
+  check_homing(*host, check);
   const std::string_view wanted = controllers::names_of(command_of(mode_on(*host))).actuator;
   const std::string whose =
       mode_ == DriveMode::kBus ? "the mode of '" + host->name() + "'" : "its mode";
@@ -66,6 +70,25 @@ void Cia402Drive::on_check(component::Check& check) const {
                     std::string(wanted),
                 "set the mode of the bus or of the drive, or use the kind of joint that fits it");
   }
+}
+
+/// What its host asks 0x6061 for, and what CiA 402 has.
+void Cia402Drive::check_homing(const Cia402Host& host, component::Check& check) const {
+  if (homing_method_ == 0) return;
+  if (!host.asks_slowly()) {
+    check.error("homing_method is given, and slow_period of '" + host.name() + "' is 0",
+                "set it above 0: the drive is asked in which mode it is");
+  }
+  if (!host.has_heartbeat()) {
+    check.error("homing_method is given, and host_heartbeat of '" + host.name() + "' is 0",
+                "set it above 0: a drive that moves by itself has to stop when its host is gone");
+  }
+  if (homing_method_ < 0 || find_homing_method(static_cast<std::int8_t>(homing_method_.get()))) {
+    return;
+  }
+  check.error(
+      "homing_method is " + std::to_string(homing_method_.get()) + ", which CiA 402 does not have",
+      "set a method that the drive's manual has, such as 17, 18, 33, 34 or 37");
 }
 
 bool Cia402Drive::is_on(const Cia402Host& host, const component::Check& check) const {
@@ -82,6 +105,13 @@ void Cia402Drive::refine(DrivePlan& plan) const {
   if (vendor_ != 0) plan.wish.identity->vendor = static_cast<std::uint32_t>(vendor_.get());
   if (product_ != 0) plan.wish.identity->product = static_cast<std::uint32_t>(product_.get());
   if (!eds_.get().empty()) plan.eds_file = eds_;
+  if (homing_method_ != 0) {
+    plan.wish.homing = HomingWish{.method = static_cast<std::int8_t>(homing_method_.get()),
+                                  .speed = homing_speed_,
+                                  .slow_speed = homing_slow_speed_,
+                                  .acceleration = homing_acceleration_,
+                                  .offset = home_offset_};
+  }
   plan.temperature = canopen::parse_address(temperature_object_.get());
   plan.temperature_scale = temperature_scale_;
   plan.temperature_offset = temperature_offset_;
@@ -122,6 +152,10 @@ void Cia402Drive::show(const DriveSample& sample) {
   warns_.assign(status.warning);
   limited_.assign(status.internal_limit);
   status_.write(status);
+  homing_ = sample.homing;
+  if (wanted_ == Wanted::kHome && homing_ == static_cast<int>(HomingStage::kAttained)) {
+    homed_ = true;
+  }
 }
 
 bool Cia402Drive::usable(const DriveSample& sample) {
@@ -129,6 +163,7 @@ bool Cia402Drive::usable(const DriveSample& sample) {
     fault("the bus of the drive is gone");
   } else if (sample.unprepared) {
     lose_position();
+    homed_ = false;
     fault("the drive rebooted: call resetDrive of its bus, which prepares it again");
   } else if (sample.lost) {
     fault("the drive's heartbeat is missing: look at its power and its cable");
@@ -158,9 +193,10 @@ bool Cia402Drive::does_what_it_was_told(const DriveSample& sample) {
   const bool enabled = sample.power == static_cast<int>(PowerState::kOperationEnabled);
   const bool on = enabled || sample.power == static_cast<int>(PowerState::kSwitchedOn);
   if (wanted_ == Wanted::kOff) return true;
-  const bool reached = wanted_ == Wanted::kEnabled ? enabled : on;
+  const bool reached = wanted_ == Wanted::kSwitchedOn ? on : enabled;
   if (reached) was_enabled_ = true;
-  return reached || (!was_enabled_ && time() - wanted_since_ < kPatience);
+  const base::Duration patience = wanted_ == Wanted::kHome ? kHomingPatience : kPatience;
+  return reached || (!was_enabled_ && time() - wanted_since_ < patience);
 }
 
 // --- driving -------------------------------------------------------------------------------------
@@ -186,6 +222,15 @@ bool Cia402Drive::brake_apply() {
 bool Cia402Drive::brake_release() {
   want(Wanted::kEnabled);
   return energize(true);
+}
+
+/// A drive that moves by itself to find home is not at home.
+bool Cia402Drive::home(control::DrivePermit permit) {
+  if (homing_method_ == 0 || !succeeds(home_drive_(node_, permit))) return false;
+  homed_ = false;
+  homing_ = static_cast<int>(HomingStage::kUnderWay);
+  want(Wanted::kHome);
+  return true;
 }
 
 void Cia402Drive::want(Wanted wanted) {

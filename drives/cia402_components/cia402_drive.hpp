@@ -25,6 +25,8 @@ ARMATURE_ENUM(DriveMode, kBus, kTorque, kVelocity, kPosition);
 /// torque is not what it was told. A drive
 /// that failed is reset by the operator alone, by `resetDrive` of the host, which also prepares one
 /// that rebooted; where that one is, the operator confirms (`position_confirmed`).
+///
+/// With `homing_method` it can home by itself, in mode HM, when its joint is told to.
 /// @rt nonblocking, no allocation
 class Cia402Drive final : public controllers::JointHardware {
  public:
@@ -53,6 +55,9 @@ class Cia402Drive final : public controllers::JointHardware {
   bool sensor_read() override;
   bool brake_apply() override;
   bool brake_release() override;
+  bool home(control::DrivePermit permit);
+  int homing() const { return homing_; }
+  bool is_homed() { return homed_; }
   bool is_as_told() const override { return wanted_ == Wanted::kOff || was_enabled_; }
 
   CyclicMode mode_on(const Cia402Host& host) const;
@@ -61,9 +66,10 @@ class Cia402Drive final : public controllers::JointHardware {
   bool usable(const DriveSample& sample);
   bool does_what_it_was_told(const DriveSample& sample);
   void show(const DriveSample& sample);
+  void check_homing(const Cia402Host& host, component::Check& check) const;
 
   /// What it was told last, and since when.
-  enum class Wanted { kOff, kSwitchedOn, kEnabled };
+  enum class Wanted { kOff, kSwitchedOn, kEnabled, kHome };
   void want(Wanted wanted);
 
   component::Property<int> node_{
@@ -85,6 +91,23 @@ class Cia402Drive final : public controllers::JointHardware {
   component::Property<double> temperature_offset_{
       this, "temperature_offset", 273.15, "what 0 in that object is; as it is for degrees Celsius",
       "K"};
+  component::Property<int> homing_method_{
+      this, "homing_method",
+      0,    "by which it homes by itself, as 0x6098 has it; below 0: its maker's; 0: it does not",
+      "",   component::range(-128, 37)};
+  component::Property<double> homing_speed_{
+      this,    "homing_speed",
+      0.1,     "of its shaft, until it finds the mark (0x6099:01)",
+      "rad/s", component::range(1e-6, 1e3)};
+  component::Property<double> homing_slow_speed_{
+      this,    "homing_slow_speed",        0.02, "until it finds the mark's edge (0x6099:02)",
+      "rad/s", component::range(1e-6, 1e3)};
+  component::Property<double> homing_acceleration_{
+      this,      "homing_acceleration",      1.0, "with which it begins and ends (0x609A)",
+      "rad/s^2", component::range(1e-6, 1e4)};
+  component::Property<double> home_offset_{this,  "home_offset",
+                                           0.0,   "that it says where it finds home (0x607C)",
+                                           "rad", component::range(-1e6, 1e6)};
   component::OperationCaller<DriveSample(int)> read_drive_{this, "readDrive", "has the drive read"};
   component::OperationCaller<bool(int, control::LimitedEffort)> set_effort_{this, "setEffort",
                                                                             "sets its torque"};
@@ -94,6 +117,22 @@ class Cia402Drive final : public controllers::JointHardware {
       this, "setPosition", "sets where it is to be"};
   component::OperationCaller<bool(int, bool, control::DrivePermit)> energize_drive_{
       this, "energizeDrive", "switches it on, has it follow"};
+  component::OperationCaller<bool(int, control::DrivePermit)> home_drive_{this, "homeDrive",
+                                                                          "has it home"};
+  component::Operation<bool(control::DrivePermit)> home_{
+      this,
+      "homeByItself",
+      component::serve<&Cia402Drive::home>,
+      "switches on and homes, until the brake is applied; false without homing_method",
+      component::args("permit"),
+      component::in_own_thread};
+  component::Operation<int()> homing_stage_{
+      this, "homingStage", component::serve<&Cia402Drive::homing>,
+      "0 it does not home, 1 under way, 2 it is at home, 3 it failed, 4 it is told to stop",
+      component::in_own_thread};
+  component::Operation<bool()> is_homed_{
+      this, "isHomed", component::serve<&Cia402Drive::is_homed>,
+      "it has homed since it had power, and lost no position since then", component::in_own_thread};
   component::OperationCaller<bool(int, bool)> make_drive_safe_{this, "makeDriveSafe",
                                                                "stops it, switches it off"};
   component::OutputPort<double> velocity_{this, "Velocity", "of the driving shaft", "rad/s"};
@@ -110,6 +149,8 @@ class Cia402Drive final : public controllers::JointHardware {
                                         "that the drive told last; 0: no error"};
   component::Attribute<bool> warns_{this, "warns", false, "the drive tells a warning"};
   component::Attribute<bool> limited_{this, "limited", false, "an internal limit is active"};
+  int homing_ = 0;      ///< HomingStage
+  bool homed_ = false;  ///< not an attribute, which tools may set
   Wanted wanted_ = Wanted::kOff;
   base::Time wanted_since_{};
   bool was_enabled_ = false;  ///< since that was wanted

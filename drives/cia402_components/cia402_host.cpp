@@ -117,6 +117,7 @@ void Cia402Host::find_places() {
     place_of_[static_cast<std::size_t>(nodes_.get()[i])] = i;
   }
   accounts_.assign(nodes_.get().size(), {});
+  find_homing();
 }
 
 /// All that is wrong with all drives is told at once.
@@ -157,6 +158,7 @@ std::optional<DriveConfig> Cia402Host::prepare(const DrivePlan& plan,
   if (!config || slow_period_ <= 0.0) return config;
   config->slow = {object::kCurrent};
   if (plan.temperature) config->slow.push_back(*plan.temperature);
+  if (wish.homing) config->slow.push_back(object::kModeDisplay);
   return config;
 }
 
@@ -234,7 +236,8 @@ DriveSample Cia402Host::read_drive(int node) {
   sample.obeys = account.torque != TorqueWatch::Finding::kDisobeys;
   sample.frozen = account.torque == TorqueWatch::Finding::kFrozen;
   sample.status = drive.status;
-  sample.unprepared = is_unprepared(*place);
+  sample.unprepared = has_rebooted(*place);
+  if (account.homing) sample.homing = static_cast<int>(account.homing->stage());
   read_slow(*place, sample);
   account.seen = drive.time;
   return sample;
@@ -248,7 +251,7 @@ void Cia402Host::read_slow(std::size_t place, DriveSample& sample) const {
     if (i == kSlowCurrent) {
       sample.has_current = true;
       sample.current = drive.scaling.current(*number);
-    } else if (i == kSlowTemperature) {
+    } else if (i == kSlowTemperature && plans_[place].temperature) {
       sample.has_temperature = true;
       sample.temperature = plans_[place].temperature_offset +
                            plans_[place].temperature_scale * static_cast<double>(*number);
@@ -261,6 +264,7 @@ void Cia402Host::begin_cycle() {
   link_->begin_cycle(time());
   take_frames();
   drop_old_targets();
+  step_homing();
   const std::size_t refused = group_->step(link_->bus(), link_->now());
   if (refused > 0) refused_frames_.assign(refused_frames_() + static_cast<int>(refused));
   watch_torques();
@@ -277,6 +281,11 @@ void Cia402Host::watch_torques() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
     if (plans_[i].mode != CyclicMode::kTorque) continue;
     Account& account = accounts_[i];
+    if (account.homing && account.homing->stage() != HomingStage::kIdle) {
+      account.watch = {};
+      account.torque = TorqueWatch::Finding::kGood;
+      continue;
+    }
     const double rated = std::abs(group_->config(i).scaling.torque(kRated));
     account.torque = account.watch.step(group_->state(i), account.target, rated);
   }
@@ -329,6 +338,8 @@ bool Cia402Host::energize_drive(int node, bool enable, control::DrivePermit perm
   const auto place = place_of(node);
   if (!permit || !place || state() != component::State::kRunning) return false;
   if (is_unprepared(*place)) return false;
+  const auto& homing = accounts_[*place].homing;
+  if (homing && homing->stage() != HomingStage::kIdle) return false;
   group_->set_goal(*place, enable ? PowerGoal::kEnabled : PowerGoal::kSwitchedOn);
   return true;
 }
@@ -336,6 +347,7 @@ bool Cia402Host::energize_drive(int node, bool enable, control::DrivePermit perm
 bool Cia402Host::make_drive_safe(int node, bool quick_stop) {
   const auto place = place_of(node);
   if (!place) return false;
+  if (accounts_[*place].homing) accounts_[*place].homing->leave();
   group_->set_goal(*place, quick_stop ? PowerGoal::kQuickStop : PowerGoal::kOff);
   return true;
 }
@@ -347,13 +359,17 @@ bool Cia402Host::reset_drive(int node) {
     group_->ask_reset(*place);
     return true;
   }
+  if (accounts_[*place].is_nmt_stopped) {
+    const auto who = static_cast<canopen::NodeId>(node);
+    link_->bus().send(canopen::nmt_frame(canopen::NmtCommand::kEnterPreOperational, who));
+  }
   accounts_[*place].is_preparing = true;
   accounts_[*place].preparing = group_->state(*place).reboots;
   background_->prepare_again(*place);
   return true;
 }
 
-bool Cia402Host::is_unprepared(std::size_t place) const {
+bool Cia402Host::has_rebooted(std::size_t place) const {
   return accounts_[place].reboots != group_->state(place).reboots;
 }
 
@@ -367,6 +383,7 @@ void Cia402Host::follow_preparation() {
     const int node = nodes_.get()[i];
     if (preparation == BackgroundSdo::Preparation::kDone) {
       account.reboots = account.preparing;
+      account.is_started_again = account.is_nmt_stopped;
       log_info("the drive at node {} is who it was, and prepared again", node);
       continue;
     }
@@ -380,9 +397,11 @@ void Cia402Host::follow_preparation() {
 
 void Cia402Host::make_safe() {
   for (std::size_t i = 0; i < group_->size(); ++i) {
+    if (accounts_[i].homing) accounts_[i].homing->leave();
     group_->set_target(i, no_target(i));
     group_->set_goal(i, PowerGoal::kQuickStop);
   }
+  step_homing();
   static_cast<void>(group_->step(link_->bus(), link_->now()));
   rest();
 }

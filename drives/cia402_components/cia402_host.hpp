@@ -15,6 +15,7 @@
 #include "armature/types/enum.hpp"
 #include "drives/cia402/background_sdo.hpp"
 #include "drives/cia402/drive_group.hpp"
+#include "drives/cia402/homing_run.hpp"
 #include "drives/cia402_components/drive_plan.hpp"
 #include "drives/cia402_components/drive_sample.hpp"
 #include "drives/cia402_components/torque_watch.hpp"
@@ -44,6 +45,10 @@ class Cia402Host : public component::Component {
   /// @thread configuration only, as for nodes
   CyclicMode mode() const { return mode_; }
   const std::vector<int>& nodes() const { return nodes_; }
+  /// Whether it asks drives for numbers that no PDO has.
+  bool asks_slowly() const { return slow_period_ > 0.0; }
+  /// Whether drives know of its end.
+  bool has_heartbeat() const { return host_heartbeat_ > 0.0; }
   void on_check(component::Check& check) const override;
 
  protected:
@@ -81,9 +86,13 @@ class Cia402Host : public component::Component {
   }
   bool energize_drive(int node, bool enable, control::DrivePermit permit);
   bool make_drive_safe(int node, bool quick_stop);
+  bool home_drive(int node, control::DrivePermit permit);
   bool reset_drive(int node);
   void read_slow(std::size_t place, DriveSample& sample) const;
-  bool is_unprepared(std::size_t place) const;
+  bool has_rebooted(std::size_t place) const;
+  bool is_unprepared(std::size_t place) const {
+    return has_rebooted(place) || accounts_[place].is_nmt_stopped;
+  }
   void follow_preparation();
   void begin_heartbeat();
 
@@ -91,10 +100,13 @@ class Cia402Host : public component::Component {
   component::Outcome know_plans();
   void plan_by_own_words() const;
   void find_places();
+  void find_homing();
   component::Outcome prepare();
   std::optional<DriveConfig> prepare(const DrivePlan& plan, base::Diagnostics& diagnostics);
   bool set_target(int node, CyclicMode mode, double target);
   void watch_torques();
+  void step_homing();
+  void stop_silent(std::size_t place);
   void begin_cycle();
   void keep_cycle();
   void take_frames();
@@ -173,6 +185,13 @@ class Cia402Host : public component::Component {
       "has a drive stop quickly, or switch off",
       component::args("node", "quick_stop"),
       component::in_own_thread};
+  component::Operation<bool(int, control::DrivePermit)> home_drive_{
+      this,
+      "homeDrive",
+      component::serve<&Cia402Host::home_drive>,
+      "has a drive switch on and home by itself, in mode HM, until it is made safe",
+      component::args("node", "permit"),
+      component::in_own_thread};
   component::Operation<bool(int)> reset_drive_{
       this,
       "resetDrive",
@@ -204,6 +223,9 @@ class Cia402Host : public component::Component {
     double target = 0.0;  ///< that it has
     TorqueWatch watch{};  ///< in mode torque
     TorqueWatch::Finding torque = TorqueWatch::Finding::kGood;
+    std::optional<HomingRun> homing{};  ///< of one that can home
+    bool is_nmt_stopped = false;        ///< since it did not answer while it homed
+    bool is_started_again = false;      ///< behind that, and has not answered yet
   };
   mutable std::vector<DrivePlan> plans_;  ///< by place; made by the check, which sees all drives
   std::unique_ptr<can::Link> link_;

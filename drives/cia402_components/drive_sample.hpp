@@ -65,9 +65,10 @@ struct DriveSample {
   double temperature = 0.0;  ///< [K]
   bool obeys = true;         ///< in mode torque: it gives the torque that it was told
   bool frozen = false;       ///< likewise: its values are the same to the bit, and should not be
+  int homing = 0;            ///< HomingStage
 };
 ARMATURE_STRUCT(DriveSample, no_bus, fresh, unprepared, position, velocity, effort, power, status,
                 silent_cycles, error_code, lost, has_current, current, has_temperature, temperature,
-                obeys, frozen);
+                obeys, frozen, homing);
 
 }  // namespace armature::cia402

@@ -11,6 +11,7 @@
 #include "drives/canopen/nmt.hpp"
 #include "drives/cia402/background_sdo.hpp"
 #include "drives/cia402/drive_group.hpp"
+#include "drives/cia402/homing_run.hpp"
 #include "drives/cia402/objects.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
@@ -18,6 +19,17 @@ namespace armature::cia402 {
 namespace {
 
 using namespace std::chrono_literals;
+
+TEST(RealtimeCia402, Homing) {
+  HomingRun run(Mode::kCyclicPosition, true);
+  HomingRun::Order order;
+  expect_realtime("HomingRun::begin", [&] { static_cast<void>(run.begin()); });
+  expect_realtime("HomingRun::step", [&] {
+    order = run.step({.power = PowerState::kReadyToSwitchOn, .status = 0, .mode = 6});
+  });
+  EXPECT_EQ(order.mode, Mode::kHoming);
+  expect_realtime("HomingRun::leave", [&] { run.leave(); });
+}
 
 TEST(RealtimeCia402, Power) {
   std::optional<PowerState> state;
@@ -94,6 +106,7 @@ TEST(RealtimeCia402, AGroupOfDrives) {
   expect_realtime("DriveGroup::set_goal", [&] { group.set_goal(0, PowerGoal::kEnabled); });
   expect_realtime("DriveGroup::ask_reset", [&] { group.ask_reset(0); });
   expect_realtime("DriveGroup::set_halt", [&] { group.set_halt(0, true); });
+  expect_realtime("DriveGroup::set_mode", [&] { group.set_mode(0, Mode::kHoming, true); });
   expect_realtime("DriveGroup::set_target", [&] { group.set_target(0, 8.0); });
   std::size_t refused = 1;
   expect_realtime("DriveGroup::step", [&] {

@@ -68,6 +68,10 @@ Outcome Joint::on_start() {
     return component::refused("the event Arm comes from '" + arming_->name() +
                               "' in another process: let an Arming in its own process arm it");
   }
+  if (settings_->homing_required && !is_homed_.bound()) {
+    return component::refused("HomingRequired is set, and '" + peer_name_.get() +
+                              "' does not home by itself: leave it out");
+  }
   started_ = time();
   intervals_.begin(period_.duration());
   measured_since_start_ = false;
@@ -205,7 +209,7 @@ std::vector<DrivenJoint> Joint::joints_behind(const component::InputPortBase* /*
 // --- measuring -------------------------------------------------------------------------------
 
 void Joint::on_sample() {
-  if (is_in_time()) succeeds(read_hardware_);
+  if (is_in_time() && is_homing_watched()) succeeds(read_hardware_);
 }
 
 /// Without Sampler, whoever calls this samples it.
@@ -238,6 +242,7 @@ void Joint::on_position(double of_motor) {
   }
   const auto reading = absolute_->step(of_motor, base::to_seconds(time() - measured_at_));
   if (!reading.jumped) return moved(reading.displacement, reading.position);
+  if (phase_ == Phase::kHoming && !homing_jumped_) return homing_jumped(reading.position);
   switch_off();
   component::Reason why("PositionSensor says that it moved by ");
   append_number(why, reading.displacement)
@@ -265,6 +270,8 @@ void Joint::moved(double displacement, double to) {
     note_sinking(displacement);
   } else if (phase_ == Phase::kArmed) {
     watch();
+  } else if (phase_ == Phase::kHoming) {
+    follow_homing(displacement);
   } else {
     go_on_arming();
   }
@@ -289,6 +296,7 @@ void Joint::on_act() {
 
 /// True if it was passed unchanged.
 bool Joint::apply(double command) {
+  if (phase_ == Phase::kHoming) return false;
   commanded_ = command;
   const double before = sent_;
   const JointLimiter::Status status = limit_and_write(command);

@@ -53,6 +53,12 @@ namespace armature::controllers {
 /// disarm it. At Disarm a motor that turns is switched off when it has come to rest, after a second
 /// at the latest: with effort 0 it brakes itself, switched off it would coast.
 ///
+/// Hardware that homes by itself does so at the operator's command `home`, of a joint that is
+/// disarmed: it alone is let go, and nothing else commands it. Its velocity is watched, and so are
+/// the way (no longer than its range) and the time. Its position may jump once: that is what homing
+/// is for. At its end, however it ends, the joint is disarmed, so that generators begin at the new
+/// position when it is armed. With HomingRequired it is not armed before.
+///
 /// Between Rest and Motion, events of Arming, the armed joint is to stand: beyond what the
 /// properties Holding... say it is braked, and faults (control::HoldingWatch).
 ///
@@ -87,6 +93,7 @@ class Joint : public component::Component,
     kTakingLoad,  ///< the brake is closed, or the motor off without one
     kLetGo,       ///< and watched
     kArmed,
+    kHoming,  ///< its hardware moves by itself, and nothing else commands it
   };
 
   component::Outcome on_configure() override;
@@ -127,6 +134,16 @@ class Joint : public component::Component,
   component::Reason not_held() const;
   component::Reason moved_before() const;
   component::Reason never_settled() const;
+
+  // Homing: joint_homing.cpp.
+  component::Outcome begin_homing();
+  void cancel_homing();
+  void follow_homing(double displacement);
+  void homing_jumped(double position);
+  bool is_homing_watched();
+  void be_homed();
+  void fail_homing(const component::Reason& why, bool is_fault);
+  bool is_homed_enough() { return !settings_->homing_required || succeeds(is_homed_); }
 
   // Standing: joint_arming.cpp.
   void watch();
@@ -181,6 +198,12 @@ class Joint : public component::Component,
   component::OperationCaller<bool()> position_exact_{this, "positionExact", "no sample was lost",
                                                      component::from(peer_name_),
                                                      component::optional};
+  component::OperationCaller<bool(control::DrivePermit)> home_by_itself_{
+      this, "homeByItself", "has it home", component::from(peer_name_), component::optional};
+  component::OperationCaller<int()> homing_stage_{this, "homingStage", "how far it is",
+                                                  component::from(peer_name_), component::optional};
+  component::OperationCaller<bool()> is_homed_{this, "isHomed", "its position is that of home",
+                                               component::from(peer_name_), component::optional};
   component::OperationCaller<bool()> doubt_position_{
       this, "doubtPosition", "has it ask for position_confirmed", component::from(peer_name_),
       component::optional};
@@ -304,6 +327,14 @@ class Joint : public component::Component,
       component::in_own_thread,
       component::only_if(brake_)};
 
+  component::Command<> home_{
+      this,
+      "home",
+      component::serve<&Joint::begin_homing>,
+      "has the disarmed joint's hardware move by itself to find its position; disarmed then",
+      component::by_operator,
+      component::cancelled_by<&Joint::cancel_homing>};
+
   component::Attribute<double> arming_moved_{
       this, "arming_moved",
       0.0,  "by how much it moved when it was armed last, or failed to",
@@ -336,6 +367,9 @@ class Joint : public component::Component,
   bool told_of_sinking_ = false;
   bool off_at_rest_ = false;  ///< disarmed, but the motor is still on
   base::Time disarmed_at_{};
+  base::Time homing_since_{};
+  double homing_way_ = 0.0;         ///< by which the hardware has moved it, with its sign
+  bool homing_jumped_ = false;      ///< its position became new
   double sensor_ratio_ = 1.0;       ///< motion of the joint for one of the motor
   double effort_ratio_ = 1.0;       ///< effort of the motor for one of the joint
   double displacement_read_ = 0.0;  ///< since sensorRead was called last [rad], or nan

@@ -27,7 +27,11 @@ double told(double number) { return std::round(number * 1e4) / 1e4; }
 // --- arming ----------------------------------------------------------------------------------
 
 void Joint::on_arm() {
+  if (phase_ == Phase::kHoming) return fail_to_arm("it was homing: home it, then arm");
   if (phase_ != Phase::kDisarmed) return;
+  if (!is_homed_enough()) {
+    return fail_to_arm("it is not homed, and HomingRequired is set: call its command home");
+  }
   if (position_known_.bound() && !succeeds(position_known_)) {
     if (kept_.is_doubtful()) return fail_to_arm(kept_.question(told(measured_.position)));
     return fail_to_arm(
@@ -231,8 +235,10 @@ void Joint::note_sinking(double displacement) {
 
 // --- disarming -------------------------------------------------------------------------------
 
+/// Hardware that moves by itself does not brake because its effort is 0.
 /// @return the brake is applied
 bool Joint::disarm() {
+  if (phase_ == Phase::kHoming) return switch_off();
   const bool turns = std::abs(measured_.velocity) > kRest;
   if (limiter_->armed() && measured_lately() && turns) {
     off_at_rest_ = true;
@@ -245,6 +251,7 @@ bool Joint::disarm() {
 
 /// Effort 0 and brake.
 bool Joint::brake_at_once() {
+  const bool was_homing = phase_ == Phase::kHoming;
   const bool was_armed = phase_ == Phase::kArmed;
   const bool was_driven = limiter_->armed();
   if (phase_ != Phase::kDisarmed) {
@@ -253,6 +260,7 @@ bool Joint::brake_at_once() {
   }
   phase_ = Phase::kDisarmed;
   limiter_->disarm();
+  if (was_homing && home_.active()) home_.fail("disarmed, so it does not home");
   stand_still();
   const bool braked = !brake_ || succeeds(apply_brake_);
   armed_.write(false);

@@ -32,6 +32,10 @@ struct JointSettings {
   double arming_time = 1.0;
   double arming_motion = 0.01;
 
+  // Of homing by its hardware.
+  bool homing_required = false;
+  double homing_time = 60.0;
+
   // Of the watch over the joint while it is to stand.
   double holding_motion = 0.1;
   double holding_velocity = 0.5;
