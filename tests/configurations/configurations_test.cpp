@@ -203,6 +203,9 @@ TEST(ShippedConfigurations, OfTheWamStandHoldMoveAndStop) {
   try_what_is_shipped(wam7());
 }
 TEST(ShippedConfigurations, OfAnOwnRobotStandHoldMoveAndStop) { try_what_is_shipped(own_robot()); }
+TEST(ShippedConfigurations, OfDrivesByCia402StandHoldMoveAndStop) {
+  try_what_is_shipped(cia402_arm());
+}
 TEST(ShippedConfigurations, OfTheRoverStandDriveAndStop) { try_what_is_shipped(rover()); }
 
 TEST(MutantConfigurations, OfJanusAreRefusedOrMoveWithinBounds) { try_mutants(janus()); }
@@ -214,6 +217,9 @@ TEST(MutantConfigurations, OfTheWamWithSevenJointsAreRefusedOrMoveWithinBounds) 
 }
 TEST(MutantConfigurations, OfTheRoverAreRefusedOrMoveWithinBounds) { try_mutants(rover()); }
 TEST(MutantConfigurations, OfAnOwnRobotAreRefusedOrMoveWithinBounds) { try_mutants(own_robot()); }
+TEST(MutantConfigurations, OfDrivesByCia402AreRefusedOrMoveWithinBounds) {
+  try_mutants(cia402_arm());
+}
 
 }  // namespace
 }  // namespace armature::configurations

@@ -244,6 +244,7 @@ std::vector<Breakage> of_drives() {
        .ends = mend},
       {.name = "DriveDoesNotObey",
        .happens = [](CampaignArm& arm, Random&) { moving_drive(arm).set_powerless(true); },
+       .after = After::kStoppedOnceSeen,
        .said = kNotAsTold,
        .ends = mend},
       {.name = "DriveDoesNotObeyAtRest",
