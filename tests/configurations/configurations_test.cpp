@@ -181,7 +181,11 @@ std::vector<KnownMutant> known_mutants() {
           {wam7(), "/robots/wam/deployments/gravity_pd7.yaml",
            "WAM.MaxTorqueGrowth=[3, 3, 2.25, 1.4, 0.5, 0.5, 0.065]"},  // as slow as is accepted
           {own_robot(), "/examples/07_own_robot/arm.yaml", "PID3.Kp=0.15"},
-          {own_robot(), "/examples/07_own_robot/arm.yaml", "PID2.Ki=600"}};
+          {own_robot(), "/examples/07_own_robot/arm.yaml", "PID2.Ki=600"},
+          {cia402_arm(), "/examples/12_cia402/position.yaml", "Joint2.GearRatio=0.1"},
+          {cia402_arm(), "/examples/12_cia402/torque.yaml", "Joint1.GearRatio=100"},
+          {cia402_arm(), "/examples/12_cia402/velocity.yaml", "Controller.Kp=[2000]"},
+          {cia402_arm(), "/examples/12_cia402/velocity.yaml", "Sampler.activity.periodic=50 ms"}};
 }
 
 TEST(KnownMutants, AreRefusedOrMoveWithinBounds) {

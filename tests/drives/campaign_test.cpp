@@ -96,7 +96,7 @@ class Run {
     arm_.run_for(3500ms);
     state_ = "armed";
     EXPECT_TRUE(arm_.armed()) << arm_.reasons() << arm_.log;
-    EXPECT_LT(largest_apart(arm_.positions(), target_), 0.02);
+    EXPECT_LT(largest_apart(arm_.positions(), arm_.target()), 0.02);
     breakage_.ends(arm_);
   }
   /// It brakes smoothly, stays there, and does not go on by itself when the cause is gone.

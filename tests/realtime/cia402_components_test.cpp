@@ -5,6 +5,7 @@
 #include "armature/testing/harness.hpp"
 #include "drives/cia402_components/cia402_drive.hpp"
 #include "drives/cia402_components/emulated_cia402_bus.hpp"
+#include "drives/cia402_components/torque_watch.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::cia402 {
@@ -26,6 +27,15 @@ TEST(RealtimeCia402, Host) {
   });
   EXPECT_EQ(sample.power, static_cast<int>(PowerState::kSwitchOnDisabled));
   host.stop();
+}
+
+TEST(RealtimeCia402, TorqueWatch) {
+  TorqueWatch watch;
+  DriveState drive;
+  drive.power = PowerState::kOperationEnabled;
+  TorqueWatch::Finding found{};
+  expect_realtime("TorqueWatch::step", [&] { found = watch.step(drive, 5.0, 50.0); });
+  EXPECT_EQ(found, TorqueWatch::Finding::kDisobeys);
 }
 
 TEST(RealtimeCia402, Drive) {

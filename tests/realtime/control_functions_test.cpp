@@ -28,6 +28,7 @@
 #include "armature/control/polynomial.hpp"
 #include "armature/control/positional_pid.hpp"
 #include "armature/control/sampled_loop.hpp"
+#include "armature/control/still_watch.hpp"
 #include "armature/control/trajectory.hpp"
 #include "armature/control/transmission.hpp"
 #include "armature/control/trapezoid.hpp"
@@ -189,6 +190,15 @@ TEST(RealtimeFunctions, FollowingWatch) {
   expect_realtime("FollowingWatch::step", [&] { follows = watch.step(0.2, base::Time{}); });
   EXPECT_FALSE(follows);
   expect_realtime("FollowingWatch::reset", [&] { watch.reset(); });
+}
+
+TEST(RealtimeFunctions, StillWatch) {
+  control::StillWatch watch({.most = 0.1});
+  bool moves = true;
+  expect_realtime("StillWatch::step", [&] { moves = watch.step(0.2, 0.05, 0.01); });
+  EXPECT_FALSE(moves) << "the same position, and told to go on";
+  expect_realtime("StillWatch::reset", [&] { watch.reset(); });
+  EXPECT_TRUE(watch.step(0.2, 0.05, 0.01));
 }
 
 TEST(RealtimeFunctions, ErrorMetrics) {
