@@ -93,6 +93,19 @@ TEST(Cia402Check, AGainOfVelocitiesThatTheAnswersAreTooLateForIsRefused) {
               HasSubstr("Kp of joint 1 is 20 1/s, expected 9.259 at most"));
 }
 
+/// Gains are judged by what the Robot says.
+TEST(Cia402Check, AnswersThatActLaterThanTheRobotSaysAreRefused) {
+  for (const char* mode : {"torque", "velocity"}) {
+    EXPECT_THAT(mistakes({"Sampler.activity.periodic=5 ms"}, mode),
+                HasSubstr("'Bus': an answer to a sample acts two cycles later, 10 ms, and "
+                          "effort_delay of the Robot says so of 0 joints, expected 2 (set "
+                          "effort_delay of the Robot to two periods)"));
+  }
+  EXPECT_EQ(mistakes({"Sampler.activity.periodic=5 ms", "Robot.effort_delay=[10 ms]"}, "velocity"),
+            "");
+  EXPECT_EQ(mistakes({"Sampler.activity.periodic=5 ms"}), "") << "a drive in mode position";
+}
+
 /// Also while it runs.
 TEST(Cia402Check, AGainOfVelocitiesCannotBecomeTooLarge) {
   deploy::Deployment deployment = load({}, "velocity");
