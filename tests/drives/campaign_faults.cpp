@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -64,18 +65,6 @@ Happens loses_syncs(std::uint64_t count) {
   return [count](CampaignArm& arm, Random&) {
     arm.drives().bus().lose_next(count, only(canopen::cob_id::kSync));
   };
-}
-
-/// The one that still has the longest way to go.
-EmulatedDrive& moving_drive(CampaignArm& arm) {
-  const Vector now = arm.positions();
-  const Vector& target = arm.target();
-  std::size_t furthest = 0;
-  const auto way = [&](std::size_t joint) { return std::abs(target[joint] - now[joint]); };
-  for (std::size_t joint = 1; joint < CampaignArm::kJoints; ++joint) {
-    if (way(joint) > way(furthest)) furthest = joint;
-  }
-  return arm.drive(furthest);
 }
 
 /// Another program on the bus says one thing.
@@ -166,6 +155,20 @@ void move_at_random(CampaignArm& arm, Random& random) {
     arm.run_for(3s);
   }
 }
+/// Of the joint that still has the longest way to go, as long as it is four times what it may be
+/// off by.
+Happens in_motion(void (*act)(EmulatedDrive&)) {
+  return [act](CampaignArm& arm, Random& random) {
+    const Vector now = arm.positions();
+    const auto way = [&](std::size_t joint) { return std::abs(arm.target()[joint] - now[joint]); };
+    std::size_t furthest = 0;
+    for (std::size_t joint = 1; joint < CampaignArm::kJoints; ++joint) {
+      if (way(joint) > way(furthest)) furthest = joint;
+    }
+    if (way(furthest) < 0.2) return at_rest(act)(arm, random);
+    act(arm.drive(furthest));
+  };
+}
 
 // --- the application -----------------------------------------------------------------------------
 
@@ -252,7 +255,7 @@ std::vector<Breakage> of_drives() {
        .said = {"the drive did not answer"},
        .ends = mend},
       {.name = "StatusAndPositionFrozen",
-       .happens = [](CampaignArm& arm, Random&) { moving_drive(arm).set_frozen(true); },
+       .happens = in_motion([](EmulatedDrive& drive) { drive.set_frozen(true); }),
        .said = kNotAsTold,
        .ends = mend},
       {.name = "StatusAndPositionFrozenAtRest",
@@ -260,12 +263,21 @@ std::vector<Breakage> of_drives() {
        .said = kNotAsTold,
        .ends = mend},
       {.name = "DriveDoesNotObey",
-       .happens = [](CampaignArm& arm, Random&) { moving_drive(arm).set_powerless(true); },
-       .after = After::kStoppedOnceSeen,
+       .happens = in_motion([](EmulatedDrive& drive) { drive.set_powerless(true); }),
        .said = kNotAsTold,
        .ends = mend},
       {.name = "DriveDoesNotObeyAtRest",
        .happens = at_rest([](EmulatedDrive& drive) { drive.set_powerless(true); }),
+       .said = kNotAsTold,
+       .ends = mend},
+      {.name = "DriveDoesNotObeyWhereverItIs",
+       .happens = drive_does([](EmulatedDrive& drive) { drive.set_powerless(true); }),
+       .after = After::kStoppedOnceSeen,
+       .said = kNotAsTold,
+       .ends = mend},
+      {.name = "FrozenWhereverItIs",
+       .happens = drive_does([](EmulatedDrive& drive) { drive.set_frozen(true); }),
+       .after = After::kStoppedOnceSeen,
        .said = kNotAsTold,
        .ends = mend},
       {.name = "EncoderJumps",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives by CiA 402 as components: a host with emulated drives, and a drive whose host is a fake.
+#include <chrono>
 #include <memory>
 
 #include "armature/testing/harness.hpp"
@@ -29,15 +30,6 @@ TEST(RealtimeCia402, Host) {
   host.stop();
 }
 
-TEST(RealtimeCia402, TorqueWatch) {
-  TorqueWatch watch;
-  DriveState drive;
-  drive.power = PowerState::kOperationEnabled;
-  TorqueWatch::Finding found{};
-  expect_realtime("TorqueWatch::step", [&] { found = watch.step(drive, 5.0, 50.0); });
-  EXPECT_EQ(found, TorqueWatch::Finding::kDisobeys);
-}
-
 TEST(RealtimeCia402, Drive) {
   testing::Harness drive(std::make_unique<Cia402Drive>("Drive1"));
   DriveSample sample{.fresh = true, .power = static_cast<int>(PowerState::kOperationEnabled)};
@@ -64,6 +56,19 @@ TEST(RealtimeCia402, Drive) {
   expect_realtime_on_bench("Cia402Drive",
                            [&] { static_cast<void>(drive.call<bool>("sensorRead")); });
   EXPECT_EQ(drive.state(), State::kException);
+}
+
+TEST(RealtimeCia402, TorqueWatch) {
+  TorqueWatch watch;
+  DriveState drive;
+  drive.power = PowerState::kOperationEnabled;
+  double target = 0.0;
+  auto finding = TorqueWatch::Finding::kGood;
+  expect_realtime("TorqueWatch::step", [&] {
+    drive.time += std::chrono::milliseconds(2);
+    finding = watch.step(drive, target += 0.1, 50.0);
+  });
+  EXPECT_EQ(finding, TorqueWatch::Finding::kDisobeys);
 }
 
 TEST(RealtimeCia402, AStatusWord) {

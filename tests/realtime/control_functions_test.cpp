@@ -195,10 +195,10 @@ TEST(RealtimeFunctions, FollowingWatch) {
 TEST(RealtimeFunctions, StillWatch) {
   control::StillWatch watch({.most = 0.1});
   bool moves = true;
-  expect_realtime("StillWatch::step", [&] { moves = watch.step(0.2, 0.05, 0.01); });
-  EXPECT_FALSE(moves) << "the same position, and told to go on";
+  expect_realtime("StillWatch::step", [&] { moves = watch.step(0.5, 0.02, 0.01); });
+  EXPECT_FALSE(moves);
   expect_realtime("StillWatch::reset", [&] { watch.reset(); });
-  EXPECT_TRUE(watch.step(0.2, 0.05, 0.01));
+  EXPECT_TRUE(watch.step(0.5, 0.02, 0.01));
 }
 
 TEST(RealtimeFunctions, ErrorMetrics) {

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/deploy/deployment.hpp"
 
 namespace armature {
@@ -19,6 +20,27 @@ namespace {
 using namespace std::chrono_literals;
 using component::CommandStage;
 using ::testing::HasSubstr;
+
+/// A drive that stands, and takes commands as long as the test wants it to.
+class Stubborn final : public controllers::JointHardware {
+ public:
+  explicit Stubborn(const std::string& name)
+      : JointHardware(name, {controllers::JointCommand::kPosition}, Sensor::kAbsolute) {}
+
+  int refuses = 0;  ///< commands from now on
+
+ private:
+  bool actuator_on() override { return true; }
+  bool actuator_off() override { return true; }
+  bool actuator_set(control::LimitedEffort /*effort*/) override { return false; }
+  bool position_set(control::LimitedPosition /*position*/) override { return --refuses < 0; }
+  bool sensor_read() override {
+    sensor_.write(0.0);
+    return true;
+  }
+  bool brake_apply() override { return true; }
+  bool brake_release() override { return true; }
+};
 
 deploy::Deployment load(const std::string& file, std::vector<std::string> overrides = {}) {
   deploy::DeploymentOptions options;
@@ -122,6 +144,38 @@ INSTANTIATE_TEST_SUITE_P(Drives, EachWay,
                          });
 
 /// In motion it is redirected, and stopped.
+deploy::Deployment load_stubborn() {
+  deploy::DeploymentOptions options;
+  options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
+  options.models = [](component::Registry& models) {
+    models.add<Stubborn>("Stubborn", "does not take commands");
+  };
+  return deploy::parse_deployment(R"(
+include: position.yaml
+components:
+  Drive1: {override: true, model: Stubborn, properties: {Weight: {remove: true}}}
+)",
+                                  EXAMPLES "/11_drives/stubborn.yaml", options);
+}
+
+TEST(Hardware, ThatDoesNotTakeThreeCommandsInARowFaults) {
+  Arm arm(load_stubborn());
+  ASSERT_EQ(arm.arm(), CommandStage::kDone);
+  auto& drive = *static_cast<Stubborn*>(arm.application().find("Drive1"));
+  for (int round = 0; round < 10; ++round) {
+    drive.refuses = 2;
+    arm.run_for(50ms);
+  }
+  EXPECT_TRUE(arm.armed()) << "one or two may get lost";
+  drive.refuses = 1000;
+  arm.run_for(20ms);
+  EXPECT_EQ(drive.state(), component::State::kException);
+  EXPECT_THAT(std::string(drive.reason()),
+              HasSubstr("it did not take three commands of its joint in a row"));
+  arm.run_for(100ms);
+  EXPECT_FALSE(arm.armed());
+}
+
 TEST(OnlineGenerator, TakesThePlaceOfTheOtherByOneLine) {
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};

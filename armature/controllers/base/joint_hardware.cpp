@@ -95,6 +95,15 @@ JointHardware::JointHardware(const std::string& name, std::initializer_list<Join
 
 JointHardware::~JointHardware() = default;
 
+/// One may get lost on a bus; after three the joint is driven by what nobody wants any more.
+void JointHardware::count_refusals(bool taken) {
+  constexpr int kMostRefused = 3;
+  refused_ = taken || !permit_ ? 0 : refused_ + 1;
+  if (refused_ < kMostRefused) return;
+  refused_ = 0;
+  fault("it did not take three commands of its joint in a row: look at its bus");
+}
+
 JointCommand JointHardware::commanded() const { return commands_->commanded(); }
 
 }  // namespace armature::controllers

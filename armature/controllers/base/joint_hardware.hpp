@@ -21,7 +21,9 @@ namespace armature::controllers {
 /// deployment connects one of them. It switches on and opens its brake for a DrivePermit only,
 /// which is what an armed limiter gives; it switches off and brakes for everybody, as long as it is
 /// configured. The functions answer false if the hardware did not take or do it, and each runs in
-/// real time: nonblocking but for the wait that the hardware's answer is worth, no allocation.
+/// real time: nonblocking but for the wait that the hardware's answer is worth, no allocation. One
+/// that is switched on and does not take three commands in a row faults. Hardware that does not run
+/// is neither switched on nor read, so its joint is not armed.
 /// Whenever it stops or faults, also because the joint did: effort 0, brake applied, actuator off.
 class JointHardware : public component::Component {
  public:
@@ -100,7 +102,7 @@ class JointHardware : public component::Component {
     return true;
   }
   bool position_exact() { return is_exact_; }
-  bool as_told() { return is_as_told(); }
+  bool as_told() { return runs() && is_as_told(); }
   void tell_exact() { position_exact_.assign(is_exact_ && !is_doubted_); }
 
   /// Whatever it is that ends a run: a stop, a fault, an exception.
@@ -125,7 +127,9 @@ class JointHardware : public component::Component {
     brake_apply();
     switch_off();
   }
+  bool runs() const { return state() == component::State::kRunning; }
   bool switch_on(control::DrivePermit permit) {
+    if (!runs()) return false;
     permit_ = permit;
     return permit && actuator_on();
   }
@@ -134,11 +138,18 @@ class JointHardware : public component::Component {
     permit_ = {};
     return off;
   }
-  bool open_brake(control::DrivePermit permit) { return permit && brake_release(); }
+  bool open_brake(control::DrivePermit permit) { return runs() && permit && brake_release(); }
+  bool set_effort(control::LimitedEffort effort) { return runs() && actuator_set(effort); }
+  bool read_sensor() { return runs() && sensor_read(); }
 
-  void effort_arrived(control::LimitedEffort effort) { actuator_set(effort); }
-  void velocity_arrived(control::LimitedVelocity velocity) { velocity_set(velocity); }
-  void position_arrived(control::LimitedPosition position) { position_set(position); }
+  void effort_arrived(control::LimitedEffort effort) { count_refusals(actuator_set(effort)); }
+  void velocity_arrived(control::LimitedVelocity velocity) {
+    count_refusals(velocity_set(velocity));
+  }
+  void position_arrived(control::LimitedPosition position) {
+    count_refusals(position_set(position));
+  }
+  void count_refusals(bool taken);
 
   /// The inputs for what it can be given.
   class CommandInputs;
@@ -160,12 +171,12 @@ class JointHardware : public component::Component {
   component::Operation<bool(control::LimitedEffort)> actuator_set_{
       this,
       "actuatorSet",
-      component::serve<&JointHardware::actuator_set>,
+      component::serve<&JointHardware::set_effort>,
       "applies an effort that a limiter let through",
       component::args("effort"),
       component::in_own_thread};
   component::Operation<bool()> sensor_read_{
-      this, "sensorRead", component::serve<&JointHardware::sensor_read>,
+      this, "sensorRead", component::serve<&JointHardware::read_sensor>,
       "reads the sensors and writes what they measured", component::in_own_thread};
   component::Operation<bool()> position_known_{
       this, "positionKnown", component::serve<&JointHardware::position_known>,
@@ -211,6 +222,7 @@ class JointHardware : public component::Component {
       component::in_own_thread};
 
   control::DrivePermit permit_;
+  int refused_ = 0;  ///< commands in a row, while it is on
   Ending ending_{*this};
 };
 
