@@ -158,6 +158,29 @@ TEST_F(TwoDrives, ADriveThatKeepsGoingOnWithoutItsHostIsRefused) {
       ::testing::HasSubstr("object 0x6007:00 is 0, so it goes on moving when it loses its host"));
 }
 
+TEST_F(TwoDrives, ADriveThatForgetsThatItIsToFaultWithoutItsHostIsRefused) {
+  auto& objects = drives[0]->device().dictionary();
+  link.add_party([&objects](base::Time) { objects.set_number(object::kAbortConnection, 0); });
+  canopen::SdoChannel channel(link, 1);
+  EXPECT_FALSE(prepare_drive(channel,
+                             {.node = 1,
+                              .name = "J",
+                              .mode = Mode::kCyclicVelocity,
+                              .host = HostHeartbeat{127, 20ms, 60ms}},
+                             diagnostics));
+  EXPECT_THAT(diagnostics.to_text(), ::testing::HasSubstr("it does not keep another value"));
+}
+
+TEST_F(TwoDrives, ADriveThatWouldGoOnWithoutItsHostSinceItLostItsPowerIsNotPrepared) {
+  drives[0]->reboot(link.now());
+  cycle(10);
+  drives[0]->device().dictionary().set_number(object::kAbortConnection, 0);
+  background->prepare_again(0);
+  cycle(100);
+  EXPECT_EQ(background->preparation(0), Preparation::kRefused);
+  EXPECT_EQ(background->refused_at(0), object::kAbortConnection);
+}
+
 TEST_F(TwoDrives, ADriveDoesWhatItsOptionSaysWhenItLosesItsHost) {
   const std::array<std::pair<int, PowerState>, 3> kEnds{{{0, PowerState::kOperationEnabled},
                                                          {2, PowerState::kSwitchOnDisabled},

@@ -114,15 +114,25 @@ class Preparation {
     }
   }
 
-  /// A drive that has the object and does nothing when it loses its host is told to fault.
-  void have_it_stop_without_host() {
+  /// A drive that has the object and does nothing when it loses its host is told to fault. What
+  /// others do is theirs, and has to be the same after they lost their power.
+  void have_it_stop_without_host(std::vector<canopen::SdoStep>& steps) {
     if (!wish_.host) return;
-    const auto found = channel_.read(object::kAbortConnection, DataType::kInteger16);
-    if (!found || found.value() != 0) return;
+    constexpr Address kOption = object::kAbortConnection;
     constexpr int kFault = 1;
-    const auto written = channel_.write(object::kAbortConnection, DataType::kInteger16, kFault);
-    if (written) return;
-    error("object 0x6007:00 is 0, so it goes on moving when it loses its host: " + written.error(),
+    auto found = channel_.read(kOption, DataType::kInteger16);
+    if (!found) return;
+    base::Result<void> written;
+    if (found.value() == 0) {
+      written = channel_.write(kOption, DataType::kInteger16, kFault);
+      found = channel_.read(kOption, DataType::kInteger16);
+    }
+    if (found && found.value() != 0) {
+      steps.push_back({kOption, 2, static_cast<std::uint16_t>(found.value()), false});
+      return;
+    }
+    error("object 0x6007:00 is 0, so it goes on moving when it loses its host: " +
+              (written ? "it does not keep another value" : written.error()),
           "set it to 1, fault, with its maker's tool, or leave out the host's heartbeat");
   }
 
@@ -254,7 +264,7 @@ std::optional<DriveConfig> prepare_drive(canopen::SdoChannel& channel, const Dri
                      .heartbeat_timeout = wish.heartbeat * kHeartbeatsToMiss};
   preparation.write_parameters();
   preparation.write_homing(*scaling);
-  preparation.have_it_stop_without_host();
+  preparation.have_it_stop_without_host(steps);
   preparation.write_pdos(config);
   keep_mapping(PdoDirection::kReceive, config.receive, steps);
   keep_mapping(PdoDirection::kTransmit, config.transmit, steps);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drives/cia402_components/bus_plan.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
 
+#include "armature/base/seconds.hpp"
+#include "armature/controllers/base/driven_joint.hpp"
 #include "armature/controllers/base/sampling_period.hpp"
 #include "drives/cia402/bus_time.hpp"
 #include "drives/cia402_components/cia402_drive.hpp"
@@ -26,6 +29,16 @@ KnownDrives drives_on(const Cia402Host& host, component::Check& check) {
                 "give each drive its own number");
   }
   return known;
+}
+
+/// Joints whose answers act by what `robot` says at least so late.
+std::size_t joints_as_late(const controllers::DescribesRobot& robot, double delay_s) {
+  std::size_t count = 0;
+  for (std::size_t number = 1;; ++number) {
+    const auto joint = robot.joint(number, controllers::JointCommand::kTorque);
+    if (!joint) return count;
+    if (joint.value().lightest.delay_s >= 0.999 * delay_s) ++count;
+  }
 }
 
 std::string milliseconds_text(base::Duration duration) {
@@ -74,6 +87,26 @@ void check_bus_time(std::span<const DrivePlan> plans, std::uint32_t bit_rate, ba
                   milliseconds_text(needed) + " at " + std::to_string(bit_rate) +
                   " bit/s, and a cycle has " + milliseconds_text(period),
               "raise bit_rate, lengthen the period, or put drives on another bus");
+}
+
+void check_answer_time(std::span<const DrivePlan> plans, base::Duration period,
+                       component::Check& check) {
+  const auto drives = static_cast<std::size_t>(std::ranges::count_if(
+      plans, [](const DrivePlan& plan) { return plan.mode != CyclicMode::kPosition; }));
+  const base::Duration late = 2 * period;
+  bool is_described = false;
+  std::size_t joints = 0;
+  for (const component::Component* const each : check.components()) {
+    const auto* const robot = dynamic_cast<const controllers::DescribesRobot*>(each);
+    if (robot == nullptr) continue;
+    is_described = true;
+    joints += joints_as_late(*robot, base::to_seconds(late));
+  }
+  if (!is_described || joints >= drives) return;
+  check.error("an answer to a sample acts two cycles later, " + milliseconds_text(late) +
+                  ", and effort_delay of the Robot says so of " + std::to_string(joints) +
+                  " joints, expected " + std::to_string(drives),
+              "set effort_delay of the Robot to two periods");
 }
 
 }  // namespace armature::cia402

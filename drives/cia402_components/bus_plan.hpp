@@ -25,4 +25,9 @@ void refine_plans(const Cia402Host& host, std::span<DrivePlan> plans, component:
 void check_bus_time(std::span<const DrivePlan> plans, std::uint32_t bit_rate, base::Duration period,
                     component::Check& check);
 
+/// Refuses a Robot that says that fewer joints answer two cycles late than there are drives in the
+/// modes torque and velocity: gains would be judged by another delay than they have.
+void check_answer_time(std::span<const DrivePlan> plans, base::Duration period,
+                       component::Check& check);
+
 }  // namespace armature::cia402

@@ -42,6 +42,7 @@ class Cia402Drive final : public controllers::JointHardware {
   bool is_on(const Cia402Host& host, const component::Check& check) const;
   /// Puts what it says of itself in place of what the bus says of all.
   void refine(DrivePlan& plan) const;
+  bool tells_of_shaft() const override { return true; }
 
  private:
   void on_check(component::Check& check) const override;

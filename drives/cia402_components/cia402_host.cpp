@@ -58,6 +58,7 @@ void Cia402Host::on_check(component::Check& check) const {
   plan_by_own_words();
   refine_plans(*this, plans_, check);
   check_bus_time(plans_, bit_rate(), cycle(), check);
+  check_answer_time(plans_, cycle(), check);
 }
 
 DrivePlan Cia402Host::plan_of(int node) const {

@@ -181,7 +181,11 @@ std::vector<KnownMutant> known_mutants() {
           {wam7(), "/robots/wam/deployments/gravity_pd7.yaml",
            "WAM.MaxTorqueGrowth=[3, 3, 2.25, 1.4, 0.5, 0.5, 0.065]"},  // as slow as is accepted
           {own_robot(), "/examples/07_own_robot/arm.yaml", "PID3.Kp=0.15"},
-          {own_robot(), "/examples/07_own_robot/arm.yaml", "PID2.Ki=600"}};
+          {own_robot(), "/examples/07_own_robot/arm.yaml", "PID2.Ki=600"},
+          {cia402_arm(), "/examples/12_cia402/position.yaml", "Joint2.GearRatio=0.1"},
+          {cia402_arm(), "/examples/12_cia402/torque.yaml", "Joint1.GearRatio=100"},
+          {cia402_arm(), "/examples/12_cia402/velocity.yaml", "Controller.Kp=[2000]"},
+          {cia402_arm(), "/examples/12_cia402/velocity.yaml", "Sampler.activity.periodic=50 ms"}};
 }
 
 TEST(KnownMutants, AreRefusedOrMoveWithinBounds) {
@@ -203,6 +207,9 @@ TEST(ShippedConfigurations, OfTheWamStandHoldMoveAndStop) {
   try_what_is_shipped(wam7());
 }
 TEST(ShippedConfigurations, OfAnOwnRobotStandHoldMoveAndStop) { try_what_is_shipped(own_robot()); }
+TEST(ShippedConfigurations, OfDrivesByCia402StandHoldMoveAndStop) {
+  try_what_is_shipped(cia402_arm());
+}
 TEST(ShippedConfigurations, OfTheRoverStandDriveAndStop) { try_what_is_shipped(rover()); }
 
 TEST(MutantConfigurations, OfJanusAreRefusedOrMoveWithinBounds) { try_mutants(janus()); }
@@ -214,6 +221,9 @@ TEST(MutantConfigurations, OfTheWamWithSevenJointsAreRefusedOrMoveWithinBounds) 
 }
 TEST(MutantConfigurations, OfTheRoverAreRefusedOrMoveWithinBounds) { try_mutants(rover()); }
 TEST(MutantConfigurations, OfAnOwnRobotAreRefusedOrMoveWithinBounds) { try_mutants(own_robot()); }
+TEST(MutantConfigurations, OfDrivesByCia402AreRefusedOrMoveWithinBounds) {
+  try_mutants(cia402_arm());
+}
 
 }  // namespace
 }  // namespace armature::configurations

@@ -2,11 +2,13 @@
 #include "tests/configurations/plant.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "armature/component/interface.hpp"
+#include "drives/cia402_components/emulated_cia402_bus.hpp"
 #include "robots/janus/simulated_janus.hpp"
 #include "robots/rover/numbers.hpp"
 #include "robots/rover/simulated_rover.hpp"
@@ -137,6 +139,45 @@ class Servos final : public Plant {
   std::vector<Drive> drives_;
 };
 
+/// Drives by CiA 402, each with an axis of its own.
+class Cia402Arm final : public Plant {
+ public:
+  /// @param now  of the application, whose clock theirs is ahead of by what the start took
+  Cia402Arm(cia402::EmulatedBus& drives, base::Time now)
+      : drives_(drives), ahead_(drives.bus().now() - now) {}
+
+  void advance_to(base::Time now) override {
+    const base::Time theirs = now + ahead_;
+    while (drives_.bus().now() < theirs) {
+      drives_.advance_to(std::min(theirs, drives_.bus().now() + kStep));
+    }
+  }
+  Vector positions() override {
+    Vector all;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      all.push_back(drives_.drive(i).axis().position());
+    }
+    return all;
+  }
+  bool driven() override {
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      const cia402::PowerState power = drives_.drive(i).power();
+      if (power == cia402::PowerState::kOperationEnabled ||
+          power == cia402::PowerState::kQuickStopActive ||
+          power == cia402::PowerState::kFaultReactionActive) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr base::Duration kStep = std::chrono::microseconds(50);
+
+  cia402::EmulatedBus& drives_;
+  const base::Duration ahead_;
+};
+
 void erase_property(document::Component& component, std::string_view name) {
   std::erase_if(component.properties, [&](const auto& each) { return each.name == name; });
 }
@@ -160,6 +201,11 @@ std::optional<document::Document> simulated(document::Document document) {
     if (each.model == "WamHardware" && bus != nullptr && bus->value.text != "emulator") {
       set_property(each, "bus", "emulator");
       changed = true;
+    }
+    if (each.model == "Cia402Bus") {
+      changed = true;
+      each.model = "EmulatedCia402Bus";
+      for (const char* of_the_bus : {"bus", "guardian"}) erase_property(each, of_the_bus);
     }
     if (each.model != "AICBus") continue;
     changed = true;
@@ -185,6 +231,9 @@ std::vector<std::unique_ptr<Plant>> plants_of(const document::Document& document
     } else if (each.model == "SimulatedRover") {
       rover::Plant& plant = static_cast<rover::SimulatedRover&>(*found).plant();
       plants.push_back(std::make_unique<RoverOnFloor>(plant));
+    } else if (each.model == "EmulatedCia402Bus") {
+      cia402::EmulatedBus& drives = static_cast<cia402::EmulatedCia402Bus&>(*found).drives();
+      plants.push_back(std::make_unique<Cia402Arm>(drives, application.now()));
     } else if (each.model == "Servo") {
       servos->add(*found);
     }
@@ -261,6 +310,20 @@ RobotUnderTest own_robot() {
           .lower = {-1.58, -1.58, -1.58},
           .upper = {1.58, 1.58, 1.58},
           .step = {0.3, -0.3, 0.3},
+          .sinking = 0.1};
+}
+
+RobotUnderTest cia402_arm() {
+  const std::string folder = SOURCE "/examples/12_cia402/";
+  return {.name = "cia402",
+          .deployments = {{folder + "position.yaml"},
+                          {folder + "velocity.yaml"},
+                          {folder + "torque.yaml"},
+                          {folder + "on_can.yaml"}},
+          .most_speed = 2.0 * 1.25,  // with what a drive overshoots
+          .lower = {-1.5708, -1.5708},
+          .upper = {1.5708, 1.5708},
+          .step = {0.3, -0.3},
           .sinking = 0.1};
 }
 

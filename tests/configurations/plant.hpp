@@ -62,6 +62,8 @@ RobotUnderTest janus();
 RobotUnderTest wam4();
 RobotUnderTest wam7();
 RobotUnderTest own_robot();
+/// Two drives by CiA 402, in each of their modes.
+RobotUnderTest cia402_arm();
 /// Its joints are the ways of its wheels [m].
 RobotUnderTest rover();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/drives/campaign_faults.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -140,6 +141,20 @@ Happens at_rest(void (*act)(EmulatedDrive&)) {
   };
 }
 
+/// Fast and slow, far and hardly at all: what watches a drive has nothing to find.
+void move_at_random(CampaignArm& arm, Random& random) {
+  constexpr std::array<double, 3> kWays{0.002, 0.05, 1.0};  // rad
+  arm.run_for(3200ms);
+  for (int motion = 0; motion < 4; ++motion) {
+    const double most = kWays[random() % kWays.size()];
+    std::uniform_real_distribution<double> way(-most, most);
+    Vector target = arm.target();
+    for (double& angle : target) angle = std::clamp(angle + way(random), -1.2, 1.2);
+    const double seconds = random() % 2 == 0 ? 0.0 : 2.5;
+    EXPECT_EQ(arm.move_to(target, seconds), "");
+    arm.run_for(3s);
+  }
+}
 /// Of the joint that still has the longest way to go, as long as it is four times what it may be
 /// off by.
 Happens in_motion(void (*act)(EmulatedDrive&)) {
@@ -219,6 +234,7 @@ const std::vector<std::string> kNotAsTold{"to the bit", "the same values", "was 
 
 std::vector<Breakage> of_drives() {
   return {
+      {.name = "NothingBreaks", .happens = move_at_random, .after = After::kGoesOn},
       {.name = "DriveFails",
        .happens = drive_does([](EmulatedDrive& drive) { drive.fail(0x2310); }),
        .said = {"the drive failed with error code 8976"}},
@@ -252,6 +268,16 @@ std::vector<Breakage> of_drives() {
        .ends = mend},
       {.name = "DriveDoesNotObeyAtRest",
        .happens = at_rest([](EmulatedDrive& drive) { drive.set_powerless(true); }),
+       .said = kNotAsTold,
+       .ends = mend},
+      {.name = "DriveDoesNotObeyWhereverItIs",
+       .happens = drive_does([](EmulatedDrive& drive) { drive.set_powerless(true); }),
+       .after = After::kStoppedOnceSeen,
+       .said = kNotAsTold,
+       .ends = mend},
+      {.name = "FrozenWhereverItIs",
+       .happens = drive_does([](EmulatedDrive& drive) { drive.set_frozen(true); }),
+       .after = After::kStoppedOnceSeen,
        .said = kNotAsTold,
        .ends = mend},
       {.name = "EncoderJumps",

@@ -21,7 +21,10 @@ enum class After {
   kRests,   ///< one of these two: what was desired has torques wind up, and who stands still for it
             ///< is watched
   kStopped,  ///< it comes to rest, no drive is enabled; reset, start and arm bring it back
-  kLost,     ///< the same, and reset and start alone do not: the program is begun again
+  /// The same as soon as it can be seen, at the latest with the next motion: until then its joint
+  /// is as near to where it was told to be as MaxPositionError allows.
+  kStoppedOnceSeen,
+  kLost,  ///< the same, and reset and start alone do not: the program is begun again
 };
 
 struct Breakage {

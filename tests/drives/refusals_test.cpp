@@ -18,15 +18,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-deploy::Deployment load(std::vector<std::string> overrides) {
+deploy::Deployment load(std::vector<std::string> overrides, const char* mode = "position") {
   deploy::DeploymentOptions options;
   options.library_folders = {LIBRARIES};
   options.document.overrides = std::move(overrides);
-  return deploy::load_deployment(EXAMPLES "/12_cia402/position.yaml", options);
+  return deploy::load_deployment(std::string(EXAMPLES "/12_cia402/") + mode + ".yaml", options);
 }
 
-std::string mistakes(std::vector<std::string> overrides) {
-  return load(std::move(overrides)).diagnostics.to_text();
+std::string mistakes(std::vector<std::string> overrides, const char* mode = "position") {
+  return load(std::move(overrides), mode).diagnostics.to_text();
 }
 
 /// What the application says against its start.
@@ -69,6 +69,54 @@ TEST(Cia402Check, ABusTooSlowForItsPeriodIsRefused) {
               HasSubstr("'Bus': the frames of a cycle of 2 drives take up to 2.236 ms at 250000 "
                         "bit/s, and a cycle has 2 ms (raise bit_rate, lengthen the period, or put "
                         "drives on another bus)"));
+}
+
+/// Its joint would take a hundredth of its way for the whole.
+TEST(Cia402Check, AGearThatTheDriveHasTakenIntoAccountIsRefused) {
+  for (const char* mode : {"torque", "velocity", "position"}) {
+    EXPECT_THAT(mistakes({"Joint2.GearRatio=0.01"}, mode),
+                HasSubstr("'Joint2': GearRatio is 0.01, expected 1: its hardware tells of the "
+                          "shaft behind its own gear"));
+  }
+  EXPECT_EQ(mistakes({"Joint1.GearRatio=0.5", "Joint2.GearRatio=0.5", "Robot.motor_gear_ratio=[2]"},
+                     "velocity"),
+            "")
+      << "another one, behind";
+}
+
+TEST(Cia402Check, AGainOfVelocitiesThatTheAnswersAreTooLateForIsRefused) {
+  EXPECT_EQ(mistakes({"Controller.Kp=[83]"}, "velocity"), "");
+  EXPECT_THAT(mistakes({"Controller.Kp=[20, 84]"}, "velocity"),
+              HasSubstr("Kp of joint 2 is 84 1/s, expected 83.33 at most: it is answered 6 ms "
+                        "late"));
+  EXPECT_THAT(mistakes({"Sampler.activity.periodic=50 ms"}, "velocity"),
+              HasSubstr("Kp of joint 1 is 20 1/s, expected 9.259 at most"));
+}
+
+/// Gains are judged by what the Robot says.
+TEST(Cia402Check, AnswersThatActLaterThanTheRobotSaysAreRefused) {
+  for (const char* mode : {"torque", "velocity"}) {
+    EXPECT_THAT(mistakes({"Sampler.activity.periodic=5 ms"}, mode),
+                HasSubstr("'Bus': an answer to a sample acts two cycles later, 10 ms, and "
+                          "effort_delay of the Robot says so of 0 joints, expected 2 (set "
+                          "effort_delay of the Robot to two periods)"));
+  }
+  EXPECT_EQ(mistakes({"Sampler.activity.periodic=5 ms", "Robot.effort_delay=[10 ms]"}, "velocity"),
+            "");
+  EXPECT_EQ(mistakes({"Sampler.activity.periodic=5 ms"}), "") << "a drive in mode position";
+}
+
+/// Also while it runs.
+TEST(Cia402Check, AGainOfVelocitiesCannotBecomeTooLarge) {
+  deploy::Deployment deployment = load({}, "velocity");
+  ASSERT_TRUE(deployment.ok()) << deployment.diagnostics.to_text();
+  deployment.options.simulated = true;
+  exec::Application application(std::move(deployment.blueprint), deployment.options);
+  const auto set = [&](double kp) {
+    return application.set_property("Controller", "Kp", types::Value::of(std::vector<double>{kp}));
+  };
+  EXPECT_TRUE(set(40.0));
+  EXPECT_FALSE(set(2000.0));
 }
 
 TEST(Cia402Check, AnEdsThatIsNotThereIsRefused) {

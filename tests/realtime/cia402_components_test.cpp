@@ -6,6 +6,7 @@
 #include "armature/testing/harness.hpp"
 #include "drives/cia402_components/cia402_drive.hpp"
 #include "drives/cia402_components/emulated_cia402_bus.hpp"
+#include "drives/cia402_components/torque_watch.hpp"
 #include "tests/realtime/expect_realtime.hpp"
 
 namespace armature::cia402 {

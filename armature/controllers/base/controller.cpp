@@ -191,7 +191,7 @@ std::vector<DrivenJoint> Controller::joints_behind(const component::InputPortBas
 
 std::vector<DrivenJoint> Controller::driven_joints(const component::Check& check) const {
   std::vector<DrivenJoint> joints = acted_joints(check);
-  answer_later(joints, cycles_late(face(sensor_), check), base::to_seconds(period()));
+  answer_later(joints, samples_late(check), base::to_seconds(period()));
   return joints;
 }
 

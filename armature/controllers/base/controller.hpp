@@ -88,6 +88,11 @@ class Controller : public component::Component, public PassesSamples, public Dri
   std::vector<DrivenJoint> driven_joints(const component::Check& check) const;
   /// The same as who has samples of its own knows them: not how late those of this one are.
   const std::vector<DrivenJoint>& acted_joints(const component::Check& check) const;
+  /// By how many cycles samples come late.
+  /// @thread configuration only
+  int samples_late(const component::Check& check) const {
+    return cycles_late(face(sensor_), check);
+  }
 
   /// The gravity that its control signals hold the joints' weight against [m/s^2], 0 if they leave
   /// it to others; nothing: it has no model of it.

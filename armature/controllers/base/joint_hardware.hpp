@@ -41,6 +41,9 @@ class JointHardware : public component::Component {
   /// Turns that the sensor tells for one of the motor's axis, > 0: 1 if it is of that axis.
   /// @thread configuration only
   virtual double sensor_turns() const { return 1.0; }
+  /// Its sensor is of the shaft behind the gear, which it knows by itself.
+  /// @thread configuration only
+  virtual bool tells_of_shaft() const { return false; }
 
  protected:
   virtual bool actuator_on() = 0;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "armature/component/interface.hpp"
-#include "armature/controllers/base/joint_hardware.hpp"
 
 namespace armature::controllers {
 
@@ -88,7 +87,10 @@ void JointModel::check(component::Check& check) const {
         "RobotJoint needs exactly one component of the model Robot, found none or several");
   auto found = find(*model);
   if (!found) return check.error(found.error());
-  found.value().sensor_turns = sensor_turns(check);
+  if (const JointHardware* const told = hardware(check)) {
+    found.value().sensor_turns = told->sensor_turns();
+    found.value().of_shaft = told->tells_of_shaft();
+  }
   if (const std::string wrong = objection(found.value(), limits); !wrong.empty()) {
     check.error(wrong);
   }
@@ -126,16 +128,16 @@ void JointModel::check_sensor(component::Check& check) const {
   }
 }
 
-/// Hardware that has the gear itself tells of the joint's axis.
-double JointModel::sensor_turns(const component::Check& check) const {
+/// Whose sensor it is.
+const JointHardware* JointModel::hardware(const component::Check& check) const {
   for (const std::string_view name : {"DisplacementSensor", "PositionSensor"}) {
     for (const component::OutputPortBase* const writer :
          check.writers_of(*input_of(owner_, name))) {
       const auto* const hardware = dynamic_cast<const JointHardware*>(&writer->owner());
-      if (hardware != nullptr) return hardware->sensor_turns();
+      if (hardware != nullptr) return hardware;
     }
   }
-  return 1.0;
+  return nullptr;
 }
 
 std::optional<DrivenJoint> JointModel::driven(const component::Check& check) const {
@@ -219,9 +221,15 @@ std::string JointModel::objection_to_effort(const Known& known, const JointSetti
 
 /// What a joint takes for its position is what its drive moves: a sensor tells of the motor's axis.
 std::string JointModel::objection_to_gear(const Known& known, double gear_ratio) {
+  const bool is_told = known.joint.motor_turns != 0.0;
+  if (!is_told && known.of_shaft && std::abs(gear_ratio - 1.0) > kSameGear) {
+    return "GearRatio is " + figure(gear_ratio) +
+           ", expected 1: its hardware tells of the shaft behind its own gear. If there is "
+           "another gear behind, tell it as motor_gear_ratio of the Robot";
+  }
   const double turns = known.joint.motor_turns;
   const double told = turns * known.sensor_turns;
-  if (turns == 0.0 || std::abs(gear_ratio * told - 1.0) <= kSameGear) return {};
+  if (!is_told || std::abs(gear_ratio * told - 1.0) <= kSameGear) return {};
   const std::string of_sensor =
       known.sensor_turns == 1.0
           ? "is of the motor's axis"

@@ -7,6 +7,7 @@
 #include "armature/component/author.hpp"
 #include "armature/control/joint_limits.hpp"
 #include "armature/controllers/base/driven_joint.hpp"
+#include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/controllers/joint/joint_settings.hpp"
 
 namespace armature::controllers {
@@ -36,13 +37,14 @@ class JointModel final : public component::Checked, public component::PropertyFo
     DrivenJoint joint;
     control::JointLimits described;
     double sensor_turns = 1.0;  ///< that DisplacementSensor tells for one of the motor's axis
+    bool of_shaft = false;      ///< its hardware knows its gear, and tells of the shaft behind
   };
 
   void check_ends(component::Check& check) const;
   void check_sensor(component::Check& check) const;
   const DescribesRobot* robot(const component::Check& check) const;
   base::Result<Known> find(const DescribesRobot& robot) const;
-  double sensor_turns(const component::Check& check) const;
+  const JointHardware* hardware(const component::Check& check) const;
   std::string objection(const Known& known, const JointSettings& limits) const;
   static std::string objection_to_motion(const control::JointLimits& described,
                                          const JointSettings& limits, const std::string& unit);
