@@ -106,7 +106,7 @@ TEST(RealtimeCia402, AGroupOfDrives) {
   expect_realtime("DriveGroup::set_goal", [&] { group.set_goal(0, PowerGoal::kEnabled); });
   expect_realtime("DriveGroup::ask_reset", [&] { group.ask_reset(0); });
   expect_realtime("DriveGroup::set_halt", [&] { group.set_halt(0, true); });
-  expect_realtime("DriveGroup::set_mode", [&] { group.set_mode(0, Mode::kHoming, true); });
+  expect_realtime("DriveGroup::set_mode", [&] { group.set_mode(0, Mode::kHoming, false); });
   expect_realtime("DriveGroup::set_target", [&] { group.set_target(0, 8.0); });
   std::size_t refused = 1;
   expect_realtime("DriveGroup::step", [&] {
