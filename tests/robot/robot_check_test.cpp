@@ -69,7 +69,12 @@ TEST(RobotCheck, RefusesLimitsBeyondDescriptionAndDrives) {
 }
 
 TEST(RobotCheck, RefusesALinearAxisWhereTheDescriptionHasOneThatTurns) {
-  EXPECT_THAT(head("pid.yaml", {"Joint1.Unit=m"}),
+  std::vector<std::string> linear;
+  for (const char* each : {"Joint1", "Joint2", "Sensor", "BridgeRef", "Controller", "PID1", "PID2",
+                           "Generator", "Arming"}) {
+    linear.push_back(std::string(each) + ".Unit=m");
+  }
+  EXPECT_THAT(head("pid.yaml", linear),
               HasSubstr("'Joint1': Unit is 'm', and in the description the joint turns: expected "
                         "'rad'"));
 }

@@ -123,7 +123,7 @@ class RequirementPlanner {
   Candidate<Member> find(const ComponentEntry& entry, const Requirement& requirement,
                          const Members& members, const std::string& kind) {
     if (const BindingEntry* binding = binding_of(entry, requirement)) {
-      return find_bound<Member>(entry, *binding, members, kind);
+      return find_bound<Member>(entry, requirement, *binding, members, kind);
     }
     const std::string wanted_peer = requirement.peer_name();
     if (!wanted_peer.empty() && !is_peer(entry, requirement, wanted_peer)) return {};
@@ -150,8 +150,9 @@ class RequirementPlanner {
   }
 
   template <typename Member, typename Members>
-  Candidate<Member> find_bound(const ComponentEntry& entry, const BindingEntry& binding,
-                               const Members& members, const std::string& kind) {
+  Candidate<Member> find_bound(const ComponentEntry& entry, const Requirement& requirement,
+                               const BindingEntry& binding, const Members& members,
+                               const std::string& kind) {
     if (is_absent(binding.peer)) return {};
     const Index peer = directory_.component(binding.peer);
     const bool declared = std::count(peers_.begin(), peers_.end(), peer) > 0;
@@ -175,6 +176,8 @@ class RequirementPlanner {
       }
       names.emplace_back(member->name());
     }
+    // Bound by the name that the component has for its peer, not by the deployment.
+    if (binding.member.empty() && requirement.is_optional()) return {};
     diagnostics_.error(binding.where, quoted(binding.peer) + " has no " + kind + " " + quoted(name),
                        base::suggestion(name, names));
     return {};
