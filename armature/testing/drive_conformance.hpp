@@ -25,6 +25,7 @@
 
 #include "armature/component/interface.hpp"
 #include "armature/deploy/deployment.hpp"
+#include "armature/testing/deployed_robot.hpp"
 #include "armature/testing/drive_case.hpp"
 
 namespace armature::testing {
@@ -35,35 +36,25 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
   using Joints = DriveCase::Joints;
 
   static constexpr base::Duration kStep = std::chrono::milliseconds(2);
+  static constexpr base::Duration kLook = std::chrono::milliseconds(10);
+  static constexpr double kAtRest = 0.01;        ///< [rad/s or m/s]
   static constexpr double kStill = 0.005;        ///< by which what stands may move
   static constexpr double kArmingMotion = 0.01;  ///< by which what is armed may
 
-  DriveConformance() {
-    deploy::DeploymentOptions options;
-    options.library_folders = GetParam().library_folders;
-    options.document.overrides = GetParam().overrides;
-    deployment_ = deploy::load_deployment(GetParam().file, options);
-    EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
-    deployment_.options.simulated = true;
-    deployment_.options.log = [this](const rt::LogRecord& record) {
-      log_ += record.message() + "\n";
-    };
-    application_ =
-        std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
-  }
+  DriveConformance() : robot_(load()) {}
 
-  exec::Application& application() { return *application_; }
+  DeployedRobot& robot() { return robot_; }
+  exec::Application& application() { return robot_.application(); }
 
   void start() {
-    const auto started = application_->start();
-    ASSERT_TRUE(started.ok()) << started.to_text();
+    ASSERT_EQ(robot_.start(), "");
     run_for(std::chrono::milliseconds(100));
-    GetParam().prepare(*application_);
+    GetParam().prepare(application());
     run_for(std::chrono::milliseconds(100));
   }
   /// Asks for it; what becomes of it is seen after at most eight seconds.
   void ask_to_arm() {
-    const auto asked = application_->begin("Arming", "arm", {});
+    const auto asked = application().begin("Arming", "arm", {});
     ASSERT_TRUE(asked) << asked.error() << "\n" << reasons();
     for (int k = 0; k < 4000 && !armed() && !asked.value().ended(); ++k) run_for(kStep);
     run_for(kStep);
@@ -87,17 +78,17 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
 
   void run_for(base::Duration duration) {
     for (base::Duration passed{}; passed < duration; passed += kStep) {
-      const base::Time before = GetParam().time ? GetParam().time(*application_) : base::Time{};
-      application_->run_for(kStep);
-      if (GetParam().pass) GetParam().pass(*application_, before + kStep);
+      const base::Time before = GetParam().time ? GetParam().time(application()) : base::Time{};
+      robot_.run_for(kStep);
+      if (GetParam().pass) GetParam().pass(application(), before + kStep);
     }
   }
-  bool armed() { return value<bool>("Arming", "armed"); }
+  bool armed() { return robot_.armed(); }
   Joints positions() {
-    return GetParam().positions ? GetParam().positions(*application_) : believed();
+    return GetParam().positions ? GetParam().positions(application()) : believed();
   }
   Joints believed() {
-    Joints all = value<Joints>("Sensor", "sensor");
+    Joints all = robot_.value<Joints>("Sensor", "sensor");
     all.resize(GetParam().away.size());
     return all;
   }
@@ -119,10 +110,7 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
     return apart(before, positions()) / std::chrono::duration<double>(duration).count();
   }
   std::string move_to(const Joints& target) {
-    const auto asked =
-        application_->begin("Generator", "moveTo",
-                            {types::Value::of(target), types::Value::of(GetParam().motion_time)});
-    return asked ? "" : asked.error();
+    return robot_.begin_motion_to(target, GetParam().motion_time);
   }
   void move_and_arrive(const Joints& target) {
     ASSERT_EQ(move_to(target), "");
@@ -137,21 +125,29 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
 
   /// It comes to rest in time, is not armed, and stays both.
   void expect_rest() {
-    run_for(GetParam().rests_within);
+    const double at_rest =
+        (kAtRest + GetParam().sinks) * std::chrono::duration<double>(kLook).count();
+    base::Duration passed{}, moved{};
+    for (Joints last = positions(); passed < GetParam().rests_within; last = positions()) {
+      run_for(kLook);
+      passed += kLook;
+      if (apart(last, positions()) > at_rest) moved = passed;
+    }
     EXPECT_FALSE(armed()) << reasons();
     const Joints rest = positions();
     run_for(std::chrono::milliseconds(500));
     EXPECT_LT(apart(rest, positions()), stillness(std::chrono::milliseconds(500))) << reasons();
     EXPECT_FALSE(armed()) << reasons();
+    RecordProperty("moves_for_ms", static_cast<int>(moved / std::chrono::milliseconds(1)));
   }
   /// The cause is gone: nothing moves before somebody arms, and then all is as before.
   void expect_service_again() {
-    const base::Time since = application_->now();
+    const base::Time since = application().now();
     Joints rest = positions();
     if (!GetParam().begins_again) put_back_into_service();
     if (GetParam().begins_again) {
-      GetParam().mend(*application_);
-      EXPECT_TRUE(application_->stop().ok());
+      GetParam().mend(application());
+      EXPECT_TRUE(application().stop().ok());
       ASSERT_NO_FATAL_FAILURE(start());
       rest = positions();
     }
@@ -159,7 +155,7 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
     if (!GetParam().positions) rest = positions();
     run_for(std::chrono::milliseconds(200));
     EXPECT_FALSE(armed()) << "nothing arms itself\n" << reasons();
-    EXPECT_LT(apart(rest, positions()), stillness(application_->now() - since)) << "nothing moves";
+    EXPECT_LT(apart(rest, positions()), stillness(application().now() - since)) << "nothing moves";
     rest = positions();
     ASSERT_NO_FATAL_FAILURE(ask_to_arm());
     ASSERT_TRUE(armed()) << reasons();
@@ -172,73 +168,54 @@ class DriveConformance : public ::testing::TestWithParam<DriveCase> {
   /// What the operator does when a cause is gone: resets what faulted, starts what stopped.
   void put_back_into_service() {
     for (int round = 0; round < 4; ++round) {
-      GetParam().mend(*application_);
-      for (const auto& entry : application_->blueprint().components) {
-        const std::string& name = entry.component->name();
-        if (entry.component->state() == component::State::kException) {
-          static_cast<void>(application_->reset_component(name));
-        }
-        if (entry.component->state() == component::State::kStopped) {
-          static_cast<void>(application_->start_component(name));
-        }
-        confirm_position(name);
+      GetParam().mend(application());
+      robot_.reset_and_start_everything();
+      for (const auto& entry : application().blueprint().components) {
+        confirm_position(entry.component->name());
       }
       run_for(std::chrono::milliseconds(50));
     }
   }
   /// The operator has looked where the joint is.
   void confirm_position(const std::string& name) {
-    const auto exact = application_->value_of(name, "position_exact");
+    const auto exact = application().value_of(name, "position_exact");
     if (!exact || *static_cast<const bool*>(exact.value().data())) return;
     static_cast<void>(
-        application_->set_property(name, "position_confirmed", types::Value::of(true)));
+        application().set_property(name, "position_confirmed", types::Value::of(true)));
   }
   /// Until it is stopped.
   void stop_hardware(const std::string& component) {
-    ASSERT_TRUE(application_->stop_component(component));
-    const auto runs = [&] {
-      return application_->find(component)->state() == component::State::kRunning;
-    };
+    ASSERT_TRUE(application().stop_component(component));
+    const auto runs = [&] { return robot_.state(component) == component::State::kRunning; };
     for (int k = 0; k < 15'000 && !GetParam().stops_at_once && runs(); ++k) run_for(kStep);
     ASSERT_FALSE(runs()) << reasons();
   }
   void throw_in(const std::string& component) {
-    application_->run_in_thread_of(*application_->find(component),
+    application().run_in_thread_of(*application().find(component),
                                    [] { throw std::runtime_error("out of order"); });
   }
   /// In place of the generator, which stops.
   void desire(double position, double rest) {
-    ASSERT_TRUE(application_->stop_component("Generator"));
-    component::Component& generator = *application_->find("Generator");
+    ASSERT_TRUE(application().stop_component("Generator"));
+    component::Component& generator = *application().find("Generator");
     for (component::OutputPortBase* output : component::interface_of(generator).outputs) {
       if (!output->name().starts_with("nAxesDesired")) continue;
       const Joints all(GetParam().away.size(),
                        output->name() == "nAxesDesiredPosition" ? position : rest);
-      ASSERT_TRUE(application_->run_in_thread_of(generator, [&] { output->write_from(&all); }));
+      ASSERT_TRUE(application().run_in_thread_of(generator, [&] { output->write_from(&all); }));
     }
   }
-  /// Who is out of service, and why.
-  std::string reasons() {
-    std::string all;
-    for (const auto& entry : application_->blueprint().components) {
-      const component::Component& each = *entry.component;
-      if (each.state() == component::State::kRunning) continue;
-      all += each.name() + ": " + std::string(each.reason()) + "\n";
-    }
-    return all + log_;
-  }
-  template <typename T>
-  T value(const std::string& component, const char* item) {
-    const auto value = application_->value_of(component, item);
-    EXPECT_TRUE(value) << value.error();
-    return value ? *static_cast<const T*>(value.value().data()) : T{};
-  }
-
-  std::string log_;
+  std::string reasons() { return robot_.reasons(); }
 
  private:
-  deploy::Deployment deployment_;
-  std::unique_ptr<exec::Application> application_;
+  static deploy::Deployment load() {
+    deploy::DeploymentOptions options;
+    options.library_folders = GetParam().library_folders;
+    options.document.overrides = GetParam().overrides;
+    return deploy::load_deployment(GetParam().file, options);
+  }
+
+  DeployedRobot robot_;
 };
 
 // --- arming --------------------------------------------------------------------------------------
@@ -295,7 +272,7 @@ TEST_P(DriveConformance, DisarmedInMotionItRests) {
 }
 
 TEST_P(DriveConformance, HardwareThatStopsInMotionEndsIt) {
-  if (!GetParam().stops_at_once) return;
+  if (!GetParam().stops_at_once) GTEST_SKIP() << "its orderly stop is a motion of its own";
   ASSERT_NO_FATAL_FAILURE(start_in_motion());
   ASSERT_NO_FATAL_FAILURE(stop_hardware(GetParam().hardware.back()));
   expect_rest();

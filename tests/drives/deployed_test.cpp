@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives by CiA 402 as deployments use them: the arm of examples/12_cia402, with emulated drives.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/deployment.hpp"
+#include "armature/testing/deployed_robot.hpp"
 #include "drives/cia402_components/emulated_cia402_bus.hpp"
 
 namespace armature::cia402 {
@@ -85,63 +84,28 @@ deploy::Deployment load(const std::string& file, std::vector<std::string> overri
   return deploy::parse_deployment(own->second, path, options);
 }
 
-class Arm {
+class Arm final : public testing::DeployedRobot {
  public:
   explicit Arm(const std::string& file, std::vector<std::string> overrides = {})
-      : deployment_(load(file, std::move(overrides))) {
-    EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
-    deployment_.options.simulated = true;
-    application_ =
-        std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
-    started = application_->start().to_text();
+      : DeployedRobot(load(file, std::move(overrides))), started(start()) {
     if (started.empty()) run_for(100ms);
   }
 
-  exec::Application& application() { return *application_; }
   EmulatedBus& bus() {
-    return static_cast<EmulatedCia402Bus*>(application_->find("Bus"))->drives();
+    return static_cast<EmulatedCia402Bus*>(application().find("Bus"))->drives();
   }
   EmulatedDrive& drive(unsigned node) { return *bus().find(node); }
-  void run_for(base::Duration duration) { application_->run_for(duration); }
-  double at(int joint) { return value<double>("Joint" + std::to_string(joint), "Position"); }
-  bool armed() { return value<bool>("Arming", "armed"); }
-  State state_of(const char* name) { return application_->find(name)->state(); }
-  std::string reason_of(const char* name) {
-    return std::string(application_->find(name)->reason());
-  }
   /// What the operator does with all that faulted or was stopped by that.
   void put_back_to_service() {
-    for (int pass = 0; pass < 5; ++pass) {
-      for (const char* name : {"Drive1", "Drive2", "Joint1", "Joint2", "Sensor", "Actuator", "PID1",
-                               "PID2", "BridgeRef", "Controller", "Arming", "Generator"}) {
-        if (application_->find(name) == nullptr) continue;
-        if (state_of(name) == State::kException) {
-          EXPECT_TRUE(application_->reset_component(name)) << name << ": " << reason_of(name);
-        }
-        if (state_of(name) != State::kRunning) {
-          static_cast<void>(application_->start_component(name));
-        }
-      }
+    for (int round = 0; round < 5; ++round) {
+      reset_and_start_everything();
       run_for(50ms);
     }
-    EXPECT_EQ(state_of("Arming"), State::kRunning) << reason_of("Arming");
-    EXPECT_EQ(state_of("Generator"), State::kRunning) << reason_of("Generator");
-  }
-  template <typename T>
-  T value(const std::string& component, const char* item) {
-    const auto value = application_->value_of(component, item);
-    EXPECT_TRUE(value) << value.error();
-    return *static_cast<const T*>(value.value().data());
-  }
-  CommandStage arm() { return run("Arming", "arm", {}); }
-  CommandStage move_to(double first, double second) {
-    return run("Generator", "moveTo",
-               {types::Value::of(std::vector<double>{first, second}), types::Value::of(0.0)});
+    EXPECT_EQ(state("Arming"), State::kRunning) << reasons();
+    EXPECT_EQ(state("Generator"), State::kRunning) << reasons();
   }
   void begin_motion() {
-    ASSERT_TRUE(application_->begin(
-        "Generator", "moveTo",
-        {types::Value::of(std::vector<double>{1.2, 1.2}), types::Value::of(0.0)}));
+    ASSERT_EQ(begin_motion_to({1.2, 1.2}), "");
     run_for(500ms);
     ASSERT_GT(drive(1).axis().velocity(), 1.0);
   }
@@ -157,18 +121,7 @@ class Arm {
     EXPECT_NEAR(drive(1).axis().position(), there, 1e-3);
   }
 
-  std::string started;  ///< what it has to say against it
-
- private:
-  CommandStage run(const char* component, const char* command,
-                   std::vector<types::Value> arguments) {
-    auto begun = application_->begin(component, command, std::move(arguments));
-    EXPECT_TRUE(begun) << begun.error();
-    for (int k = 0; k < 1000 && !begun.value().ended(); ++k) run_for(10ms);
-    return begun.value().stage();
-  }
-  deploy::Deployment deployment_;
-  std::unique_ptr<exec::Application> application_;
+  std::string started;  ///< what keeps it from running
 };
 
 // --- in each mode --------------------------------------------------------------------------------
@@ -191,7 +144,7 @@ TEST_P(EachMode, TheArmIsArmedMovesAndIsSwitchedOffAgain) {
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
   EXPECT_LT(std::abs(arm.drive(1).axis().position()), 0.01);
   EXPECT_EQ(arm.drive(1).power(), PowerState::kOperationEnabled);
-  EXPECT_EQ(arm.move_to(1.0, -1.0), CommandStage::kDone);
+  EXPECT_EQ(arm.move_to({1.0, -1.0}), CommandStage::kDone);
   arm.run_for(500ms);
   EXPECT_NEAR(arm.at(1), 1.0, 5e-3);
   EXPECT_NEAR(arm.at(2), -1.0, 5e-3);
@@ -208,8 +161,8 @@ TEST_P(EachMode, ADriveThatFailsStopsTheArm) {
   arm.begin_motion();
   arm.drive(2).fail(0x2310);
   arm.expect_rest_within(500ms);
-  EXPECT_EQ(arm.state_of("Drive2"), State::kException);
-  EXPECT_THAT(arm.reason_of("Drive2"), HasSubstr("the drive failed with error code 8976"));
+  EXPECT_EQ(arm.state("Drive2"), State::kException);
+  EXPECT_THAT(arm.reason("Drive2"), HasSubstr("the drive failed with error code 8976"));
   EXPECT_EQ(arm.drive(2).power(), PowerState::kFault) << "the operator alone resets it";
 }
 
@@ -225,15 +178,11 @@ TEST_P(EachMode, ADriveThatFailedIsResetByTheOperatorAndMovesAgain) {
   arm.run_for(20ms);
   EXPECT_EQ(arm.drive(2).power(), PowerState::kSwitchOnDisabled);
   for (int round = 0; round < 2; ++round) {
-    for (const auto& entry : arm.application().blueprint().components) {
-      const std::string& name = entry.component->name();
-      static_cast<void>(arm.application().reset_component(name));
-      static_cast<void>(arm.application().start_component(name));
-    }
+    arm.reset_and_start_everything();
     arm.run_for(20ms);
   }
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
-  EXPECT_EQ(arm.move_to(0.2, -0.2), CommandStage::kDone);
+  EXPECT_EQ(arm.move_to({0.2, -0.2}), CommandStage::kDone);
 }
 
 TEST_P(EachMode, ADriveWhoseValuesAreFrozenStopsTheArm) {
@@ -255,7 +204,7 @@ TEST_P(EachMode, ADriveThatRebootsStopsTheArm) {
   arm.begin_motion();
   arm.drive(1).reboot(arm.bus().bus().now());
   arm.run_for(200ms);
-  EXPECT_EQ(arm.state_of("Drive1"), State::kException);
+  EXPECT_EQ(arm.state("Drive1"), State::kException);
   EXPECT_FALSE(arm.armed());
   EXPECT_NEAR(arm.drive(2).axis().velocity(), 0.0, 1e-3);
   EXPECT_NE(arm.drive(1).power(), PowerState::kOperationEnabled);
@@ -265,7 +214,7 @@ TEST_P(EachMode, ADriveThatDoesNotSwitchOnIsNotArmed) {
   Arm arm(GetParam());
   arm.drive(2).set_without_mains(true);
   EXPECT_NE(arm.arm(), CommandStage::kDone);
-  EXPECT_THAT(arm.reason_of("Drive2"),
+  EXPECT_THAT(arm.reason("Drive2"),
               HasSubstr("the drive does not switch on: it is ready to switch on"));
   EXPECT_FALSE(arm.armed());
   arm.run_for(500ms);
@@ -281,7 +230,7 @@ TEST_P(EachMode, ADriveThatHearsNoSyncStopsTheArm) {
   arm.begin_motion();
   arm.drive(1).set_deaf_to_sync(true);
   arm.expect_rest_within(500ms);
-  EXPECT_EQ(arm.state_of("Drive1"), State::kException);
+  EXPECT_EQ(arm.state("Drive1"), State::kException);
 }
 
 /// Where the operator finds it, and says so: its encoder may have lost its place.
@@ -290,7 +239,7 @@ TEST_P(EachMode, ADriveThatRebootedIsPreparedAgainAtTheOperatorsWord) {
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
   arm.drive(1).reboot(arm.bus().bus().now());
   arm.run_for(200ms);
-  ASSERT_EQ(arm.reason_of("Drive1"),
+  ASSERT_EQ(arm.reason("Drive1"),
             "the drive rebooted: call resetDrive of its bus, which prepares it again");
   ASSERT_TRUE(arm.application().call("Bus", "resetDrive", {types::Value::of(1)}));
   arm.run_for(500ms);
@@ -300,7 +249,7 @@ TEST_P(EachMode, ADriveThatRebootedIsPreparedAgainAtTheOperatorsWord) {
   ASSERT_TRUE(
       arm.application().set_property("Drive1", "position_confirmed", types::Value::of(true)));
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
-  EXPECT_EQ(arm.move_to(0.5, 0.5), CommandStage::kDone);
+  EXPECT_EQ(arm.move_to({0.5, 0.5}), CommandStage::kDone);
   arm.run_for(500ms);
   EXPECT_NEAR(arm.at(1), 0.5, 5e-3);
 }
@@ -334,7 +283,7 @@ INSTANTIATE_TEST_SUITE_P(Cia402, EachMode,
 TEST(Cia402Mode, AnEffortIsNoPosition) {
   Arm arm("meddled.yaml");
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
-  ASSERT_EQ(arm.move_to(1.0, 1.0), CommandStage::kDone);
+  ASSERT_EQ(arm.move_to({1.0, 1.0}), CommandStage::kDone);
   arm.run_for(200ms);
   EXPECT_NEAR(arm.at(1), 1.0, 5e-3);
   const auto& meddler = *static_cast<const Meddler*>(arm.application().find("Meddler"));
@@ -348,7 +297,7 @@ TEST(Cia402Mode, DrivesOfOneBusCanHaveTheirOwn) {
   ASSERT_EQ(arm.started, "");
   EXPECT_EQ(arm.drive(1).mode(), Mode::kCyclicPosition);
   EXPECT_EQ(arm.drive(2).mode(), Mode::kCyclicVelocity);
-  ASSERT_EQ(arm.arm(), CommandStage::kDone) << arm.reason_of("Arming");
+  ASSERT_EQ(arm.arm(), CommandStage::kDone) << arm.reason("Arming");
   static_cast<Turner*>(arm.application().find("Turner"))->velocity = 0.2;
   arm.run_for(1s);
   EXPECT_NEAR(arm.drive(1).axis().position(), 0.0, 1e-3);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives that take torques, or follow velocities or positions: the arm of examples/11_drives.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +11,7 @@
 
 #include "armature/controllers/base/joint_hardware.hpp"
 #include "armature/deploy/deployment.hpp"
+#include "armature/testing/deployed_robot.hpp"
 
 namespace armature {
 namespace {
@@ -53,53 +52,14 @@ std::string mistakes(const std::string& file, std::vector<std::string> overrides
   return load(file, std::move(overrides)).diagnostics.to_text();
 }
 
-class Arm {
+/// After the first samples.
+class Arm final : public testing::DeployedRobot {
  public:
   explicit Arm(const std::string& file) : Arm(load(file)) {}
-  explicit Arm(deploy::Deployment deployment) : deployment_(std::move(deployment)) {
-    EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
-    deployment_.options.simulated = true;
-    application_ =
-        std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
-    const auto started = application_->start();
-    EXPECT_TRUE(started.ok()) << started.to_text();
+  explicit Arm(deploy::Deployment deployment) : DeployedRobot(std::move(deployment)) {
+    EXPECT_EQ(start(), "");
     run_for(100ms);
   }
-
-  exec::Application& application() { return *application_; }
-  void run_for(base::Duration duration) {
-    for (base::Duration passed{}; passed < duration; passed += 5ms) {
-      const double before = at(1);
-      application_->run_for(5ms);
-      fastest = std::max(fastest, std::abs(at(1) - before) / 0.005);
-    }
-  }
-  double at(int joint) { return value<double>("Joint" + std::to_string(joint), "Position"); }
-  bool armed() { return value<bool>("Arming", "armed"); }
-  CommandStage arm() { return run("Arming", "arm", {}); }
-  CommandStage move_to(double first, double second) {
-    return run("Generator", "moveTo",
-               {types::Value::of(std::vector<double>{first, second}), types::Value::of(0.0)});
-  }
-  double fastest = 0.0;  ///< of the first joint [rad/s]
-
- private:
-  CommandStage run(const char* component, const char* command,
-                   std::vector<types::Value> arguments) {
-    auto begun = application_->begin(component, command, std::move(arguments));
-    EXPECT_TRUE(begun) << begun.error();
-    for (int k = 0; k < 1000 && !begun.value().ended(); ++k) run_for(10ms);
-    return begun.value().stage();
-  }
-  template <typename T>
-  T value(const std::string& component, const char* item) {
-    const auto value = application_->value_of(component, item);
-    EXPECT_TRUE(value) << value.error();
-    return *static_cast<const T*>(value.value().data());
-  }
-
-  deploy::Deployment deployment_;
-  std::unique_ptr<exec::Application> application_;
 };
 
 class EachWay : public ::testing::TestWithParam<const char*> {};
@@ -108,12 +68,12 @@ TEST_P(EachWay, TheArmIsHeldWhenItIsArmedMovesAndStops) {
   Arm arm(GetParam());
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
   EXPECT_LT(std::abs(arm.at(1)), 0.01) << "the link hangs";
-  EXPECT_EQ(arm.move_to(1.0, -1.0), CommandStage::kDone);
+  EXPECT_EQ(arm.move_to({1.0, -1.0}), CommandStage::kDone);
   arm.run_for(500ms);
   EXPECT_NEAR(arm.at(1), 1.0, 2e-3);
   EXPECT_NEAR(arm.at(2), -1.0, 2e-3);
-  EXPECT_GT(arm.fastest, 1.3) << "max_vel is 1.5";
-  EXPECT_LT(arm.fastest, 2.0);
+  EXPECT_GT(arm.fastest(1), 1.3) << "max_vel is 1.5";
+  EXPECT_LT(arm.fastest(1), 2.0);
   EXPECT_EQ(arm.application().faults(), 0u);
 }
 
@@ -121,9 +81,7 @@ TEST_P(EachWay, TheArmIsHeldWhenItIsArmedMovesAndStops) {
 TEST_P(EachWay, WithoutAReferenceTheArmIsBrakedSmoothly) {
   Arm arm(GetParam());
   ASSERT_EQ(arm.arm(), CommandStage::kDone);
-  ASSERT_TRUE(arm.application().begin(
-      "Generator", "moveTo",
-      {types::Value::of(std::vector<double>{1.2, 0.0}), types::Value::of(0.0)}));
+  ASSERT_EQ(arm.begin_motion_to({1.2, 0.0}), "");
   arm.run_for(500ms);
   const double there = arm.at(1);
   ASSERT_GT(there, 0.2);
@@ -143,7 +101,6 @@ INSTANTIATE_TEST_SUITE_P(Drives, EachWay,
                            return file.substr(0, file.find('.'));
                          });
 
-/// In motion it is redirected, and stopped.
 deploy::Deployment load_stubborn() {
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
@@ -176,6 +133,7 @@ TEST(Hardware, ThatDoesNotTakeThreeCommandsInARowFaults) {
   EXPECT_FALSE(arm.armed());
 }
 
+/// In motion it is redirected, and stopped.
 TEST(OnlineGenerator, TakesThePlaceOfTheOtherByOneLine) {
   deploy::DeploymentOptions options;
   options.library_folders = {ROBOT_LIBRARY, DRIVE_LIBRARY};
@@ -185,7 +143,7 @@ TEST(OnlineGenerator, TakesThePlaceOfTheOtherByOneLine) {
             "\ncomponents:\n  Generator: {override: true, model: nAxesGeneratorOnline}\n",
         EXAMPLES "/11_drives/online.yaml", options));
     ASSERT_EQ(arm.arm(), CommandStage::kDone) << file;
-    EXPECT_EQ(arm.move_to(0.5, -0.5), CommandStage::kDone) << file;
+    EXPECT_EQ(arm.move_to({0.5, -0.5}), CommandStage::kDone) << file;
     auto moving = arm.application().begin(
         "Generator", "moveTo",
         {types::Value::of(std::vector<double>{1.2, 0.0}), types::Value::of(0.0)});

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An arm on a rail: two joints that turn and a linear axis, examples/11_drives/rail.yaml.
 #include <chrono>
-#include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/deploy/deployment.hpp"
+#include "armature/testing/deployed_robot.hpp"
 
 namespace armature {
 namespace {
@@ -19,7 +18,6 @@ using namespace std::chrono_literals;
 using component::CommandStage;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using Vector = std::vector<double>;
 
 deploy::Deployment load(std::vector<std::string> overrides = {}) {
   deploy::DeploymentOptions options;
@@ -40,51 +38,21 @@ std::string mistakes(std::vector<std::string> overrides = {}) {
   return load(std::move(overrides)).diagnostics.to_text();
 }
 
-/// In simulated time.
-class Rail {
+/// After the first samples.
+class Rail final : public testing::DeployedRobot {
  public:
   explicit Rail(std::vector<std::string> overrides = {}) : Rail(load(std::move(overrides))) {}
-  explicit Rail(deploy::Deployment deployment) : deployment_(std::move(deployment)) {
-    EXPECT_TRUE(deployment_.ok()) << deployment_.diagnostics.to_text();
-    deployment_.options.simulated = true;
-    deployment_.options.log = [this](const rt::LogRecord& record) {
-      log += record.message() + "\n";
-    };
-    application_ =
-        std::make_unique<exec::Application>(std::move(deployment_.blueprint), deployment_.options);
-    const auto started = application_->start();
-    EXPECT_TRUE(started.ok()) << started.to_text();
-    application_->run_for(100ms);
+  explicit Rail(deploy::Deployment deployment) : DeployedRobot(std::move(deployment)) {
+    EXPECT_EQ(start(), "");
+    run_for(100ms);
   }
-
-  CommandStage run(const char* component, const char* command,
-                   std::vector<types::Value> arguments = {}) {
-    auto begun = application_->begin(component, command, std::move(arguments));
-    EXPECT_TRUE(begun) << begun.error();
-    for (int k = 0; k < 1000 && !begun.value().ended(); ++k) application_->run_for(10ms);
-    return begun.value().stage();
-  }
-  double at(int joint) {
-    const auto value = application_->value_of("Joint" + std::to_string(joint), "Position");
-    EXPECT_TRUE(value) << value.error();
-    return *static_cast<const double*>(value.value().data());
-  }
-  exec::Application& application() { return *application_; }
-
-  std::string log;
-
- private:
-  deploy::Deployment deployment_;
-  std::unique_ptr<exec::Application> application_;
 };
 
 TEST(Rail, JointsAndALinearAxisMoveTogether) {
   Rail rail;
-  ASSERT_EQ(rail.run("Arming", "arm"), CommandStage::kDone) << rail.log;
-  EXPECT_EQ(rail.run("Generator", "moveTo",
-                     {types::Value::of(Vector{1.0, -1.0, 1.2}), types::Value::of(0.0)}),
-            CommandStage::kDone);
-  rail.application().run_for(500ms);
+  ASSERT_EQ(rail.arm(), CommandStage::kDone) << rail.log;
+  EXPECT_EQ(rail.move_to({1.0, -1.0, 1.2}), CommandStage::kDone);
+  rail.run_for(500ms);
   EXPECT_NEAR(rail.at(1), 1.0, 2e-3);
   EXPECT_NEAR(rail.at(2), -1.0, 2e-3);
   EXPECT_NEAR(rail.at(3), 1.2, 2e-3) << "[m]";
@@ -95,11 +63,9 @@ TEST(Rail, MovesByTheOnlineGeneratorToo) {
   Rail rail(
       load_with("  Generator: {override: true, model: nAxesGeneratorOnline, properties: {max_jerk: "
                 "[40 rad/s^3, 40, 15000 mm/s^3]}}\n"));
-  ASSERT_EQ(rail.run("Arming", "arm"), CommandStage::kDone) << rail.log;
-  EXPECT_EQ(rail.run("Generator", "moveTo",
-                     {types::Value::of(Vector{0.5, -0.5, 1.2}), types::Value::of(0.0)}),
-            CommandStage::kDone);
-  rail.application().run_for(500ms);
+  ASSERT_EQ(rail.arm(), CommandStage::kDone) << rail.log;
+  EXPECT_EQ(rail.move_to({0.5, -0.5, 1.2}), CommandStage::kDone);
+  rail.run_for(500ms);
   EXPECT_NEAR(rail.at(3), 1.2, 2e-3) << "[m]";
 }
 
@@ -123,7 +89,7 @@ TEST(Rail, TheCheckRefusesTheUnitsOfTheOtherKind) {
 /// The motor of the rail turns the other way than its sign says.
 TEST(Rail, TheWatchOfArmingSpeaksOfMetres) {
   Rail rail({"Joint3.ActuatorSign=-1", "Joint3.PositionMax=2", "Drive3.Weight=10"});
-  EXPECT_EQ(rail.run("Arming", "arm"), CommandStage::kFailed);
+  EXPECT_EQ(rail.arm(), CommandStage::kFailed);
   EXPECT_THAT(rail.log, HasSubstr(" m when its brake opened at "));
   EXPECT_THAT(rail.log, HasSubstr(" N (ArmingMotion: 0.01)"));
 }
