@@ -4,7 +4,7 @@
 
 usage: rules_test.py SOURCE_DIR [--write]
 
-A link to a file of tests has the tests in its title: [port_test](../armature/component/ports/port_test.cpp "Port.IsRead, Port.IsWritten").
+A link to a file of tests, or of a suite that several files instantiate, has the tests in its title: [port_test](../armature/component/ports/port_test.cpp "Port.IsRead, Port.IsWritten").
 Tests that stand elsewhere, in backquotes, have to exist as well. --write mends links to files that have moved.
 """
 
@@ -16,7 +16,7 @@ from pathlib import Path
 LEAST_RULES = {"docs/bundle.md": 5, "docs/can.md": 15, "docs/canopen.md": 10, "docs/editing.md": 5, "docs/generate.md": 5, "docs/papers.md": 400, "docs/promises.md": 40, "docs/ride.md": 20,
                "docs/rules.md": 30, "docs/robot.md": 15, "docs/security.md": 15}
 NAME = r"\w+[./][A-Z]\w+|test_\w+"
-LINK = re.compile(r'\[(\w+_test)\]\(([^)\s]+?\.(?:cpp|py))(?: "([^"]*)")?\)')
+LINK = re.compile(r'\[(\w+_(?:test|conformance))\]\(([^)\s]+?\.(?:cpp|hpp|py))(?: "([^"]*)")?\)')
 QUOTED = re.compile(f"`({NAME})`")
 CPP_TEST = re.compile(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", re.MULTILINE)
 BREAKAGE = re.compile(r'\bBreakage\{\s*"(\w+)"')  # of the campaign
@@ -37,7 +37,7 @@ def existing_tests(source):
     for folder, below, files in os.walk(source):
         below[:] = [each for each in below if each not in ("build", ".git", "node_modules")]
         for file in files:
-            if file.endswith(("_test.cpp", "_test.py")):
+            if file.endswith(("_test.cpp", "_test.py", "_conformance.hpp")):
                 for test in tests_in(Path(folder, file)):
                     known.setdefault(test, []).append(Path(folder, file))
     return known
