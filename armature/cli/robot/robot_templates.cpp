@@ -79,7 +79,7 @@ components:
   Reporter:
     model: Reporter
     activity: {periodic: 20 ms, scheduler: other}
-    properties: {what: [BridgeRef.reference, "Joint*.Position", "Joint*.Armed"], file: robot.mcap}
+    properties: {what: [BridgeRef.reference, Sensor.sensor, "Joint*.Armed"], file: robot.mcap}
 )";
 
 constexpr std::string_view kRobotScript = R"(-- armature run --sim --script move.lua simulated.yaml
