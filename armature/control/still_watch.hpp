@@ -12,6 +12,7 @@ namespace armature::control {
 /// judges; whoever asks brakes. A sensor may tell each position ten times. One thread uses it.
 class StillWatch {
  public:
+  /// What a joint may do.
   struct Config {
     double most = 0.0;  ///< way that a joint may be told to go meanwhile [rad or m], > 0
     /// After which a way counts for a part e of itself. Infinite for positions; velocities that a
