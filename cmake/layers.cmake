@@ -29,6 +29,7 @@ set(ARMATURE_LAYERS
     "bundle: base platform document orocos deploy idl"
     "generate: base component types runner exec document deploy platform"
     "report: base platform control component exec record"
+    "replay: base platform types component exec record runner document inspect deploy"
     "remote: base idl ride document inspect exec component rt types platform"
     "studio: base platform rt ride websocket remote document deploy inspect edit"
     "lua: base inspect exec component rt types platform"
@@ -40,5 +41,5 @@ set(ARMATURE_LAYERS
     "cia402: base can canopen control platform sim"
     "cia402_components: base can canopen cia402 component controllers guardian platform rt types"
     "robots: base platform rt types controllers component can control vision guardian sim"
-    "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim"
-    "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report lua remote browser controllers general sim")
+    "cli: base platform types rt control component can ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report replay lua remote browser controllers general sim"
+    "testing: base platform types rt guard control component can guardian ride tls websocket exec record runner document orocos analysis inspect deploy edit bundle generate studio report replay lua remote browser controllers general sim")

@@ -13,7 +13,7 @@ namespace {
 /// the C++ library may use functions of `std::string` that were compiled into it.
 constexpr std::string_view kNeverRealTime[] = {"libarmature_deploy.so", "libarmature_document.so",
                                                "libarmature_orocos.so", "libarmature_analysis.so",
-                                               "libarmature_report.so", "libarmature_edit.so",
+                                               "libarmature_report.so", "libarmature_edit.so", "libarmature_replay.so",
                                                "libyaml-cpp.so",        "libyaml-0.so",
                                                "libpugixml.so",         "liburdfdom_model.so",
                                                "libtinyxml.so",         "libconsole_bridge.so"};
