@@ -109,8 +109,9 @@ std::vector<std::string> order_of(const exec::Application& application) {
 /// How the run that was done again ended.
 struct Done {
   bool to_the_end = false;  ///< of the recorded run
+  base::Time until{};       ///< all before it was done
   bool failed = false;      ///< it could not be done
-  std::vector<std::string> order;
+  std::vector<std::string> order{};
 };
 
 Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
@@ -142,7 +143,9 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
   facts.duration = application.now() - base::Time{};
   facts.wall_time = platform::monotonic_now() - wall_begin;
   Done done{.to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < until,
+            .until = application.now(),
             .order = order_of(application)};
+  if (done.to_the_end) done.until = base::Time::max();
   base::Diagnostics ended = application.stop();
   ended.append(reenactment.problems());
   console.show(ended);
@@ -166,13 +169,12 @@ void tell(const replay::Difference& first, const Console& console) {
                 ":\n  was " + first.was + "\n  is  " + first.is + "\n");
 }
 
-int compare(const Recorded& recorded, const Done& done, const ReplayArguments& arguments,
-            const Console& console) {
+int compare(const Recorded& recorded, const Done& done, const Console& console) {
   const replay::Losses losses = replay::losses_of(recorded.folder, recorded.experiment);
   replay::ComparisonOptions options;
   options.order = done.order;
   options.losses = !losses.known || losses.samples > 0;
-  if (arguments.until) options.until = base::Time{} + *arguments.until;
+  options.until = done.until;
   base::Diagnostics problems;
   const replay::Comparison found =
       replay::compare_folders(recorded.folder, recorded.run, done.to_the_end, options, problems);
@@ -246,7 +248,7 @@ int replay(const ReplayArguments& arguments, Console& console) {
   const Done done = do_again(recorded, deployment, arguments, console);
   if (done.failed) return kFailed;
   return changes.any() ? show_what_if(recorded, changes, console)
-                       : compare(recorded, done, arguments, console);
+                       : compare(recorded, done, console);
 }
 
 }  // namespace armature::cli

@@ -80,7 +80,11 @@ std::vector<UsedLibrary> used_libraries(const document::Document& document,
   return used;
 }
 
-std::string normal(const std::string& path) { return fs::path(path).lexically_normal().string(); }
+/// However a path is written.
+std::string normal(const std::string& path) {
+  std::error_code ignored;
+  return fs::absolute(path, ignored).lexically_normal().string();
+}
 
 /// Reads from what the run has read; with `more`, what that includes is read from disk.
 deploy::FileReader reader_of(const Experiment& experiment, bool more) {
@@ -153,14 +157,27 @@ void warn_of_outline(const std::string& then, const std::string& now,
   }
 }
 
+/// A file that changes the recorded deployment is one that includes it, so its entries win.
 deploy::Deployment load(const Experiment& experiment, const Changes& changes,
                         const deploy::DeploymentOptions& options) {
   if (changes.file.empty()) return deploy::load_deployment(experiment.deployment, options);
-  const fs::path recorded(experiment.deployment);
-  const fs::path folder = recorded.parent_path();
-  const std::string text = "include: [" + recorded.filename().string() + ", " +
-                           fs::absolute(changes.file).string() + "]\n";
-  return deploy::parse_deployment(text, (folder / "what-if.yaml").string(), options);
+  deploy::Deployment refused;
+  const auto text = platform::read_file(changes.file);
+  if (!text) {
+    refused.diagnostics.error({}, text.error());
+    return refused;
+  }
+  if (('\n' + text.value()).find("\ninclude:") != std::string::npos) {
+    refused.diagnostics.error({changes.file, 0, 0},
+                              "it includes other files, but here it is added to the recorded "
+                              "deployment",
+                              "remove include, and write what is to change into it");
+    return refused;
+  }
+  // In the last line, so that places in the file stay what they are.
+  const std::string whole =
+      text.value() + "\ninclude: '" + normal(experiment.deployment) + "'\n";
+  return deploy::parse_deployment(whole, changes.file, options);
 }
 
 }  // namespace
