@@ -106,12 +106,22 @@ std::vector<std::string> order_of(const exec::Application& application) {
   return order;
 }
 
+std::vector<replay::Flow> flows_of(const exec::Application& application) {
+  std::vector<replay::Flow> flows;
+  for (const exec::ConnectionPlan& connection : application.plan().connections) {
+    flows.push_back({connection.output->owner().name() + '.' + connection.output->name(),
+                     connection.input->owner().name()});
+  }
+  return flows;
+}
+
 /// How the run that was done again ended.
 struct Done {
   bool to_the_end = false;  ///< of the recorded run
   base::Time until{};       ///< all before it was done
   bool failed = false;      ///< it could not be done
-  std::vector<std::string> order{};
+  std::vector<std::string> order{};  ///< components, writers before readers
+  std::vector<replay::Flow> flows{};
 };
 
 Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
@@ -144,7 +154,8 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
   facts.wall_time = platform::monotonic_now() - wall_begin;
   Done done{.to_the_end = facts.end != exec::RunEnd::kConditionMet && application.now() < until,
             .until = application.now(),
-            .order = order_of(application)};
+            .order = order_of(application),
+            .flows = flows_of(application)};
   if (done.to_the_end) done.until = base::Time::max();
   base::Diagnostics ended = application.stop();
   ended.append(reenactment.problems());
@@ -172,7 +183,6 @@ void tell(const replay::Difference& first, const Console& console) {
 int compare(const Recorded& recorded, const Done& done, const Console& console) {
   const replay::Losses losses = replay::losses_of(recorded.folder, recorded.experiment);
   replay::ComparisonOptions options;
-  options.order = done.order;
   options.losses = !losses.known || losses.samples > 0;
   options.until = done.until;
   base::Diagnostics problems;
@@ -183,8 +193,8 @@ int compare(const Recorded& recorded, const Done& done, const Console& console) 
     console.say(LogLevel::kError, "'" + channel + "' was recorded, but is not recorded now: this "
                                                   "deployment has no such port or property");
   }
-  if (found.first) {
-    tell(*found.first, console);
+  if (const auto first = found.first(done.flows, done.order)) {
+    tell(*first, console);
     return kDiffers;
   }
   if (!problems.ok() || !found.only_recorded.empty()) return kFailed;

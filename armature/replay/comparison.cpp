@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <set>
 #include <utility>
 
 namespace armature::replay {
@@ -37,10 +37,40 @@ std::string told(const RecordedSample* sample, bool with_time) {
                    : sample->json;
 }
 
-bool comes_before(const Difference& a, const Difference& b) {
-  return std::tie(a.time, a.rank, a.channel, a.sequence) <
-         std::tie(b.time, b.rank, b.channel, b.sequence);
-}
+/// Follows the data of one instant downstream.
+class Downstream {
+ public:
+  /// @param equal  channels that are as they were at that time: nothing comes through them
+  Downstream(const std::vector<Flow>& flows, std::set<std::string> equal)
+      : flows_(flows), equal_(std::move(equal)) {}
+
+  /// The components that the channel's data reaches.
+  std::set<std::string> reached_from(const std::string& channel) const {
+    std::set<std::string> reached;
+    std::vector<std::string> open{channel};
+    while (!open.empty()) {
+      const std::string from = std::move(open.back());
+      open.pop_back();
+      for (const Flow& flow : flows_) {
+        if (flow.from != from || !reached.insert(flow.to).second) continue;
+        add_outputs(flow.to, open);
+      }
+    }
+    return reached;
+  }
+
+ private:
+  void add_outputs(const std::string& component, std::vector<std::string>& to) const {
+    for (const Flow& flow : flows_) {
+      if (component_of(flow.from) == component && !equal_.contains(flow.from)) {
+        to.push_back(flow.from);
+      }
+    }
+  }
+
+  const std::vector<Flow>& flows_;
+  const std::set<std::string> equal_;
+};
 
 class Comparer {
  public:
@@ -48,7 +78,9 @@ class Comparer {
 
   void compare(const std::string& channel, const Samples& was, const Samples& is) {
     channel_ = &channel;
-    bool any = false;
+    const std::uint64_t equal_before = found_.equal;
+    found_.compared.push_back(channel);
+    differs_ = false;
     auto old = was.begin();
     auto now = is.begin();
     while (old != was.end() || now != is.end()) {
@@ -56,49 +88,38 @@ class Comparer {
       const bool only_now = old == was.end() || (now != is.end() && now->first < old->first);
       const RecordedSample* const before = only_now ? nullptr : old->second;
       const RecordedSample* const after = only_old ? nullptr : now->second;
-      any |= look(only_now ? now->first : old->first, before, after);
+      look(only_now ? now->first : old->first, before, after);
       if (!only_now) ++old;
       if (!only_old) ++now;
     }
-    if (any) ++found_.channels;
+    if (found_.equal > equal_before) ++found_.channels;
   }
 
   Comparison take() { return std::move(found_); }
   Comparison& found() { return found_; }
 
  private:
-  /// @return whether they are equal
-  bool look(std::uint32_t number, const RecordedSample* was, const RecordedSample* is) {
+  void look(std::uint32_t number, const RecordedSample* was, const RecordedSample* is) {
     const base::Time time = was == nullptr  ? is->time
                             : is == nullptr ? was->time
                                             : std::min(was->time, is->time);
-    if (time >= end_) return false;
+    if (time >= end_) return;
     if (was == nullptr && options_.losses) {
       ++found_.missing;
-      return false;
-    }
-    const bool equal =
-        was != nullptr && is != nullptr && was->time == is->time && was->json == is->json;
-    if (equal) {
-      ++found_.equal;
-      return true;
+      return;
     }
     const bool shifted = was != nullptr && is != nullptr && was->time != is->time;
-    Difference difference{*channel_, time, number, told(was, shifted), told(is, shifted), rank()};
-    if (!found_.first || comes_before(difference, *found_.first)) {
-      found_.first = std::move(difference);
+    if (was != nullptr && is != nullptr && !shifted && was->json == is->json) {
+      ++found_.equal;
+    } else if (!std::exchange(differs_, true)) {
+      found_.differences.push_back({*channel_, time, number, told(was, shifted), told(is, shifted)});
     }
-    return false;
-  }
-
-  std::size_t rank() const {
-    const auto place = std::ranges::find(options_.order, component_of(*channel_));
-    return static_cast<std::size_t>(place - options_.order.begin());
   }
 
   const ComparisonOptions& options_;
   const base::Time end_;
   const std::string* channel_ = nullptr;
+  bool differs_ = false;
   Comparison found_;
 };
 
@@ -108,9 +129,33 @@ void Comparison::add(Comparison other) {
   equal += other.equal;
   channels += other.channels;
   missing += other.missing;
-  only_recorded.insert(only_recorded.end(), other.only_recorded.begin(), other.only_recorded.end());
-  if (!other.first) return;
-  if (!first || comes_before(*other.first, *first)) first = std::move(other.first);
+  const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(only_recorded, other.only_recorded);
+  append(differences, other.differences);
+  append(compared, other.compared);
+}
+
+std::optional<Difference> Comparison::first(const std::vector<Flow>& flows,
+                                            const std::vector<std::string>& order) const {
+  if (differences.empty()) return std::nullopt;
+  const base::Time earliest = std::ranges::min(differences, {}, &Difference::time).time;
+  std::vector<Difference> candidates;
+  std::set<std::string> unchanged(compared.begin(), compared.end());
+  for (const Difference& each : differences) {
+    if (each.time != earliest) continue;
+    candidates.push_back(each);
+    unchanged.erase(each.channel);
+  }
+  std::ranges::stable_sort(candidates, {}, [&](const Difference& each) {
+    return std::ranges::find(order, component_of(each.channel)) - order.begin();
+  });
+  const Downstream downstream(flows, std::move(unchanged));
+  std::set<std::string> followers;
+  for (const Difference& each : candidates) followers.merge(downstream.reached_from(each.channel));
+  const auto source = std::ranges::find_if(candidates, [&](const Difference& each) {
+    return !followers.contains(std::string(component_of(each.channel)));
+  });
+  return source == candidates.end() ? candidates.front() : *source;
 }
 
 Comparison compare(const McapRecording& was, const McapRecording& is,
@@ -120,8 +165,6 @@ Comparison compare(const McapRecording& was, const McapRecording& is,
   Comparer comparer(options, end);
   const auto replayed = by_channel(is);
   for (const auto& [channel, samples] : by_channel(was)) {
-    const std::string owner(component_of(channel));
-    if (std::ranges::find(options.left_out, owner) != options.left_out.end()) continue;
     const auto other = replayed.find(channel);
     if (other == replayed.end()) {
       comparer.found().only_recorded.push_back(channel);

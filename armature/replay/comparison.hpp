@@ -19,16 +19,17 @@ struct Difference {
   std::uint32_t sequence = 0;  ///< of the channel's sample
   std::string was;             ///< JSON of the value, or in words that there is none
   std::string is;
-  std::size_t rank = 0;  ///< of the component, upstream first
+};
+
+/// A way of data: from a port, `Component.Port`, to a component.
+struct Flow {
+  std::string from;
+  std::string to;
 };
 
 /// What is compared, and what is known of it.
 struct ComparisonOptions {
   base::Time until = base::Time::max();
-  /// Components in the order in which their threads execute them: of two differences at one time
-  /// the one of the earlier component is told.
-  std::vector<std::string> order;
-  std::vector<std::string> left_out;  ///< components that are not compared: played ones
   /// The recorder dropped samples, so that one that is missing says nothing.
   bool losses = false;
 };
@@ -39,9 +40,15 @@ struct Comparison {
   std::size_t channels = 0;    ///< with such samples
   std::uint64_t missing = 0;   ///< samples that only the replay has: nobody knows what they were
   std::vector<std::string> only_recorded;  ///< channels that the replay lacks
-  std::optional<Difference> first;         ///< in time, then upstream before downstream
+  std::vector<Difference> differences;     ///< the first of each channel that has one
+  std::vector<std::string> compared;       ///< channels
 
   void add(Comparison other);
+  /// The earliest difference. Of several at one time the one that no other one of them leads to, by
+  /// ways on which nothing is known to be as it was; of a circle the first in `order`.
+  /// @param order  components, writers before readers
+  std::optional<Difference> first(const std::vector<Flow>& flows,
+                                  const std::vector<std::string>& order) const;
 };
 
 /// Compares what was recorded with what a replay recorded, sample by sample: by their numbers, to

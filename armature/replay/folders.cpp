@@ -118,10 +118,10 @@ class FolderComparison {
     base::Time time{};
     if (recording && !recording.value().samples.empty()) time = recording.value().samples.back().time;
     if (time >= options_.until) return;
-    Difference fault{name.substr(kBlackBox.size()), time, 0, "a black box of a fault", what, 0};
+    Difference fault{name.substr(kBlackBox.size()), time, 0, "a black box of a fault", what};
     if (what.find("recorded") != std::string::npos) std::swap(fault.was, fault.is);
     Comparison only;
-    only.first = std::move(fault);
+    only.differences.push_back(std::move(fault));
     found_.add(std::move(only));
   }
 
