@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller in the shadow costs the one that drives: cycles of the driving thread with and without it, in turns,
-// in one process and in real time.
+// What a controller in the shadow costs the one that drives: cycles of the driving thread with and
+// without it, in turns, in one process and in real time.
 //
 // usage: shadow_cost WITHOUT.yaml WITH.yaml THREAD LIBRARY_FOLDER [SECONDS_OF_EACH] [NAME=VALUE...]
 #include <algorithm>
@@ -77,9 +77,10 @@ double median_of(std::vector<double> values) {
 
 int main(int count, char** words) {
   if (count < 5) {
-    std::fputs("usage: shadow_cost WITHOUT.yaml WITH.yaml THREAD LIBRARY_FOLDER [SECONDS_OF_EACH] "
-               "[NAME=VALUE...]\n",
-               stderr);
+    std::fputs(
+        "usage: shadow_cost WITHOUT.yaml WITH.yaml THREAD LIBRARY_FOLDER [SECONDS_OF_EACH] "
+        "[NAME=VALUE...]\n",
+        stderr);
     return 2;
   }
   Side sides[] = {{"without the shadow", words[1], {}}, {"with the shadow", words[2], {}}};
@@ -99,12 +100,14 @@ int main(int count, char** words) {
     ratios.push_back(sides[1].medians_us[place] / sides[0].medians_us[place]);
   }
   for (const Side& side : sides) {
-    std::printf("%-18s  median cycle of %s %8.2f us, of %d turns of %d s; %llu cycles run, %llu skipped\n",
-                side.name, thread.c_str(), median_of(side.medians_us), turns,
-                static_cast<int>(kTurn.count()), static_cast<unsigned long long>(side.cycles),
-                static_cast<unsigned long long>(side.skipped));
+    std::printf(
+        "%-18s  median cycle of %s %8.2f us, of %d turns of %d s; %llu cycles run, %llu skipped\n",
+        side.name, thread.c_str(), median_of(side.medians_us), turns,
+        static_cast<int>(kTurn.count()), static_cast<unsigned long long>(side.cycles),
+        static_cast<unsigned long long>(side.skipped));
   }
-  std::printf("the shadow costs %+.2f %% (median of the ratios of neighbouring turns), bound 2 %%\n",
-              100.0 * (median_of(ratios) - 1.0));
+  std::printf(
+      "the shadow costs %+.2f %% (median of the ratios of neighbouring turns), bound 2 %%\n",
+      100.0 * (median_of(ratios) - 1.0));
   return 0;
 }

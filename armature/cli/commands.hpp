@@ -23,7 +23,7 @@ void add_complete(const CommandLine& to);
 
 /// In the order of the help.
 inline constexpr void (*kCommands[])(const CommandLine& to) = {
-    add_run,  add_browse, add_check,    add_graph,  add_models, add_report,  add_replay,
-    add_convert, add_edit, add_bundle, add_generate, add_studio, add_new, add_complete};
+    add_run,     add_browse, add_check,  add_graph,    add_models, add_report, add_replay,
+    add_convert, add_edit,   add_bundle, add_generate, add_studio, add_new,    add_complete};
 
 }  // namespace armature::cli

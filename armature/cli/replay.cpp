@@ -40,10 +40,9 @@ struct Recorded {
 };
 
 std::string place_of(const ReplayArguments& arguments) {
-  const fs::path given = arguments.out.empty()
-                             ? fs::path(arguments.folder) /
-                                   (arguments.changes.any() ? kWhatIf : "replay")
-                             : fs::path(arguments.out);
+  const fs::path given = arguments.out.empty() ? fs::path(arguments.folder) /
+                                                     (arguments.changes.any() ? kWhatIf : "replay")
+                                               : fs::path(arguments.out);
   return fs::absolute(given).lexically_normal().string();
 }
 
@@ -110,16 +109,16 @@ std::vector<replay::Flow> flows_of(const exec::Application& application) {
   std::vector<replay::Flow> flows;
   for (const exec::ConnectionPlan& connection : application.plan().connections) {
     flows.push_back({connection.output->owner().name() + '.' + connection.output->name(),
-                     connection.input->owner().name()});
+                     connection.input->owner().name() + '.' + connection.input->name()});
   }
   return flows;
 }
 
 /// How the run that was done again ended.
 struct Done {
-  bool to_the_end = false;  ///< of the recorded run
-  base::Time until{};       ///< all before it was done
-  bool failed = false;      ///< it could not be done
+  bool to_the_end = false;           ///< of the recorded run
+  base::Time until{};                ///< all before it was done
+  bool failed = false;               ///< it could not be done
   std::vector<std::string> order{};  ///< components, writers before readers
   std::vector<replay::Flow> flows{};
 };
@@ -165,9 +164,7 @@ Done do_again(const Recorded& recorded, deploy::Deployment& deployment,
   return done;
 }
 
-std::string seconds_text(base::Time time) {
-  return base::to_text(time - base::Time{});
-}
+std::string seconds_text(base::Time time) { return base::to_text(time - base::Time{}); }
 
 void tell(const replay::Difference& first, const Console& console) {
   const std::string component(replay::component_of(first.channel));
@@ -190,8 +187,9 @@ int compare(const Recorded& recorded, const Done& done, const Console& console) 
       replay::compare_folders(recorded.folder, recorded.run, done.to_the_end, options, problems);
   console.show(problems);
   for (const std::string& channel : found.only_recorded) {
-    console.say(LogLevel::kError, "'" + channel + "' was recorded, but is not recorded now: this "
-                                                  "deployment has no such port or property");
+    console.say(LogLevel::kError, "'" + channel +
+                                      "' was recorded, but is not recorded now: this "
+                                      "deployment has no such port or property");
   }
   if (const auto first = found.first(done.flows, done.order)) {
     tell(*first, console);
@@ -250,8 +248,8 @@ int replay(const ReplayArguments& arguments, Console& console) {
   if (!changes.file.empty()) changes.file = fs::absolute(changes.file).string();
   std::error_code ignored;
   fs::current_path(recorded.experiment.folder, ignored);  // relative paths begin there
-  deploy::Deployment deployment = replay::load_recorded(recorded.experiment, changes, recorded.run,
-                                                        options_for(arguments));
+  deploy::Deployment deployment =
+      replay::load_recorded(recorded.experiment, changes, recorded.run, options_for(arguments));
   console.show(deployment.diagnostics);
   if (!deployment.ok()) return kFailed;
   keep_files_in_place(deployment.blueprint);

@@ -30,8 +30,8 @@ void add_replay(const CommandLine& to) {
           [arguments](const std::string& text) {
             arguments->until = runner::parse_duration(text);
             if (!arguments->until) {
-              throw CLI::ValidationError(
-                  "--until", "'" + text + "' must be a time above 0, for example 3.5s");
+              throw CLI::ValidationError("--until",
+                                         "'" + text + "' must be a time above 0, for example 3.5s");
             }
           },
           "goes no further than this time of the recording")
@@ -44,8 +44,9 @@ void add_replay(const CommandLine& to) {
   command->add_flag("--step", arguments->step, "shows what changes, a line for each instant");
   add_folders(*command, arguments->library_folders);
   command
-      ->add_option("-o,--out", arguments->out,
-                   "the folder for what is recorded now; default: replay, or what-if, in that folder")
+      ->add_option(
+          "-o,--out", arguments->out,
+          "the folder for what is recorded now; default: replay, or what-if, in that folder")
       ->type_name("FOLDER");
 }
 

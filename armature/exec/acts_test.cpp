@@ -23,10 +23,10 @@ class Mover final : public component::Component {
   component::Outcome begin_move() { return component::accepted(); }
   void cancel_move() {}
 
-  component::Property<double> gain_{this, "Gain", 1.0, "a gain", "",
-                                    component::changeable_while_running};
-  component::Operation<double(double)> doubled_{this, "doubled",
-                                                component::serve<&Mover::doubled>, "doubles"};
+  component::Property<double> gain_{this,     "Gain", 1.0,
+                                    "a gain", "",     component::changeable_while_running};
+  component::Operation<double(double)> doubled_{this, "doubled", component::serve<&Mover::doubled>,
+                                                "doubles"};
   component::Command<> move_{this, "move", component::serve<&Mover::begin_move>, "moves",
                              component::cancelled_by<&Mover::cancel_move>};
 };
@@ -58,7 +58,8 @@ class Acts : public testing::Test {
 TEST_F(Acts, AreToldWithTheirInstantTurnAndValues) {
   begin();
   application->run_for(25ms);
-  static_cast<void>(application->call("Mover", "doubled", {types::Value::of(2.5)}, Caller::kScript));
+  static_cast<void>(
+      application->call("Mover", "doubled", {types::Value::of(2.5)}, Caller::kScript));
   ASSERT_EQ(acts.size(), 1u);
   EXPECT_EQ(acts[0].kind, Act::Kind::kCall);
   EXPECT_EQ(acts[0].component + "." + acts[0].item, "Mover.doubled");

@@ -182,7 +182,8 @@ class DeployerWriter {
 
   void write_component(const Component& component, const Value& tree) {
     Attributes attributes = {{"name", component.name}, {"type", component.model}};
-    for (const char* key : {"remote", "interface", "bind", "calls", "superiors", "delays", "shadow"}) {
+    for (const char* key :
+         {"remote", "interface", "bind", "calls", "superiors", "delays", "shadow"}) {
       extend(attributes, tree, key);
     }
     writer_.open("struct", attributes);

@@ -40,7 +40,7 @@ class ActsWriter {
 
 /// An act as it was read; who knows the types of its values reads them.
 struct RecordedAct {
-  exec::Act act;  ///< without values
+  exec::Act act;                    ///< without values
   std::vector<std::string> values;  ///< as record::to_json has them
 };
 

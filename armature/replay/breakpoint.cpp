@@ -22,9 +22,9 @@ std::string_view trimmed(std::string_view text) {
 base::Result<Breakpoint> Breakpoint::parse(exec::Application& application,
                                            const std::string& text) {
   // The longer ones first, of which the shorter ones are a part.
-  constexpr std::pair<std::string_view, Is> kSigns[] = {
-      {">=", Is::kAtLeast}, {"<=", Is::kAtMost}, {"==", Is::kEqual},
-      {"!=", Is::kUnequal}, {">", Is::kAbove},   {"<", Is::kBelow}};
+  constexpr std::pair<std::string_view, Is> kSigns[] = {{">=", Is::kAtLeast}, {"<=", Is::kAtMost},
+                                                        {"==", Is::kEqual},   {"!=", Is::kUnequal},
+                                                        {">", Is::kAbove},    {"<", Is::kBelow}};
   for (const auto& [sign, is] : kSigns) {
     const std::size_t place = text.find(sign);
     if (place == std::string::npos) continue;
@@ -59,8 +59,8 @@ base::Result<Breakpoint> Breakpoint::make(exec::Application& application, const 
 std::optional<std::string> Breakpoint::look() {
   const exec::WatchedNumber& number = place_.number;
   if (number.port != nullptr && number.port->current_sequence() == 0) return std::nullopt;
-  const double value = number.place.read(number.port != nullptr ? number.port->current()
-                                                                : number.property->data());
+  const double value =
+      number.place.read(number.port != nullptr ? number.port->current() : number.property->data());
   const bool held = std::exchange(held_, holds(value));
   if (held || !held_) return std::nullopt;
   return place_.item + " = " + types::Value::of(value).text() +

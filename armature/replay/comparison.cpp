@@ -41,35 +41,43 @@ std::string told(const RecordedSample* sample, bool with_time) {
 class Downstream {
  public:
   /// @param equal  channels that are as they were at that time: nothing comes through them
-  Downstream(const std::vector<Flow>& flows, std::set<std::string> equal)
-      : flows_(flows), equal_(std::move(equal)) {}
+  Downstream(const std::vector<Flow>& flows, const std::set<std::string>& equal) {
+    for (const Flow& flow : flows) {
+      writers_[flow.to] = component_of(flow.from);
+      if (!equal.contains(flow.from) && !equal.contains(flow.to)) flows_.push_back(flow);
+    }
+  }
+
+  /// Who writes what is recorded under this name.
+  std::string writer_of(const std::string& channel) const {
+    const auto writer = writers_.find(channel);
+    return writer == writers_.end() ? std::string(component_of(channel)) : writer->second;
+  }
 
   /// The components that the channel's data reaches.
   std::set<std::string> reached_from(const std::string& channel) const {
     std::set<std::string> reached;
-    std::vector<std::string> open{channel};
+    std::vector<std::string> open;
+    const auto reach = [&](const Flow& flow) {
+      std::string reader(component_of(flow.to));
+      if (reached.insert(reader).second) open.push_back(std::move(reader));
+    };
+    for (const Flow& flow : flows_) {
+      if (flow.from == channel || flow.to == channel) reach(flow);
+    }
     while (!open.empty()) {
-      const std::string from = std::move(open.back());
+      const std::string component = std::move(open.back());
       open.pop_back();
       for (const Flow& flow : flows_) {
-        if (flow.from != from || !reached.insert(flow.to).second) continue;
-        add_outputs(flow.to, open);
+        if (component_of(flow.from) == component) reach(flow);
       }
     }
     return reached;
   }
 
  private:
-  void add_outputs(const std::string& component, std::vector<std::string>& to) const {
-    for (const Flow& flow : flows_) {
-      if (component_of(flow.from) == component && !equal_.contains(flow.from)) {
-        to.push_back(flow.from);
-      }
-    }
-  }
-
-  const std::vector<Flow>& flows_;
-  const std::set<std::string> equal_;
+  std::vector<Flow> flows_;                     ///< on which something may have come
+  std::map<std::string, std::string> writers_;  ///< of inputs
 };
 
 class Comparer {
@@ -112,7 +120,8 @@ class Comparer {
     if (was != nullptr && is != nullptr && !shifted && was->json == is->json) {
       ++found_.equal;
     } else if (!std::exchange(differs_, true)) {
-      found_.differences.push_back({*channel_, time, number, told(was, shifted), told(is, shifted)});
+      found_.differences.push_back(
+          {*channel_, time, number, told(was, shifted), told(is, shifted)});
     }
   }
 
@@ -146,14 +155,18 @@ std::optional<Difference> Comparison::first(const std::vector<Flow>& flows,
     candidates.push_back(each);
     unchanged.erase(each.channel);
   }
+  const Downstream downstream(flows, unchanged);
   std::ranges::stable_sort(candidates, {}, [&](const Difference& each) {
-    return std::ranges::find(order, component_of(each.channel)) - order.begin();
+    return std::ranges::find(order, downstream.writer_of(each.channel)) - order.begin();
   });
-  const Downstream downstream(flows, std::move(unchanged));
-  std::set<std::string> followers;
-  for (const Difference& each : candidates) followers.merge(downstream.reached_from(each.channel));
+  const auto leads_to = [&](const Difference& cause, const std::string& component) {
+    return downstream.writer_of(cause.channel) != component &&
+           downstream.reached_from(cause.channel).contains(component);
+  };
   const auto source = std::ranges::find_if(candidates, [&](const Difference& each) {
-    return !followers.contains(std::string(component_of(each.channel)));
+    const std::string writer = downstream.writer_of(each.channel);
+    return std::ranges::none_of(candidates,
+                                [&](const Difference& other) { return leads_to(other, writer); });
   });
   return source == candidates.end() ? candidates.front() : *source;
 }

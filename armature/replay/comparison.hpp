@@ -21,7 +21,7 @@ struct Difference {
   std::string is;
 };
 
-/// A way of data: from a port, `Component.Port`, to a component.
+/// A way of data between two ports, `Component.Port`. It is recorded under either name.
 struct Flow {
   std::string from;
   std::string to;
@@ -36,9 +36,9 @@ struct ComparisonOptions {
 
 /// What comparing found.
 struct Comparison {
-  std::uint64_t equal = 0;     ///< samples
-  std::size_t channels = 0;    ///< with such samples
-  std::uint64_t missing = 0;   ///< samples that only the replay has: nobody knows what they were
+  std::uint64_t equal = 0;    ///< samples
+  std::size_t channels = 0;   ///< with such samples
+  std::uint64_t missing = 0;  ///< samples that only the replay has: nobody knows what they were
   std::vector<std::string> only_recorded;  ///< channels that the replay lacks
   std::vector<Difference> differences;     ///< the first of each channel that has one
   std::vector<std::string> compared;       ///< channels

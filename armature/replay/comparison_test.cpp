@@ -27,7 +27,7 @@ McapRecording loop() {
   }
   return recording;
 }
-const std::vector<Flow> kFlows = {{"Joint.Position", "PID"}, {"PID.Out", "Joint"}};
+const std::vector<Flow> kFlows = {{"Joint.Position", "PID.Sen"}, {"PID.Out", "Joint.In"}};
 const std::vector<std::string> kOrder = {"Joint", "PID"};
 
 record::RecordedSample& sample(McapRecording& recording, std::size_t cycle, std::size_t channel) {

@@ -40,7 +40,8 @@ std::string plain_name(const fs::path& file) {
   constexpr std::size_t kTime = sizeof "-2026-11-22T10-20-30" - 1;
   const std::size_t hour = name.rfind('T');
   constexpr std::size_t kDate = sizeof "-2026-11-22" - 1;
-  const bool timed = hour != std::string::npos && hour > kDate && name.size() >= hour - kDate + kTime;
+  const bool timed =
+      hour != std::string::npos && hour > kDate && name.size() >= hour - kDate + kTime;
   return timed ? name.substr(0, hour - kDate) : name;
 }
 
@@ -102,8 +103,8 @@ class FolderComparison {
     if (!after) diagnostics_.error({}, after.error());
     if (!before || !after) return;
     if (!before.value().closed) {
-      diagnostics_.warning({}, "'" + was.string() +
-                                   "' was cut off; what is whole of it is compared");
+      diagnostics_.warning({},
+                           "'" + was.string() + "' was cut off; what is whole of it is compared");
     }
     found_.add(compare(before.value(), after.value(), options_));
   }
@@ -116,7 +117,8 @@ class FolderComparison {
     }
     const auto recording = record::load_mcap(file.string(), record::Unclosed::kReadToLastChunk);
     base::Time time{};
-    if (recording && !recording.value().samples.empty()) time = recording.value().samples.back().time;
+    if (recording && !recording.value().samples.empty())
+      time = recording.value().samples.back().time;
     if (time >= options_.until) return;
     Difference fault{name.substr(kBlackBox.size()), time, 0, "a black box of a fault", what};
     if (what.find("recorded") != std::string::npos) std::swap(fault.was, fault.is);
@@ -175,8 +177,9 @@ base::Result<void> make_place(const std::string& folder) {
   if (failure) return base::Error{"cannot make the folder '" + folder + "': " + failure.message()};
   const fs::path mark = fs::path(folder) / kReplayFile;
   if (!fs::exists(mark, failure) && !fs::is_empty(folder, failure)) {
-    return base::Error{"'" + folder +
-                       "' has files that no replay has made: name an empty or a new folder with -o"};
+    return base::Error{
+        "'" + folder +
+        "' has files that no replay has made: name an empty or a new folder with -o"};
   }
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     if (entry.path().filename() != kReplayFile) fs::remove_all(entry.path(), failure);
@@ -188,16 +191,16 @@ base::Result<void> copy_run(const std::string& from, const std::string& to) {
   std::error_code failure;
   fs::create_directories(to, failure);
   std::vector<fs::path> files = recordings_in(from);
-  std::erase_if(files, [](const fs::path& file) {
-    return file.filename().string().starts_with(kBlackBox);
-  });
+  std::erase_if(
+      files, [](const fs::path& file) { return file.filename().string().starts_with(kBlackBox); });
   files.push_back(fs::path(from) / kSummary);
   for (const fs::path& file : files) {
     if (!fs::exists(file, failure)) continue;
     fs::copy_file(file, fs::path(to) / file.filename(), fs::copy_options::overwrite_existing,
                   failure);
     if (failure) {
-      return base::Error{"cannot copy '" + file.string() + "' to '" + to + "': " + failure.message()};
+      return base::Error{"cannot copy '" + file.string() + "' to '" + to +
+                         "': " + failure.message()};
     }
   }
   return {};

@@ -45,8 +45,7 @@ std::string path_in(const component::PropertyBase& property) {
   if (property.type().kind != types::Kind::kText) return {};
   std::string text = types::to_text(property.type(), property.data());
   std::error_code ignored;
-  const bool is_path =
-      text.find('/') != std::string::npos && fs::is_regular_file(text, ignored);
+  const bool is_path = text.find('/') != std::string::npos && fs::is_regular_file(text, ignored);
   return is_path ? text : std::string();
 }
 
@@ -175,16 +174,14 @@ deploy::Deployment load(const Experiment& experiment, const Changes& changes,
     return refused;
   }
   // In the last line, so that places in the file stay what they are.
-  const std::string whole =
-      text.value() + "\ninclude: '" + normal(experiment.deployment) + "'\n";
+  const std::string whole = text.value() + "\ninclude: '" + normal(experiment.deployment) + "'\n";
   return deploy::parse_deployment(whole, changes.file, options);
 }
 
 }  // namespace
 
 deploy::Deployment load_recorded(const Experiment& experiment, const Changes& changes,
-                                 const std::string& out,
-                                 const deploy::DeploymentOptions& options) {
+                                 const std::string& out, const deploy::DeploymentOptions& options) {
   base::Diagnostics found;
   deploy::DeploymentOptions all = options;
   all.document.read = reader_of(experiment, !changes.file.empty());

@@ -14,7 +14,8 @@ namespace armature::replay {
 /// What an experiment is to have of its own this time.
 struct Changes {
   std::vector<std::string> overrides;  ///< as `--set` has them
-  std::string file;  ///< a deployment whose sections win over those of the recorded one; empty: none
+  std::string
+      file;  ///< a deployment whose sections win over those of the recorded one; empty: none
   bool any() const { return !overrides.empty() || !file.empty(); }
 };
 
@@ -22,12 +23,11 @@ struct Changes {
 base::Result<void> write_changes(const std::string& path, const Changes& changes);
 
 /// Loads the deployment of an experiment from the texts that the run has left, with the component
-/// libraries that are there now. What differs from then, though nobody asked for it, is a warning: a
-/// library, a file that a property names, a property.
+/// libraries that are there now. What differs from then, though nobody asked for it, is a warning:
+/// a library, a file that a property names, a property.
 /// @param out  folder for files that are not there any more as they were
 deploy::Deployment load_recorded(const Experiment& experiment, const Changes& changes,
-                                 const std::string& out,
-                                 const deploy::DeploymentOptions& options);
+                                 const std::string& out, const deploy::DeploymentOptions& options);
 
 /// How a run was asked for.
 struct Ran {

@@ -229,7 +229,7 @@ class Janus(Recorded):
         self.assertEqual(len(breaks), 2, told)
         self.assertTrue(any("Joint1.Position = 0.20" in line for line in breaks), breaks)
         steps = self.replay(folder, "--step", "--until", "0.2s").stdout.splitlines()
-        self.assertTrue(any(re.match(r"50 ms  .*Sampler.SamplePort = 5,", line) for line in steps), steps)
+        self.assertTrue(any(re.match(r"50 ms  .*Sampler.SamplePort = 5\b", line) for line in steps), steps)
         wrong = self.replay(folder, "--break", "Joint1.Positon > 1", code=1).stderr
         self.assertIn("did you mean 'Position'?", wrong)
 

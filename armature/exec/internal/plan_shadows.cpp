@@ -29,10 +29,10 @@ class ShadowCheck {
         return each.component.get() == one.component;
       });
       if (entry == blueprint_.components.end() || !entry->shadow) continue;
-      diagnostics_.error(entry->where,
-                         quoted(one.component->name()) + " is a shadow, but drives a real robot by " +
-                             one.bus,
-                         "remove shadow, or the component");
+      diagnostics_.error(
+          entry->where,
+          quoted(one.component->name()) + " is a shadow, but drives a real robot by " + one.bus,
+          "remove shadow, or the component");
     }
   }
 
@@ -86,7 +86,8 @@ class ShadowCheck {
   /// A shadow that computes for long holds up nobody.
   void check_threads() {
     for (const ThreadPlan& thread : plan_.threads) {
-      const auto shadow = std::ranges::find_if(thread.members, [&](Index i) { return is_shadow(i); });
+      const auto shadow =
+          std::ranges::find_if(thread.members, [&](Index i) { return is_shadow(i); });
       if (shadow == thread.members.end()) continue;
       const auto other =
           std::ranges::find_if(thread.members, [&](Index i) { return !is_shadow(i); });
@@ -125,8 +126,9 @@ class ShadowCheck {
     const ComponentEntry& entry = blueprint_.components[i];
     if (!component::interface_of(*entry.component).holdings.empty()) {
       diagnostics_.error(entry.where,
-                         name_of(i) + " is a shadow, but keeps something from moving, and would "
-                                      "hold up the end of a run",
+                         name_of(i) +
+                             " is a shadow, but keeps something from moving, and would "
+                             "hold up the end of a run",
                          "a component of this model cannot be a shadow");
     }
     for (const PeerEntry& peer : entry.peers) {

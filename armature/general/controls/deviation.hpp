@@ -46,8 +46,8 @@ class DeviationBase : public component::Component {
   }
   void reset() { largest_so_far_ = 0.0; }
 
-  component::OutputPort<double> difference_{
-      this, "Difference", "between the two, without sign", "", component::unit_of(unit_)};
+  component::OutputPort<double> difference_{this, "Difference", "between the two, without sign", "",
+                                            component::unit_of(unit_)};
   component::OutputPort<double> largest_{this, "Largest", "difference since the start or `reset`",
                                          "", component::unit_of(unit_)};
   component::Operation<void()> reset_{this, "reset", component::serve<&DeviationBase::reset>,

@@ -146,7 +146,8 @@ base::Result<std::optional<types::Value>> ToolAccess::call(std::string_view name
 base::Result<component::CommandHandle> ToolAccess::begin(std::string_view name,
                                                          std::string_view command_name,
                                                          std::vector<types::Value> arguments,
-                                                         Caller caller, std::uint32_t number) const {
+                                                         Caller caller,
+                                                         std::uint32_t number) const {
   const auto found = operation_for(name, command_name, caller);
   if (!found) return base::Error{found.error()};
   if (!found.value()->is_command()) {
