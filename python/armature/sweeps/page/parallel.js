@@ -49,20 +49,21 @@ const Parallel = (() => {
       told.textContent = kept.length === lines.length ? `${lines.length} runs have results.` : `${kept.length} of ${lines.length} runs are within the marked ranges. Click an axis to take its range away.`;
     };
     const picture = svg('svg', {viewBox: `0 0 ${kWidth} ${kHeight}`, class: 'parallel', role: 'img', 'aria-label': 'Parallel coordinates of all runs'},
-      svg('g', {class: 'lines'}, ...lines.map(({line}) => line)), ...axes.map((axis, i) => axisPicture(axis, kSide + i * gap, i, filter)));
+      svg('g', {class: 'lines'}, ...lines.map(({line}) => line)), ...axes.map((axis, i) => axisPicture(axis, kSide + i * gap, i, gap < 120, filter)));
     filter();
     return el('section', {id: 'parallel'}, el('h2', {}, 'Parallel coordinates'),
       el('p', {class: 'note'}, 'A line is a run; bright ones are good. Drag along an axis to keep only the runs that pass through a range.'),
       el('div', {class: 'scroll'}, picture), told);
   }
 
-  function axisPicture(axis, x, index, filter) {
+  function axisPicture(axis, x, index, isCrowded, filter) {
     const length = kHeight - kTop - kBottom;
     const brush = svg('rect', {x: x - 7, width: 14, y: kTop, height: 0, class: 'brush'});
     const grip = svg('rect', {x: x - 14, width: 28, y: kTop, height: length, class: 'grip', 'data-axis': axis.name});
     const shareAt = (event) => {
       const place = grip.getBoundingClientRect();
-      return Math.min(1, Math.max(0, 1 - (event.clientY - place.top) / place.height));
+      const share = 1 - (event.clientY - place.top) / place.height;
+      return share < 0.02 ? 0 : share > 0.98 ? 1 : share;  // the ends are easily reached
     };
     let from = null;
     const mark = (a, b) => {
@@ -76,7 +77,7 @@ const Parallel = (() => {
     grip.addEventListener('pointermove', (event) => from !== null && mark(from, shareAt(event)));
     grip.addEventListener('pointerup', () => { from = null; });
     return svg('g', {class: axis.metric ? 'axis metric' : 'axis'}, svg('line', {x1: x, x2: x, y1: kTop, y2: kTop + length}), brush,
-      svg('text', {x, y: index % 2 ? kTop - 30 : kTop - 18, 'text-anchor': 'middle', class: 'name'}, axis.name),
+      svg('text', {x, y: isCrowded && index % 2 ? kTop - 32 : kTop - 19, 'text-anchor': 'middle', class: 'name'}, axis.name),
       svg('text', {x, y: kTop - 5, 'text-anchor': 'middle'}, axis.ends[1]),
       svg('text', {x, y: kTop + length + 15, 'text-anchor': 'middle'}, axis.ends[0]), grip);
   }

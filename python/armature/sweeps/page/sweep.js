@@ -75,8 +75,8 @@
     const byReason = new Map();
     for (const run of sweep.runs) {
       if (run.outcome === 'done') continue;
-      const reason = `${run.outcome}: ${run.reason}`;
-      byReason.set(reason, [...(byReason.get(reason) ?? []), run]);
+      const kind = `${run.outcome}: ${run.reason}`.replace(/[\d.]+(e[-+]?\d+)?/g, '#');  // whatever the figures are
+      byReason.set(kind, [...(byReason.get(kind) ?? []), run]);
     }
     if (byReason.size === 0) return null;
     const few = (runs) => runs.slice(0, 12).flatMap((run) => {
@@ -85,8 +85,8 @@
       return [button, ' '];
     });
     const reasons = [...byReason].sort((a, b) => b[1].length - a[1].length);
-    return el('section', {id: 'without'}, el('h2', {}, 'Without result'), el('ul', {}, ...reasons.slice(0, 50).map(([reason, runs]) =>
-      el('li', {}, `${runs.length} × `, el('span', {class: 'reason'}, reason), el('br'), 'runs ', ...few(runs), runs.length > 12 ? '…' : ''))),
+    return el('section', {id: 'without'}, el('h2', {}, 'Without result'), el('ul', {}, ...reasons.slice(0, 50).map(([, runs]) =>
+      el('li', {}, `${runs.length} × `, el('span', {class: 'reason'}, `${runs[0].outcome}: ${runs[0].reason}`), el('br'), 'runs ', ...few(runs), runs.length > 12 ? '…' : ''))),
       ...(reasons.length > 50 ? [el('p', {class: 'note'}, `${reasons.length - 50} more reasons are in runs.csv.`)] : []));
   }
 
