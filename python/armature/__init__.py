@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots, controlled by components, as a library.
+
+    import armature
+
+    deployment = armature.load("robots/janus/deployments/pid.yaml", set={"PID1.Kp": 200})
+    with deployment.application() as app:
+        app.run_for("100 ms")           # simulated time
+        app.Arming.arm()
+        app.Generator.moveTo([1.0, 1.0], 10.0)
+        print(app.Joint1.Position.value, app.Joint1.Position.unit)
+
+Values are in the units of their models, times in seconds. Mistakes are exceptions: of deployments a
+`DeploymentError` with the place of each, of everything that an application refuses an `Error`.
+Nothing here runs in a real-time thread.
+"""
+from armature._application import Application, RunEnd, RunError
+from armature._component import (Command, CommandError, Event, Input, Operation, Output, Port, Property,
+                                 RunningComponent)
+from armature._deployment import Deployment, DeploymentError, check, load
+from armature._native import Diagnostic, Error, LogLine, NoAnswer, Refusal
+from armature._values import Struct
+
+__all__ = [
+    "Application",
+    "Command",
+    "CommandError",
+    "Deployment",
+    "DeploymentError",
+    "Diagnostic",
+    "Error",
+    "Event",
+    "Input",
+    "LogLine",
+    "NoAnswer",
+    "Operation",
+    "Output",
+    "Port",
+    "Property",
+    "Refusal",
+    "RunEnd",
+    "RunError",
+    "RunningComponent",
+    "Struct",
+    "check",
+    "load",
+]
+
+for _exception in (NoAnswer, Refusal):
+    _exception.__module__ = "armature"
+del _exception

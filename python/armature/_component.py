@@ -1,0 +1,499 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Components of an application as Python sees them: what they declare are attributes."""
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Protocol
+
+from armature import _native
+
+
+class Handle(Protocol):
+    """A command that was begun, here or elsewhere."""
+
+    @property
+    def ended(self) -> bool: ...
+    @property
+    def succeeded(self) -> bool: ...
+    @property
+    def progress(self) -> float: ...
+    @property
+    def stage(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+    def cancel(self) -> None: ...
+
+
+class Source(Protocol):
+    """Where components live: an application of this process, or one at an address."""
+
+    def component_names(self) -> list[str]: ...
+    def describe(self, component: str, with_values: bool) -> _native.ComponentDescription: ...
+    def change(self, component: str, change: str) -> None: ...
+    def read(self, component: str, member: str) -> tuple[Any, float]: ...
+    def write(self, component: str, member: str, value: object) -> None: ...
+    def call(self, component: str, operation: str, arguments: tuple[object, ...]) -> Any: ...
+    def begin(self, component: str, command: str, arguments: tuple[object, ...]) -> Handle: ...
+
+
+# Lets time pass until the condition is true; False if it is not within so many seconds.
+Wait = Callable[[Callable[[], bool], float], bool]
+
+
+class CommandError(_native.Error):
+    """A command that failed, was cancelled or did not end in time; `command` is it."""
+
+    def __init__(self, message: str, command: Command) -> None:
+        super().__init__(message)
+        self.command = command
+
+
+class Command:
+    """A command that was begun."""
+
+    def __init__(self, name: str, handle: Handle, wait: Wait) -> None:
+        self._name = name
+        self._handle = handle
+        self._wait = wait
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    @property
+    def done(self) -> bool:
+        """It has ended, in whatever way."""
+        return self._handle.ended
+
+    @property
+    def succeeded(self) -> bool:
+        return self._handle.succeeded
+
+    @property
+    def progress(self) -> float:
+        """From 0 to 1, as far as its component reports it."""
+        return self._handle.progress
+
+    @property
+    def stage(self) -> str:
+        """`accepted`, `done`, `failed`, `cancelled`, ..."""
+        return self._handle.stage
+
+    @property
+    def reason(self) -> str:
+        """Why it failed or was cancelled."""
+        return self._handle.reason
+
+    def cancel(self) -> None:
+        """Asks the component to end it; it is over when `done` says so."""
+        self._handle.cancel()
+
+    def wait(self, limit: float = 3600.0) -> None:
+        """Lets time pass until it has ended, no longer than `limit` [s].
+
+        Raises CommandError if it failed or did not end; it is under way then still.
+        """
+        if not self._handle.ended and not self._wait(lambda: self._handle.ended, limit):
+            raise CommandError(f"{self._name} has not ended within {limit:g} s", self)
+        if not self._handle.succeeded:
+            raise CommandError(f"{self._name} {self.stage}: {self.reason}", self)
+
+    def __repr__(self) -> str:
+        return f"<Command {self._name} ({self.stage})>"
+
+
+class _Member:
+    """What properties and ports have in common."""
+
+    def __init__(self, source: Source, component: str,
+                 about: _native.PropertyDescription | _native.PortDescription) -> None:
+        self._source = source
+        self._component = component
+        self._about = about
+        self.__doc__ = _member_doc(about)
+
+    @property
+    def name(self) -> str:
+        """With its component: `PID1.Kp`."""
+        return f"{self._component}.{self._about.name}"
+
+    @property
+    def doc(self) -> str:
+        return self._about.doc
+
+    @property
+    def unit(self) -> str:
+        """Empty for a plain number."""
+        return self._about.unit
+
+    @property
+    def type(self) -> str:
+        """`double`, `vector<double>`, ..."""
+        return self._about.type
+
+    @property
+    def value(self) -> Any:
+        """A copy of what it is now; None for a port that nobody wrote yet."""
+        return self._source.read(self._component, self._about.name)[0]
+
+    def __repr__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        return f"<{type(self).__name__} {self.name} = {self.value!r}{unit}>"
+
+
+class Property(_Member):
+    """A property or attribute of a component."""
+
+    _about: _native.PropertyDescription
+
+    @property
+    def value(self) -> Any:
+        """A copy of what it is now. It is set by a value of its type, or by a text with a unit."""
+        return self._source.read(self._component, self._about.name)[0]
+
+    @value.setter
+    def value(self, value: object) -> None:
+        self._source.write(self._component, self._about.name, value)
+
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """The smallest and the largest value, if the model says them."""
+        return self._about.range
+
+    @property
+    def changeable_while_running(self) -> bool:
+        return self._about.changeable_while_running
+
+
+class Port(_Member):
+    """A port of a component."""
+
+    _about: _native.PortDescription
+
+    @property
+    def age(self) -> float | None:
+        """How long ago it was written [s]; None: never."""
+        value, age = self._source.read(self._component, self._about.name)
+        return None if value is None else age
+
+    @property
+    def peers(self) -> list[str]:
+        """The ports at the other end of its connections."""
+        return self._about.peers
+
+
+class Input(Port):
+    """An input port: its value is what its component has taken of it."""
+
+
+class Output(Port):
+    """An output port: its value is what was written last."""
+
+
+class Operation:
+    """An operation or a command of a component, which is called like a function.
+
+    A command goes on after it was accepted: a call lets time pass until it has ended. `begin` does
+    not wait.
+    """
+
+    def __init__(self, source: Source, component: str, about: _native.OperationDescription,
+                 wait: Wait) -> None:
+        self._source = source
+        self._component = component
+        self._about = about
+        self._wait = wait
+        self.__doc__ = f"{self.signature}\n\n{about.doc}"
+
+    @property
+    def name(self) -> str:
+        return f"{self._component}.{self._about.name}"
+
+    @property
+    def doc(self) -> str:
+        return self._about.doc
+
+    @property
+    def signature(self) -> str:
+        """`double(double position [rad])`."""
+        return self._about.signature
+
+    @property
+    def is_command(self) -> bool:
+        return self._about.command
+
+    def __call__(self, *arguments: object) -> Any:
+        """Calls it and returns its result. Raises Refusal, of a command also CommandError."""
+        if not self._about.command:
+            return self._source.call(self._component, self._about.name, arguments)
+        self.begin(*arguments).wait()
+        return None
+
+    def begin(self, *arguments: object) -> Command:
+        """Begins a command, and does not wait for its end. Raises Refusal."""
+        if not self._about.command:
+            raise TypeError(f"{self.name} is an operation, not a command: call it")
+        handle = self._source.begin(self._component, self._about.name, arguments)
+        return Command(self.name, handle, self._wait)
+
+    def __repr__(self) -> str:
+        return f"<{'Command' if self._about.command else 'Operation'} {self.name} {self.signature}>"
+
+
+class Event:
+    """An event of a component."""
+
+    def __init__(self, source: Source, component: str, about: _native.EventDescription) -> None:
+        self._source = source
+        self._component = component
+        self._about = about
+        self.__doc__ = about.doc
+
+    @property
+    def name(self) -> str:
+        return f"{self._component}.{self._about.name}"
+
+    @property
+    def doc(self) -> str:
+        return self._about.doc
+
+    @property
+    def signature(self) -> str:
+        return self._about.signature
+
+    @property
+    def raised(self) -> int:
+        """How often it was raised since the start."""
+        for one in self._source.describe(self._component, True).events:
+            if one.name == self._about.name:
+                return one.raised
+        return 0
+
+    def __repr__(self) -> str:
+        return f"<Event {self.name} {self.signature}>"
+
+
+class RunningComponent:
+    """A component of a running application.
+
+    A property is an attribute with its value, which can be set; ports, operations and events are
+    attributes that have a value, are called, or count. Of a name that is a method of this class too,
+    `component["state"]` is the component's own.
+    """
+
+    _source: Source
+    _name: str
+    _wait: Wait
+    _members: Mapping[str, Property | Port | Operation | Event]
+
+    def __init__(self, source: Source, name: str, wait: Wait) -> None:
+        set_own = super().__setattr__
+        set_own("_source", source)
+        set_own("_name", name)
+        set_own("_wait", wait)
+        about = source.describe(name, False)
+        set_own("_model", about.model)
+        members: dict[str, Property | Port | Operation | Event] = {}
+        for event in about.events:
+            members[event.name] = Event(source, name, event)
+        for operation in about.operations:
+            members[operation.name] = Operation(source, name, operation, wait)
+        for output in about.outputs:
+            members[output.name] = Output(source, name, output)
+        for input_port in about.inputs:
+            members[input_port.name] = Input(source, name, input_port)
+        for one in about.properties:
+            members[one.name] = Property(source, name, one)
+        set_own("_members", members)
+        set_own("__doc__", _component_doc(about))
+
+    _model: str
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    @property
+    def model(self) -> str:
+        return self._model
+
+    @property
+    def state(self) -> str:
+        """`running`, `stopped`, `exception`, ..."""
+        return self._source.describe(self._name, True).state
+
+    @property
+    def reason(self) -> str:
+        """Why it does not run; may be empty."""
+        return self._source.describe(self._name, True).reason
+
+    @property
+    def properties(self) -> Mapping[str, Property]:
+        return {name: one for name, one in self._members.items() if isinstance(one, Property)}
+
+    @property
+    def ports(self) -> Mapping[str, Port]:
+        return {name: one for name, one in self._members.items() if isinstance(one, Port)}
+
+    @property
+    def operations(self) -> Mapping[str, Operation]:
+        """Its operations and commands."""
+        return {name: one for name, one in self._members.items() if isinstance(one, Operation)}
+
+    @property
+    def events(self) -> Mapping[str, Event]:
+        return {name: one for name, one in self._members.items() if isinstance(one, Event)}
+
+    def start(self) -> None:
+        """Raises Refusal, as do the functions below."""
+        self._source.change(self._name, "start")
+
+    def stop(self) -> None:
+        """One that holds something may be on its way to the stop then."""
+        self._source.change(self._name, "stop")
+
+    def reset(self) -> None:
+        """From `exception` to `stopped`."""
+        self._source.change(self._name, "reset")
+
+    def recover(self) -> None:
+        """From a run-time error back to `running`."""
+        self._source.change(self._name, "recover")
+
+    def cleanup(self) -> None:
+        """The next start configures it anew."""
+        self._source.change(self._name, "cleanup")
+
+    def __getitem__(self, name: str) -> Property | Port | Operation | Event:
+        try:
+            return self._members[name]
+        except KeyError:
+            raise KeyError(self._unknown(name)) from None
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._members:
+            raise AttributeError(self._unknown(name), name=name, obj=self)
+        member = self._members[name]
+        return member.value if isinstance(member, Property) else member
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if name not in self._members:
+            raise AttributeError(self._unknown(name), name=name, obj=self)
+        self._source.write(self._name, name, value)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._members]
+
+    def _unknown(self, name: str) -> str:
+        return f"'{self._name}' has no property, port, operation or event '{name}'" + _suggestion(
+            name, list(self._members))
+
+    def __repr__(self) -> str:
+        return f"<{self._model} {self._name}: {', '.join(self._members)}>"
+
+
+class Components(Mapping[str, RunningComponent]):
+    """The components of an application by their names, in the order of the deployment."""
+
+    def __init__(self, source: Source, wait: Wait) -> None:
+        self._source = source
+        self._wait = wait
+        self._names = source.component_names()
+        self._known: dict[str, RunningComponent] = {}
+
+    def __getitem__(self, name: str) -> RunningComponent:
+        if name not in self._known:
+            if name not in self._names:
+                raise KeyError(f"there is no component '{name}'" + _suggestion(name, self._names))
+            self._known[name] = RunningComponent(self._source, name, self._wait)
+        return self._known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return f"<Components {', '.join(self._names)}>"
+
+
+class Group:
+    """The parts of a composite: `app.Head.Left` is the component `Head.Left`."""
+
+    def __init__(self, components: Components, prefix: str) -> None:
+        self._components = components
+        self._prefix = prefix
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return find(self._components, f"{self._prefix}.{name}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *_next_parts(self._components, self._prefix + ".")]
+
+    def __repr__(self) -> str:
+        return f"<Group {self._prefix}: {', '.join(_next_parts(self._components, self._prefix + '.'))}>"
+
+
+class Face:
+    """What has components as attributes and items."""
+
+    def __init__(self, components: Components) -> None:
+        self._components = components
+
+    @property
+    def components(self) -> Mapping[str, RunningComponent]:
+        return self._components
+
+    def __getitem__(self, name: str) -> RunningComponent:
+        return self._components[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return find(self._components, name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *_next_parts(self._components, "")]
+
+
+def find(components: Components, name: str) -> RunningComponent | Group:
+    """The component or composite of that name; AttributeError."""
+    if any(one.startswith(name + ".") for one in components):
+        return Group(components, name)
+    try:
+        return components[name]
+    except KeyError as missing:
+        raise AttributeError(missing.args[0]) from None
+
+
+def _next_parts(components: Components, prefix: str) -> list[str]:
+    rests = (name[len(prefix):] for name in components if name.startswith(prefix))
+    return list(dict.fromkeys(rest.split(".")[0] for rest in rests))
+
+
+def _suggestion(name: str, known: list[str]) -> str:
+    near = difflib.get_close_matches(name, known, 1)
+    return f" (did you mean '{near[0]}'?)" if near else ""
+
+
+def _member_doc(about: _native.PropertyDescription | _native.PortDescription) -> str:
+    unit = f" [{about.unit}]" if about.unit else ""
+    values = f" ({', '.join(about.values)})" if about.values else ""
+    return f"{about.type}{unit}: {about.doc}{values}"
+
+
+def _component_doc(about: _native.ComponentDescription) -> str:
+    lines = [f"{about.name}, a {about.model}", ""]
+    for title, members in (("Properties", about.properties), ("Inputs", about.inputs),
+                           ("Outputs", about.outputs)):
+        if members:
+            lines += [title, *(f"    {one.name}  {_member_doc(one)}" for one in members), ""]
+    if about.operations:
+        lines += ["Operations", *(f"    {one.name}  {one.signature}: {one.doc}" for one in about.operations), ""]
+    if about.events:
+        lines += ["Events", *(f"    {one.name}  {one.signature}: {one.doc}" for one in about.events), ""]
+    return "\n".join(lines)

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Deployments: files that say of which components an application consists, checked and loaded."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from armature import _native
+from armature._application import Application
+from armature._native import Diagnostic
+from armature._values import to_text
+
+# Where component libraries are, in a build tree as in an installation: beside lib/python3.
+_COMPONENTS = str(Path(_native.__file__).parents[3] / "armature")
+
+
+class DeploymentError(_native.Error):
+    """A deployment that cannot be run; `diagnostics` tells each mistake with its place."""
+
+    def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
+        errors = [str(one) for one in diagnostics if one.severity == "error"]
+        super().__init__("\n".join(errors))
+        self.diagnostics = list(diagnostics)
+
+
+class Deployment:
+    """A deployment that passed its check. It makes any number of applications, each from the start."""
+
+    def __init__(self, file: str | os.PathLike[str], set: Mapping[str, object] | None = None,
+                 libraries: Iterable[str | os.PathLike[str]] | None = None) -> None:
+        self._file = os.fspath(file)
+        self._overrides = [f"{name}={to_text(value)}" for name, value in (set or {}).items()]
+        self._folders = [*(os.fspath(folder) for folder in libraries or ()), _COMPONENTS]
+        self._loaded: _native.Deployed | None = self._load()
+        self._name = self._loaded.name
+        self._diagnostics = self._loaded.diagnostics
+
+    @property
+    def file(self) -> str:
+        return self._file
+
+    @property
+    def name(self) -> str:
+        """The application's name, as the file says it."""
+        return self._name
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What the check found: warnings and notes, once it is loaded."""
+        return list(self._diagnostics)
+
+    def application(self, record: str | os.PathLike[str] | None = None, *,
+                    grants: Iterable[str] = ()) -> Application:
+        """A new application in simulated time, started and at time 0.
+
+        record: a folder for its recordings, which is made; None: the working directory.
+        grants: acts of the operator, such as `"Arming.arm"`, that this program may do in addition to
+            those that the deployment grants to scripts.
+        Raises DeploymentError if it does not start, Refusal if the folder is in use.
+        """
+        loaded = self._loaded or self._load()
+        self._loaded = None
+        return Application(loaded, self._name, "" if record is None else os.fspath(record), list(grants))
+
+    def _load(self) -> _native.Deployed:
+        return _native.Deployed(self._file, "", self._overrides, self._folders)
+
+    def __repr__(self) -> str:
+        return f"<Deployment '{self._name}' of {self._file}>"
+
+
+def check(file: str | os.PathLike[str], *, set: Mapping[str, object] | None = None,
+          libraries: Iterable[str | os.PathLike[str]] | None = None) -> list[Diagnostic]:
+    """Everything that can be known of a deployment before it starts, as `armature check` tells it.
+
+    set: parameters, properties and activities in place of the file's, as `--set` has them:
+        `{"joints": 7, "PID1.Kp": 200, "Joint1.activity.periodic": "5 ms"}`. A text is taken as it is
+        written, so it may have a unit.
+    libraries: folders that are searched for component libraries before all others.
+    """
+    return Deployment(file, set, libraries).diagnostics
+
+
+def load(file: str | os.PathLike[str], *, set: Mapping[str, object] | None = None,
+         libraries: Iterable[str | os.PathLike[str]] | None = None) -> Deployment:
+    """Loads and checks a deployment; `set` and `libraries` as for `check`.
+
+    Raises DeploymentError if there is any mistake in it.
+    """
+    deployment = Deployment(file, set, libraries)
+    if any(one.severity == "error" for one in deployment.diagnostics):
+        raise DeploymentError(deployment.diagnostics)
+    return deployment
