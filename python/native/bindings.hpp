@@ -12,5 +12,6 @@ void bind_diagnostics(pybind11::module_& module);
 void bind_descriptions(pybind11::module_& module);
 void bind_deployment(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
+void bind_error_metrics(pybind11::module_& module);
 
 }  // namespace armature::python

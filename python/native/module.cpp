@@ -9,4 +9,5 @@ PYBIND11_MODULE(_native, module) {
   bind_descriptions(module);
   bind_deployment(module);
   bind_simulation(module);
+  bind_error_metrics(module);
 }

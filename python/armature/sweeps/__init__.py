@@ -6,6 +6,7 @@
     print(results.table())
 """
 from . import points
+from .following import Following
 from .journal import JournalError
 from .points import PointsError, grid, random, sobol
 from .pool import Pool, PoolError
@@ -15,6 +16,6 @@ from .sweep import Interrupted, each, sweep
 
 __all__ = [
     "DONE", "FAILED", "LOST", "REFUSED",
-    "Effort", "Interrupted", "JournalError", "PointsError", "Pool", "PoolError", "Refusal",
+    "Effort", "Following", "Interrupted", "JournalError", "PointsError", "Pool", "PoolError", "Refusal",
     "Results", "Run", "each", "grid", "points", "random", "sobol", "sweep",
 ]  # fmt: skip

@@ -37,7 +37,8 @@ def sweep(
     client: Any = None,
     workers: int | Pool | None = None,
     set: Mapping[str, Value] | None = None,
-    libraries: Any = None,
+    libraries: Iterable[str | Path] = (),
+    grants: Iterable[str] = (),
     objective: str | None = None,
     out: str | Path | None = None,
     record: bool = False,
@@ -52,18 +53,20 @@ def sweep(
 
     @param parameters  values of each property or parameter of the deployment, all combinations of
                        which are run; or the points themselves (see `armature.sweeps.points`)
-    @param metrics     commands the application it is given, which has been loaded and not started,
-                       and returns numbers by name: `metrics(application)`
+    @param metrics     `metrics(application)` commands an application in simulated time, at time 0,
+                       and returns numbers by name
     @param client      a Dask `Client`: runs are done by its workers. The files of the deployment are
                        at the same path on each host, and the same armature is installed there.
     @param workers     without a client: how many processes of this machine (None: one a core), or a
                        `Pool` that is open already
     @param set         as of `armature.load`: what is the same in all runs
     @param libraries   as of `armature.load`
+    @param grants      as of `Deployment.application`
     @param objective   the metric by which a run is better the smaller it is; None: the first
     @param out         a folder for `runs.csv`, `sweep.html` and what was done so far: runs that it
                        has already are not done again
-    @param record      each run is recorded in its own folder, `out/runs/NUMBER`
+    @param record      each run leaves its recordings, `point.json` and a report in a folder of its
+                       own, `out/runs/NUMBER`; runs without one are done again
     @param batch       runs that make one task for Dask: more than 1 if a run takes milliseconds
     @param progress    told on standard error
     @raises Interrupted on Ctrl-C, with the results so far
@@ -71,7 +74,9 @@ def sweep(
     """
     file = Path(deployment).resolve()
     return each(
-        Simulated(str(file), metrics, dict(set or {}), libraries),
+        Simulated(
+            str(file), metrics, dict(set or {}), tuple(map(str, libraries)), tuple(grants)
+        ),
         listed(parameters),
         client=client,
         workers=workers,
