@@ -67,6 +67,12 @@ def test_the_array_has_a_row_for_each_run():
     assert array[array["outcome"] == "done"]["number"].tolist() == [0, 2]
 
 
+def test_what_a_point_does_not_name_is_nan_or_empty_in_the_array():
+    array = Results([run(0, cost=1.0, Kp=1.0), run(1, cost=2.0, mode="x")]).array()
+    assert array["Kp"][0] == 1.0 and math.isnan(array["Kp"][1])
+    assert array["mode"].tolist() == ["", "x"]
+
+
 def test_the_table_names_the_best_first_and_counts_all():
     lines = some_results().table().splitlines()
     assert lines[1].split() == ["2", "0.333333", "sequential", "0.25", "-0.25"]

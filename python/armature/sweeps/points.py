@@ -83,18 +83,11 @@ def sobol(
 def listed(parameters: Mapping[str, Sequence[Value]] | Iterable[Mapping[str, Value]]) -> list[Point]:
     """The points of what `armature.sweep` is given: the axes of a grid, or the points themselves.
 
-    All points must name the same parameters.
+    Points may name different parameters: what one does not name is as the deployment has it.
     """
     if isinstance(parameters, Mapping):
         return grid(parameters)
-    points = [dict(point) for point in parameters]
-    for number, point in enumerate(points):
-        if point.keys() != points[0].keys():
-            raise PointsError(
-                f"point {number} must have the parameters of point 0, {sorted(points[0])}, "
-                f"found {sorted(point)}"
-            )
-    return points
+    return [dict(point) for point in parameters]
 
 
 def _check_ranges(

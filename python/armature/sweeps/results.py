@@ -101,13 +101,13 @@ class Results(Sequence[Run]):
     def array(self) -> numpy.ndarray:
         """A structured array, a row for each run: `number`, `outcome`, parameters, metrics.
 
-        Parameters are float64 if all their values are numbers, else text. A metric that a run
-        does not have is NaN.
+        Parameters are float64 if all their values are numbers, else text. What a run does not have
+        is NaN or an empty text.
         """
         import numpy
 
         numeric = {
-            name: all(is_number(run.point.get(name)) for run in self._runs)
+            name: all(is_number(run.point.get(name, 0.0)) for run in self._runs)
             for name in self.parameters
         }
         texts = {
@@ -121,7 +121,8 @@ class Results(Sequence[Run]):
         made["number"] = [run.number for run in self._runs]
         made["outcome"] = [run.outcome for run in self._runs]
         for name in self.parameters:
-            made[name] = [run.point[name] for run in self._runs] if numeric[name] else texts[name]
+            numbers = [run.point.get(name, math.nan) for run in self._runs]
+            made[name] = numbers if numeric[name] else texts[name]
         for name in self.metrics:
             made[name] = [run.metrics.get(name, math.nan) for run in self._runs]
         return made
