@@ -9,4 +9,6 @@ PYBIND11_MODULE(_native, module) {
   bind_descriptions(module);
   bind_deployment(module);
   bind_simulation(module);
+  bind_recording(module);
+  bind_connection(module);
 }
