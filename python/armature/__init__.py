@@ -17,14 +17,17 @@ Nothing here runs in a real-time thread.
 from armature._application import Application, RunEnd, RunError
 from armature._component import (Command, CommandError, Event, Input, Operation, Output, Port, Property,
                                  RunningComponent)
+from armature._connection import Connection, connect
 from armature._deployment import Deployment, DeploymentError, check, load
 from armature._native import Diagnostic, Error, LogLine, NoAnswer, Refusal
+from armature._recording import Recording, Samples, read_recording
 from armature._values import Struct
 
 __all__ = [
     "Application",
     "Command",
     "CommandError",
+    "Connection",
     "Deployment",
     "DeploymentError",
     "Diagnostic",
@@ -37,13 +40,17 @@ __all__ = [
     "Output",
     "Port",
     "Property",
+    "Recording",
     "Refusal",
     "RunEnd",
     "RunError",
     "RunningComponent",
+    "Samples",
     "Struct",
     "check",
+    "connect",
     "load",
+    "read_recording",
 ]
 
 for _exception in (NoAnswer, Refusal):

@@ -2,11 +2,11 @@
 """Components of an application as Python sees them: what they declare are attributes."""
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Protocol
 
 from armature import _native
+from armature._values import suggestion
 
 
 class Handle(Protocol):
@@ -31,6 +31,7 @@ class Source(Protocol):
     def component_names(self) -> list[str]: ...
     def describe(self, component: str, with_values: bool) -> _native.ComponentDescription: ...
     def change(self, component: str, change: str) -> None: ...
+    def raised(self, component: str, event: str) -> int: ...
     def read(self, component: str, member: str) -> tuple[Any, float]: ...
     def write(self, component: str, member: str, value: object) -> None: ...
     def call(self, component: str, operation: str, arguments: tuple[object, ...]) -> Any: ...
@@ -265,10 +266,7 @@ class Event:
     @property
     def raised(self) -> int:
         """How often it was raised since the start."""
-        for one in self._source.describe(self._component, True).events:
-            if one.name == self._about.name:
-                return one.raised
-        return 0
+        return self._source.raised(self._component, self._about.name)
 
     def __repr__(self) -> str:
         return f"<Event {self.name} {self.signature}>"
@@ -386,7 +384,7 @@ class RunningComponent:
         return [*super().__dir__(), *self._members]
 
     def _unknown(self, name: str) -> str:
-        return f"'{self._name}' has no property, port, operation or event '{name}'" + _suggestion(
+        return f"'{self._name}' has no property, port, operation or event '{name}'" + suggestion(
             name, list(self._members))
 
     def __repr__(self) -> str:
@@ -405,7 +403,7 @@ class Components(Mapping[str, RunningComponent]):
     def __getitem__(self, name: str) -> RunningComponent:
         if name not in self._known:
             if name not in self._names:
-                raise KeyError(f"there is no component '{name}'" + _suggestion(name, self._names))
+                raise KeyError(f"there is no component '{name}'" + suggestion(name, self._names))
             self._known[name] = RunningComponent(self._source, name, self._wait)
         return self._known[name]
 
@@ -473,11 +471,6 @@ def find(components: Components, name: str) -> RunningComponent | Group:
 def _next_parts(components: Components, prefix: str) -> list[str]:
     rests = (name[len(prefix):] for name in components if name.startswith(prefix))
     return list(dict.fromkeys(rest.split(".")[0] for rest in rests))
-
-
-def _suggestion(name: str, known: list[str]) -> str:
-    near = difflib.get_close_matches(name, known, 1)
-    return f" (did you mean '{near[0]}'?)" if near else ""
 
 
 def _member_doc(about: _native.PropertyDescription | _native.PortDescription) -> str:

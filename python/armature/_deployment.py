@@ -9,7 +9,7 @@ from pathlib import Path
 from armature import _native
 from armature._application import Application
 from armature._native import Diagnostic
-from armature._values import to_text
+from armature._values import to_yaml
 
 # Where component libraries are, in a build tree as in an installation: beside lib/python3.
 _COMPONENTS = str(Path(_native.__file__).parents[3] / "armature")
@@ -30,7 +30,7 @@ class Deployment:
     def __init__(self, file: str | os.PathLike[str], set: Mapping[str, object] | None = None,
                  libraries: Iterable[str | os.PathLike[str]] | None = None) -> None:
         self._file = os.fspath(file)
-        self._overrides = [f"{name}={to_text(value)}" for name, value in (set or {}).items()]
+        self._overrides = [f"{name}={to_yaml(value)}" for name, value in (set or {}).items()]
         self._folders = [*(os.fspath(folder) for folder in libraries or ()), _COMPONENTS]
         self._loaded: _native.Deployed | None = self._load()
         self._name = self._loaded.name

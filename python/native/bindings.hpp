@@ -8,10 +8,12 @@
 namespace armature::python {
 
 void bind_errors(pybind11::module_& module);
+void bind_error_metrics(pybind11::module_& module);
 void bind_diagnostics(pybind11::module_& module);
 void bind_descriptions(pybind11::module_& module);
 void bind_deployment(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
-void bind_error_metrics(pybind11::module_& module);
+void bind_recording(pybind11::module_& module);
+void bind_connection(pybind11::module_& module);
 
 }  // namespace armature::python

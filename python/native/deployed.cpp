@@ -5,7 +5,9 @@
 
 #include <pybind11/stl.h>
 
+#include "armature/document/document.hpp"
 #include "armature/remote/interface_file.hpp"
+#include "armature/rt/log.hpp"
 #include "armature/tls/transport.hpp"
 #include "armature/websocket/transport.hpp"
 #include "python/native/bindings.hpp"

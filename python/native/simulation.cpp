@@ -98,6 +98,8 @@ types::Value value_for(const Member& member, py::handle value) {
   return from_python(in_unit_of(member, value, name), member.type(), name);
 }
 
+}  // namespace
+
 inspect::LifeCycleChange change_named(const std::string& name) {
   using inspect::LifeCycleChange;
   if (name == "start") return LifeCycleChange::kStart;
@@ -106,8 +108,6 @@ inspect::LifeCycleChange change_named(const std::string& name) {
   if (name == "recover") return LifeCycleChange::kRecover;
   return LifeCycleChange::kCleanup;
 }
-
-}  // namespace
 
 /// The caller's turn to drive the application.
 class Simulation::Turn {
@@ -233,6 +233,14 @@ std::vector<exec::LogLine> Simulation::log(std::uint64_t after) {
   const Turn turn(*this);
   application_->drain_logs();
   return application_->log_history().lines_after(after, exec::LogHistory::kCapacity);
+}
+
+std::uint64_t Simulation::raised(const std::string& component, const std::string& event) {
+  const Turn turn(*this);
+  for (const auto& one : view_->describe(component, inspect::Values::kIncluded).events) {
+    if (one.name == event) return one.raised;
+  }
+  return 0;
 }
 
 void Simulation::change(const std::string& component, const std::string& change) {

@@ -26,6 +26,9 @@ struct Reading {
   double age_s = 0.0;      ///< of a port's value
 };
 
+/// `start`, `stop`, `reset`, `recover`; anything else is `cleanup`.
+inspect::LifeCycleChange change_named(const std::string& name);
+
 /// An application in simulated time, as Python drives it. Its functions give the interpreter's lock
 /// away while the application works, and are for one thread at a time, which is the controlling
 /// one: another one is refused. None of them is for components, while these are updated.
@@ -55,6 +58,8 @@ class Simulation {
   inspect::ComponentDescription describe(const std::string& component, bool with_values);
   std::vector<inspect::ComponentStatus> components();
   std::vector<exec::LogLine> log(std::uint64_t after);
+  /// How often an event was raised since the start.
+  std::uint64_t raised(const std::string& component, const std::string& event);
   void change(const std::string& component, const std::string& change);
 
   Reading read(const std::string& component, const std::string& member);

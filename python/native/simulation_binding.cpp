@@ -76,6 +76,7 @@ void bind_simulation(py::module_& module) {
       .def("describe", &Simulation::describe, py::arg("component"), py::arg("with_values"))
       .def("components", &Simulation::components)
       .def("log", &Simulation::log, py::arg("after"))
+      .def("raised", &Simulation::raised, py::arg("component"), py::arg("event"))
       .def("change", &Simulation::change, py::arg("component"), py::arg("change"))
       .def(
           "read",
