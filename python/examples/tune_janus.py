@@ -29,7 +29,7 @@ URDF = ROOT / "robots/janus/janus.urdf"
 #: Of robots/janus/deployments: with them the head is below the figures of the papers.
 PAPERS_GAINS = {"Kp": 400.0, "Ki": 20.0, "Kd": 200.0}
 #: Where gains are looked for, by their logarithm.
-RANGES = {"Kp": (50.0, 5000.0), "Ki": (1.0, 2000.0), "Kd": (20.0, 2000.0)}
+RANGES = {"Kp": (50.0, 800.0), "Ki": (5.0, 200.0), "Kd": (20.0, 400.0)}
 
 #: Paper 1, table 2: after so many seconds to these positions, in so many seconds.
 MOTIONS = [
