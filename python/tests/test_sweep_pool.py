@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 import sweep_runs
@@ -101,6 +104,33 @@ def test_workers_end_with_their_pool():
             os.kill(process, 0)
 
 
+def test_workers_end_with_a_parent_that_is_killed_in_the_middle_of_their_runs(tmp_path):
+    script = (
+        "import sweep_runs\n"
+        "from armature.sweeps import each\n"
+        f"each(sweep_runs.slow, [{{'x': 1, 'marks': {str(tmp_path)!r}, 'seconds': 600}}], workers=1)"
+    )
+    parent = subprocess.Popen(
+        [sys.executable, "-c", script],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    )
+    while not (begun := list(tmp_path.iterdir())):
+        time.sleep(0.01)
+    parent.kill()
+    parent.wait()
+    worker = int(begun[0].name.split("-")[1])
+    while is_running(worker):  # as long as ctest lets it
+        time.sleep(0.05)
+
+
+def is_running(process):
+    try:
+        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return False
+    return state != "Z"
+
+
 def test_a_pool_has_a_worker():
     with pytest.raises(PoolError, match="number of workers must be 1 or more, found 0"):
         Pool(0)
@@ -119,19 +149,19 @@ def test_functions_of_a_script_need_no_module():
 
 
 def test_ctrl_c_leaves_what_is_done(tmp_path):
-    some = [{"x": x, "marks": str(tmp_path / "marks")} for x in range(40)]
+    some = [{"x": x, "marks": str(tmp_path / "marks")} for x in range(24)]
     (tmp_path / "marks").mkdir()
     out = tmp_path / "out"
     interrupt_when(lambda: len(list((tmp_path / "marks").iterdir())) >= 4)
     with pytest.raises(Interrupted, match="interrupted after") as caught:
         quiet(sweep_runs.slow, some, workers=2, out=out)
     partial = caught.value.results
-    assert 0 < len(partial) < 40
+    assert 0 < len(partial) < 24
     assert partial.outcomes == {"done": len(partial)}
     assert len((out / "runs.csv").read_text().splitlines()) == 1 + len(partial)
 
     rest = [dict(point, seconds=0.0) for point in some]  # other points: nothing is reused
-    assert quiet(sweep_runs.slow, rest, workers=2, out=out).effort.runs == 40
+    assert quiet(sweep_runs.slow, rest, workers=2, out=out).effort.runs == 24
     whole = quiet(sweep_runs.slow, some[:12], workers=2, out=out)
     assert whole.effort.runs == 12 - sum(run.number < 12 for run in partial)
     assert whole.outcomes == {"done": 12}
