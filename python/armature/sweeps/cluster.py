@@ -2,7 +2,7 @@
 """Workers on many machines: runs as tasks of a Dask `Client`. Dask schedules; nothing here does."""
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from typing import Any
 
 from .job import Job
@@ -15,15 +15,16 @@ def run_batch(tasks: Sequence[Task], job: Job) -> list[Run]:
     return [run_task(run_point, task) for task in tasks]
 
 
-def run_on(client: Any, job: Job, tasks: Sequence[Task], batch: int = 1) -> Iterator[Run]:
+def run_on(client: Any, job: Job, tasks: Sequence[Task], batch: int = 1) -> Generator[Run, None, None]:
     """Yields each task's run as its batch ends, in whatever order that is.
 
     Dask gives the batches of a worker that died to others, until it has lost as many workers with
     one as its setting `distributed.scheduler.allowed-failures` says; then its runs are lost.
     A caller that leaves the iteration early takes back what has not begun.
     """
-    from distributed import as_completed
+    import distributed
 
+    as_completed: Any = distributed.as_completed  # which has no types
     batches = [tasks[i : i + batch] for i in range(0, len(tasks), batch)]
     futures = client.map(run_batch, batches, job=job, pure=False, key="armature-run")
     tasks_of = dict(zip((future.key for future in futures), batches))
@@ -42,7 +43,8 @@ def count_workers(client: Any) -> int:
 
 def _runs_of(future: Any, tasks: Sequence[Task]) -> list[Run]:
     if future.status == "finished":
-        return future.result()
+        runs: list[Run] = future.result()
+        return runs
     if future.status == "cancelled":
         raise RuntimeError("the cluster has cancelled runs of this sweep (start it again)")
     error = future.exception()

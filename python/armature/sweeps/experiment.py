@@ -102,8 +102,9 @@ def _leave_report(folder: Path, point: Point, metrics: Metrics) -> None:
 
 def describe(run_point: RunPoint) -> dict[str, str]:
     """What runs depend on beside their points, as text by name: folders compare it."""
-    own = getattr(run_point, "describe", None)
-    return own() if own is not None else {"run": _source_of(run_point)}
+    if isinstance(run_point, Simulated):
+        return run_point.describe()
+    return {"run": _source_of(run_point)}
 
 
 def _source_of(function: Any) -> str:

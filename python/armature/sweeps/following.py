@@ -27,12 +27,13 @@ class Following:
     @property
     def joints(self) -> list[Any]:
         """Of each joint `iae`, `itae`, `ise`, `itse`, `largest`, `last` (control::ErrorMetrics)."""
-        return self._metrics.joints
+        joints: list[Any] = self._metrics.joints
+        return joints
 
     @property
     def seconds(self) -> float:
         """For which it has measured."""
-        return self._metrics.samples * self._period
+        return float(self._metrics.samples * self._period)
 
     def run_until(self, seconds: float) -> None:
         """Until it has measured for so long; nothing if it has already."""

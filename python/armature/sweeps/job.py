@@ -42,4 +42,5 @@ class Job:
 
 @lru_cache(maxsize=4)
 def _loaded(pickled: bytes) -> RunPoint:
-    return pickle.loads(pickled)
+    run_point: RunPoint = pickle.loads(pickled)
+    return run_point

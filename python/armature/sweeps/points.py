@@ -110,5 +110,5 @@ def _check_ranges(
 def _between(ends: tuple[float, float], share: float, logarithmic: bool) -> float:
     low, high = ends
     if logarithmic:
-        return low * (high / low) ** share
+        return float(low * (high / low) ** share)
     return low + (high - low) * share

@@ -164,7 +164,7 @@ class _Worker:
             pass  # It has died, as its connection says next.
 
     def receive(self) -> Run | str:
-        answer = self.connection.recv()
+        answer: Run | str = self.connection.recv()
         if isinstance(answer, Run):
             self.task = None
         return answer

@@ -85,7 +85,7 @@ class Results(Sequence[Run]):
 
     def ranked(self) -> list[Run]:
         """Runs that have the objective, best first; equal ones by their number."""
-        name = self.objective
+        name = self.objective or ""
         having = [run for run in self._runs if not math.isnan(run.metrics.get(name, math.nan))]
         return sorted(having, key=lambda run: (run.metrics[name], run.number))
 
@@ -98,7 +98,7 @@ class Results(Sequence[Run]):
         reasons = [f": run {run.number}, {run.reason}" for run in self._runs if run.reason]
         raise LookupError(f"no run of {len(self)} is done{(reasons or [''])[0]}")
 
-    def array(self) -> numpy.ndarray:
+    def array(self) -> numpy.ndarray[Any, Any]:
         """A structured array, a row for each run: `number`, `outcome`, parameters, metrics.
 
         Parameters are float64 if all their values are numbers, else text. What a run does not have

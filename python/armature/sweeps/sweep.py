@@ -125,7 +125,8 @@ def each(
                     told.add(run)
         except KeyboardInterrupt:
             raise Interrupted(plan.finish(time.perf_counter() - begin, count)) from None
-        return plan.finish(time.perf_counter() - begin, count)
+        results = plan.finish(time.perf_counter() - begin, count)
+    return results
 
 
 def _start(
@@ -138,7 +139,8 @@ def _start(
 ) -> tuple[Iterator[Run], int]:
     """The runs to come, and how many workers they come from."""
     if client is not None:
-        runs = stack.enter_context(contextlib.closing(cluster.run_on(client, job, tasks, batch)))
+        runs = cluster.run_on(client, job, tasks, batch)
+        stack.callback(runs.close)
         return runs, cluster.count_workers(client)
     if not tasks:
         return iter(()), 0
