@@ -15,18 +15,20 @@ Values are in the units of their models, times in seconds. Mistakes are exceptio
 Nothing here runs in a real-time thread.
 """
 from armature._application import Application, RunEnd, RunError
-from armature._component import (Command, CommandError, Event, Input, Operation, Output, Port, Property,
-                                 RunningComponent)
+from armature._component import RunningComponent
 from armature._connection import Connection, connect
 from armature._deployment import Deployment, DeploymentError, check, load
+from armature._members import Command, CommandError, Event, Input, Operation, Output, Port, Property
 from armature._native import Diagnostic, Error, LogLine, NoAnswer, Refusal
 from armature._recording import Recording, Samples, read_recording
 from armature._values import Struct
+from armature.author import Component
 
 __all__ = [
     "Application",
     "Command",
     "CommandError",
+    "Component",
     "Connection",
     "Deployment",
     "DeploymentError",

@@ -181,5 +181,6 @@ def connect(address: str, *, certificate: str | os.PathLike[str] = "", key: str 
     tokens: a file, for `ws://` and `wss://`.
     Raises ValueError for an address that is none, NoAnswer if no application answers there.
     """
-    files = [os.fspath(file) for file in (certificate, key, authority, tokens)]
-    return Connection(address, _native.Connection(address, *files, limit))
+    connection = _native.Connection(address, os.fspath(certificate), os.fspath(key), os.fspath(authority),
+                                    os.fspath(tokens), limit)
+    return Connection(address, connection)

@@ -14,6 +14,7 @@ void bind_descriptions(pybind11::module_& module);
 void bind_deployment(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
+void bind_components(pybind11::module_& module);
 void bind_connection(pybind11::module_& module);
 
 }  // namespace armature::python

@@ -5,12 +5,15 @@
 
 #include <pybind11/stl.h>
 
+#include "armature/base/quoted.hpp"
+#include "armature/component/interface.hpp"
 #include "armature/document/document.hpp"
 #include "armature/remote/interface_file.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/tls/transport.hpp"
 #include "armature/websocket/transport.hpp"
 #include "python/native/bindings.hpp"
+#include "python/native/python_component.hpp"
 
 namespace armature::python {
 namespace {
@@ -48,6 +51,10 @@ deploy::DeploymentOptions options_for(const Request& request, remote::Network& n
     return Made(network.make_inlets(inputs));
   };
   options.read_interface = remote::read_interface;
+  options.models = [&models = request.models](component::Registry& registry) {
+    const py::gil_scoped_acquire lock;
+    add_models(models, registry);
+  };
   return options;
 }
 
@@ -59,9 +66,36 @@ Deployed::Deployed(const Request& request)
                       ? deploy::load_deployment(request.file, options_for(request, *network_))
                       : deploy::parse_deployment(request.text, request.file,
                                                  options_for(request, *network_))) {
+  if (deployment_.ok()) refuse_python_in_real_time();
   if (!deployment_.document.network.listen.empty()) {
     network_->check(deployment_.document, deployment_.diagnostics);
   }
+}
+
+/// It waits for the interpreter's lock, and collects garbage, whenever it likes.
+void Deployed::refuse_python_in_real_time() {
+  const exec::Blueprint& blueprint = deployment_.blueprint;
+  for (const exec::ThreadPlan& thread : deployment_.plan.threads) {
+    if (thread.activity.scheduler == exec::Activity::Scheduler::kOther) continue;
+    for (const exec::Index member : thread.members) {
+      const exec::ComponentEntry& entry = blueprint.components[member];
+      if (dynamic_cast<const PythonComponent*>(entry.component.get()) == nullptr) continue;
+      deployment_.diagnostics.error(
+          entry.where,
+          base::quoted(entry.component->name()) + " is written in Python, and would run in " +
+              base::quoted(thread.name) + ", which is a real-time thread",
+          "give it an activity without a priority, or take the priority from the thread's");
+    }
+  }
+}
+
+std::vector<std::string> Deployed::writers() const {
+  std::vector<std::string> names;
+  for (const exec::ComponentEntry& entry : deployment_.blueprint.components) {
+    const auto& outputs = component::interface_of(*entry.component).outputs;
+    if (!outputs.empty()) names.push_back(entry.component->name());
+  }
+  return names;
 }
 
 bool Deployed::has_model(const std::string& model) const {
@@ -72,17 +106,23 @@ bool Deployed::has_model(const std::string& model) const {
 void bind_deployment(py::module_& module) {
   py::class_<Deployed, std::shared_ptr<Deployed>>(module, "Deployed")
       .def(py::init([](std::string file, std::string text, std::vector<std::string> overrides,
-                       std::vector<std::string> library_folders) {
+                       std::vector<std::string> library_folders,
+                       const std::vector<std::shared_ptr<Model>>& models) {
+             const Request request{std::move(file),
+                                   std::move(text),
+                                   std::move(overrides),
+                                   std::move(library_folders),
+                                   {models.begin(), models.end()}};
              const py::gil_scoped_release others_run;
-             return std::make_shared<Deployed>(Request{std::move(file), std::move(text),
-                                                       std::move(overrides),
-                                                       std::move(library_folders)});
+             return std::make_shared<Deployed>(request);
            }),
-           py::arg("file"), py::arg("text"), py::arg("overrides"), py::arg("library_folders"))
+           py::arg("file"), py::arg("text"), py::arg("overrides"), py::arg("library_folders"),
+           py::arg("models"))
       .def_property_readonly("diagnostics",
                              [](const Deployed& self) { return self.diagnostics().all(); })
       .def_property_readonly("ok", [](const Deployed& self) { return self.diagnostics().ok(); })
       .def_property_readonly("name", &Deployed::name)
+      .def("writers", &Deployed::writers)
       .def("has_model", &Deployed::has_model);
 }
 

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_native, module) {
   bind_error_metrics(module);
   bind_diagnostics(module);
   bind_descriptions(module);
+  bind_components(module);
   bind_deployment(module);
   bind_simulation(module);
   bind_recording(module);

@@ -12,6 +12,7 @@ from sweep_checks import bits
 
 from armature.sweeps import each, points
 
+pytest.importorskip("cloudpickle")
 distributed = pytest.importorskip("distributed")
 HERE = Path(__file__).parent
 SQUARE = points.grid({"x": [-1.5, -0.3, 0.1, 1.0], "y": [0.2, 0.7, 1.0]})

@@ -16,6 +16,8 @@ from armature.sweeps import Following, JournalError, Pool
 from armature.sweeps.experiment import Simulated, digest_of
 from armature.sweeps.run import Task, run_task
 
+pytest.importorskip("cloudpickle")
+
 JANUS = Path(__file__).resolve().parents[2] / "robots/janus"
 PID = JANUS / "deployments/pid.yaml"
 

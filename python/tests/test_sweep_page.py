@@ -112,6 +112,7 @@ def test_no_text_of_a_run_ends_its_data(tmp_path):
 
 
 def test_a_sweep_that_records_makes_a_folder_for_each_run_that_the_page_links(tmp_path):
+    pytest.importorskip("cloudpickle")
     import sweep_runs
 
     points = [{"x": x, "y": 1.0} for x in (0.5, 1.0)]

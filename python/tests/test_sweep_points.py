@@ -36,6 +36,7 @@ def test_logarithmic_points_give_each_decade_its_share():
 
 
 def test_sobol_points_leave_no_half_of_a_range_out():
+    pytest.importorskip("scipy")
     points = sobol({"a": (0.0, 1.0), "b": (0.0, 1.0)}, 16, seed=2)
     assert points == sobol({"a": (0.0, 1.0), "b": (0.0, 1.0)}, 16, seed=2)
     for a_half in (False, True):
@@ -48,6 +49,7 @@ def test_sobol_points_leave_no_half_of_a_range_out():
 
 @pytest.mark.parametrize("make", [random, sobol])
 def test_ranges_are_two_numbers_in_order(make):
+    pytest.importorskip("scipy")
     with pytest.raises(PointsError, match="'a' must be two finite numbers, the lower one first"):
         make({"a": (2.0, 1.0)}, 4, seed=0)
     with pytest.raises(PointsError, match="'a' must begin above 0 to be logarithmic, found 0"):

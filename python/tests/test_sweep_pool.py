@@ -13,6 +13,8 @@ from sweep_checks import bits
 
 from armature.sweeps import Interrupted, Pool, PoolError, each, points
 
+pytest.importorskip("cloudpickle")
+
 SQUARE = points.grid({"x": [-1.5, -0.3, 0.1, 1.0], "y": [0.2, 0.7, 1.0]})
 
 
