@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from armature._native import ErrorMetrics
+
 
 class Following:
     """Lets an application's time pass, and takes the error of each joint once in each period.
@@ -14,8 +16,6 @@ class Following:
     """
 
     def __init__(self, application: Any, joints: Sequence[tuple[str, str]], period: float):
-        from armature._native import ErrorMetrics
-
         self._application = application
         self._period = period
         self._ports = [
@@ -25,15 +25,14 @@ class Following:
         self._metrics = ErrorMetrics(len(joints), period)
 
     @property
-    def joints(self) -> list[Any]:
+    def joints(self) -> list[ErrorMetrics.Figures]:
         """Of each joint `iae`, `itae`, `ise`, `itse`, `largest`, `last` (control::ErrorMetrics)."""
-        joints: list[Any] = self._metrics.joints
-        return joints
+        return self._metrics.joints
 
     @property
     def seconds(self) -> float:
         """For which it has measured."""
-        return float(self._metrics.samples * self._period)
+        return self._metrics.samples * self._period
 
     def run_until(self, seconds: float) -> None:
         """Until it has measured for so long; nothing if it has already."""
