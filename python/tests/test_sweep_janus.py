@@ -100,7 +100,7 @@ def test_what_does_not_load_and_what_cannot_be_armed_are_rows_with_their_reasons
         workers=1,
     )
     assert [run.outcome for run in results] == ["refused", "done", "refused", "failed"]
-    assert re.search(r"'PID1': Joint1: shakes at .* give at most", results[0].reason)
+    assert re.match(r"control.yaml:.*'PID1': Joint1: shakes at .* give", results[0].reason)
     assert "PID9" in results[2].reason
     assert "Arming.arm failed: Joint2 is not armed: it moved by" in results[3].reason
 

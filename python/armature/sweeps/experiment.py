@@ -53,7 +53,7 @@ class Simulated:
             )
             application = loaded.application(record=folder, grants=self.grants)
         except armature.DeploymentError as error:
-            raise Refusal(_first_line(error)) from error
+            raise Refusal(self._first_mistake(error)) from error
         with application:
             try:
                 metrics = self.measure(application)
@@ -62,6 +62,10 @@ class Simulated:
                 raise
             _raise_faults(application)
         return metrics
+
+    def _first_mistake(self, error: Exception) -> str:
+        """Files are told as seen from the deployment's folder, wherever that is on each host."""
+        return str(error).split("\n", 1)[0].replace(f"{Path(self.deployment).parent}/", "")
 
     def describe(self) -> dict[str, str]:
         return {
@@ -76,10 +80,6 @@ class Simulated:
 def _scratch_folder() -> tempfile.TemporaryDirectory[str]:
     """Without recordings a deployment's own recorder has to write somewhere, too."""
     return tempfile.TemporaryDirectory(prefix="armature-sweep-")
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).split("\n", 1)[0]
 
 
 def _raise_faults(application: Any, error: Exception | None = None) -> None:
