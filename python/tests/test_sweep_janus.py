@@ -44,11 +44,12 @@ GAINS = {
 
 @pytest.fixture(scope="module")
 def by_one_worker():
-    return sweep(GAINS, workers=1)
+    results = sweep(GAINS, workers=1)
+    assert results.outcomes == {"done": 6}, results[0].reason
+    return results
 
 
 def test_every_run_has_its_own_result(by_one_worker):
-    assert by_one_worker.outcomes == {"done": 6}
     assert len({run.metrics["iae"] for run in by_one_worker}) == 6
     assert 0 < by_one_worker.best.metrics["iae"] < 0.01
 
