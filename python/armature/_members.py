@@ -77,7 +77,7 @@ class Command:
 
     @property
     def stage(self) -> str:
-        """`accepted`, `done`, `failed`, `cancelled`, ..."""
+        """`under way`, `done`, `failed`, `cancelled`, ..."""
         return self._handle.stage
 
     @property

@@ -156,6 +156,8 @@ Simulation::Simulation(std::shared_ptr<Deployed> deployed, std::string record,
   run.simulated = true;
   run.output_folder = std::move(record);
   runner::apply(run, options);
+  // Nobody expects files of a run without a folder.
+  if (run.output_folder.empty()) options.black_box.write = nullptr;
   for (const std::string& act : grants) options.grants.push_back(grant_of(act));
   options.attend = [this] {
     now_ns_.store(base::to_ns(application_->now()), std::memory_order_relaxed);

@@ -84,7 +84,7 @@ def test_other_threads_of_python_run_while_time_is_simulated(janus):
     assert progress > 1000
 
 
-def test_ctrl_c_ends_a_run_and_the_application_can_go_on(janus):
+def test_ctrl_c_ends_a_run_and_the_application_can_go_on(janus, ctrl_c):
     def interrupt():
         while janus.now < 0.5:
             pass
