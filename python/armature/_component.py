@@ -32,7 +32,7 @@ class RunningComponent:
         set_own("_model", about.model)
         members: dict[str, Property | Port | Operation | Event] = {}
         for event in about.events:
-            members[event.name] = Event(source, name, event)
+            members[event.name] = Event(source, name, event, wait)
         for operation in about.operations:
             members[operation.name] = Operation(source, name, operation, wait)
         for output in about.outputs:

@@ -44,10 +44,10 @@ def test_a_property_is_its_value(janus):
 
 
 def test_a_number_may_have_a_unit(janus):
-    janus.PID1.Kp = "7 V/rad"
-    assert janus.PID1.Kp == 7.0
-    janus.PID1.Kp = "1 V/deg"
-    assert janus.PID1.Kp == pytest.approx(180.0 / np.pi)
+    janus.PID1.Kp = "300 V/rad"
+    assert janus.PID1.Kp == 300.0
+    janus.PID1.Kp = "6 V/deg"
+    assert janus.PID1.Kp == pytest.approx(6.0 * 180.0 / np.pi)
     with pytest.raises(ValueError, match="PID1.Kp"):
         janus.PID1.Kp = "3 m"
 
@@ -154,6 +154,15 @@ def test_events_are_counted(armed_janus):
     assert (arm.raised, disarm.raised) == (1, 0)
     assert (arm.name, arm.signature) == ("Arming.Arm", "void()") and arm.doc
     assert repr(arm) == "<Event Arming.Arm void()>"
+
+
+def test_an_event_can_be_waited_for(armed_janus):
+    app = armed_janus
+    app.Arming.disarm()
+    assert not app.Arming.Arm.wait(0.2)
+    command = app.Arming.arm.begin()
+    assert app.Arming.Arm.wait("2 s") and app.Arming.Arm.raised == 2
+    command.wait()
 
 
 def test_components_are_stopped_and_started(janus):
