@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages, by `scripts/package`: armature (programs, libraries, component libraries, the studio), armature-dev (what
-# components are built with), armature-robots (Janus, WAM, rover). Each install rule names its package as COMPONENT; what names
+# components are built with), armature-robots (Janus, WAM, rover), python3-armature where pybind11 is installed. Each install rule names its package as COMPONENT; what names
 # none is of the default of its folder.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(packages armature dev robots)
+if(TARGET armature_python)
+  list(APPEND packages python)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME armature)
@@ -52,6 +55,19 @@ set(CPACK_DEBIAN_ROBOTS_DESCRIPTION
     "This package has robots to begin with: the two-joint head Janus, the Barrett
 WAM and a rover that follows a ball, each with drivers, deployments, scripts
 and a simulation, so that it runs on any machine.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-armature)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# The module is for one version of Python.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11~), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "armature-robots")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, jupyter-notebook")
+set(CPACK_COMPONENT_PYTHON_DEPENDS armature)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${packaging}/python/postinst ${packaging}/python/prerm)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+    "With this package Python checks deployments, runs them in simulated time,
+reads recordings as numpy arrays, connects to running applications, and has
+components of its own in simulations.")
 
 # What Debian wants of every package: its licence, its changes, and why it differs from the rules.
 find_program(ARMATURE_GZIP gzip REQUIRED)

@@ -85,7 +85,7 @@ class Application(Face):
     @property
     def faults(self) -> dict[str, str]:
         """The components that are out of service, with their reasons."""
-        return {one.name: one.reason for one in self._simulation.components() if one.state == "exception"}
+        return {one.name: one.reason for one in self._simulation.components() if one.state == "Exception"}
 
     def stop(self) -> None:
         """Does what the deployment wants done before a stop, and stops; nothing if it has stopped.

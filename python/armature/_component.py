@@ -32,7 +32,7 @@ class RunningComponent:
         set_own("_model", about.model)
         members: dict[str, Property | Port | Operation | Event] = {}
         for event in about.events:
-            members[event.name] = Event(source, name, event)
+            members[event.name] = Event(source, name, event, wait)
         for operation in about.operations:
             members[operation.name] = Operation(source, name, operation, wait)
         for output in about.outputs:
@@ -56,7 +56,7 @@ class RunningComponent:
 
     @property
     def state(self) -> str:
-        """`running`, `stopped`, `exception`, ..."""
+        """`Running`, `Stopped`, `Exception`, ..."""
         return self._source.describe(self._name, True).state
 
     @property
@@ -90,11 +90,11 @@ class RunningComponent:
         self._source.change(self._name, "stop")
 
     def reset(self) -> None:
-        """From `exception` to `stopped`."""
+        """From `Exception` to `Stopped`."""
         self._source.change(self._name, "reset")
 
     def recover(self) -> None:
-        """From a run-time error back to `running`."""
+        """From a run-time error back to `Running`."""
         self._source.change(self._name, "recover")
 
     def cleanup(self) -> None:

@@ -65,7 +65,7 @@ class Connection(Face):
     @property
     def faults(self) -> dict[str, str]:
         """The components that are out of service, with their reasons."""
-        return {one.name: one.reason for one in self._ask().components() if one.state == "exception"}
+        return {one.name: one.reason for one in self._ask().components() if one.state == "Exception"}
 
     def close(self) -> None:
         """The application goes on. Nothing can be asked then."""

@@ -55,20 +55,25 @@ class Deployment:
         return list(self._diagnostics)
 
     def application(self, record: str | os.PathLike[str] | None = None, *,
-                    grants: Iterable[str] = ()) -> Application:
+                    what: Iterable[str] | None = None, grants: Iterable[str] = ()) -> Application:
         """A new application in simulated time, started and at time 0.
 
-        record: a folder for its recordings, which is made. Without a Reporter in the deployment, all
-            output ports are recorded there, in `run.mcap`. None: what Reporters of the deployment
-            write goes to the working directory.
+        record: a folder for its recordings, which is made; None: Reporters of the deployment write to
+            the working directory.
+        what: is recorded there, in `run.mcap`: names as a Reporter has them, `"PID*.Ref"`. None: all output
+            ports, unless the deployment has a Reporter of its own.
         grants: acts of the operator, such as `"Arming.arm"`, that this program may do in addition to
             those that the deployment grants to scripts.
         Raises DeploymentError if it does not start, Refusal if the folder is in use.
         """
+        if what is not None and record is None:
+            raise ValueError("what is recorded needs a folder: give `record`, too")
         loaded = self._loaded or self._load()
         self._loaded = None
-        if record is not None and not loaded.has_model("Reporter"):
-            loaded = self._load(_recorded(self._file, loaded.writers()))
+        if what is None and not loaded.has_model("Reporter"):
+            what = loaded.writers()
+        if record is not None and what is not None:
+            loaded = self._load(_recorded(self._file, list(what)))
         return Application(loaded, self._name, "" if record is None else os.fspath(record), list(grants))
 
     def _load(self, text: str = "") -> _native.Deployed:
@@ -81,15 +86,15 @@ class Deployment:
         return f"<Deployment '{self._name}' of {self._file}>"
 
 
-def _recorded(file: str, writers: list[str]) -> str:
-    """The text of a deployment that has a recorder beside what is in `file`."""
+def _recorded(file: str, what: list[str]) -> str:
+    """The text of a deployment that has a recorder of `what` beside all that is in `file`."""
     return json.dumps({
         "include": os.path.basename(file),
         "libraries": ["record"],
         "components": {"RecordedByPython": {
             "model": "Reporter",
             "activity": {"periodic": "50 ms", "scheduler": "other"},
-            "properties": {"what": writers, "file": "run.mcap"}}}})
+            "properties": {"what": what, "file": "run.mcap"}}}})
 
 
 def check(file: str | os.PathLike[str], *, set: Mapping[str, object] | None = None,

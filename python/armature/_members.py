@@ -77,7 +77,7 @@ class Command:
 
     @property
     def stage(self) -> str:
-        """`accepted`, `done`, `failed`, `cancelled`, ..."""
+        """`under way`, `done`, `failed`, `cancelled`, ..."""
         return self._handle.stage
 
     @property
@@ -89,13 +89,14 @@ class Command:
         """Asks the component to end it; it is over when `done` says so."""
         self._handle.cancel()
 
-    def wait(self, limit: float = 3600.0) -> None:
-        """Lets time pass until it has ended, no longer than `limit` [s].
+    def wait(self, limit: float | str = 3600.0) -> None:
+        """Lets time pass until it has ended, no longer than `limit`.
 
         Raises CommandError if it failed or did not end; it is under way then still.
         """
-        if not self._handle.ended and not self._wait(lambda: self._handle.ended, limit):
-            raise CommandError(f"{self._name} has not ended within {limit:g} s", self)
+        seconds = _native.seconds_of(limit)
+        if not self._handle.ended and not self._wait(lambda: self._handle.ended, seconds):
+            raise CommandError(f"{self._name} has not ended within {seconds:g} s", self)
         if not self._handle.succeeded:
             raise CommandError(f"{self._name} {self.stage}: {self.reason}", self)
 
@@ -244,10 +245,11 @@ class Operation:
 class Event:
     """An event of a component."""
 
-    def __init__(self, source: Source, component: str, about: _native.EventDescription) -> None:
+    def __init__(self, source: Source, component: str, about: _native.EventDescription, wait: Wait) -> None:
         self._source = source
         self._component = component
         self._about = about
+        self._wait = wait
         self.__doc__ = about.doc
 
     @property
@@ -266,6 +268,11 @@ class Event:
     def raised(self) -> int:
         """How often it was raised since the start."""
         return self._source.raised(self._component, self._about.name)
+
+    def wait(self, limit: float | str) -> bool:
+        """Lets time pass until it is raised; False if it is not within `limit`."""
+        before = self.raised
+        return self._wait(lambda: self.raised > before, _native.seconds_of(limit))
 
     def __repr__(self) -> str:
         return f"<Event {self.name} {self.signature}>"

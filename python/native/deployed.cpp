@@ -8,6 +8,7 @@
 #include "armature/base/quoted.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/document/document.hpp"
+#include "armature/inspect/view.hpp"
 #include "armature/remote/interface_file.hpp"
 #include "armature/rt/log.hpp"
 #include "armature/tls/transport.hpp"
@@ -96,6 +97,15 @@ std::vector<std::string> Deployed::writers() const {
     if (!outputs.empty()) names.push_back(entry.component->name());
   }
   return names;
+}
+
+void Deployed::expect_alone() const {
+  for (const document::Component& one : deployment_.document.components) {
+    if (one.remote.name.empty()) continue;
+    throw inspect::Refusal(base::quoted(one.name) + " lives in another process, at " +
+                           one.remote.name +
+                           ": an application in Python runs alone; give it a model here");
+  }
 }
 
 bool Deployed::has_model(const std::string& model) const {

@@ -30,6 +30,8 @@ class Deployed {
   const std::string& name() const { return deployment_.document.application; }
   /// Components that write, by their names.
   std::vector<std::string> writers() const;
+  /// Throws a Refusal if a component of it lives in another process: it cannot run without that.
+  void expect_alone() const;
   bool has_model(const std::string& model) const;
   /// Once: the application has it then.
   deploy::Deployment take() { return std::move(deployment_); }

@@ -24,7 +24,7 @@ void bind_status(py::module_& module) {
           [](const ComponentStatus& self) {
             return self.state ? std::string(component::name_of(*self.state)) : std::string();
           },
-          "`running`, `stopped`, ...; empty: whoever hosts it does not say")
+          "`Running`, `Stopped`, ...; empty: whoever hosts it does not say")
       .def_readonly("reason", &ComponentStatus::reason, "why it does not run; may be empty")
       .def_readonly("thread", &ComponentStatus::thread);
 }

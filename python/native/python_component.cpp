@@ -111,9 +111,10 @@ std::string PythonComponent::note(py::error_already_set& thrown) {
     }
   }
   const py::list last = traceback.attr("format_exception_only")(thrown.type(), thrown.value());
-  // The user's interrupt is not only the component's.
+  const std::string reason = text_of(last[last.size() - 1].attr("strip")());
+  // The user's interrupt is not only the component's: the run ends with it, too.
   if (thrown.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
-  return text_of(last[last.size() - 1].attr("strip")());
+  return reason;
 }
 
 void bind_components(py::module_& module) {

@@ -144,6 +144,7 @@ class Simulation::Turn {
 Simulation::Simulation(std::shared_ptr<Deployed> deployed, std::string record,
                        const std::vector<std::string>& grants)
     : deployed_(std::move(deployed)) {
+  deployed_->expect_alone();
   if (!record.empty()) {
     std::error_code failure;
     std::filesystem::create_directories(record, failure);
@@ -156,6 +157,8 @@ Simulation::Simulation(std::shared_ptr<Deployed> deployed, std::string record,
   run.simulated = true;
   run.output_folder = std::move(record);
   runner::apply(run, options);
+  // Nobody expects files of a run without a folder.
+  if (run.output_folder.empty()) options.black_box.write = nullptr;
   for (const std::string& act : grants) options.grants.push_back(grant_of(act));
   options.attend = [this] {
     now_ns_.store(base::to_ns(application_->now()), std::memory_order_relaxed);
@@ -180,6 +183,7 @@ base::Diagnostics Simulation::stop(bool in_order) {
   const auto leave = in_order ? exec::Leave::kInOrder : exec::Leave::kAfterMistake;
   base::Diagnostics problems = application_->run_before_stop(last_end_, nullptr, leave);
   problems.append(application_->stop());
+  folder_ = platform::FolderLock();  // its recordings are complete
   return problems;
 }
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Applications in simulated time: how it passes, who may drive it, how it ends."""
 import _thread
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -84,7 +86,7 @@ def test_other_threads_of_python_run_while_time_is_simulated(janus):
     assert progress > 1000
 
 
-def test_ctrl_c_ends_a_run_and_the_application_can_go_on(janus):
+def test_ctrl_c_ends_a_run_and_the_application_can_go_on(janus, ctrl_c):
     def interrupt():
         while janus.now < 0.5:
             pass
@@ -122,6 +124,7 @@ def test_one_thread_at_a_time_drives_it(janus):
 
 def test_log_lines_have_their_time_and_component(armed_janus):
     line = armed_janus.log[-1]
+    assert isinstance(line, armature.LogLine) and isinstance(armed_janus, armature.Application)
     assert (line.component, line.level, line.text) == ("Joint2", "info", "armed")
     assert 0.1 < line.time < 1.0 and line.number >= 1
     assert "Joint2" in str(line) and "armed" in repr(line)
@@ -147,18 +150,28 @@ def test_an_exception_of_the_user_stops_it_and_goes_on(janus_file):
     assert not app.running
 
 
-def test_what_does_not_stop_in_good_order_is_an_error(tmp_path, janus_file):
-    file = tmp_path / "before.yaml"
-    file.write_text(f"include: {janus_file}\napplication: before\n"
-                    "before_stop: [Generator.moveToZero]\n")
+def test_what_does_not_stop_in_good_order_is_an_error(janus, monkeypatch, tmp_path):
+    file = tmp_path / "empty.yaml"
+    file.write_text("application: 3\ncomponents: {A: {model: B}}\n")
     problems = armature.check(file)
-    if any(one.severity == "error" for one in problems):
-        pytest.skip(str(problems[0]))
-    app = armature.load(file).application()
-    app.run_for(0.1)
-    with pytest.raises(armature.RunError) as raised:
-        app.stop()
-    assert raised.value.diagnostics
+    with monkeypatch.context() as patch:
+        patch.setattr(janus, "_simulation", type("Hanging", (), {"stop": lambda self, in_order: problems})())
+        with pytest.raises(armature.RunError) as raised:
+            janus.stop()
+    assert raised.value.diagnostics == [one for one in problems if one.severity == "error"]
+
+
+def test_a_deployment_with_components_elsewhere_does_not_run_alone(janus_file):
+    with pytest.raises(armature.Refusal, match="lives in another process"):
+        armature.load(janus_file.with_name("operator.yaml")).application()
+
+
+def test_one_that_nobody_stopped_stops_with_its_process(janus_file):
+    program = ("import armature\n"
+               f"app = armature.load({str(janus_file)!r}).application()\n"
+               "app.run_for(0.5)\nprint(app.now)\n")
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "0.5\n", "")
 
 
 def test_a_folder_of_recordings_is_one_run_s(tmp_path, janus_file):

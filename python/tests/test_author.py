@@ -101,7 +101,7 @@ def test_an_exception_faults_its_component_and_nothing_else(file):
     with load(file, set={"Ramp.fails_at": "100 ms"}).application() as app:
         app.run_for(0.5)
         assert app.faults == {"Ramp": "RuntimeError: Ramp has enough"}
-        assert (app.Ramp.state, app.Other.state) == ("exception", "running")
+        assert (app.Ramp.state, app.Other.state) == ("Exception", "Running")
         assert app.Other.out.value == pytest.approx(1.5)
         log = [line.text for line in app.log if line.component == "Ramp" and line.level == "error"]
         assert log[0].startswith("Traceback") and any("has enough" in line for line in log)
@@ -148,10 +148,10 @@ def test_they_do_not_command_their_application_while_they_are_updated(file):
         applications.append(app)
         app.run_for(0.1)
         assert "cannot command its application" in app.faults["Meddler"]
-        assert app.Ramp.state == "running" and app.Ramp.slope == 1.0
+        assert app.Ramp.state == "Running" and app.Ramp.slope == 1.0
 
 
-def test_ctrl_c_in_an_update_is_the_user_s(file):
+def test_ctrl_c_in_an_update_is_the_user_s(file, ctrl_c):
     class Interrupted(Component):
         """Is interrupted."""
 
@@ -162,7 +162,7 @@ def test_ctrl_c_in_an_update_is_the_user_s(file):
     with armature.load(file, components=[Interrupted]).application() as app:
         with pytest.raises(KeyboardInterrupt):
             app.run_for("1000000 s")
-        assert app.One.state == "exception"
+        assert app.One.state == "Exception"
 
 
 def test_a_class_that_is_defined_anew_takes_its_elder_s_place(file):

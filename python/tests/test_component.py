@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 import armature
-from armature import Command, CommandError, Event, Input, Operation, Output, Port, Property, RunningComponent
+from armature import Command, CommandError, Event, Input, Operation, Output, Port, Property, RunningComponent, author
 
 
 def test_components_are_attributes_and_items_in_the_order_of_the_deployment(janus):
     assert isinstance(janus.PID1, RunningComponent)
     assert janus.PID1 is janus["PID1"] is janus.components["PID1"]
     assert list(janus.components)[:2] == ["Sampler", "Arming"] and len(janus.components) == 15
-    assert (janus.PID1.name, janus.PID1.model, janus.PID1.state, janus.PID1.reason) == ("PID1", "PID", "running", "")
+    assert (janus.PID1.name, janus.PID1.model, janus.PID1.state, janus.PID1.reason) == ("PID1", "PID", "Running", "")
 
 
 def test_unknown_names_are_told_with_the_nearest(janus):
@@ -44,8 +44,10 @@ def test_a_property_is_its_value(janus):
 
 
 def test_a_number_may_have_a_unit(janus):
-    janus.PID1.GainFadeTime = "20 ms"
-    assert janus.PID1.GainFadeTime == 0.02
+    janus.PID1.Kp = "300 V/rad"
+    assert janus.PID1.Kp == 300.0
+    janus.PID1.Kp = "6 V/deg"
+    assert janus.PID1.Kp == pytest.approx(6.0 * 180.0 / np.pi)
     with pytest.raises(ValueError, match="PID1.Kp"):
         janus.PID1.Kp = "3 m"
 
@@ -147,18 +149,28 @@ def test_operations_are_called(janus):
 
 
 def test_events_are_counted(armed_janus):
-    stop = next(iter(armed_janus.Arming.events.values()))
-    assert isinstance(stop, Event) and stop.raised == 0
-    assert stop.name.startswith("Arming.") and stop.doc and stop.signature.endswith(")")
-    assert repr(stop).startswith("<Event Arming.")
+    arm, disarm = armed_janus.Arming.Arm, armed_janus.Arming.Disarm
+    assert isinstance(arm, Event) and arm is armed_janus.Arming.events["Arm"]
+    assert (arm.raised, disarm.raised) == (1, 0)
+    assert (arm.name, arm.signature) == ("Arming.Arm", "void()") and arm.doc
+    assert repr(arm) == "<Event Arming.Arm void()>"
+
+
+def test_an_event_can_be_waited_for(armed_janus):
+    app = armed_janus
+    app.Arming.disarm()
+    assert not app.Arming.Arm.wait(0.2)
+    command = app.Arming.arm.begin()
+    assert app.Arming.Arm.wait("2 s") and app.Arming.Arm.raised == 2
+    command.wait()
 
 
 def test_components_are_stopped_and_started(janus):
     janus.run_for(0.1)
     janus.BridgeRef.stop()
-    assert janus.BridgeRef.state == "stopped"
+    assert janus.BridgeRef.state == "Stopped"
     janus.BridgeRef.start()
-    assert janus.BridgeRef.state == "running"
+    assert janus.BridgeRef.state == "Running"
     janus.BridgeRef.stop()
     janus.BridgeRef.cleanup()
     for change in (janus.BridgeRef.reset, janus.BridgeRef.recover):
@@ -176,23 +188,32 @@ def test_completion_and_help_know_the_interface(janus):
     assert repr(janus.PID1).startswith("<PID PID1: ")
 
 
+class Wheel(author.Component):
+    """Turns."""
+
+    angle = author.Output(float, unit="rad", doc="where it is")
+
+    def update(self) -> None:
+        self.angle = self.time
+
+
 def test_parts_of_composites_are_attributes_of_their_composite(tmp_path):
     file = tmp_path / "pair.yaml"
     file.write_text("""application: pair
-libraries: [controls]
 composites:
   Pair:
     components:
-      Left: {model: Adder, activity: {periodic: 10 ms}}
-      Right: {model: Adder, activity: {periodic: 10 ms}}
+      Left: {model: Wheel, activity: {periodic: 10 ms}}
+      Right: {model: Wheel, activity: {periodic: 10 ms}}
 components:
   Head: {model: Pair}
 """)
-    problems = [one for one in armature.check(file) if one.severity == "error"]
-    assert problems == [], problems
-    with armature.load(file).application() as app:
+    with armature.load(file, components=[Wheel]).application(record=tmp_path / "out") as app:
+        app.run_for(0.1)
         assert app.Head.Left is app["Head.Left"]
+        assert app.Head.Right.angle.value == pytest.approx(0.1)
         assert "Head" in dir(app) and {"Left", "Right"} <= set(dir(app.Head))
         assert repr(app.Head) == "<Group Head: Left, Right>"
         with pytest.raises(AttributeError, match="Head.Middle"):
             app.Head.Middle
+    assert len(armature.read_recording(tmp_path / "out")["Head.Left.angle"]) > 5

@@ -52,7 +52,7 @@ def test_what_is_set_counts_in_place_of_the_file(janus_file):
     with deployment.application() as app:
         assert (app.PID1.Kp, app.PID2.UMax) == (200.0, 9.0)
         app.run_for(0.1)
-        assert app.Sampler.state == "running"
+        assert app.Sampler.state == "Running"
 
 
 def test_what_is_set_wrongly_is_a_mistake_with_a_suggestion(janus_file):

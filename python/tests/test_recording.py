@@ -26,6 +26,17 @@ def test_without_a_reporter_all_outputs_are_recorded(folder):
     assert repr(recording) == f"<Recording {folder}/run.mcap: {len(recording)} channels>"
 
 
+def test_what_is_recorded_may_be_said(tmp_path, janus_file):
+    deployment = armature.load(janus_file)
+    with deployment.application(record=tmp_path, what=["PID*.Ref", "PID1.Kp"]) as app:
+        app.run_for(0.1)
+    assert sorted(armature.read_recording(tmp_path)) == ["PID1.Kp", "PID1.Ref", "PID2.Ref"]
+    with pytest.raises(armature.DeploymentError, match="PIDD"):
+        deployment.application(record=tmp_path, what=["PIDD.Out"])
+    with pytest.raises(ValueError, match="needs a folder"):
+        deployment.application(what=["PID1.Out"])
+
+
 def test_numbers_are_arrays_over_time(folder):
     out = armature.read_recording(folder / "run.mcap")["PID1.Out"]
     assert isinstance(out, armature.Samples)
