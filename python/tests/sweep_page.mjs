@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looks at a sweep's page in a browser, and prints what it found there as JSON:
-//   node sweep_page.mjs WEB_FOLDER PAGE [SCREENSHOT]
+//   node sweep_page.mjs WEB_FOLDER PAGE
 // Exit code 77 if there is no browser here.
 import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [, , web, file, screenshot] = process.argv;
+const [, , web, file] = process.argv;
 const chromiumPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const require = createRequire(join(web, "package.json"));
 let chromium;
@@ -50,8 +50,6 @@ await page.locator("#chosen button").click();
 
 await page.locator("#heat-map select").nth(2).selectOption({ index: 1 });
 found.cellsOfOther = await page.locator("#heat-map .cell").evaluateAll((cells) => cells.map((cell) => cell.getAttribute("aria-label")));
-await page.locator("#heat-map select").nth(2).selectOption({ index: 0 });
-if (screenshot) await page.screenshot({ path: screenshot, fullPage: true });
 
 // The lower three quarters of the first axis.
 const grip = await page.locator("#parallel .grip").first().boundingBox();

@@ -22,8 +22,10 @@ class Job:
 
         @raises TypeError if it cannot be sent; the text says what stands in the way.
         """
-        import cloudpickle
-
+        try:
+            import cloudpickle
+        except ImportError:
+            raise RuntimeError("sweeps need cloudpickle (apt-get install python3-cloudpickle)") from None
         try:
             return Job(cloudpickle.dumps(run_point))
         except Exception as error:
