@@ -40,13 +40,15 @@ class Motion:
         self.seconds = seconds
 
     def __call__(self, app):
+        wall, cpu = time.perf_counter(), time.process_time()
         app.run_for(0.1)
         app.Arming.arm()
         following = Following(app, [("PID1.Ref", "PID1.Sen"), ("PID2.Ref", "PID2.Sen")], period=0.1)
         for i in range(math.ceil(self.seconds / 6)):
             app.Generator.moveTo.begin([0.4 + i % 2, 0.4 + i % 2], 3.0)
             following.run_until(min(self.seconds, 6.0 * (i + 1)))
-        return {"iae": sum(joint.iae for joint in following.joints)}
+        return {"iae": sum(joint.iae for joint in following.joints),
+                "wall_s": time.perf_counter() - wall, "cpu_s": time.process_time() - cpu}
 
 
 def nothing(point, folder):
@@ -67,11 +69,15 @@ def measure(entries, label, runs, seconds, where):
     name = f"sweep/{label}/{runs}_runs_of_{seconds:g}_s"
     own = [run.seconds for run in results]
     say(entries, f"{name}/wall", results.effort.wall_s, "s", f"{results.effort.workers} workers")
-    say(entries, f"{name}/run/median", statistics.median(own), "s",
-        f"{seconds / statistics.median(own):.0f} times as fast as real time")
+    cpu_s = statistics.median(run.metrics["cpu_s"] for run in results)
+    load_s = statistics.median(run.seconds - run.metrics["wall_s"] for run in results)
+    say(entries, f"{name}/run/median", statistics.median(own), "s", "own time, of the wall's clock")
+    say(entries, f"{name}/run/load", load_s, "s", "of it until the application has started")
+    say(entries, f"{name}/run/cpu", cpu_s, "s",
+        f"of the processor after that: {seconds / cpu_s:.0f} times as fast as real time")
     say(entries, f"{name}/overhead", 100 * results.effort.overhead, "%",
         f"at most {100 * BOUND:.0f}" if results.effort.overhead <= BOUND else "MORE THAN 5")
-    return results
+    return results, load_s + cpu_s
 
 
 def measure_task(entries, label, where, count=1000):
@@ -88,18 +94,22 @@ def measure_task(entries, label, where, count=1000):
 
 
 def estimate(task_s, run_s, start_s, size):
+    """Hosts whose processors are as fast as this one, and have nothing else to do."""
     workers = WORKERS_OF_A_HOST * HOSTS
-    print(f"\nExtrapolated: {HOSTS} hosts, {WORKERS_OF_A_HOST} workers each, runs of {run_s:.2f} s as here")
-    print(f"{'runs':>8} {'ideal':>9} {'estimated':>10} {'overhead':>9} {'results':>9}   made of")
+    print(f"\nExtrapolated: {HOSTS} hosts, {WORKERS_OF_A_HOST} workers each; a run takes {run_s:.2f} s "
+          f"of a processor, a task {1e3 * task_s:.2f} ms of the scheduler's")
+    print(f"{'runs':>8} {'batch':>5} {'ideal':>9} {'estimated':>10} {'overhead':>9}   of which")
     for runs in (1000, 10_000, 100_000):
-        ideal = runs * run_s / workers
-        waves = math.ceil(runs / workers) * (run_s + task_s)
-        wall = start_s + max(waves, runs * task_s)
-        print(f"{runs:8} {ideal:8.1f}s {wall:9.1f}s {100 * (wall - ideal) / ideal:8.1f}% "
-              f"{runs * size / 1e6:7.1f}MB   start {start_s:.1f} s, last wave not full "
-              f"{waves - ideal:.1f} s, scheduler busy {runs * task_s:.1f} s meanwhile")
-    print(f"One scheduler keeps {run_s / task_s:.0f} workers busy with such runs; "
-          f"with batch=10 ten times as many.")
+        for batch in (1, 5):
+            ideal = runs * run_s / workers
+            tasks = math.ceil(runs / batch)
+            working = math.ceil(tasks / workers) * (batch * run_s + task_s)
+            wall = start_s + max(working, tasks * task_s)
+            print(f"{runs:8} {batch:5} {ideal:8.1f}s {wall:9.1f}s {100 * (wall - ideal) / ideal:8.1f}%   "
+                  f"start {start_s:.1f} s, workers {working:.1f} s, scheduler {tasks * task_s:.1f} s, "
+                  f"results {runs * size / 1e6:.1f} MB")
+    print(f"One scheduler keeps {run_s / task_s:.0f} workers busy with such runs, "
+          f"and {5 * run_s / task_s:.0f} with batch=5.")
 
 
 def main():
@@ -114,10 +124,10 @@ def main():
     print(f"{os.cpu_count()} processors, load before: {os.getloadavg()[0]:.1f}")
 
     with Pool(given.workers) as pool:
-        task_s = measure_task(entries, "pool", {"workers": pool})
+        measure_task(entries, "pool", {"workers": pool})
         start_s = statistics.median(pool.start_seconds)
         say(entries, "sweep/pool/start_of_a_worker", start_s, "s")
-        results = measure(entries, "pool", given.runs, given.seconds, {"workers": pool})
+        results, run_s = measure(entries, "pool", given.runs, given.seconds, {"workers": pool})
     size = len(pickle.dumps(results[0]))
     say(entries, "sweep/data_back", size, "B", "for each run")
 
@@ -128,7 +138,7 @@ def main():
             start_s = max(start_s, cluster_s)
             task_s = measure_task(entries, "dask", {"client": client})
             measure(entries, "dask", given.runs, given.seconds, {"client": client})
-    estimate(task_s, statistics.median(run.seconds for run in results), start_s, size)
+        estimate(task_s, run_s, start_s, size)
     print(f"load after: {os.getloadavg()[0]:.1f}")
     if given.json:
         given.json.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
