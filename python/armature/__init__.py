@@ -14,10 +14,11 @@ Values are in the units of their models, times in seconds. Mistakes are exceptio
 `DeploymentError` with the place of each, of everything that an application refuses an `Error`.
 Nothing here runs in a real-time thread.
 """
-from armature._application import Application, RunEnd, RunError
+from armature._application import Application, RunEnd
 from armature._component import RunningComponent
 from armature._connection import Connection, connect
-from armature._deployment import Deployment, DeploymentError, check, load
+from armature._deployment import Deployment, check, load
+from armature._errors import DeploymentError, RunError
 from armature._members import Command, CommandError, Event, Input, Operation, Output, Port, Property
 from armature._native import Diagnostic, Error, LogLine, NoAnswer, Refusal
 from armature._recording import Recording, Samples, read_recording

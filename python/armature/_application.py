@@ -5,11 +5,12 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any
 
 from armature import _native
-from armature._component import Components, Face, RunningComponent
-from armature._native import Diagnostic, LogLine
+from armature._component import Components, Face
+from armature._errors import DeploymentError, RunError, has_errors
+from armature._native import LogLine
+
 
 class RunEnd(enum.Enum):
     """Why a stretch of time has ended."""
@@ -18,14 +19,6 @@ class RunEnd(enum.Enum):
     CONDITION_MET = "condition_met"
     FAULTED = "faulted"  # and the deployment stops everything after a fault
     STOPPED_BY_REACTION = "stopped_by_reaction"
-
-
-class RunError(_native.Error):
-    """An application that did not stop in good order; `diagnostics` says why."""
-
-    def __init__(self, diagnostics: list[Diagnostic]) -> None:
-        super().__init__("\n".join(str(one) for one in diagnostics))
-        self.diagnostics = diagnostics
 
 
 class Application(Face):
@@ -37,12 +30,10 @@ class Application(Face):
     """
 
     def __init__(self, loaded: _native.Deployed, name: str, record: str, grants: list[str]) -> None:
-        from armature._deployment import DeploymentError
-
         self._name = name
         self._simulation = _native.Simulation(loaded, record, grants)
         diagnostics = self._simulation.start()
-        if any(one.severity == "error" for one in diagnostics):
+        if has_errors(diagnostics):
             raise DeploymentError(diagnostics)
         super().__init__(Components(self._simulation, self._wait))
 
@@ -95,9 +86,9 @@ class Application(Face):
         self._stop(in_order=True)
 
     def _stop(self, in_order: bool) -> None:
-        errors = [one for one in self._simulation.stop(in_order) if one.severity == "error"]
-        if errors and in_order:
-            raise RunError(errors)
+        diagnostics = self._simulation.stop(in_order)
+        if in_order and has_errors(diagnostics):
+            raise RunError(diagnostics)
 
     def _wait(self, condition: Callable[[], bool], limit: float) -> bool:
         """Lets time pass until `condition` is true; False if it is not within `limit` [s]."""

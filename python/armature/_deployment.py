@@ -4,26 +4,18 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from armature import _native
 from armature._application import Application
+from armature._errors import DeploymentError, has_errors
 from armature._native import Diagnostic
 from armature._values import to_yaml
 from armature.author import Component
 
 # Where component libraries are, in a build tree as in an installation: beside lib/python3.
 _COMPONENTS = str(Path(_native.__file__).parents[3] / "armature")
-
-
-class DeploymentError(_native.Error):
-    """A deployment that cannot be run; `diagnostics` tells each mistake with its place."""
-
-    def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
-        errors = [str(one) for one in diagnostics if one.severity == "error"]
-        super().__init__("\n".join(errors))
-        self.diagnostics = list(diagnostics)
 
 
 class Deployment:
@@ -34,7 +26,7 @@ class Deployment:
                  components: Iterable[type[Component]] = ()) -> None:
         self._file = os.fspath(file)
         self._overrides = [f"{name}={to_yaml(value)}" for name, value in (set or {}).items()]
-        self._folders = [*(os.fspath(folder) for folder in libraries or ()), _COMPONENTS]
+        self._folders = [*(os.fspath(folder) for folder in libraries or ()), *_folders_of_environment(), _COMPONENTS]
         self._models = [one._model() for one in components]
         self._loaded: _native.Deployed | None = self._load()
         self._name = self._loaded.name
@@ -86,6 +78,11 @@ class Deployment:
         return f"<Deployment '{self._name}' of {self._file}>"
 
 
+def _folders_of_environment() -> list[str]:
+    """They come before those of the installation, as for the program."""
+    return [folder for folder in os.environ.get("ARMATURE_LIBRARY_PATH", "").split(":") if folder]
+
+
 def _recorded(file: str, what: list[str]) -> str:
     """The text of a deployment that has a recorder of `what` beside all that is in `file`."""
     return json.dumps({
@@ -119,6 +116,6 @@ def load(file: str | os.PathLike[str], *, set: Mapping[str, object] | None = Non
     Raises DeploymentError if there is any mistake in it.
     """
     deployment = Deployment(file, set, libraries, components)
-    if any(one.severity == "error" for one in deployment.diagnostics):
+    if has_errors(deployment.diagnostics):
         raise DeploymentError(deployment.diagnostics)
     return deployment

@@ -91,10 +91,9 @@ void bind_status_of_commands(py::module_& module) {
       .def_readonly("ended", &CommandStatus::ended)
       .def_readonly("progress", &CommandStatus::progress)
       .def_readonly("reason", &CommandStatus::reason)
-      .def_property_readonly("stage",
-                             [](const CommandStatus& self) {
-                               return std::string(component::name_of(self.stage));
-                             })
+      .def_property_readonly(
+          "stage",
+          [](const CommandStatus& self) { return std::string(component::name_of(self.stage)); })
       .def_property_readonly("succeeded", [](const CommandStatus& self) {
         return self.stage == component::CommandStage::kDone;
       });

@@ -16,7 +16,8 @@ namespace py = pybind11;
 
 void bind_status(py::module_& module) {
   using inspect::ComponentStatus;
-  py::class_<ComponentStatus>(module, "ComponentStatus", "Which component it is, and how it stands.")
+  py::class_<ComponentStatus>(module, "ComponentStatus",
+                              "Which component it is, and how it stands.")
       .def_readonly("name", &ComponentStatus::name)
       .def_readonly("model", &ComponentStatus::model)
       .def_property_readonly(
@@ -37,12 +38,11 @@ void bind_members(py::module_& module) {
       .def_readonly("type", &PropertyDescription::type)
       .def_readonly("values", &PropertyDescription::values)
       .def_readonly("unit", &PropertyDescription::unit)
-      .def_property_readonly(
-          "range",
-          [](const PropertyDescription& self) -> py::object {
-            if (!self.range) return py::none();
-            return py::make_tuple(self.range->low, self.range->high);
-          })
+      .def_property_readonly("range",
+                             [](const PropertyDescription& self) -> py::object {
+                               if (!self.range) return py::none();
+                               return py::make_tuple(self.range->low, self.range->high);
+                             })
       .def_readonly("persistent", &PropertyDescription::persistent)
       .def_readonly("changeable_while_running", &PropertyDescription::changeable_while_running);
 

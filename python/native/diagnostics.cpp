@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/base/diagnostic.hpp"
-
 #include "python/native/bindings.hpp"
 
 namespace armature::python {
@@ -22,8 +21,8 @@ const char* severity_of(const base::Diagnostic& diagnostic) {
 
 void bind_diagnostics(pybind11::module_& module) {
   using base::Diagnostic;
-  pybind11::class_<Diagnostic>(module, "Diagnostic",
-                               "One finding: where, what is wrong, what was expected, how to mend it.")
+  pybind11::class_<Diagnostic>(
+      module, "Diagnostic", "One finding: where, what is wrong, what was expected, how to mend it.")
       .def_property_readonly("severity", &severity_of, "`error`, `warning` or `note`")
       .def_readonly("message", &Diagnostic::message)
       .def_readonly("hint", &Diagnostic::hint, "how to mend it; may be empty")

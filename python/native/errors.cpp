@@ -6,8 +6,7 @@ namespace armature::python {
 
 void bind_errors(pybind11::module_& module) {
   const pybind11::handle error = PyErr_NewExceptionWithDoc(
-      "armature.Error",
-      "What an application refuses, cannot answer, or does not do in good order.",
+      "armature.Error", "What an application refuses, cannot answer, or does not do in good order.",
       PyExc_Exception, nullptr);
   module.add_object("Error", error);
   // The one that is registered last is tried first, and a refusal is a lack of an answer, too.

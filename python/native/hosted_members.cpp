@@ -66,7 +66,9 @@ class HostedOutput final : public HostedMember {
   HostedOutput(Component& owner, const Declared& about, Options... options)
       : name_(about.name), output_(&owner, about.name, about.doc, about.unit, options...) {}
 
-  py::object get() override { return to_python(types::type_of<T>(), component::face(output_).current()); }
+  py::object get() override {
+    return to_python(types::type_of<T>(), component::face(output_).current());
+  }
   void set(py::handle value) override {
     if (output_.write(value_of<T>(value, name_)) != component::WriteStatus::kWrongSize) return;
     throw py::value_error("the output '" + name_ + "' has another size: declare `size`");

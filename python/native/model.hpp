@@ -19,12 +19,12 @@ struct Declared {
   std::string type;  ///< `bool`, `int`, `float`, `str`, `list`
   std::string unit;
   std::string doc;
-  pybind11::object initial{};            ///< of a property
+  pybind11::object initial{};               ///< of a property
   std::optional<component::Range> range{};  ///< of a property
-  bool changeable_while_running = false;  ///< of a property
-  bool triggers = false;                  ///< of an input: what arrives runs `update`
-  bool may_stay_open = false;             ///< of an input
-  std::size_t size = 0;                   ///< of a list on a port
+  bool changeable_while_running = false;    ///< of a property
+  bool triggers = false;                    ///< of an input: what arrives runs `update`
+  bool may_stay_open = false;               ///< of an input
+  std::size_t size = 0;                     ///< of a list on a port
 };
 
 /// A model whose components are written in Python: a class, and what it declares.

@@ -53,9 +53,7 @@ PythonComponent::~PythonComponent() {
   model_.reset();
 }
 
-HostedMember& PythonComponent::member(const std::string& name) const {
-  return *members_.at(name);
-}
+HostedMember& PythonComponent::member(const std::string& name) const { return *members_.at(name); }
 
 double PythonComponent::time_s() const { return base::to_seconds(time().time_since_epoch()); }
 
@@ -151,8 +149,8 @@ void bind_components(py::module_& module) {
           [](Model& self, std::string name, std::string type, std::string unit, std::string doc,
              py::object initial, std::optional<std::pair<double, double>> range,
              bool changeable_while_running) {
-            Declared declared{"property", std::move(name), std::move(type), std::move(unit),
-                              std::move(doc), std::move(initial)};
+            Declared declared{"property",      std::move(name), std::move(type),
+                              std::move(unit), std::move(doc),  std::move(initial)};
             if (range) declared.range = component::Range{range->first, range->second};
             declared.changeable_while_running = changeable_while_running;
             self.members.push_back(std::move(declared));
@@ -163,8 +161,8 @@ void bind_components(py::module_& module) {
           "add_port",
           [](Model& self, std::string kind, std::string name, std::string type, std::string unit,
              std::string doc, std::size_t size, bool triggers, bool may_stay_open) {
-            Declared declared{std::move(kind), std::move(name), std::move(type), std::move(unit),
-                              std::move(doc), py::none()};
+            Declared declared{std::move(kind), std::move(name), std::move(type),
+                              std::move(unit), std::move(doc),  py::none()};
             declared.size = size;
             declared.triggers = triggers;
             declared.may_stay_open = may_stay_open;

@@ -88,15 +88,16 @@ Numbers read_numbers(const record::McapRecording& recording, const Channel& chan
     if (!read) throw inspect::Refusal(read.error());
     const bool is_list = types::is_list(type);
     const std::size_t count = is_list ? types::element_count(type, value.data()) : 1;
-    const std::byte* const first = is_list ? types::elements(type, value.data())
-                                           : static_cast<const std::byte*>(value.data());
+    const std::byte* const first =
+        is_list ? types::elements(type, value.data()) : static_cast<const std::byte*>(value.data());
     numbers.bytes.insert(numbers.bytes.end(), first, first + count * element);
     numbers.rows.push_back(count);
   }
   return numbers;
 }
 
-py::array array_of(const Type& scalar, const std::vector<py::ssize_t>& shape, const std::byte* from) {
+py::array array_of(const Type& scalar, const std::vector<py::ssize_t>& shape,
+                   const std::byte* from) {
   py::array made(*dtype_of(scalar), shape);
   if (made.nbytes() > 0) {
     std::memcpy(made.mutable_data(), from, static_cast<std::size_t>(made.nbytes()));
@@ -141,7 +142,8 @@ py::tuple load(const std::string& file) {
     return std::move(loaded).value();
   }();
   std::vector<Channel> by_channel(recording.channels.size());
-  for (const auto& sample : recording.samples) by_channel[sample.channel].samples.push_back(&sample);
+  for (const auto& sample : recording.samples)
+    by_channel[sample.channel].samples.push_back(&sample);
   py::list channels;
   for (std::size_t i = 0; i < by_channel.size(); ++i) {
     const record::RecordedChannel& about = recording.channels[i];
@@ -154,8 +156,8 @@ py::tuple load(const std::string& file) {
     channel["times"] = times_of(by_channel[i]);
     channel["numbers"] = numbers_of(by_channel[i]);
     channel["json"] = type == nullptr;
-    channel["values"] =
-        type == nullptr ? py::object(texts_of(by_channel[i])) : values_of(recording, by_channel[i], *type);
+    channel["values"] = type == nullptr ? py::object(texts_of(by_channel[i]))
+                                        : values_of(recording, by_channel[i], *type);
     channels.append(channel);
   }
   return py::make_tuple(channels, recording.closed);
@@ -163,8 +165,6 @@ py::tuple load(const std::string& file) {
 
 }  // namespace
 
-void bind_recording(py::module_& module) {
-  module.def("load_recording", &load, py::arg("file"));
-}
+void bind_recording(py::module_& module) { module.def("load_recording", &load, py::arg("file")); }
 
 }  // namespace armature::python

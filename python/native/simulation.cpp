@@ -114,15 +114,17 @@ class Simulation::Turn {
  public:
   explicit Turn(Simulation& simulation) : simulation_(simulation) {
     if (in_hook()) {
-      throw Refusal("a component cannot command its application while it is updated: "
-                    "connect ports instead");
+      throw Refusal(
+          "a component cannot command its application while it is updated: "
+          "connect ports instead");
     }
     const std::thread::id me = std::this_thread::get_id();
     std::thread::id driver{};
     const bool mine = simulation.driver_.compare_exchange_strong(driver, me) || driver == me;
     if (!mine) {
-      throw Refusal("the application is driven by another thread now: wait for it, or use an "
-                    "application of your own");
+      throw Refusal(
+          "the application is driven by another thread now: wait for it, or use an "
+          "application of your own");
     }
     ++simulation.depth_;
   }
@@ -197,8 +199,8 @@ exec::RunEnd Simulation::run_until(base::Time end, const py::object& condition) 
   };
   const py::gil_scoped_release others_run;
   while (true) {
-    const exec::RunEnd ended = application_->run_until(
-        end, [&] { return (met = asked()) || interruption.is_due(); });
+    const exec::RunEnd ended =
+        application_->run_until(end, [&] { return (met = asked()) || interruption.is_due(); });
     if (met || ended != exec::RunEnd::kConditionMet) return ended;
     interruption.look();
   }
@@ -279,13 +281,13 @@ void Simulation::write(const std::string& component, const std::string& name, py
   answer_of(inspect::set(*application_, member, wanted, kCaller));
 }
 
-std::vector<types::Value> Simulation::arguments_of(const Member& operation, const py::tuple& given) {
+std::vector<types::Value> Simulation::arguments_of(const Member& operation,
+                                                   const py::tuple& given) {
   answer_of(inspect::check_count(operation, given.size()));
   const auto& wanted = operation.operation->signature().arguments;
   std::vector<types::Value> values;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    values.push_back(
-        from_python(given[i], *wanted[i].type, inspect::argument_name(operation, i)));
+    values.push_back(from_python(given[i], *wanted[i].type, inspect::argument_name(operation, i)));
   }
   return values;
 }

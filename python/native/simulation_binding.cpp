@@ -18,8 +18,9 @@ base::Duration duration_of(py::handle value) {
   constexpr double kLongest = 1e9;  // [s]
   if (PyUnicode_Check(value.ptr())) {
     if (const auto duration = runner::parse_duration(value.cast<std::string>())) return *duration;
-    throw py::value_error("a duration is above 0 and has a unit of time, as '60 s' or '10 ms', found " +
-                          py::repr(value).cast<std::string>());
+    throw py::value_error(
+        "a duration is above 0 and has a unit of time, as '60 s' or '10 ms', found " +
+        py::repr(value).cast<std::string>());
   }
   const double seconds = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
@@ -34,10 +35,9 @@ void bind_command(py::module_& module) {
   py::class_<CommandHandle>(module, "CommandHandle")
       .def_property_readonly("ended", &CommandHandle::ended)
       .def_property_readonly("progress", &CommandHandle::progress)
-      .def_property_readonly("stage",
-                             [](const CommandHandle& self) {
-                               return std::string(component::name_of(self.stage()));
-                             })
+      .def_property_readonly(
+          "stage",
+          [](const CommandHandle& self) { return std::string(component::name_of(self.stage())); })
       .def_property_readonly(
           "succeeded",
           [](const CommandHandle& self) { return self.stage() == CommandStage::kDone; })
@@ -62,7 +62,8 @@ void bind_simulation(py::module_& module) {
           py::arg("in_order"))
       .def_property_readonly("running", &Simulation::running)
       .def_property_readonly(
-          "now", [](const Simulation& self) { return base::to_seconds(base::Duration(self.now_ns())); })
+          "now",
+          [](const Simulation& self) { return base::to_seconds(base::Duration(self.now_ns())); })
       .def(
           "run_for",
           [](Simulation& self, py::handle duration, const py::object& condition) {

@@ -89,7 +89,8 @@ class Reader {
 };
 
 bool is_bool(py::handle value) {
-  return PyBool_Check(value.ptr()) || py::isinstance(value, py::module_::import("numpy").attr("bool_"));
+  return PyBool_Check(value.ptr()) ||
+         py::isinstance(value, py::module_::import("numpy").attr("bool_"));
 }
 
 /// A float, an int, or what numpy has for them.

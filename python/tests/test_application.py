@@ -158,7 +158,7 @@ def test_what_does_not_stop_in_good_order_is_an_error(janus, monkeypatch, tmp_pa
         patch.setattr(janus, "_simulation", type("Hanging", (), {"stop": lambda self, in_order: problems})())
         with pytest.raises(armature.RunError) as raised:
             janus.stop()
-    assert raised.value.diagnostics == [one for one in problems if one.severity == "error"]
+    assert raised.value.diagnostics == problems and "error" in str(raised.value)
 
 
 def test_a_deployment_with_components_elsewhere_does_not_run_alone(janus_file):

@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import time
 
 import numpy as np
 import pytest
@@ -33,6 +34,8 @@ def test_it_is_seen_and_commanded(address):
     with armature.connect(address, limit=30) as app:
         assert isinstance(app, armature.Connection)
         assert app.connected and app.address == address and app.name == "janus" and app.simulated
+        while app.now < 0.1:  # the cards answer
+            time.sleep(0.01)
         before = app.now
         app.Arming.arm()
         assert app.now > before
