@@ -174,3 +174,15 @@ def test_a_fault_is_the_reason_whatever_is_measured(monkeypatch, measure):
     run = run_task(Simulated("any.yaml", measure, {}), Task(0, {}))
     assert run.outcome == "failed"
     assert run.reason == "Faulted: Joint1: the cards are silent"
+
+
+def test_what_the_page_of_sweeps_begins_with_runs(tmp_path, monkeypatch, capsys):
+    root = JANUS.parents[1]
+    (tmp_path / "robots").symlink_to(root / "robots")
+    monkeypatch.chdir(tmp_path)
+    block = re.search(r"```python\n(.*?)```", (root / "docs/sweeps.md").read_text(), re.DOTALL)[1]
+    exec(compile(block, "docs/sweeps.md", "exec"), {"__name__": "page"})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["run", "PID1.Kp", "PID1.Kd", "iae"]
+    assert lines[-1] == "6 runs: 6 done"
+    assert (tmp_path / "sweep/sweep.html").exists()

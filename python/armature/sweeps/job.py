@@ -23,7 +23,7 @@ class Job:
         @raises TypeError if it cannot be sent; the text says what stands in the way.
         """
         try:
-            import cloudpickle
+            import cloudpickle  # type: ignore[import]
         except ImportError:
             raise RuntimeError("sweeps need cloudpickle (apt-get install python3-cloudpickle)") from None
         try:
