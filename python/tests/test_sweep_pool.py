@@ -139,6 +139,13 @@ def test_a_pool_has_a_worker():
         Pool(0)
 
 
+def test_what_does_not_fit_together_is_refused():
+    with pytest.raises(ValueError, match="recordings need a folder"):
+        quiet(sweep_runs.rosenbrock, SQUARE, workers=1, record=True)
+    with pytest.raises(ValueError, match="workers or by those of this machine, not both"):
+        quiet(sweep_runs.rosenbrock, SQUARE, workers=1, client=object())
+
+
 def test_what_cannot_be_sent_is_said_before_anything_runs():
     lock = threading.Lock()
     with pytest.raises(TypeError, match="cannot be sent to another process.*use a function"):

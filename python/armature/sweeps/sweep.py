@@ -114,6 +114,8 @@ def each(
     """
     if batch < 1:
         raise ValueError(f"the runs of a batch must be 1 or more, found {batch}")
+    if client is not None and workers is not None:
+        raise ValueError("runs are done by a client's workers or by those of this machine, not both")
     if record and out is None:
         raise ValueError("recordings need a folder (give out=FOLDER)")
     plan = _Plan(listed(points), Job.of(run_point), objective, title)
