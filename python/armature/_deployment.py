@@ -30,7 +30,7 @@ class Deployment:
         self._models = [one._model() for one in components]
         self._loaded: _native.Deployed | None = self._load()
         self._name = self._loaded.name
-        self._diagnostics = self._loaded.diagnostics
+        self._diagnostics = sorted(self._loaded.diagnostics, key=lambda one: (one.file, one.line, one.column))
 
     @property
     def file(self) -> str:

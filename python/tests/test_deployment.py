@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Deployments are checked and loaded; what is wrong with them is told with its place."""
+import os
 import shutil
+import subprocess
 
 import pytest
 
@@ -32,6 +34,12 @@ def test_check_tells_each_mistake_with_its_place_and_a_hint(mistaken):
     assert "Addr" in unknown.message and "Adder" in str(unknown)
     assert unknown.name == "" and "Adder" in unknown.hint + unknown.message
     assert repr(unknown) == f"<Diagnostic {unknown}>"
+
+
+def test_it_finds_what_the_program_finds(mistaken):
+    told = subprocess.run([os.environ["ARMATURE_PROGRAM"], "check", mistaken], capture_output=True, text=True)
+    lines = [line for line in (told.stdout + told.stderr).splitlines() if line.startswith(str(mistaken))]
+    assert lines == [str(one) for one in armature.check(mistaken)]
 
 
 def test_load_raises_all_mistakes_at_once(mistaken):
