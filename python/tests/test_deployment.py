@@ -93,6 +93,19 @@ def test_a_deployment_makes_any_number_of_applications(janus_file):
         assert (first.now, second.now) == (1.0, 0.5)
 
 
+def test_what_does_not_pass_the_check_does_not_run(tmp_path, janus_file, mistaken):
+    with pytest.raises(armature.DeploymentError):
+        armature.Deployment(mistaken).application()
+    file = tmp_path / "changing.yaml"
+    text = f"include: {janus_file}\napplication: changing\n"
+    file.write_text(text)
+    deployment = armature.load(file)
+    deployment.application().stop()
+    file.write_text(text + "components: {PID1: {override: true, properties: {Kpp: 1}}}\n")
+    with pytest.raises(armature.DeploymentError, match="Kpp"):
+        deployment.application()
+
+
 def test_acts_of_the_operator_need_a_grant(tmp_path, janus_file):
     file = tmp_path / "strict.yaml"
     file.write_text(f"include: {janus_file}\napplication: strict\ngrants: {{script: []}}\n")
