@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Parts of messages that several components write or read.
+
+#include <string>
+
+#include "bridges/ros2/internal/dds.hpp"
+#include "bridges/ros2/node.hpp"
+
+namespace armature::ros2::internal {
+
+inline std_msgs_msg_dds__Header_ header_of(const Stamp& stamp, const std::string& frame) {
+  std_msgs_msg_dds__Header_ header{};
+  header.stamp.sec = stamp.sec;
+  header.stamp.nanosec = stamp.nanosec;
+  header.frame_id = lend(frame);
+  return header;
+}
+
+}  // namespace armature::ros2::internal
