@@ -68,12 +68,14 @@ void RosNode::set_clocks() {
   clocks_set_at_ = time();
   if (is_simulated()) return;
   const auto wall = std::chrono::system_clock::now().time_since_epoch();
-  to_wall_clock_ = std::chrono::duration_cast<base::Duration>(wall) -
-                   platform::monotonic_now().time_since_epoch();
+  const auto offset = std::chrono::duration_cast<base::Duration>(wall) -
+                      platform::monotonic_now().time_since_epoch();
+  to_wall_clock_ns_.store(offset.count(), std::memory_order_relaxed);
 }
 
 Stamp RosNode::stamp_of(base::Time time) const {
-  const std::int64_t ns = std::max<std::int64_t>(0, base::to_ns(time + to_wall_clock_));
+  const std::int64_t ns = std::max<std::int64_t>(
+      0, base::to_ns(time) + to_wall_clock_ns_.load(std::memory_order_relaxed));
   constexpr std::int64_t kSecond = 1'000'000'000;
   return {static_cast<std::int32_t>(ns / kSecond), static_cast<std::uint32_t>(ns % kSecond)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -33,7 +34,7 @@ class RosNode final : public component::Component, private component::Observer {
   /// @thread configuration only
   base::Result<std::shared_ptr<Participant>> participant();
   /// A time of the application as ROS 2 has it: of the wall clock, or simulated.
-  /// @thread that of the components of this library
+  /// @thread any
   Stamp stamp_of(base::Time time) const;
 
  private:
@@ -65,7 +66,7 @@ class RosNode final : public component::Component, private component::Observer {
 
   std::shared_ptr<Participant> participant_;
   std::string refused_;
-  base::Duration to_wall_clock_{};
+  std::atomic<std::int64_t> to_wall_clock_ns_{0};
   base::Time clocks_set_at_{};
 };
 

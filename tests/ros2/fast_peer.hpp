@@ -28,7 +28,7 @@
 
 namespace armature::ros2 {
 
-namespace dds = eprosima::fastdds::dds;
+namespace fast = eprosima::fastdds::dds;
 
 /// Waits until `reached`, ten seconds at most; answers whether it is.
 inline bool wait_until(const std::function<bool()>& reached) {
@@ -50,7 +50,7 @@ struct FastQuality {
 class FastPeer {
  public:
   explicit FastPeer(int domain) {
-    dds::DomainParticipantQos qos;
+    fast::DomainParticipantQos qos;
     const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList.emplace_back("127.0.0.1");
     qos.transport().use_builtin_transports = false;
@@ -58,28 +58,28 @@ class FastPeer {
     eprosima::fastrtps::rtps::Locator_t peer;
     eprosima::fastrtps::rtps::IPLocator::setIPv4(peer, "127.0.0.1");
     qos.wire_protocol().builtin.initialPeersList.push_back(peer);
-    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
+    participant_ = fast::DomainParticipantFactory::get_instance()->create_participant(
         static_cast<std::uint32_t>(domain), qos);
-    publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
-    subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+    publisher_ = participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
+    subscriber_ = participant_->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);
   }
   FastPeer(const FastPeer&) = delete;
   FastPeer& operator=(const FastPeer&) = delete;
   ~FastPeer() {
     participant_->delete_contained_entities();
-    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+    fast::DomainParticipantFactory::get_instance()->delete_participant(participant_);
   }
 
   /// @param type  the generated TypeSupport, such as JointState_PubSubType
   template <typename PubSubType>
-  dds::DataWriter* write_to(const std::string& topic, const FastQuality& quality = {}) {
-    dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
+  fast::DataWriter* write_to(const std::string& topic, const FastQuality& quality = {}) {
+    fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
     set(qos, quality);
     return publisher_->create_datawriter(topic_of<PubSubType>(topic), qos);
   }
   template <typename PubSubType>
-  dds::DataReader* read_from(const std::string& topic, const FastQuality& quality = {}) {
-    dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+  fast::DataReader* read_from(const std::string& topic, const FastQuality& quality = {}) {
+    fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
     set(qos, quality);
     return subscriber_->create_datareader(topic_of<PubSubType>(topic), qos);
   }
@@ -88,44 +88,44 @@ class FastPeer {
   template <typename Qos>
   static void set(Qos& qos, const FastQuality& quality) {
     qos.reliability().kind =
-        quality.reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+        quality.reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
     qos.durability().kind =
-        quality.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
-    qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+        quality.transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
+    qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
     qos.history().depth = quality.depth;
     qos.endpoint().history_memory_policy =
         eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   }
   template <typename PubSubType>
-  dds::Topic* topic_of(const std::string& name) {
-    const dds::TypeSupport type(new PubSubType());
+  fast::Topic* topic_of(const std::string& name) {
+    const fast::TypeSupport type(new PubSubType());
     type.register_type(participant_);
     if (auto* const known = participant_->find_topic(name, eprosima::fastrtps::Duration_t(0, 1))) {
       return known;
     }
-    return participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+    return participant_->create_topic(name, type.get_type_name(), fast::TOPIC_QOS_DEFAULT);
   }
 
-  dds::DomainParticipant* participant_;
-  dds::Publisher* publisher_;
-  dds::Subscriber* subscriber_;
+  fast::DomainParticipant* participant_;
+  fast::Publisher* publisher_;
+  fast::Subscriber* subscriber_;
 };
 
-inline bool is_matched(dds::DataWriter& writer) {
-  dds::PublicationMatchedStatus status;
+inline bool is_matched(fast::DataWriter& writer) {
+  fast::PublicationMatchedStatus status;
   writer.get_publication_matched_status(status);
   return status.current_count > 0;
 }
-inline bool is_matched(dds::DataReader& reader) {
-  dds::SubscriptionMatchedStatus status;
+inline bool is_matched(fast::DataReader& reader) {
+  fast::SubscriptionMatchedStatus status;
   reader.get_subscription_matched_status(status);
   return status.current_count > 0;
 }
 
 /// The next sample of a reader.
 template <typename Message>
-bool take(dds::DataReader& reader, Message& message) {
-  dds::SampleInfo info;
+bool take(fast::DataReader& reader, Message& message) {
+  fast::SampleInfo info;
   while (reader.take_next_sample(&message, &info) ==
          eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
     if (info.valid_data) return true;
