@@ -104,6 +104,8 @@ class Subscriber : public Endpoint {
 };
 
 /// What reads messages takes so many in an update at most.
-inline constexpr std::size_t kMostInAnUpdate = 64;
+inline constexpr std::size_t kMostInAnUpdate = 256;
+/// What they promise: a thread that is held up loses none of so many.
+inline constexpr Quality kCommands{.depth = kMostInAnUpdate};
 
 }  // namespace armature::ros2

@@ -26,7 +26,7 @@ std::vector<Float64MultiArray::Objection> Float64MultiArray::objections(
 }
 
 std::string Float64MultiArray::open(const component::Surroundings& /*surroundings*/) {
-  reader_ = reader(topic_, std_msgs_msg_dds__Float64MultiArray__desc, {});
+  reader_ = reader(topic_, std_msgs_msg_dds__Float64MultiArray__desc, kCommands);
   return {};
 }
 

@@ -15,7 +15,7 @@ std::vector<JointStates::Objection> JointStates::objections(const Components& /*
 }
 
 std::string JointStates::open(const component::Surroundings& /*surroundings*/) {
-  writer_ = writer(topic_, sensor_msgs_msg_dds__JointState__desc, {});
+  writer_ = writer(topic_, sensor_msgs_msg_dds__JointState__desc, {.depth = 100});
   const auto capacity = static_cast<std::size_t>(buffer_.get());
   positions_.follow(face(position_), capacity);
   velocities_.follow(face(velocity_), capacity);

@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "armature/base/seconds.hpp"
+#include "armature/component/face.hpp"
+#include "armature/component/interface.hpp"
+#include "armature/control/per_joint.hpp"
 #include "bridges/ros2/internal/dds.hpp"
 #include "bridges/ros2/internal/messages.hpp"
 #include "bridges/ros2/internal/names.hpp"
@@ -50,8 +53,27 @@ std::vector<JointTrajectory::Objection> JointTrajectory::objections(
 }
 
 std::string JointTrajectory::open(const component::Surroundings& /*surroundings*/) {
-  reader_ = reader(topic_, trajectory_msgs_msg_dds__JointTrajectory__desc, {});
-  return {};
+  reader_ = reader(topic_, trajectory_msgs_msg_dds__JointTrajectory__desc, kCommands);
+  limits_ = {names_, {}, {}, max_duration_};
+  return ask_for_limits();
+}
+
+/// The generator's.
+std::string JointTrajectory::ask_for_limits() {
+  const auto* const plays = face(play_path_).target();
+  if (plays == nullptr) return "no peer serves playPath: add an nAxesGeneratorTaught to its peers";
+  for (const auto* property : component::interface_of(plays->owner()).properties) {
+    std::vector<double>* const to = property->name() == "lower"   ? &limits_.lower
+                                    : property->name() == "upper" ? &limits_.upper
+                                                                  : nullptr;
+    if (to == nullptr || !types::same_type(property->type(), types::type_of<Vector>())) continue;
+    auto each = control::per_joint(property->name(), *static_cast<const Vector*>(property->data()),
+                                   names_.get().size());
+    if (!each) return each.error();
+    *to = std::move(each).value();
+  }
+  if (!limits_.lower.empty() && !limits_.upper.empty()) return {};
+  return "'" + plays->owner().name() + "' has no limits lower and upper";
 }
 
 void JointTrajectory::begin() {
@@ -94,7 +116,7 @@ std::string JointTrajectory::objection_to(const Trajectory& trajectory) const {
   if (present_ && trajectory.stamp_ns != 0 && trajectory.stamp_ns < present_->stamp_ns) {
     return "its stamp is before that of the one before";
   }
-  return internal::objection_to(trajectory, {names_, max_duration_});
+  return internal::objection_to(trajectory, limits_);
 }
 
 void JointTrajectory::look_at_silence() {
@@ -145,7 +167,8 @@ void JointTrajectory::look_whether_it_rests() {
 }
 
 void JointTrajectory::play_next() {
-  const auto path = internal::smooth_path_of(internal::way_of(*present_, names_, last_desired_));
+  const auto path = internal::smooth_path_of(
+      internal::way_of(*present_, limits_, last_desired_), limits_);
   if (!path || path.value().largest_deviation > max_deviation_) {
     deaf_ = true;
     return refuse(path ? "its corners are sharper than max_deviation allows: give velocities"

@@ -42,6 +42,7 @@ class JointTrajectory final : public Subscriber {
   void work() override;
 
   std::string obey(internal::Trajectory trajectory);
+  std::string ask_for_limits();
   std::string objection_to(const internal::Trajectory& trajectory) const;
   void look_at_motion();
   void look_at_silence();
@@ -80,6 +81,7 @@ class JointTrajectory final : public Subscriber {
   component::CommandCaller<const Vector&, double> play_path_{this, "playPath", "plays a path"};
 
   std::unique_ptr<Reader> reader_;
+  internal::TrajectoryLimits limits_;
   component::CommandHandle motion_{component::CallStatus::kNotConnected};
   std::optional<internal::Trajectory> present_;  ///< that was obeyed last
   bool next_ = false;                            ///< `present_` begins when the one before rests

@@ -10,7 +10,7 @@
 namespace armature::ros2 {
 
 std::string Joy::open(const component::Surroundings& /*surroundings*/) {
-  reader_ = reader(topic_, sensor_msgs_msg_dds__Joy__desc, {});
+  reader_ = reader(topic_, sensor_msgs_msg_dds__Joy__desc, kCommands);
   return {};
 }
 

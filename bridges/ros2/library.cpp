@@ -9,8 +9,10 @@
 #include "bridges/ros2/joint_trajectory.hpp"
 #include "bridges/ros2/joy.hpp"
 #include "bridges/ros2/node.hpp"
+#include "bridges/ros2/port_to_topic.hpp"
 #include "bridges/ros2/robot_description.hpp"
 #include "bridges/ros2/tf.hpp"
+#include "bridges/ros2/topic_to_port.hpp"
 #include "bridges/ros2/twist.hpp"
 
 using namespace armature::ros2;
@@ -26,6 +28,9 @@ ARMATURE_COMPONENT_LIBRARY(ros2, registry) {
   registry.add<Diagnostics>("Diagnostics",
                             "the state of each component: diagnostic_msgs/DiagnosticArray");
   registry.add<Image>("Image", "images of a camera: sensor_msgs/CompressedImage");
+  registry.add<PortToTopic>("PortToTopic", "any output port as a topic of its own");
+  registry.add<TopicToPort>("TopicToPort", "a topic of its own for an input that may stay open",
+                            Granularity::kApplication);
   registry.add<JointTrajectory>("JointTrajectory",
                                 "moves the robot: trajectory_msgs/JointTrajectory",
                                 Granularity::kApplication);

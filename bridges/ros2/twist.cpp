@@ -16,7 +16,7 @@ bool is_within(const geometry_msgs_msg_dds__Vector3_& vector, double limit) {
 }  // namespace
 
 std::string Twist::open(const component::Surroundings& /*surroundings*/) {
-  reader_ = reader(topic_, geometry_msgs_msg_dds__Twist__desc, {});
+  reader_ = reader(topic_, geometry_msgs_msg_dds__Twist__desc, kCommands);
   return {};
 }
 

@@ -3,6 +3,7 @@
 // as a clock on the wall.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -109,6 +110,32 @@ TEST(JointTrajectory, MovesTheArmAndACommanderThatDiesStopsItSmoothly) {
   testing::DeployedRobot wam(example("wam.yaml"));
   ASSERT_EQ(wam.start(), "");
   moves_and_stops_smoothly(wam, "7", 0.8, 2.5, 5.0);
+}
+
+TEST(CmdVel, DrivesTheRoverAndACommanderThatDiesStopsIt) {
+  testing::DeployedRobot rover(example("rover.yaml"));
+  ASSERT_EQ(rover.start(), "");
+  const auto speed = [&](const char* side) {
+    return rover.value<double>("Chassis.Drive", side == std::string("left") ? "SpeedLeft" : "SpeedRight");
+  };
+  auto program = commander({"cmd_vel", "0.3", "0.5"});
+  ASSERT_TRUE(runs_until(rover, [&] { return rover.value<std::uint64_t>("CmdVel", "Received") > 5; }));
+  EXPECT_NEAR(speed("left"), 0.0, 0.01) << "it drives, and nobody armed it";
+  ASSERT_EQ(rover.arm(), CommandStage::kDone) << rover.reasons();
+  ASSERT_TRUE(runs_until(rover, [&] { return speed("right") > 0.33; })) << rover.reasons();
+  EXPECT_NEAR(speed("left"), 0.3 - 0.5 * 0.15, 0.05);
+  program.send(SIGKILL);
+  // Its last speeds count for 0.2 s; then it brakes with 1 m/s^2.
+  double before = speed("right");
+  double hardest = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    run_beside(rover, 10ms);
+    hardest = std::max(hardest, (before - speed("right")) / 0.01);
+    before = speed("right");
+  }
+  EXPECT_NEAR(speed("left"), 0.0, 0.01);
+  EXPECT_NEAR(speed("right"), 0.0, 0.01);
+  EXPECT_LT(hardest, 8.0) << "it stopped with a jerk";
 }
 
 }  // namespace

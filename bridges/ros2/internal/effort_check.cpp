@@ -9,6 +9,8 @@
 #include "armature/base/unit.hpp"
 #include "armature/component/interface.hpp"
 #include "armature/component/operations/command.hpp"
+#include "armature/component/ports/input_port.hpp"
+#include "armature/component/ports/output_port.hpp"
 
 namespace armature::ros2::internal {
 namespace {
@@ -46,26 +48,41 @@ bool takes_commands(const Component& component) {
       });
 }
 
-}  // namespace
+/// Whether it is an effort, which is told; goes on behind it where its component hands on what it
+/// is given.
+bool is_told(const component::InputPortBase& input, std::vector<const Component*>& reached,
+             component::Check& check) {
+  const Component& reader = input.owner();
+  if (moves(input)) {
+    check.error("what comes from ROS 2 leads to the effort '" + reader.name() + "." +
+                    std::string(input.name()) + "'",
+                "connect it to a generator of motions or to a chassis, which keep limits");
+    return true;
+  }
+  if (!takes_commands(reader) && std::ranges::find(reached, &reader) == reached.end()) {
+    reached.push_back(&reader);
+  }
+  return false;
+}
 
-void check_efforts(const Component& from, component::Check& check) {
-  std::vector<const Component*> reached{&from};
+/// Tells of the first effort that the components reach.
+void check_from(std::vector<const Component*> reached, component::Check& check) {
   for (std::size_t i = 0; i < reached.size(); ++i) {
     for (const auto* output : component::interface_of(*reached[i]).outputs) {
       for (const auto* input : check.readers_of(*output)) {
-        if (moves(*input)) {
-          check.error("what comes from ROS 2 leads to the effort '" + input->owner().name() + "." +
-                          std::string(input->name()) + "'",
-                      "connect it to a generator of motions or to a chassis, which keep limits");
-          return;
-        }
-        const Component& reader = input->owner();
-        // It answers for what it makes of its references.
-        if (takes_commands(reader)) continue;
-        if (std::ranges::find(reached, &reader) == reached.end()) reached.push_back(&reader);
+        if (is_told(*input, reached, check)) return;
       }
     }
   }
+}
+
+}  // namespace
+
+void check_efforts(const Component& from, component::Check& check) { check_from({&from}, check); }
+
+void check_efforts_behind(const component::InputPortBase& input, component::Check& check) {
+  std::vector<const Component*> reached;
+  if (!is_told(input, reached, check)) check_from(reached, check);
 }
 
 }  // namespace armature::ros2::internal

@@ -9,4 +9,7 @@ namespace armature::ros2::internal {
 /// that takes commands, such as a generator of motions or a chassis, which keeps the limits.
 void check_efforts(const component::Component& from, component::Check& check);
 
+/// The same of what is written to an input.
+void check_efforts_behind(const component::InputPortBase& input, component::Check& check);
+
 }  // namespace armature::ros2::internal

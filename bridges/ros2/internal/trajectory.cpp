@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kRest_s = 3 * control::kKnotSpacing_s;
 constexpr double kSampling_s = 0.01;
+constexpr double kRinging = 1e-3;
+constexpr double kBeyondLimit = 0.01;  // a joint may rest there: a controller is not exact
 
 std::string objection_to_numbers(std::string_view what, const std::vector<double>& numbers,
                                  std::size_t joints, bool may_miss) {
@@ -43,6 +45,19 @@ std::string objection_to_point(const TrajectoryPoint& point, std::size_t joints)
     return "accelerations without velocities";
   }
   return point.effort.empty() ? "" : "efforts, which no message gives a joint: leave them out";
+}
+
+/// @param places  of the joints in the point
+std::string objection_to_place(const TrajectoryPoint& point, const std::vector<std::size_t>& places,
+                               const TrajectoryLimits& limits) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double position = point.positions[places[i]];
+    if (position >= limits.lower[i] && position <= limits.upper[i]) continue;
+    return "joint '" + limits.joints[i] + "' is to be at " + std::to_string(position) +
+           ", expected " + std::to_string(limits.lower[i]) + " to " +
+           std::to_string(limits.upper[i]);
+  }
+  return {};
 }
 
 /// Position, velocity and acceleration of one joint.
@@ -102,6 +117,13 @@ std::vector<Moment> moments_of(const Trajectory& trajectory, std::size_t place, 
   return moments;
 }
 
+/// A position that is beyond a limit by less than `tolerance` is at the limit.
+double within(const TrajectoryLimits& limits, std::size_t joint, double position,
+              double tolerance) {
+  const double inside = std::clamp(position, limits.lower[joint], limits.upper[joint]);
+  return std::abs(inside - position) < tolerance ? inside : position;
+}
+
 double position_at(const std::vector<Moment>& moments, double time_s, Given given) {
   const auto next = std::ranges::upper_bound(moments, time_s, {}, &Moment::time_s);
   if (next == moments.begin()) return moments.front().position;
@@ -113,14 +135,16 @@ double position_at(const std::vector<Moment>& moments, double time_s, Given give
 
 std::string objection_to(const Trajectory& trajectory, const TrajectoryLimits& limits) {
   if (trajectory.points.empty()) return {};  // it asks for a stop
-  if (auto places = places_of(limits.joints, trajectory.joints); !places.refused.empty()) {
-    return places.refused;
-  }
+  const Places places = places_of(limits.joints, trajectory.joints);
+  if (!places.refused.empty()) return places.refused;
   std::int64_t before_ns = -1;
   for (std::size_t i = 0; i < trajectory.points.size(); ++i) {
     const TrajectoryPoint& point = trajectory.points[i];
     const std::string name = "point " + std::to_string(i + 1) + ": ";
     if (auto wrong = objection_to_point(point, limits.joints.size()); !wrong.empty()) {
+      return name + wrong;
+    }
+    if (auto wrong = objection_to_place(point, places.of, limits); !wrong.empty()) {
       return name + wrong;
     }
     if (point.time_ns <= before_ns) {
@@ -135,19 +159,21 @@ std::string objection_to(const Trajectory& trajectory, const TrajectoryLimits& l
   return {};
 }
 
-control::TaughtSamples way_of(const Trajectory& trajectory, const std::vector<std::string>& joints,
+control::TaughtSamples way_of(const Trajectory& trajectory, const TrajectoryLimits& limits,
                               std::span<const double> present) {
-  const std::vector<std::size_t> places = places_of(joints, trajectory.joints).of;
+  const std::size_t joints = limits.joints.size();
+  const std::vector<std::size_t> places = places_of(limits.joints, trajectory.joints).of;
   // One point without velocities is where to come to rest.
   const Given given = trajectory.points.size() == 1 && trajectory.points[0].velocities.empty()
                           ? Given::kVelocities
                           : given_by(trajectory);
   std::vector<std::vector<Moment>> moments;
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    moments.push_back(moments_of(trajectory, places[i], present[i]));
+  for (std::size_t i = 0; i < joints; ++i) {
+    moments.push_back(
+        moments_of(trajectory, places[i], within(limits, i, present[i], kBeyondLimit)));
   }
   const double end_s = 1e-9 * static_cast<double>(trajectory.points.back().time_ns);
-  control::TaughtSamples way{joints.size(), {}, {}};
+  control::TaughtSamples way{joints, {}, {}};
   for (double time_s = -kRest_s; time_s < end_s + kRest_s; time_s += kSampling_s) {
     way.times_s.push_back(time_s + kRest_s);
     for (const auto& joint : moments) way.positions.push_back(position_at(joint, time_s, given));
@@ -155,22 +181,13 @@ control::TaughtSamples way_of(const Trajectory& trajectory, const std::vector<st
   return way;
 }
 
-base::Result<control::TaughtMotion> smooth_path_of(const control::TaughtSamples& way) {
+base::Result<control::TaughtMotion> smooth_path_of(const control::TaughtSamples& way,
+                                                   const TrajectoryLimits& limits) {
   auto path = control::fit_taught_motion(way);
   if (!path) return path;
-  constexpr double kRinging = 1e-4;
-  for (std::size_t axis = 0; axis < way.axes; ++axis) {
-    double low = way.positions[axis];
-    double high = low;
-    for (std::size_t i = axis; i < way.positions.size(); i += way.axes) {
-      low = std::min(low, way.positions[i]);
-      high = std::max(high, way.positions[i]);
-    }
-    std::vector<double>& points = path.value().points;
-    for (std::size_t i = axis; i < points.size(); i += way.axes) {
-      const double inside = std::clamp(points[i], low, high);
-      if (std::abs(inside - points[i]) < kRinging) points[i] = inside;
-    }
+  std::vector<double>& points = path.value().points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = within(limits, i % way.axes, points[i], kRinging);
   }
   return path;
 }

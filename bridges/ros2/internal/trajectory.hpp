@@ -31,9 +31,11 @@ struct Trajectory {
   bool operator==(const Trajectory&) const = default;
 };
 
-/// Limits that a trajectory is held against as a whole, beside those of the generator that plays it.
+/// What a trajectory is held against as a whole; the generator that plays it has limits of speed.
 struct TrajectoryLimits {
   std::vector<std::string> joints;
+  std::vector<double> lower;  ///< of each joint
+  std::vector<double> upper;
   double longest_s = 60.0;
 };
 
@@ -43,13 +45,15 @@ std::string objection_to(const Trajectory& trajectory, const TrajectoryLimits& l
 /// The way from `present`, at rest, through the points to rest in the last one, each 10 ms: through
 /// positions, velocities and accelerations as they are given (polynomials of degree 1, 3 or 5
 /// between two points, as ROS 2's joint_trajectory_controller has them), joints in the order of
-/// `joints`. Before and behind it rests for a moment, so that a smooth path ends where it is to.
+/// `limits`. Before and behind it rests for a moment, so that a smooth path ends where it is to.
+/// A joint that rests a little beyond its limit begins at the limit.
 /// @param trajectory  to which there is no objection
-control::TaughtSamples way_of(const Trajectory& trajectory, const std::vector<std::string>& joints,
+control::TaughtSamples way_of(const Trajectory& trajectory, const TrajectoryLimits& limits,
                               std::span<const double> present);
 
-/// The smooth path nearest to `way`, as a generator plays it. It rings by less than 0.1 mrad beyond
-/// the ends of a way that begins or ends at a limit; that is cut off.
-base::Result<control::TaughtMotion> smooth_path_of(const control::TaughtSamples& way);
+/// The smooth path nearest to `way`, as a generator plays it. Of a way along a limit it rings by
+/// less than 1 mrad beyond it; that is cut off.
+base::Result<control::TaughtMotion> smooth_path_of(const control::TaughtSamples& way,
+                                                   const TrajectoryLimits& limits);
 
 }  // namespace armature::ros2::internal
