@@ -53,7 +53,8 @@ int print_dds(const component::Registry& registry, const std::string& name,
   for (const std::string& each : name.empty() ? registry.names() : std::vector{name}) {
     const component::Registry::Model* const model = registry.find(each);
     if (model == nullptr) {
-      console.say(rt::LogLevel::kError, "unknown model '" + each + "' (armature models lists them)");
+      console.say(rt::LogLevel::kError,
+                  "unknown model '" + each + "' (armature models lists them)");
       return kFailed;
     }
     made.push_back(model->make(each));

@@ -112,8 +112,8 @@ void gather(const Type& type, std::vector<const Type*>& structs) {
   if (type.element != nullptr) return gather(*type.element, structs);
   if (type.kind != Kind::kStruct) return;
   for (const Field& field : type.fields) gather(*field.type, structs);
-  const bool known = std::ranges::any_of(
-      structs, [&](const Type* each) { return each->name == type.name; });
+  const bool known =
+      std::ranges::any_of(structs, [&](const Type* each) { return each->name == type.name; });
   if (!known) structs.push_back(&type);
 }
 
@@ -150,7 +150,8 @@ std::string dds_idl(std::span<const Type* const> types) {
     const std::string word = word_of(*each);
     if (each->kind == Kind::kStruct || std::ranges::find(wrapped, word) != wrapped.end()) continue;
     wrapped.push_back(word);
-    text += "  struct " + word + "_ {\n    " + member(*each, "data") + remark(*each, "") + "\n  };\n";
+    text +=
+        "  struct " + word + "_ {\n    " + member(*each, "data") + remark(*each, "") + "\n  };\n";
   }
   return text + "}; }; };\n";
 }

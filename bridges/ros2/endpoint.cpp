@@ -2,6 +2,8 @@
 #include "bridges/ros2/endpoint.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include "armature/component/host.hpp"
 #include "armature/rt/guard.hpp"
@@ -32,8 +34,7 @@ bool is_of_this_library(const Component& component) {
 std::string internal::objection_to_thread(const Component& component,
                                           const component::Surroundings& surroundings) {
   const component::ExecutionContext& own = component::Host::context(component);
-  constexpr const char* kHint =
-      "give it activity: {periodic: 2 ms, scheduler: other, thread: ros}";
+  constexpr const char* kHint = "give it activity: {periodic: 2 ms, scheduler: other, thread: ros}";
   if (own.real_time) return std::string("it works with DDS in a real-time thread: ") + kHint;
   for (const Component* each : surroundings.components) {
     if (&component::Host::context(*each) != &own || is_of_this_library(*each)) continue;
@@ -92,7 +93,12 @@ Outcome Endpoint::on_start() {
 
 void Endpoint::on_update() {
   const rt::PermitScope waits_for_dds;  // in a thread in which nobody else waits for it
-  work();
+  try {
+    work();
+  } catch (...) {
+    end();
+    throw;  // a fault of this component
+  }
 }
 
 void Endpoint::on_cleanup() {
@@ -131,12 +137,20 @@ void Subscriber::on_check(component::Check& check) const { internal::check_effor
 void Subscriber::begin() {
   received_count_ = refused_count_ = 0;
   refuses_ = false;
+  received_at_ = time();
   received_.write(0);
   refusals_.write(0);
 }
 
+bool Subscriber::was_held_up() {
+  constexpr base::Duration kLongest = std::chrono::milliseconds(500);
+  return time() - std::exchange(received_at_, time()) > std::max(kLongest, 2 * period());
+}
+
 void Subscriber::receive(Reader& reader, const std::function<std::string(const void*)>& obey) {
+  const bool too_old = was_held_up();
   reader.take(kMostInAnUpdate, [&](const void* sample) {
+    if (too_old) return refuse("it waited, since the thread of this component was held up");
     if (const std::string why = obey(sample); !why.empty()) return refuse(why);
     refuses_ = false;
     received_.write(++received_count_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -35,6 +36,8 @@ class Endpoint : public component::Component, private component::Observer {
   virtual void begin() {}
   /// Its update; it may allocate and wait.
   virtual void work() = 0;
+  /// It stops or fails: what it has begun elsewhere ends.
+  virtual void end() {}
 
   /// Of the application; known from `open` on.
   RosNode& node() const { return *node_; }
@@ -48,6 +51,7 @@ class Endpoint : public component::Component, private component::Observer {
   void observe(const component::Surroundings& surroundings) final;
   component::Outcome on_start() final;
   void on_update() final;
+  void on_stop() final { end(); }
   void on_cleanup() final;
 
   RosNode* node_ = nullptr;
@@ -80,6 +84,8 @@ class Publisher : public Endpoint {
 /// An endpoint that reads: it refuses a message as a whole, counts that, and logs the first one of
 /// a series.
 ///
+/// What waited while its thread was held up for half a second is refused, too: it is too old.
+///
 /// What its outputs lead to is checked: an effort only behind a component that takes commands, such
 /// as a generator of motions or a chassis, which keeps the limits.
 class Subscriber : public Endpoint {
@@ -98,9 +104,12 @@ class Subscriber : public Endpoint {
                                                  "messages since the start that were obeyed"};
   component::OutputPort<std::uint64_t> refusals_{this, "Refused",
                                                  "messages since the start that were not"};
+  bool was_held_up();
+
   std::uint64_t received_count_ = 0;
   std::uint64_t refused_count_ = 0;
   bool refuses_ = false;  ///< the last one was refused
+  base::Time received_at_{};
 };
 
 /// What reads messages takes so many in an update at most.

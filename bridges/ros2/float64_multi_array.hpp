@@ -25,19 +25,27 @@ class Float64MultiArray final : public Subscriber {
   void work() override;
   std::string obey(const void* sample);
 
-  component::Property<std::string> topic_{this, "topic", "commands", "that it reads", "",
-                                          component::mandatory};
+  component::Property<std::string> topic_{
+      this, "topic", "commands", "that it reads", "", component::mandatory};
   component::Property<int> size_{
       this, "size", 1, "how many numbers", "", component::mandatory, component::range(1, 100000)};
   component::Property<std::string> unit_{this, "unit", "", "of the numbers"};
-  component::Property<Vector> lower_{
-      this, "lower", {}, "smallest of each, or of all", "", component::mandatory,
-      component::unit_of(unit_)};
-  component::Property<Vector> upper_{
-      this, "upper", {}, "largest of each, or of all", "", component::mandatory,
-      component::unit_of(unit_)};
-  component::OutputPort<Vector> data_{this, "Data", "the numbers", "", component::size_of(size_),
-                                      component::unit_of(unit_)};
+  component::Property<Vector> lower_{this,
+                                     "lower",
+                                     {},
+                                     "smallest of each, or of all",
+                                     "",
+                                     component::mandatory,
+                                     component::unit_of(unit_)};
+  component::Property<Vector> upper_{this,
+                                     "upper",
+                                     {},
+                                     "largest of each, or of all",
+                                     "",
+                                     component::mandatory,
+                                     component::unit_of(unit_)};
+  component::OutputPort<Vector> data_{
+      this, "Data", "the numbers", "", component::size_of(size_), component::unit_of(unit_)};
 
   std::unique_ptr<Reader> reader_;
 };

@@ -25,10 +25,10 @@ class Image final : public Publisher {
   void work() override;
   void publish_image(const Pixels& pixels, base::Time at);
 
-  component::Property<int> width_{this, "ImageWidth", 320, "of the images that come",
-                                  "px", component::range(1, 10000)};
-  component::Property<int> height_{this, "ImageHeight", 240, "likewise",
-                                   "px", component::range(1, 10000)};
+  component::Property<int> width_{
+      this, "ImageWidth", 320, "of the images that come", "px", component::range(1, 10000)};
+  component::Property<int> height_{this,       "ImageHeight", 240,
+                                   "likewise", "px",          component::range(1, 10000)};
   component::Property<std::string> frame_{this, "frame_id", "camera", "of the header"};
   component::Property<std::string> topic_{this, "topic", "image/compressed", "that it writes"};
   component::Property<int> buffer_{this, "buffer",

@@ -10,7 +10,8 @@
 
 namespace armature::ros2 {
 
-std::vector<JointStates::Objection> JointStates::objections(const Components& /*components*/) const {
+std::vector<JointStates::Objection> JointStates::objections(
+    const Components& /*components*/) const {
   return internal::objections_to_names(names_, static_cast<std::size_t>(joints_.get()));
 }
 

@@ -34,12 +34,15 @@ class JointStates final : public Publisher {
       this, "joint_names", {}, "as the robot's description has them", "", component::mandatory};
   component::Property<std::string> frame_{this, "frame_id", "", "of the header"};
   component::Property<std::string> topic_{this, "topic", "joint_states", "that it writes"};
-  component::Property<int> every_{this, "every", 1, "writes the first of so many samples", "",
-                                  component::range(1, 100000)};
+  component::Property<int> every_{
+      this, "every", 1, "writes the first of so many samples", "", component::range(1, 100000)};
   component::Property<int> buffer_{this, "buffer",
-                                   256, "samples that wait at most, between two updates",
-                                   "",  component::range(1, 100000)};
-  component::InputPort<Vector> position_{this, "Position", "of each joint", "",
+                                   256,  "samples that wait at most, between two updates",
+                                   "",   component::range(1, 100000)};
+  component::InputPort<Vector> position_{this,
+                                         "Position",
+                                         "of each joint",
+                                         "",
                                          component::size_of(joints_),
                                          component::on_lost(component::Reaction::kHold),
                                          component::unit_of(units_.position())};

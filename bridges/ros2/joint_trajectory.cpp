@@ -167,8 +167,8 @@ void JointTrajectory::look_whether_it_rests() {
 }
 
 void JointTrajectory::play_next() {
-  const auto path = internal::smooth_path_of(
-      internal::way_of(*present_, limits_, last_desired_), limits_);
+  const auto path =
+      internal::smooth_path_of(internal::way_of(*present_, limits_, last_desired_), limits_);
   if (!path || path.value().largest_deviation > max_deviation_) {
     deaf_ = true;
     return refuse(path ? "its corners are sharper than max_deviation allows: give velocities"

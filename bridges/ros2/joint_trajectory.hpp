@@ -40,6 +40,7 @@ class JointTrajectory final : public Subscriber {
   void close() override { reader_.reset(); }
   void begin() override;
   void work() override;
+  void end() override { brake(); }
 
   std::string obey(internal::Trajectory trajectory);
   std::string ask_for_limits();
@@ -58,24 +59,29 @@ class JointTrajectory final : public Subscriber {
       this, "joint_names", {}, "in the order of the generator's axes", "", component::mandatory};
   component::Property<std::string> topic_{this, "topic", "joint_trajectory", "that it reads"};
   component::Property<double> max_silence_{
-      this, "max_silence", 0.5, "without a trajectory for so long the motion brakes",
+      this, "max_silence",
+      0.5,  "without a trajectory for so long the motion brakes",
       "s",  component::range(0.02, 10.0)};
-  component::Property<double> max_duration_{this,  "max_duration",
-                                            60.0,  "of a trajectory; the generator's is as long",
-                                            "s",   component::range(0.1, 3600.0)};
+  component::Property<double> max_duration_{this, "max_duration",
+                                            60.0, "of a trajectory; the generator's is as long",
+                                            "s",  component::range(0.1, 3600.0)};
   component::Property<double> max_deviation_{
-      this, "max_deviation",
-      0.02, "of the smooth path that is played from the trajectory; more is refused",
-      "",   component::range(1e-6, 1.0), component::unit_of(units_.position())};
-  component::InputPort<Vector> desired_{this,
-                                        "nAxesDesiredPosition",
-                                        "where the generator has the joints",
-                                        "",
-                                        component::size_of(joints_),
-                                        component::max_age(std::chrono::milliseconds(100),
-                                                           component::Reaction::kHold),
-                                        component::on_lost(component::Reaction::kHold),
-                                        component::unit_of(units_.position())};
+      this,
+      "max_deviation",
+      0.02,
+      "of the smooth path that is played from the trajectory; more is refused",
+      "",
+      component::range(1e-6, 1.0),
+      component::unit_of(units_.position())};
+  component::InputPort<Vector> desired_{
+      this,
+      "nAxesDesiredPosition",
+      "where the generator has the joints",
+      "",
+      component::size_of(joints_),
+      component::max_age(std::chrono::milliseconds(100), component::Reaction::kHold),
+      component::on_lost(component::Reaction::kHold),
+      component::unit_of(units_.position())};
   component::OutputPort<bool> moves_{this, "Moves", "a trajectory is played"};
   component::OutputPort<double> progress_{this, "Progress", "of that, 0..1"};
   component::CommandCaller<const Vector&, double> play_path_{this, "playPath", "plays a path"};

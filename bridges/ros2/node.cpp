@@ -37,9 +37,7 @@ void RosNode::observe(const component::Surroundings& surroundings) {
   if (const auto opened = participant(); !opened && refused_.empty()) refused_ = opened.error();
 }
 
-Network RosNode::network() const {
-  return {node_, namespace_, domain_, interface_, peers_};
-}
+Network RosNode::network() const { return {node_, namespace_, domain_, interface_, peers_}; }
 
 base::Result<std::shared_ptr<Participant>> RosNode::participant() {
   if (participant_ == nullptr) {

@@ -52,8 +52,8 @@ class RosNode final : public component::Component, private component::Observer {
   component::Property<std::string> node_{this, "node", "armature", "its name in ROS 2"};
   component::Property<std::string> namespace_{
       this, "namespace", "/", "in front of topics that do not begin with /; such as /arm"};
-  component::Property<int> domain_{this, "domain", 0,
-                                   "as ROS_DOMAIN_ID", "", component::range(0, 232)};
+  component::Property<int> domain_{
+      this, "domain", 0, "as ROS_DOMAIN_ID", "", component::range(0, 232)};
   component::Property<std::string> interface_{
       this, "interface", "lo",
       "network interface, by name or address; any other than lo opens it to other machines"};

@@ -18,9 +18,8 @@ constexpr int kMostOnOneMachine = 32;
 
 bool is_word(std::string_view text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
-         std::ranges::all_of(text, [](unsigned char each) {
-           return std::isalnum(each) != 0 || each == '_';
-         });
+         std::ranges::all_of(
+             text, [](unsigned char each) { return std::isalnum(each) != 0 || each == '_'; });
 }
 
 /// `a`, `a/b`
@@ -36,8 +35,8 @@ bool is_path(std::string_view text) {
 /// Nothing that could be read as markup.
 bool is_address(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](unsigned char each) {
-    return std::isalnum(each) != 0 || std::string_view("._:-%").find(static_cast<char>(each)) !=
-                                          std::string_view::npos;
+    return std::isalnum(each) != 0 ||
+           std::string_view("._:-%").find(static_cast<char>(each)) != std::string_view::npos;
   });
 }
 
@@ -89,8 +88,8 @@ std::string dds_name_of(const std::string& topic, const std::string& name_space)
 QosPtr qos_of(const Quality& quality) {
   QosPtr qos(dds_create_qos());
   // Nobody waits for a reader that is late: its samples are lost, and counted.
-  dds_qset_reliability(qos.get(),
-                       quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_reliability(
+      qos.get(), quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos.get(), quality.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL
                                                          : DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, quality.depth);
@@ -117,8 +116,8 @@ void Reader::take(std::size_t most, const std::function<void(const void*)>& see)
     std::array<void*, kPiece> samples{};
     std::array<dds_sample_info_t, kPiece> infos;
     const std::size_t room = std::min(most, kPiece);
-    const dds_return_t found = dds_take(entity_, samples.data(), infos.data(), room,
-                                        static_cast<std::uint32_t>(room));
+    const dds_return_t found =
+        dds_take(entity_, samples.data(), infos.data(), room, static_cast<std::uint32_t>(room));
     if (found <= 0) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(found); ++i) {
       if (infos[i].valid_data) see(samples[i]);

@@ -25,11 +25,11 @@ class PortToTopic final : public Publisher {
 
   component::Property<std::string> port_{
       this, "port", "", "Component.Port, an output", "", component::mandatory};
-  component::Property<std::string> topic_{this, "topic", "", "that it writes", "",
-                                          component::mandatory};
+  component::Property<std::string> topic_{
+      this, "topic", "", "that it writes", "", component::mandatory};
   component::Property<int> buffer_{this, "buffer",
-                                   256, "samples that wait at most, between two updates",
-                                   "",  component::range(1, 100000)};
+                                   256,  "samples that wait at most, between two updates",
+                                   "",   component::range(1, 100000)};
 
   internal::Feed samples_;
   std::unique_ptr<internal::DescribedType> type_;

@@ -21,12 +21,9 @@ class RobotDescription final : public Publisher {
   void work() override {}
 
   component::Property<std::string> file_{
-      this,
-      "robot_description",
-      "",
-      "the robot's description (URDF), a file; a path counts from the working directory",
-      "",
-      component::mandatory};
+      this, "robot_description",
+      "",   "the robot's description (URDF), a file; a path counts from the working directory",
+      "",   component::mandatory};
   component::Property<std::string> topic_{this, "topic", "robot_description", "that it writes"};
 
   std::string text_;

@@ -14,8 +14,9 @@ void Tf::on_check(component::Check& check) const {
   const bool has_place = !check.writers_of(x_).empty() || !check.writers_of(y_).empty() ||
                          !check.writers_of(heading_).empty();
   if (has_pose != has_place) return;
-  check.error(has_pose ? "it has both a Pose and X, Y or Heading" : "none of its inputs is connected",
-              "connect Pose, or X, Y and Heading");
+  check.error(
+      has_pose ? "it has both a Pose and X, Y or Heading" : "none of its inputs is connected",
+      "connect Pose, or X, Y and Heading");
 }
 
 std::string Tf::open(const component::Surroundings& /*surroundings*/) {

@@ -29,17 +29,29 @@ class Tf final : public Publisher {
   component::Property<std::string> child_{
       this, "child_frame_id", "", "of what moves, such as base_link", "", component::mandatory};
   component::Property<std::string> topic_{this, "topic", "/tf", "that it writes"};
-  component::InputPort<controllers::Pose> pose_{this, "Pose", "of the child in the parent", "",
+  component::InputPort<controllers::Pose> pose_{this,
+                                                "Pose",
+                                                "of the child in the parent",
+                                                "",
                                                 component::may_stay_open,
                                                 component::on_lost(component::Reaction::kHold)};
-  component::InputPort<double> x_{this, "X", "of the child in the parent",
-                                  "m",  component::may_stay_open,
+  component::InputPort<double> x_{this,
+                                  "X",
+                                  "of the child in the parent",
+                                  "m",
+                                  component::may_stay_open,
                                   component::on_lost(component::Reaction::kHold)};
-  component::InputPort<double> y_{this, "Y", "likewise",
-                                  "m",  component::may_stay_open,
+  component::InputPort<double> y_{this,
+                                  "Y",
+                                  "likewise",
+                                  "m",
+                                  component::may_stay_open,
                                   component::on_lost(component::Reaction::kHold)};
-  component::InputPort<double> heading_{this,  "Heading", "about the z axis",
-                                        "rad", component::may_stay_open,
+  component::InputPort<double> heading_{this,
+                                        "Heading",
+                                        "about the z axis",
+                                        "rad",
+                                        component::may_stay_open,
                                         component::on_lost(component::Reaction::kHold)};
 
   std::unique_ptr<Writer> writer_;

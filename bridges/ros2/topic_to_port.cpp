@@ -44,24 +44,23 @@ std::int64_t integer_of(const types::Type& type, const void* value) {
 /// What is wrong with a value that came; empty if nothing is.
 std::string objection_to_value(const types::Type& root, const void* data) {
   std::string found;
-  types::visit_leaves(root, data, [&](const std::string& path, const types::Type& type,
-                                      const void* value) {
-    if (!found.empty()) return;
-    const std::string where = path.empty() ? "its number" : "'" + path + "'";
-    if ((type.kind == Kind::kDouble && !std::isfinite(*static_cast<const double*>(value))) ||
-        (type.kind == Kind::kFloat && !std::isfinite(*static_cast<const float*>(value)))) {
-      found = where + " is not finite";
-    }
-    if (type.kind != Kind::kEnum) return;
-    const std::int64_t number = integer_of(*type.underlying, value);
-    if (std::ranges::find(type.enumerators, number, &types::Enumerator::value) ==
-        type.enumerators.end()) {
-      found = where + " is " + std::to_string(number) + ", which no enumerator is";
-    }
-  });
+  types::visit_leaves(
+      root, data, [&](const std::string& path, const types::Type& type, const void* value) {
+        if (!found.empty()) return;
+        const std::string where = path.empty() ? "its number" : "'" + path + "'";
+        if ((type.kind == Kind::kDouble && !std::isfinite(*static_cast<const double*>(value))) ||
+            (type.kind == Kind::kFloat && !std::isfinite(*static_cast<const float*>(value)))) {
+          found = where + " is not finite";
+        }
+        if (type.kind != Kind::kEnum) return;
+        const std::int64_t number = integer_of(*type.underlying, value);
+        if (std::ranges::find(type.enumerators, number, &types::Enumerator::value) ==
+            type.enumerators.end()) {
+          found = where + " is " + std::to_string(number) + ", which no enumerator is";
+        }
+      });
   return found;
 }
-
 
 }  // namespace
 
@@ -98,8 +97,7 @@ std::string TopicToPort::open(const component::Surroundings& surroundings) {
   output_ = input.make_writer(*this, writer_name_);
   output_->prepare();
   if (!input.ages()) {
-    input.set_max_age(
-        component::max_age(base::from_seconds(max_age_), component::Reaction::kStop));
+    input.set_max_age(component::max_age(base::from_seconds(max_age_), component::Reaction::kStop));
   }
   output_->connect(input, {});
   reader_ = reader(topic_, type_->descriptor(), kCommands);

@@ -30,8 +30,8 @@ class TopicToPort final : public Subscriber {
 
   component::Property<std::string> port_{
       this, "port", "", "Component.Port, an input that may stay open", "", component::mandatory};
-  component::Property<std::string> topic_{this, "topic", "", "that it reads", "",
-                                          component::mandatory};
+  component::Property<std::string> topic_{
+      this, "topic", "", "that it reads", "", component::mandatory};
   component::Property<double> max_age_{
       this, "max_age", 0.2, "of what came last", "s", component::range(0.001, 3600.0)};
 

@@ -27,7 +27,8 @@ void Twist::work() {
 std::string Twist::obey(const void* sample) {
   const auto& twist = *static_cast<const geometry_msgs_msg_dds__Twist_*>(sample);
   if (!is_within(twist.linear, max_linear_)) return "a linear speed is above max_linear, or none";
-  if (!is_within(twist.angular, max_angular_)) return "an angular speed is above max_angular, or none";
+  if (!is_within(twist.angular, max_angular_))
+    return "an angular speed is above max_angular, or none";
   x_.write(twist.linear.x);
   y_.write(twist.linear.y);
   z_.write(twist.linear.z);

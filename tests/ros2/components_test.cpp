@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The components of the library ros2 in an application, and Fast DDS on the other side.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -10,6 +7,9 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "armature/testing/deployed_robot.hpp"
 #include "armature/types/dds_idl.hpp"
@@ -41,7 +41,9 @@ deploy::Deployment deployment(const std::string& components, const std::string& 
                      "    properties: {node: tested, domain: " + std::to_string(kDomain) + "}\n";
   std::istringstream lines(components);
   for (std::string line; std::getline(lines, line);) {
-    text += line.find("ros: ") == 0 ? "  " + line.substr(5) + "\n" + ros : "  " + line + "\n";
+    const bool is_of_ros = line.starts_with("ros: ");
+    if (is_of_ros) line = line.substr(5);
+    text += (line.starts_with(' ') ? "" : "  ") + line + "\n" + (is_of_ros ? ros : "");
   }
   if (!connections.empty()) text += "connections:\n" + connections;
   return deploy::parse_deployment(text, "test.yaml", options);
@@ -90,11 +92,13 @@ class Talk {
 // --- out ---------------------------------------------------------------------------------------
 
 TEST(Out, JointStatesHaveNamesPositionsAndTheVelocitiesOfTheSameCycle) {
-  Talk talk(deployment(std::string(kNumbers) +
-                           "ros: JointStates:\n    model: JointStates\n    properties: {joints: 2, joint_names: [pan, "
-                           "tilt], frame_id: base}\n",
-                       "  - Numbers.Position -> JointStates.Position\n  - Numbers.Velocity -> JointStates.Velocity\n"));
-  auto* const reader = talk.peer.read_from<sensor_msgs::msg::dds_::JointState_PubSubType>("rt/joint_states");
+  Talk talk(deployment(std::string(kNumbers) + "ros: JointStates:\n    model: JointStates\n    "
+                                               "properties: {joints: 2, joint_names: [pan, "
+                                               "tilt], frame_id: base}\n",
+                       "  - Numbers.Position -> JointStates.Position\n  - Numbers.Velocity -> "
+                       "JointStates.Velocity\n"));
+  auto* const reader =
+      talk.peer.read_from<sensor_msgs::msg::dds_::JointState_PubSubType>("rt/joint_states");
   sensor_msgs::msg::dds_::JointState_ message;
   ASSERT_TRUE(talk.until([&] {
     talk.robot.write("Numbers", "Velocity", std::vector<double>{0.25, -0.5});
@@ -109,7 +113,8 @@ TEST(Out, JointStatesHaveNamesPositionsAndTheVelocitiesOfTheSameCycle) {
 }
 
 TEST(Out, ADescriptionIsThereForWhoComesLaterAndTheClockTellsSimulatedTime) {
-  Talk talk(deployment(std::string("ros: RobotDescription:\n    model: RobotDescription\n    properties: {robot_description: ") +
+  Talk talk(deployment(std::string("ros: RobotDescription:\n    model: RobotDescription\n    "
+                                   "properties: {robot_description: ") +
                        ROBOTS "/janus/janus.urdf}\nros: Clock:\n    model: Clock\n"));
   talk.robot.run_for(20ms);
   auto* const description = talk.peer.read_from<std_msgs::msg::dds_::String_PubSubType>(
@@ -130,9 +135,12 @@ TEST(Out, ADescriptionIsThereForWhoComesLaterAndTheClockTellsSimulatedTime) {
 
 TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
   Talk talk(deployment(std::string(kNumbers) +
-                           "ros: Tool:\n    model: Tf\n    properties: {frame_id: base, child_frame_id: tool, topic: tool}\n"
-                           "ros: Odometry:\n    model: Tf\n    properties: {frame_id: odom, child_frame_id: base_link}\n",
-                       "  - Numbers.Pose -> Tool.Pose\n  - Numbers.X -> Odometry.X\n  - Numbers.Heading -> Odometry.Heading\n"));
+                           "ros: Tool:\n    model: Tf\n    properties: {frame_id: base, "
+                           "child_frame_id: tool, topic: tool}\n"
+                           "ros: Odometry:\n    model: Tf\n    properties: {frame_id: odom, "
+                           "child_frame_id: base_link}\n",
+                       "  - Numbers.Pose -> Tool.Pose\n  - Numbers.X -> Odometry.X\n  - "
+                       "Numbers.Heading -> Odometry.Heading\n"));
   auto* const tool = talk.peer.read_from<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tool");
   auto* const odometry = talk.peer.read_from<tf2_msgs::msg::dds_::TFMessage_PubSubType>("rt/tf");
   tf2_msgs::msg::dds_::TFMessage_ of_tool;
@@ -152,7 +160,8 @@ TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
   ASSERT_TRUE(talk.until([&] {
     talk.robot.write("Numbers", "X", 0.5);
     talk.robot.write("Numbers", "Heading", 1.0);
-    return take(*odometry, of_chassis) && of_chassis.transforms()[0].transform().rotation().z() != 0.0;
+    return take(*odometry, of_chassis) &&
+           of_chassis.transforms()[0].transform().rotation().z() != 0.0;
   }));
   EXPECT_EQ(of_chassis.transforms()[0].transform().translation().x(), 0.5);
   EXPECT_DOUBLE_EQ(of_chassis.transforms()[0].transform().rotation().z(), std::sin(0.5));
@@ -160,25 +169,33 @@ TEST(Out, TransformsAreOfPosesAndOfPlacesInThePlane) {
 }
 
 TEST(Out, DiagnosticsTellWhoIsOutOfServiceAndWhy) {
-  Talk talk(deployment(std::string(kNumbers) + "ros: Diagnostics:\n    model: Diagnostics\n    properties: {hardware_id: rig}\n"));
+  Talk talk(deployment(
+      std::string(kNumbers) +
+      "ros: Diagnostics:\n    model: Diagnostics\n    properties: {hardware_id: rig}\n"));
   component::Component& numbers = *talk.robot.application().find("Numbers");
   talk.robot.application().run_in_thread_of(numbers, [&] { numbers.fault("the rig is on fire"); });
-  auto* const reader = talk.peer.read_from<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>("rt/diagnostics");
+  auto* const reader =
+      talk.peer.read_from<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>("rt/diagnostics");
   diagnostic_msgs::msg::dds_::DiagnosticArray_ message;
   ASSERT_TRUE(talk.until([&] { return take(*reader, message); }));
   std::vector<std::string> told;
   for (const auto& status : message.status()) {
-    told.push_back(status.name() + " " + std::to_string(status.level()) + " " + status.message() + " " +
-                   status.hardware_id() + " " + status.values().at(0).key() + "=" + status.values().at(0).value());
+    told.push_back(status.name() + " " + std::to_string(status.level()) + " " + status.message() +
+                   " " + status.hardware_id() + " " + status.values().at(0).key() + "=" +
+                   status.values().at(0).value());
   }
-  EXPECT_THAT(told, ElementsAre("Ros 0 Running rig state=Running", "Numbers 2 the rig is on fire rig state=Exception",
+  EXPECT_THAT(told, ElementsAre("Ros 0 Running rig state=Running",
+                                "Numbers 2 the rig is on fire rig state=Exception",
                                 "Diagnostics 0 Running rig state=Running"));
 }
 
 TEST(Out, ImagesArePng) {
-  Talk talk(deployment(std::string(kNumbers) + "ros: Image:\n    model: Image\n    properties: {ImageWidth: 2, ImageHeight: 2}\n",
-                       "  - Numbers.Image -> Image.Image\n"));
-  auto* const reader = talk.peer.read_from<sensor_msgs::msg::dds_::CompressedImage_PubSubType>("rt/image/compressed");
+  Talk talk(deployment(
+      std::string(kNumbers) +
+          "ros: Image:\n    model: Image\n    properties: {ImageWidth: 2, ImageHeight: 2}\n",
+      "  - Numbers.Image -> Image.Image\n"));
+  auto* const reader = talk.peer.read_from<sensor_msgs::msg::dds_::CompressedImage_PubSubType>(
+      "rt/image/compressed");
   const std::vector<std::uint8_t> pixels{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   sensor_msgs::msg::dds_::CompressedImage_ message;
   ASSERT_TRUE(talk.until([&] {
@@ -187,16 +204,21 @@ TEST(Out, ImagesArePng) {
   }));
   EXPECT_EQ(message.format(), "png");
   EXPECT_EQ(message.header().frame_id(), "camera");
-  EXPECT_EQ(std::string(message.data().begin(), message.data().end()), vision::png_of({pixels.data(), {2, 2}}));
+  EXPECT_EQ(std::string(message.data().begin(), message.data().end()),
+            vision::png_of({pixels.data(), {2, 2}}));
 }
 
 TEST(Out, TheNodeIsAnnouncedWithItsReadersAndWriters) {
-  Talk talk(deployment(std::string(kNumbers) + "ros: Twist: {model: Twist}\n"
-                       "ros: Image:\n    model: Image\n    properties: {ImageWidth: 2, ImageHeight: 2}\n",
-                       "  - Numbers.Image -> Image.Image\n"));
-  auto* const reader = talk.peer.read_from<rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_PubSubType>(
-      "ros_discovery_info", {.transient_local = true});
-  auto* const image = talk.peer.read_from<sensor_msgs::msg::dds_::CompressedImage_PubSubType>("rt/image/compressed");
+  Talk talk(deployment(
+      std::string(kNumbers) +
+          "ros: Twist:\n    model: Twist\n"
+          "ros: Image:\n    model: Image\n    properties: {ImageWidth: 2, ImageHeight: 2}\n",
+      "  - Numbers.Image -> Image.Image\n"));
+  auto* const reader =
+      talk.peer.read_from<rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_PubSubType>(
+          "ros_discovery_info", {.transient_local = true});
+  auto* const image = talk.peer.read_from<sensor_msgs::msg::dds_::CompressedImage_PubSubType>(
+      "rt/image/compressed");
   rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ message;
   ASSERT_TRUE(talk.until([&] { return take(*reader, message) && is_matched(*image); }));
   ASSERT_EQ(message.node_entities_info_seq().size(), 1u);
@@ -210,7 +232,8 @@ TEST(Out, TheNodeIsAnnouncedWithItsReadersAndWriters) {
   fast::SampleInfo info;
   ASSERT_TRUE(talk.until([&] {
     talk.robot.write("Numbers", "Image", std::vector<std::uint8_t>(12));
-    return image->take_next_sample(&taken, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+    return image->take_next_sample(&taken, &info) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
   }));
   std::vector<std::uint8_t> writer;
   const auto guid = eprosima::fastrtps::rtps::iHandle2GUID(info.publication_handle);
@@ -234,7 +257,9 @@ geometry_msgs::msg::dds_::Twist_ twist(double forward, double turn) {
 }
 
 TEST(In, ATwistIsObeyedOrRefusedAsAWhole) {
-  Talk talk(deployment("ros: Twist:\n    model: Twist\n    properties: {max_linear: 0.6, max_angular: 2.0, track: 0.5}\n"));
+  Talk talk(
+      deployment("ros: Twist:\n    model: Twist\n    properties: {max_linear: 0.6, max_angular: "
+                 "2.0, track: 0.5}\n"));
   auto& writer = *talk.peer.write_to<geometry_msgs::msg::dds_::Twist_PubSubType>("rt/cmd_vel");
   talk.send(writer, twist(0.5, 1.0), "Twist");
   const auto port = [&](const char* name) { return talk.robot.value<double>("Twist", name); };
@@ -247,8 +272,9 @@ TEST(In, ATwistIsObeyedOrRefusedAsAWhole) {
   EXPECT_EQ(port("Left"), 0.25);
   EXPECT_EQ(port("Right"), 0.75);
   const std::uint64_t received = talk.count("Twist", "Received");
-  for (const auto& wrong : {twist(0.7, 0.1), twist(0.1, -2.1), twist(std::numeric_limits<double>::quiet_NaN(), 0.1),
-                            twist(0.1, std::numeric_limits<double>::infinity())}) {
+  for (const auto& wrong :
+       {twist(0.7, 0.1), twist(0.1, -2.1), twist(std::numeric_limits<double>::quiet_NaN(), 0.1),
+        twist(0.1, std::numeric_limits<double>::infinity())}) {
     const std::uint64_t refused = talk.count("Twist", "Refused");
     talk.send(writer, wrong, "Twist");
     EXPECT_GT(talk.count("Twist", "Refused"), refused);
@@ -257,12 +283,15 @@ TEST(In, ATwistIsObeyedOrRefusedAsAWhole) {
   }
   EXPECT_EQ(talk.count("Twist", "Received"), received);
   // One line of the log for all that is refused in a row.
-  EXPECT_EQ(talk.robot.log.find("refused a message"), talk.robot.log.rfind("refused a message")) << talk.robot.log;
+  EXPECT_EQ(talk.robot.log.find("refused a message"), talk.robot.log.rfind("refused a message"))
+      << talk.robot.log;
 }
 
 TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
-  Talk talk(deployment("ros: Joy:\n    model: Joy\n    properties: {axes: 2, buttons: 1}\n"
-                       "ros: Numbers:\n    model: Float64MultiArray\n    properties: {topic: wanted, size: 2, lower: [-1], upper: [1, 2]}\n"));
+  Talk talk(
+      deployment("ros: Joy:\n    model: Joy\n    properties: {axes: 2, buttons: 1}\n"
+                 "ros: Numbers:\n    model: Float64MultiArray\n    properties: {topic: wanted, "
+                 "size: 2, lower: [-1], upper: [1, 2]}\n"));
   auto& joys = *talk.peer.write_to<sensor_msgs::msg::dds_::Joy_PubSubType>("rt/joy");
   sensor_msgs::msg::dds_::Joy_ joy;
   joy.header().stamp().sec(5);
@@ -284,12 +313,14 @@ TEST(In, AJoystickAndNumbersAreObeyedOrRefusedAsAWhole) {
   }
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Joy", "Axes"), ElementsAre(0.5, -1.0));
 
-  auto& arrays = *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
+  auto& arrays =
+      *talk.peer.write_to<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("rt/wanted");
   std_msgs::msg::dds_::Float64MultiArray_ array;
   array.data({-1.0, 2.0});
   talk.send(arrays, array, "Numbers");
   EXPECT_THAT(talk.robot.value<std::vector<double>>("Numbers", "Data"), ElementsAre(-1.0, 2.0));
-  for (const std::vector<double>& each : {std::vector<double>{0.0}, {0.0, 2.1}, {-1.1, 0.0}, {0.0, std::nan("")}}) {
+  for (const std::vector<double>& each :
+       {std::vector<double>{0.0}, {0.0, 2.1}, {-1.1, 0.0}, {0.0, std::nan("")}}) {
     const std::uint64_t refused = talk.count("Numbers", "Refused");
     array.data(each);
     talk.send(arrays, array, "Numbers");
@@ -338,17 +369,21 @@ Walk walk() {
 }
 
 TEST(Ports, TheIdlOfFastDdsIsThatOfThePort) {
-  const std::array<const types::Type*, 2> types{&types::type_of<Walk>(), &types::type_of<std::vector<double>>()};
+  const std::array<const types::Type*, 2> types{&types::type_of<Walk>(),
+                                                &types::type_of<std::vector<double>>()};
   std::ifstream file(TESTS "/walk.idl");
   EXPECT_EQ(std::string((std::istreambuf_iterator<char>(file)), {}), types::dds_idl(types));
 }
 
 TEST(Ports, AnyOutputIsATopicOfItsOwn) {
-  Talk talk(deployment(std::string(kNumbers) +
-                       "ros: Walks:\n    model: PortToTopic\n    properties: {port: Numbers.Walk, topic: walk}\n"
-                       "ros: Positions:\n    model: PortToTopic\n    properties: {port: Numbers.Position, topic: positions}\n"));
+  Talk talk(deployment(
+      std::string(kNumbers) +
+      "ros: Walks:\n    model: PortToTopic\n    properties: {port: Numbers.Walk, topic: walk}\n"
+      "ros: Positions:\n    model: PortToTopic\n    properties: {port: Numbers.Position, topic: "
+      "positions}\n"));
   auto* const walks = talk.peer.read_from<armature::msg::dds_::Walk_PubSubType>("rt/walk");
-  auto* const positions = talk.peer.read_from<armature::msg::dds_::Float64Vector_PubSubType>("rt/positions");
+  auto* const positions =
+      talk.peer.read_from<armature::msg::dds_::Float64Vector_PubSubType>("rt/positions");
   armature::msg::dds_::Walk_ message;
   ASSERT_TRUE(talk.until([&] {
     talk.robot.write("Numbers", "Walk", walk());
@@ -364,8 +399,9 @@ TEST(Ports, AnyOutputIsATopicOfItsOwn) {
 }
 
 TEST(Ports, AnInputThatMayStayOpenIsATopicOfItsOwnAndWhatDoesNotFitIsRefused) {
-  Talk talk(deployment(std::string(kNumbers) +
-                       "ros: Walks:\n    model: TopicToPort\n    properties: {port: Numbers.WalkIn, topic: walk}\n"));
+  Talk talk(
+      deployment(std::string(kNumbers) + "ros: Walks:\n    model: TopicToPort\n    properties: "
+                                         "{port: Numbers.WalkIn, topic: walk}\n"));
   auto& writer = *talk.peer.write_to<armature::msg::dds_::Walk_PubSubType>("rt/walk");
   // The input takes vectors of the size that comes first: none is declared.
   armature::msg::dds_::Walk_ message = walk_message();
@@ -390,25 +426,35 @@ TEST(Ports, AnInputThatMayStayOpenIsATopicOfItsOwnAndWhatDoesNotFitIsRefused) {
 // --- the check -----------------------------------------------------------------------------------
 
 TEST(Checked, WhatComesFromRosIsNoEffort) {
-  const auto direct = deployment(std::string(kNumbers) + "ros: Walks:\n    model: TopicToPort\n    properties: {port: Numbers.Voltage, topic: volts}\n");
-  EXPECT_THAT(direct.diagnostics.to_text(), HasSubstr("what comes from ROS 2 leads to the effort 'Numbers.Voltage'"));
+  const auto direct = deployment(std::string(kNumbers) +
+                                 "ros: Walks:\n    model: TopicToPort\n    properties: {port: "
+                                 "Numbers.Voltage, topic: volts}\n");
+  EXPECT_THAT(direct.diagnostics.to_text(),
+              HasSubstr("what comes from ROS 2 leads to the effort 'Numbers.Voltage'"));
 }
 
 TEST(Checked, AnInterfaceThatOthersReachIsWarnedOf) {
-  const auto open = deployment("Other: {model: RosNode, activity: {periodic: 2 ms}, properties: {interface: eth0}}\n");
-  EXPECT_THAT(open.diagnostics.to_text(), HasSubstr("opens it to other machines, and DDS proves nobody's identity"));
-  EXPECT_THAT(open.diagnostics.to_text(), HasSubstr("is a RosNode, too, and an application is one node"));
+  const auto open = deployment(
+      "Other: {model: RosNode, activity: {periodic: 2 ms}, properties: {interface: eth0}}\n");
+  EXPECT_THAT(open.diagnostics.to_text(),
+              HasSubstr("opens it to other machines, and DDS proves nobody's identity"));
+  EXPECT_THAT(open.diagnostics.to_text(),
+              HasSubstr("is a RosNode, too, and an application is one node"));
 }
 
 TEST(Checked, NamesOfJointsAreHeldAgainstTheirNumber) {
-  const auto wrong = deployment(std::string(kNumbers) + "ros: JointStates:\n    model: JointStates\n    properties: {joints: 2, joint_names: [pan]}\n",
+  const auto wrong = deployment(std::string(kNumbers) +
+                                    "ros: JointStates:\n    model: JointStates\n    properties: "
+                                    "{joints: 2, joint_names: [pan]}\n",
                                 "  - Numbers.Position -> JointStates.Position\n");
-  EXPECT_THAT(wrong.diagnostics.to_text(), HasSubstr("joint_names has 1 names, expected joints = 2"));
+  EXPECT_THAT(wrong.diagnostics.to_text(),
+              HasSubstr("joint_names has 1 names, expected joints = 2"));
 }
 
 TEST(Checked, AThreadThatOthersShareIsRefused) {
-  testing::DeployedRobot robot(deployment("Numbers: {model: Numbers, activity: {periodic: 2 ms, scheduler: other, thread: ros}}\n"
-                                          "ros: Twist: {model: Twist}\n"));
+  testing::DeployedRobot robot(deployment(
+      "Numbers: {model: Numbers, activity: {periodic: 2 ms, scheduler: other, thread: ros}}\n"
+      "ros: Twist:\n    model: Twist\n"));
   EXPECT_THAT(robot.start(), HasSubstr("it works with DDS in the thread of 'Numbers'"));
 }
 

@@ -89,8 +89,8 @@ class FastPeer {
   static void set(Qos& qos, const FastQuality& quality) {
     qos.reliability().kind =
         quality.reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
-    qos.durability().kind =
-        quality.transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
+    qos.durability().kind = quality.transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS
+                                                    : fast::VOLATILE_DURABILITY_QOS;
     qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
     qos.history().depth = quality.depth;
     qos.endpoint().history_memory_policy =

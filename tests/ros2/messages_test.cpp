@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every field of every message, in both directions, between our node on Cyclone DDS and Fast DDS with types by its own
-// generator: our side reads each message into the C type that idlc made, and writes that one back.
-#include <gtest/gtest.h>
-
+// Every field of every message, in both directions, between our node on Cyclone DDS and Fast DDS
+// with types by its own generator: our side reads each message into the C type that idlc made, and
+// writes that one back.
 #include <memory>
 #include <string>
+
+#include <gtest/gtest.h>
 
 #include "bridges/ros2/participant.hpp"
 #include "fast_peer.hpp"
@@ -84,7 +85,8 @@ TEST_F(Messages, JointStates) {
   message.position({0.5, -1.25, 3.0e300});
   message.velocity({1.5});
   message.effort({2.5, 3.5});
-  comes_back<sensor_msgs::msg::dds_::JointState_PubSubType>("joint_state", joint_state_type(), message);
+  comes_back<sensor_msgs::msg::dds_::JointState_PubSubType>("joint_state", joint_state_type(),
+                                                            message);
 }
 
 TEST_F(Messages, Trajectories) {
@@ -101,7 +103,8 @@ TEST_F(Messages, Trajectories) {
     point.time_from_start().nanosec(static_cast<std::uint32_t>(1000 + k));
     message.points().push_back(point);
   }
-  comes_back<trajectory_msgs::msg::dds_::JointTrajectory_PubSubType>("trajectory", joint_trajectory_type(), message);
+  comes_back<trajectory_msgs::msg::dds_::JointTrajectory_PubSubType>(
+      "trajectory", joint_trajectory_type(), message);
 }
 
 TEST_F(Messages, Twists) {
@@ -126,7 +129,8 @@ TEST_F(Messages, JoysAndArrays) {
   array.layout().dim({dimension, dimension});
   array.layout().data_offset(4);
   array.data({1.0, -2.0, 1e-300});
-  comes_back<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("array", float64_multi_array_type(), array);
+  comes_back<std_msgs::msg::dds_::Float64MultiArray_PubSubType>("array", float64_multi_array_type(),
+                                                                array);
 }
 
 TEST_F(Messages, TextsClocksAndTransforms) {
@@ -165,13 +169,15 @@ TEST_F(Messages, DiagnosticsImagesAndNodes) {
   diagnostic_msgs::msg::dds_::DiagnosticArray_ diagnostics;
   diagnostics.header(header());
   diagnostics.status({status});
-  comes_back<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>("diagnostics", diagnostic_array_type(), diagnostics);
+  comes_back<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>(
+      "diagnostics", diagnostic_array_type(), diagnostics);
 
   sensor_msgs::msg::dds_::CompressedImage_ image;
   image.header(header());
   image.format("png");
   image.data({0, 255, 137});
-  comes_back<sensor_msgs::msg::dds_::CompressedImage_PubSubType>("image", compressed_image_type(), image);
+  comes_back<sensor_msgs::msg::dds_::CompressedImage_PubSubType>("image", compressed_image_type(),
+                                                                 image);
 
   rmw_dds_common::msg::dds_::NodeEntitiesInfo_ node;
   node.node_namespace("/arm");
@@ -183,7 +189,8 @@ TEST_F(Messages, DiagnosticsImagesAndNodes) {
   rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ entities;
   entities.gid(gid);
   entities.node_entities_info_seq({node});
-  comes_back<rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_PubSubType>("nodes", participant_entities_type(), entities);
+  comes_back<rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_PubSubType>(
+      "nodes", participant_entities_type(), entities);
 }
 
 }  // namespace

@@ -42,7 +42,10 @@ class Numbers final : public component::Component {
   component::OutputPort<std::vector<std::uint8_t>> image_{this, "Image", "two by two pixels"};
   component::OutputPort<Walk> walk_{this, "Walk", "of all kinds of types"};
   component::OutputPort<int> walks_{this, "Walks", "that came"};
-  component::InputPort<Walk> walk_in_{this, "WalkIn", "of all kinds of types", "",
+  component::InputPort<Walk> walk_in_{this,
+                                      "WalkIn",
+                                      "of all kinds of types",
+                                      "",
                                       component::may_stay_open,
                                       component::max_age(std::chrono::seconds(10))};
   component::InputPort<double> voltage_{this, "Voltage", "an effort", "V",
@@ -67,8 +70,8 @@ class Ticker final : public component::Component {
     position_.write(numbers_);
   }
 
-  component::Property<double> count_{this, "count", 0.0, "samples that it writes", "",
-                                     component::changeable_while_running};
+  component::Property<double> count_{
+      this, "count", 0.0, "samples that it writes", "", component::changeable_while_running};
   component::OutputPort<std::vector<double>> position_{this, "Position", "counts", "rad"};
   std::vector<double> numbers_{0.0, 0.0};
 };

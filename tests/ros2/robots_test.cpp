@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Robots of the example that a program with Fast DDS commands, and that comes to its end: in simulated time, which goes as fast
-// as a clock on the wall.
-#include <gtest/gtest.h>
-
+// Robots of the example that a program with Fast DDS commands, and that comes to its end: in
+// simulated time, which goes as fast as a clock on the wall.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +8,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "armature/platform/child_process.hpp"
 #include "armature/testing/deployed_robot.hpp"
@@ -60,10 +60,11 @@ std::uint64_t refused(testing::DeployedRobot& robot) {
 }
 
 /// @param way  from the present position of the first joint [rad], of a trajectory of 4 s
-void moves_and_stops_smoothly(testing::DeployedRobot& robot, const std::string& joints, double target,
-                              double max_velocity, double max_acceleration) {
+void moves_and_stops_smoothly(testing::DeployedRobot& robot, const std::string& joints,
+                              double target, double max_velocity, double max_acceleration) {
   auto program = commander({"joint_trajectory", joints, std::to_string(target), "4"});
-  // It is not armed: nothing moves, however long the commander goes on, also when the operator arms it meanwhile.
+  // It is not armed: nothing moves, however long the commander goes on, also when the operator arms
+  // it meanwhile.
   ASSERT_TRUE(runs_until(robot, [&] { return refused(robot) > 5; })) << robot.reasons();
   ASSERT_EQ(robot.arm(), CommandStage::kDone) << robot.reasons();
   const double begin = measured(robot);
@@ -77,8 +78,9 @@ void moves_and_stops_smoothly(testing::DeployedRobot& robot, const std::string& 
   auto second = commander({"joint_trajectory", joints, std::to_string(target), "4"});
   ASSERT_TRUE(runs_until(robot, [&] { return moves(robot); })) << robot.reasons();
   const double way = target - begin;
-  ASSERT_TRUE(runs_until(robot, [&] { return std::abs(measured(robot) - begin) > 0.4 * std::abs(way); }))
-      << robot.reasons();
+  ASSERT_TRUE(runs_until(robot, [&] {
+    return std::abs(measured(robot) - begin) > 0.4 * std::abs(way);
+  })) << robot.reasons();
   second.send(SIGKILL);
 
   // From the last message on it goes on for 0.5 s, then brakes on its way, within its limits.
@@ -90,7 +92,8 @@ void moves_and_stops_smoothly(testing::DeployedRobot& robot, const std::string& 
   EXPECT_FALSE(moves(robot));
   EXPECT_EQ(positions.back(), positions[positions.size() - 50]) << "it has not come to rest";
   EXPECT_LT(std::abs(positions.back() - begin), 0.95 * std::abs(way)) << "it went on to the end";
-  EXPECT_NEAR(measured(robot), positions.back(), 0.02) << "the joint does not hold where it stopped";
+  EXPECT_NEAR(measured(robot), positions.back(), 0.02)
+      << "the joint does not hold where it stopped";
   for (std::size_t k = 2; k < positions.size(); ++k) {
     const double velocity = (positions[k] - positions[k - 1]) / 0.01;
     const double before = (positions[k - 1] - positions[k - 2]) / 0.01;
@@ -116,10 +119,12 @@ TEST(CmdVel, DrivesTheRoverAndACommanderThatDiesStopsIt) {
   testing::DeployedRobot rover(example("rover.yaml"));
   ASSERT_EQ(rover.start(), "");
   const auto speed = [&](const char* side) {
-    return rover.value<double>("Chassis.Drive", side == std::string("left") ? "SpeedLeft" : "SpeedRight");
+    return rover.value<double>("Chassis.Drive",
+                               side == std::string("left") ? "SpeedLeft" : "SpeedRight");
   };
   auto program = commander({"cmd_vel", "0.3", "0.5"});
-  ASSERT_TRUE(runs_until(rover, [&] { return rover.value<std::uint64_t>("CmdVel", "Received") > 5; }));
+  ASSERT_TRUE(
+      runs_until(rover, [&] { return rover.value<std::uint64_t>("CmdVel", "Received") > 5; }));
   EXPECT_NEAR(speed("left"), 0.0, 0.01) << "it drives, and nobody armed it";
   ASSERT_EQ(rover.arm(), CommandStage::kDone) << rover.reasons();
   ASSERT_TRUE(runs_until(rover, [&] { return speed("right") > 0.33; })) << rover.reasons();

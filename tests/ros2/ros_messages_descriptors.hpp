@@ -3,7 +3,8 @@
 
 struct dds_topic_descriptor;
 
-// The types of messages as Cyclone DDS has them; its header and that of Fast DDS have the same names, so they do not meet.
+// The types of messages as Cyclone DDS has them; its header and that of Fast DDS have the same
+// names, so they do not meet.
 namespace armature::ros2 {
 
 const dds_topic_descriptor& joint_state_type();

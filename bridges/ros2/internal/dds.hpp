@@ -3,13 +3,13 @@
 
 // Cyclone DDS and the C types that its idlc makes of idl/ros_messages.idl.
 
-#include <dds/dds.h>
-
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <dds/dds.h>
 
 #include "ros_messages.h"
 

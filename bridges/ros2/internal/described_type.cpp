@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bridges/ros2/internal/described_type.hpp"
 
-#include <dds/dds.h>
-
 #include <algorithm>
 #include <cstring>
 #include <string_view>
+
+#include <dds/dds.h>
 
 #include "armature/types/dds_idl.hpp"
 
@@ -137,9 +137,9 @@ void append_array(const Type& type, std::size_t offset, Ops& ops) {
 
 void append_sequence(const Type& type, std::size_t offset, Ops& ops) {
   const Type& element = *type.element;
-  ops.insert(ops.end(), {word(DDS_OP_ADR) | word(DDS_OP_TYPE_SEQ) | code_of(element) << 8 |
-                             flags_of(element),
-                         word(offset)});
+  ops.insert(ops.end(),
+             {word(DDS_OP_ADR) | word(DDS_OP_TYPE_SEQ) | code_of(element) << 8 | flags_of(element),
+              word(offset)});
   if (is_number(element)) return;
   if (element.kind == Kind::kFixedText) return ops.push_back(word(element.count + 1));
   constexpr std::size_t kWords = 4;
@@ -160,7 +160,8 @@ void append_ops(const Type& type, std::size_t offset, Ops& ops) {
     case Kind::kVector:
       return append_sequence(type, offset, ops);
     default:
-      ops.insert(ops.end(), {word(DDS_OP_ADR) | code_of(type) << 16 | flags_of(type), word(offset)});
+      ops.insert(ops.end(),
+                 {word(DDS_OP_ADR) | code_of(type) << 16 | flags_of(type), word(offset)});
       if (type.kind == Kind::kFixedText) ops.push_back(word(type.count + 1));
   }
 }
@@ -205,9 +206,19 @@ DescribedType::DescribedType(const Type& type) : type_(type), name_(types::dds_n
   const auto instructions = word(ops_.size() + 1);
   ops_.push_back(DDS_OP_RTS);
   const Room room = room_of(type);
-  descriptor_ = std::make_unique<dds_topic_descriptor_t>(dds_topic_descriptor_t{
-      word(room.size), word(room.alignment), 0u, 0u, name_.c_str(), nullptr, instructions,
-      ops_.data(), "", {nullptr, 0}, {nullptr, 0}, 0u});
+  descriptor_ =
+      std::make_unique<dds_topic_descriptor_t>(dds_topic_descriptor_t{word(room.size),
+                                                                      word(room.alignment),
+                                                                      0u,
+                                                                      0u,
+                                                                      name_.c_str(),
+                                                                      nullptr,
+                                                                      instructions,
+                                                                      ops_.data(),
+                                                                      "",
+                                                                      {nullptr, 0},
+                                                                      {nullptr, 0},
+                                                                      0u});
 }
 
 DescribedType::~DescribedType() = default;
@@ -242,8 +253,8 @@ void DescribedType::fill(const Type& type, const void* value, std::byte* at) {
       const std::size_t size = room_of(*type.element).size;
       std::byte* const elements =
           blocks_.emplace_back(new std::byte[std::max<std::size_t>(1, count * size)]()).get();
-      const auto* const from =
-          static_cast<const std::byte*>(type.vector_data(const_cast<void*>(value)));  // NOLINT: read
+      const auto* const from = static_cast<const std::byte*>(
+          type.vector_data(const_cast<void*>(value)));  // NOLINT: read
       for (std::size_t i = 0; i < count; ++i) {
         fill(*type.element, from + i * type.element->size, elements + i * size);
       }

@@ -42,10 +42,10 @@ bool moves(const component::PortBase& port) {
 }
 
 bool takes_commands(const Component& component) {
-  return std::ranges::any_of(
-      component::interface_of(component).operations, [](const component::OperationBase* each) {
-        return dynamic_cast<const component::CommandBase*>(each) != nullptr;
-      });
+  return std::ranges::any_of(component::interface_of(component).operations,
+                             [](const component::OperationBase* each) {
+                               return dynamic_cast<const component::CommandBase*>(each) != nullptr;
+                             });
 }
 
 /// Whether it is an effort, which is told; goes on behind it where its component hands on what it

@@ -45,7 +45,8 @@ void Feed::skip() {
 
 std::uint64_t Feed::take_dropped() {
   std::uint64_t more = 0;
-  for (Tapped& each : taps_) more += each.tap->dropped() - std::exchange(each.dropped, each.tap->dropped());
+  for (Tapped& each : taps_)
+    more += each.tap->dropped() - std::exchange(each.dropped, each.tap->dropped());
   return more;
 }
 

@@ -9,8 +9,8 @@ std::vector<component::Observer::Objection> objections_to_names(
     const std::vector<std::string>& names, std::size_t joints) {
   std::vector<component::Observer::Objection> found;
   if (names.size() != joints) {
-    found.push_back({"joint_names has " + std::to_string(names.size()) + " names, expected joints = " +
-                         std::to_string(joints),
+    found.push_back({"joint_names has " + std::to_string(names.size()) +
+                         " names, expected joints = " + std::to_string(joints),
                      "name each joint as the robot's description does"});
   }
   for (auto name = names.begin(); name != names.end(); ++name) {

@@ -95,8 +95,8 @@ double between(const Moment& from, const Moment& to, double time_s, Given given)
 
 Given given_by(const Trajectory& trajectory) {
   const auto all_have = [&](const auto member) {
-    return std::ranges::none_of(trajectory.points,
-                                [&](const TrajectoryPoint& each) { return (each.*member).empty(); });
+    return std::ranges::none_of(
+        trajectory.points, [&](const TrajectoryPoint& each) { return (each.*member).empty(); });
   };
   if (all_have(&TrajectoryPoint::accelerations)) return Given::kAccelerations;
   return all_have(&TrajectoryPoint::velocities) ? Given::kVelocities : Given::kPositions;
