@@ -94,7 +94,7 @@ std::string TopicToPort::open(const component::Surroundings& surroundings) {
   type_ = std::make_unique<internal::DescribedType>(input.type());
   value_ = std::make_unique<types::Value>(input.type());
   writer_name_ = port_;
-  output_ = input.make_writer(*this, writer_name_);
+  if (output_ == nullptr) output_ = input.make_writer(*this, writer_name_);
   output_->prepare();
   if (!input.ages()) {
     input.set_max_age(component::max_age(base::from_seconds(max_age_), component::Reaction::kStop));
@@ -105,8 +105,7 @@ std::string TopicToPort::open(const component::Surroundings& surroundings) {
 }
 
 void TopicToPort::close() {
-  reader_.reset();
-  output_.reset();
+  reader_.reset();  // the output stays: the runtime disconnects it afterwards
   type_.reset();
   value_.reset();
 }

@@ -82,6 +82,10 @@ class Listener final : public component::Component {
   using Component::Component;
 
  private:
+  component::Outcome on_configure() override {
+    late_s_.reserve(100000);
+    return component::accepted();
+  }
   void on_data(const std::vector<double>& data) {
     const double now =
         std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -98,7 +102,7 @@ class Listener final : public component::Component {
                                                 component::on_data<&Listener::on_data>};
   component::Operation<std::vector<double>()> latencies_{
       this, "latencies", component::serve<&Listener::latencies>, "[s]", component::in_own_thread};
-  std::vector<double> late_s_ = std::vector<double>();
+  std::vector<double> late_s_{};
   double last_ = 0.0;
 };
 
