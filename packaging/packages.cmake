@@ -70,8 +70,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-armature)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # The module is for one version of Python.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11~), python3 (<< 3.12), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "armature-robots")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, jupyter-notebook")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "armature-robots, python3-cloudpickle")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy, python3-distributed, jupyter-notebook")
 set(CPACK_COMPONENT_PYTHON_DEPENDS armature)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${packaging}/python/postinst ${packaging}/python/prerm)
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION
