@@ -59,3 +59,5 @@ __all__ = [
 for _exception in (NoAnswer, Refusal):
     _exception.__module__ = "armature"
 del _exception
+
+from armature.sweeps import sweep  # noqa: E402  # with __all__ below, in lines of their own

@@ -8,6 +8,7 @@
 namespace armature::python {
 
 void bind_errors(pybind11::module_& module);
+void bind_error_metrics(pybind11::module_& module);
 void bind_diagnostics(pybind11::module_& module);
 void bind_descriptions(pybind11::module_& module);
 void bind_deployment(pybind11::module_& module);

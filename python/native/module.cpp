@@ -5,6 +5,7 @@ PYBIND11_MODULE(_native, module) {
   using namespace armature::python;
   module.doc() = "The runtime of Armature, as the package `armature` uses it.";
   bind_errors(module);
+  bind_error_metrics(module);
   bind_diagnostics(module);
   bind_descriptions(module);
   bind_components(module);
