@@ -19,7 +19,7 @@ import re
 import sys
 from pathlib import Path
 
-LIBRARY_FOLDERS = ("armature/", "idl/", "drives/")
+LIBRARY_FOLDERS = ("armature/", "idl/", "drives/", "bridges/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 RAW_TEXT = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 OPERATING_SYSTEM = re.compile(
@@ -56,7 +56,7 @@ class Tree:
         self.layers = read_layers(source_dir)
         self.map = (source_dir / "ARCHITECTURE.md").read_text()
         self.includes = {}
-        for top in ("armature", "drives", "idl", "python", "robots", "examples", "benchmarks", "tests"):
+        for top in ("armature", "bridges", "drives", "idl", "python", "robots", "examples", "benchmarks", "tests"):
             for path in sorted((source_dir / top).rglob("*.?pp")):
                 if "idl/testdata" in path.as_posix():
                     continue  # what the interface compiler is to write
@@ -135,7 +135,7 @@ class Tree:
         return allowed
 
     def check_robot(self, path, name):
-        if path.startswith(("armature/", "drives/")):
+        if path.startswith(("armature/", "bridges/", "drives/")):
             return "a library does not know the robots"
         if path.startswith("robots/") and path.split("/")[1] != name.split("/")[1]:
             return "one robot does not use another; what they share goes to armature/"
@@ -166,7 +166,7 @@ def library_of(path):
     if "/testdata/" in path:
         return None
     top, _, rest = path.partition("/")
-    if top in ("armature", "drives"):
+    if top in ("armature", "bridges", "drives"):
         return rest.split("/")[0]
     if top in ("idl", "python"):
         return top

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Debian packages, by `scripts/package`: armature (programs, libraries, component libraries, the studio), armature-dev (what
-# components are built with), armature-robots (Janus, WAM, rover), python3-armature where pybind11 is installed. Each install rule names its package as COMPONENT; what names
-# none is of the default of its folder.
+# components are built with), armature-robots (Janus, WAM, rover), armature-ros2 where Cyclone DDS is installed,
+# python3-armature where pybind11 is. Each install rule names its package as COMPONENT; what names none is of the default of its folder.
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
 set(packages armature dev robots)
+if(TARGET ros2)
+  list(APPEND packages ros2)
+endif()
 if(TARGET armature_python)
   list(APPEND packages python)
 endif()
@@ -56,6 +59,13 @@ set(CPACK_DEBIAN_ROBOTS_DESCRIPTION
 WAM and a rover that follows a ball, each with drivers, deployments, scripts
 and a simulation, so that it runs on any machine.")
 
+set(CPACK_DEBIAN_ROS2_PACKAGE_NAME armature-ros2)
+set(CPACK_DEBIAN_ROS2_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_ROS2_DEPENDS armature)
+set(CPACK_DEBIAN_ROS2_DESCRIPTION
+    "With this package an application is a node of ROS 2: its joints, transforms,
+images, diagnostics and ports are topics, and topics command its motions. It
+needs no ROS: its component library speaks DDS by Eclipse Cyclone DDS.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-armature)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # The module is for one version of Python.
