@@ -299,7 +299,7 @@ class Rover(Recorded):
 
 
 class Shadow(unittest.TestCase):
-    EXAMPLE = os.path.join(os.path.dirname(ROBOTS.rstrip("/")), "examples", "13_shadow",
+    EXAMPLE = os.path.join(os.path.dirname(ROBOTS.rstrip("/")), "examples", "14_shadow",
                            "shadow.yaml")
 
     def check(self, more, code):
