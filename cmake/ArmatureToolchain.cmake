@@ -59,12 +59,6 @@ set(ARMATURE_UNITY 1 CACHE STRING
     "So many sources of a library are compiled at a time: half the time for all of them, more for
 one that changed; needs what each source file names for itself to be named once")
 function(armature_unity target)
-  set(quick replay deploy report remote lua inspect runner document orocos analysis record edit browser generate bundle studio general controls)
-  if(target MATCHES "^(armature_)?(replay|deploy|report|remote|lua|inspect|runner|document|orocos|analysis|edit|browser|generate|bundle|studio|general)$" OR target MATCHES "^(armature|controls|record)$")
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 30)
-    target_compile_options(${target} PRIVATE -O0 -g0)
-    return()
-  endif()
   if(ARMATURE_UNITY GREATER 1)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ARMATURE_UNITY})
     # A class of a source file may have members of types that only this file knows (GCC), and a
