@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/cli/experiment.hpp"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "armature/replay/experiment.hpp"
@@ -23,6 +25,10 @@ bool ExperimentRecord::begin(const deploy::Deployment& deployment, const RunArgu
   const auto written = replay::write_experiment(
       arguments.output_folder, replay::experiment_of(deployment, std::move(texts_), how));
   if (!written) console.say(rt::LogLevel::kError, written.error());
+  // In real time they would not come again at the same cycles: nothing is added to such a run.
+  std::error_code ignored;
+  std::filesystem::remove(arguments.output_folder + '/' + replay::kActsFile, ignored);
+  if (!arguments.simulated) return written.ok();
   auto acts = replay::ActsWriter::create(arguments.output_folder);
   if (!acts) console.say(rt::LogLevel::kError, acts.error());
   if (!written || !acts) return false;

@@ -52,10 +52,7 @@ base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
   recorded.folder = fs::absolute(arguments.folder).lexically_normal().string();
   auto experiment = replay::load_experiment(arguments.folder);
   if (!experiment) return base::Error{experiment.error()};
-  auto acts = replay::load_acts(arguments.folder);
-  if (!acts) return base::Error{acts.error()};
   recorded.experiment = std::move(experiment).value();
-  recorded.acts = std::move(acts).value();
   if (!replay::has_recordings(recorded.folder)) {
     return base::Error{"'" + arguments.folder +
                        "' has no recording (*.mcap) to compare with: let a Reporter record what is "
@@ -66,6 +63,9 @@ base::Result<Recorded> read_recorded(const ReplayArguments& arguments) {
                        "' was recorded in real time, whose cycles come as the machine lets them: "
                        "only runs in simulated time (armature run --sim) are replayed"};
   }
+  auto acts = replay::load_acts(arguments.folder);
+  if (!acts) return base::Error{acts.error()};
+  recorded.acts = std::move(acts).value();
   recorded.out = place_of(arguments);
   recorded.run = arguments.changes.any() ? recorded.out + '/' + kWhatIf : recorded.out;
   return recorded;

@@ -275,6 +275,14 @@ class Janus(Recorded):
         change(f"{folder}/experiment.json", "janus.urdf", "gone.urdf")
         self.assertIn("is not what it was when the run was recorded", self.replay(folder).stderr)
 
+    def test_a_run_in_real_time_is_refused(self):
+        folder = f"{self.root}/real"
+        done = armature("run", f"{ROBOTS}/janus/demo/pid.yaml", "-L", LIBRARIES, "--for", "0.2s",
+                        "--realtime", "off", "--out", folder)
+        self.assertIn(done.returncode, (0, 4), done.stderr)  # 4: the machine is busy
+        self.assertFalse(os.path.exists(f"{folder}/acts.jsonl"))
+        self.assertIn("was recorded in real time", self.replay(folder, code=1).stderr)
+
     def test_wrong_folders_are_refused(self):
         self.assertIn("is no folder", self.replay(f"{self.root}/nowhere", code=1).stderr)
         empty = tempfile.mkdtemp(dir=self.root)

@@ -48,6 +48,7 @@ class ShadowCheck {
 
   void check_data() {
     for (const ConnectionPlan& connection : plan_.connections) {
+      expect_no_answer(connection);
       if (!leaves(connection.from, connection.to)) continue;
       diagnostics_.error(connection.entry->where,
                          "the shadow " + name_of(connection.from) + " writes '" +
@@ -55,6 +56,18 @@ class ShadowCheck {
                              "', which is not of a shadow",
                          hint(connection.to));
     }
+  }
+
+  /// Who writes to a full queue is told, and may do something about it.
+  void expect_no_answer(const ConnectionPlan& connection) {
+    const bool queue =
+        connection.entry->policy.kind == component::ConnectionPolicy::Kind::kFifo;
+    if (!queue || !leaves(connection.to, connection.from)) return;
+    diagnostics_.error(connection.entry->where,
+                       "the shadow " + name_of(connection.to) + " takes data of " +
+                           name_of(connection.from) +
+                           " by a queue, whose writer is told when it is full",
+                       "leave out the policy: a shadow takes the latest value");
   }
 
   void check_calls() {

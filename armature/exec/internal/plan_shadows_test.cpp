@@ -86,9 +86,23 @@ TEST_F(Shadows, LiveInTheThreadsOfShadowsWhoeverElseTriggersThem) {
 
 TEST_F(Shadows, MayNotWriteToWhoDrives) {
   blueprint.connect("Shadow.Out", "Comparison.In");
-  blueprint.connect("Comparison.Out", "Driving.In");
+  blueprint.add<Controller>("Other");
+  blueprint.connect("Comparison.Out", "Other.In");
   EXPECT_THAT(problems_of(blueprint),
-              HasSubstr("the shadow 'Comparison' writes 'Driving.In', which is not of a shadow"));
+              HasSubstr("the shadow 'Comparison' writes 'Other.In', which is not of a shadow"));
+}
+
+TEST_F(Shadows, TakeNothingByQueuesThatCanBeFull) {
+  blueprint.connect("Shadow.Out", "Comparison.In");
+  component::ConnectionPolicy queue;
+  queue.kind = component::ConnectionPolicy::Kind::kFifo;
+  queue.capacity = 8;
+  blueprint.connections[2].policy = queue;
+  EXPECT_THAT(problems_of(blueprint),
+              HasSubstr("the shadow 'Shadow' takes data of 'Source' by a queue"));
+  blueprint.connections[2].policy = {};
+  blueprint.connections[3].policy = queue;
+  EXPECT_EQ(problems_of(blueprint), "") << "among shadows it is their own affair";
 }
 
 TEST_F(Shadows, MayNotCallWhoIsNone) {
