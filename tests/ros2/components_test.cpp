@@ -34,6 +34,7 @@ deploy::Deployment deployment(const std::string& components, const std::string& 
   options.library_folders = {LIBRARIES};
   options.models = [](component::Registry& registry) {
     registry.add<Numbers>("Numbers", "ports of a test");
+    registry.add<Amplifier>("Amplifier", "makes voltages");
     registry.add<Ticker>("Ticker", "counts");
     registry.add<Listener>("Listener", "listens");
   };
@@ -432,6 +433,16 @@ TEST(Checked, WhatComesFromRosIsNoEffort) {
                                  "ros: Walks:\n    model: TopicToPort\n    properties: {port: "
                                  "Numbers.Voltage, topic: volts}\n");
   EXPECT_THAT(direct.diagnostics.to_text(),
+              HasSubstr("what comes from ROS 2 leads to the effort 'Numbers.Voltage'"));
+}
+
+TEST(Checked, WhatBecomesAnEffortOnItsWayIsRefusedToo) {
+  const auto by_way = deployment(std::string(kNumbers) +
+                                     "Amplifier: {model: Amplifier, activity: {triggered: true}}\n"
+                                     "ros: Number:\n    model: TopicToPort\n    properties: {port: "
+                                     "Amplifier.In, topic: number}\n",
+                                 "  - Amplifier.Out -> Numbers.Voltage\n");
+  EXPECT_THAT(by_way.diagnostics.to_text(),
               HasSubstr("what comes from ROS 2 leads to the effort 'Numbers.Voltage'"));
 }
 

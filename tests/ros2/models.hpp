@@ -54,6 +54,23 @@ class Numbers final : public component::Component {
                                                     component::may_stay_open};
 };
 
+/// Makes a voltage of a number.
+class Amplifier final : public component::Component {
+ public:
+  using Component::Component;
+
+ private:
+  void amplify(double value) { out_.write(2.0 * value); }
+
+  component::InputPort<double> in_{this,
+                                   "In",
+                                   "a number",
+                                   "",
+                                   component::on_data<&Amplifier::amplify>,
+                                   component::may_stay_open};
+  component::OutputPort<double> out_{this, "Out", "twice that", "V"};
+};
+
 /// Writes {1, 0}, {2, 0}, ... in each of its cycles, once it is told to.
 class Ticker final : public component::Component {
  public:
