@@ -23,6 +23,7 @@ from armature._members import Command, CommandError, Event, Input, Operation, Ou
 from armature._native import Diagnostic, Error, LogLine, NoAnswer, Refusal
 from armature._recording import Recording, Samples, read_recording
 from armature._values import Struct
+from armature.sweeps import sweep
 from armature.author import Component
 
 __all__ = [
@@ -54,10 +55,9 @@ __all__ = [
     "connect",
     "load",
     "read_recording",
+    "sweep",
 ]
 
 for _exception in (NoAnswer, Refusal):
     _exception.__module__ = "armature"
 del _exception
-
-from armature.sweeps import sweep  # noqa: E402  # with __all__ below, in lines of their own

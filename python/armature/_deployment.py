@@ -30,7 +30,7 @@ class Deployment:
         self._models = [one._model() for one in components]
         self._loaded: _native.Deployed | None = self._load()
         self._name = self._loaded.name
-        self._diagnostics = self._loaded.diagnostics
+        self._diagnostics = sorted(self._loaded.diagnostics, key=lambda one: (one.file, one.line, one.column))
 
     @property
     def file(self) -> str:
@@ -66,6 +66,8 @@ class Deployment:
             what = loaded.writers()
         if record is not None and what is not None:
             loaded = self._load(_recorded(self._file, list(what)))
+        if not loaded.ok:  # its files may have changed
+            raise DeploymentError(loaded.diagnostics)
         return Application(loaded, self._name, "" if record is None else os.fspath(record), list(grants))
 
     def _load(self, text: str = "") -> _native.Deployed:

@@ -45,9 +45,10 @@ std::vector<ErrorMetrics::Figures> figures_of(const ErrorMetrics& metrics) {
   return figures;
 }
 
-void bind_figures(py::class_<ErrorMetrics>& metrics) {
+void bind_figures(py::module_& module) {
   using Figures = ErrorMetrics::Figures;
-  py::class_<Figures>(metrics, "Figures", "Of one joint; the unit of its error is taken as rad.")
+  py::class_<Figures>(module, "ErrorFigures",
+                      "Of one joint; the unit of its error is taken as rad.")
       .def_readonly("iae", &Figures::iae, "integral of |e| [rad s]")
       .def_readonly("itae", &Figures::itae, "integral of t |e| [rad s^2]")
       .def_readonly("ise", &Figures::ise, "integral of e^2 [rad^2 s]")
@@ -61,12 +62,11 @@ void bind_figures(py::class_<ErrorMetrics>& metrics) {
 }  // namespace
 
 void bind_error_metrics(py::module_& module) {
-  py::class_<ErrorMetrics> metrics(
+  bind_figures(module);
+  py::class_<ErrorMetrics>(
       module, "ErrorMetrics",
       "How well joints follow their references: integrals over the error e(t) from the first\n"
-      "sample, t = 0, to the last, by the trapezoidal rule (paper 2, table 2).");
-  bind_figures(metrics);
-  metrics
+      "sample, t = 0, to the last, by the trapezoidal rule (paper 2, table 2).")
       .def(py::init(&make_error_metrics), py::arg("joints"), py::arg("period"),
            "period: between two samples [s]. Raises ValueError.")
       .def("step", &step, py::arg("errors"),

@@ -23,6 +23,7 @@ Slots& slots() {
 
 template <std::size_t I>
 std::unique_ptr<component::Component> make_in_slot(std::string name) {
+  const pybind11::gil_scoped_acquire lock;  // while another thread loads, its model may come here
   return std::make_unique<PythonComponent>(std::move(name), slots()[I]);
 }
 

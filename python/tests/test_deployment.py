@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Deployments are checked and loaded; what is wrong with them is told with its place."""
+import os
 import shutil
+import subprocess
 
 import pytest
 
@@ -32,6 +34,12 @@ def test_check_tells_each_mistake_with_its_place_and_a_hint(mistaken):
     assert "Addr" in unknown.message and "Adder" in str(unknown)
     assert unknown.name == "" and "Adder" in unknown.hint + unknown.message
     assert repr(unknown) == f"<Diagnostic {unknown}>"
+
+
+def test_it_finds_what_the_program_finds(mistaken):
+    told = subprocess.run([os.environ["ARMATURE_PROGRAM"], "check", mistaken], capture_output=True, text=True)
+    lines = [line for line in (told.stdout + told.stderr).splitlines() if line.startswith(str(mistaken))]
+    assert lines == [str(one) for one in armature.check(mistaken)]
 
 
 def test_load_raises_all_mistakes_at_once(mistaken):
@@ -83,6 +91,19 @@ def test_a_deployment_makes_any_number_of_applications(janus_file):
         first.run_for(1)
         second.run_for(0.5)
         assert (first.now, second.now) == (1.0, 0.5)
+
+
+def test_what_does_not_pass_the_check_does_not_run(tmp_path, janus_file, mistaken):
+    with pytest.raises(armature.DeploymentError):
+        armature.Deployment(mistaken).application()
+    file = tmp_path / "changing.yaml"
+    text = f"include: {janus_file}\napplication: changing\n"
+    file.write_text(text)
+    deployment = armature.load(file)
+    deployment.application().stop()
+    file.write_text(text + "components: {PID1: {override: true, properties: {Kpp: 1}}}\n")
+    with pytest.raises(armature.DeploymentError, match="Kpp"):
+        deployment.application()
 
 
 def test_acts_of_the_operator_need_a_grant(tmp_path, janus_file):

@@ -106,6 +106,15 @@ def test_what_does_not_load_and_what_cannot_be_armed_are_rows_with_their_reasons
     assert "Arming.arm failed: Joint2 is not armed: it moved by" in results[3].reason
 
 
+def test_no_sweep_reaches_a_real_robot():
+    on_can = armature.sweep(
+        JANUS / "deployments/on_can.yaml", {"bus": ["can0"]}, short_motion, workers=1,
+        grants=["Arming.arm"], progress=False,
+    )  # fmt: skip
+    assert [run.outcome for run in on_can] == ["refused"]
+    assert "'Cards' drives a real robot by can0" in on_can[0].reason
+
+
 def test_a_sweep_goes_on_where_it_was_until_a_file_of_its_deployment_changes(tmp_path):
     deployment = tmp_path / "head.yaml"
     deployment.write_text(f"include: {PID}\n")
@@ -174,3 +183,15 @@ def test_a_fault_is_the_reason_whatever_is_measured(monkeypatch, measure):
     run = run_task(Simulated("any.yaml", measure, {}), Task(0, {}))
     assert run.outcome == "failed"
     assert run.reason == "Faulted: Joint1: the cards are silent"
+
+
+def test_what_the_page_of_sweeps_begins_with_runs(tmp_path, monkeypatch, capsys):
+    root = JANUS.parents[1]
+    (tmp_path / "robots").symlink_to(root / "robots")
+    monkeypatch.chdir(tmp_path)
+    block = re.search(r"```python\n(.*?)```", (root / "docs/sweeps.md").read_text(), re.DOTALL)[1]
+    exec(compile(block, "docs/sweeps.md", "exec"), {"__name__": "page"})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["run", "PID1.Kp", "PID1.Kd", "iae"]
+    assert lines[-1] == "6 runs: 6 done"
+    assert (tmp_path / "sweep/sweep.html").exists()

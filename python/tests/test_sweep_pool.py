@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 from pathlib import Path
 
 import pytest
@@ -138,10 +139,26 @@ def test_a_pool_has_a_worker():
         Pool(0)
 
 
+def test_what_does_not_fit_together_is_refused():
+    with pytest.raises(ValueError, match="recordings need a folder"):
+        quiet(sweep_runs.rosenbrock, SQUARE, workers=1, record=True)
+    with pytest.raises(ValueError, match="workers or by those of this machine, not both"):
+        quiet(sweep_runs.rosenbrock, SQUARE, workers=1, client=object())
+
+
 def test_what_cannot_be_sent_is_said_before_anything_runs():
     lock = threading.Lock()
     with pytest.raises(TypeError, match="cannot be sent to another process.*use a function"):
         quiet(lambda point, folder: {"cost": float(lock.locked())}, [{"x": 1}], workers=1)
+
+
+def test_what_workers_cannot_load_fails_each_run_with_the_reason(monkeypatch):
+    module = types.ModuleType("only_here")
+    exec("def measure(point, folder): return {'cost': 1.0}", module.__dict__)
+    monkeypatch.setitem(sys.modules, "only_here", module)
+    results = quiet(module.measure, [{"x": 1}, {"x": 2}], workers=1)
+    assert [run.outcome for run in results] == ["failed", "failed"]
+    assert results[0].reason == "ModuleNotFoundError: No module named 'only_here'"
 
 
 def test_functions_of_a_script_need_no_module():

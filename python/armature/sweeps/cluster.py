@@ -11,8 +11,7 @@ from .run import Run, Task, lost, run_task
 
 def run_batch(tasks: Sequence[Task], job: Job) -> list[Run]:
     """One task of Dask's: some runs, one after the other. Runs in a worker."""
-    run_point = job.load()
-    return [run_task(run_point, task) for task in tasks]
+    return [run_task(job, task) for task in tasks]
 
 
 def run_on(client: Any, job: Job, tasks: Sequence[Task], batch: int = 1) -> Generator[Run, None, None]:

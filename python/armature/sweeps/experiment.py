@@ -35,6 +35,7 @@ class Simulated:
     set: Mapping[str, Value]
     libraries: tuple[str, ...] = ()
     grants: tuple[str, ...] = ()
+    components: tuple[type, ...] = ()
 
     def __call__(self, point: Point, folder: Path | None) -> Metrics:
         with contextlib.ExitStack() as stack:
@@ -49,7 +50,10 @@ class Simulated:
 
         try:
             loaded = armature.load(
-                self.deployment, set={**self.set, **point}, libraries=self.libraries
+                self.deployment,
+                set={**self.set, **point},
+                libraries=self.libraries,
+                components=self.components,
             )
             application = loaded.application(record=folder, grants=self.grants)
         except armature.DeploymentError as error:
@@ -73,6 +77,7 @@ class Simulated:
             "files of the deployment": digest_of(Path(self.deployment), self.libraries),
             "values set": repr(sorted(self.set.items())),
             "grants": repr(sorted(self.grants)),
+            "components in Python": repr([_source_of(one) for one in self.components]),
             "metrics": _source_of(self.measure),
         }
 

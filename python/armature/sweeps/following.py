@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from armature._native import ErrorMetrics
+from armature._native import ErrorFigures, ErrorMetrics
 
 
 class Following:
@@ -25,7 +25,7 @@ class Following:
         self._metrics = ErrorMetrics(len(joints), period)
 
     @property
-    def joints(self) -> list[ErrorMetrics.Figures]:
+    def joints(self) -> list[ErrorFigures]:
         """Of each joint `iae`, `itae`, `ise`, `itse`, `largest`, `last` (control::ErrorMetrics)."""
         return self._metrics.joints
 

@@ -6,8 +6,10 @@ import dataclasses
 import hashlib
 import pickle
 from functools import lru_cache
+from pathlib import Path
 
-from .run import RunPoint
+from .points import Point
+from .run import Metrics, RunPoint
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,7 +25,7 @@ class Job:
         @raises TypeError if it cannot be sent; the text says what stands in the way.
         """
         try:
-            import cloudpickle
+            import cloudpickle  # type: ignore[import]
         except ImportError:
             raise RuntimeError("sweeps need cloudpickle (apt-get install python3-cloudpickle)") from None
         try:
@@ -38,8 +40,9 @@ class Job:
     def key(self) -> str:
         return hashlib.sha256(self.pickled).hexdigest()[:16]
 
-    def load(self) -> RunPoint:
-        return _loaded(self.pickled)
+    def __call__(self, point: Point, folder: Path | None) -> Metrics:
+        """What cannot be loaded here fails each run, with the reason."""
+        return _loaded(self.pickled)(point, folder)
 
 
 @lru_cache(maxsize=4)

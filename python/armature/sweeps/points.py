@@ -64,7 +64,7 @@ def sobol(
 
     A `count` that is a power of two covers the ranges evenly.
     """
-    from scipy.stats import qmc
+    from scipy.stats import qmc  # type: ignore[import]
 
     _check_ranges(ranges, count, logarithmic)
     if count == 0:

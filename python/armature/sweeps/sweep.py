@@ -39,6 +39,7 @@ def sweep(
     set: Mapping[str, Value] | None = None,
     libraries: Iterable[str | Path] = (),
     grants: Iterable[str] = (),
+    components: Iterable[type] = (),
     objective: str | None = None,
     out: str | Path | None = None,
     record: bool = False,
@@ -60,7 +61,7 @@ def sweep(
     @param workers     without a client: how many processes of this machine (None: one a core), or a
                        `Pool` that is open already
     @param set         as of `armature.load`: what is the same in all runs
-    @param libraries   as of `armature.load`
+    @param libraries, components  as of `armature.load`
     @param grants      as of `Deployment.application`
     @param objective   the metric by which a run is better the smaller it is; None: the first
     @param out         a folder for `runs.csv`, `sweep.html` and what was done so far: runs that it
@@ -75,7 +76,12 @@ def sweep(
     file = Path(deployment).resolve()
     return each(
         Simulated(
-            str(file), metrics, dict(set or {}), tuple(map(str, libraries)), tuple(grants)
+            str(file),
+            metrics,
+            dict(set or {}),
+            tuple(map(str, libraries)),
+            tuple(grants),
+            tuple(components),
         ),
         listed(parameters),
         client=client,
@@ -108,6 +114,8 @@ def each(
     """
     if batch < 1:
         raise ValueError(f"the runs of a batch must be 1 or more, found {batch}")
+    if client is not None and workers is not None:
+        raise ValueError("runs are done by a client's workers or by those of this machine, not both")
     if record and out is None:
         raise ValueError("recordings need a folder (give out=FOLDER)")
     plan = _Plan(listed(points), Job.of(run_point), objective, title)

@@ -28,7 +28,7 @@ def serve(connection: Connection) -> None:
                 job = message
             elif isinstance(message, Task):
                 assert job is not None
-                connection.send(run_task(job.load(), message))
+                connection.send(run_task(job, message))
 
 
 def end_with(parent: int) -> None:

@@ -22,6 +22,12 @@ const Elements = (() => {
     return text.replace(/-/g, '−');
   }
 
+  /** On an axis, where of long texts, such as paths, only the end has room. */
+  function mark(value) {
+    const text = short(value, 3);
+    return text.length > 14 ? `…${text.slice(-13)}` : text;
+  }
+
   /** Numbers that span decades, all of one sign, are spread by their logarithm. */
   function numericAxis(values) {
     const least = Math.min(...values), most = Math.max(...values);
@@ -69,5 +75,5 @@ const Elements = (() => {
     return el('label', {}, label + ' ', made);
   }
 
-  return {el, svg, isNumber, short, numericAxis, colour, ranks, select};
+  return {el, svg, isNumber, short, mark, numericAxis, colour, ranks, select};
 })();

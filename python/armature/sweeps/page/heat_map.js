@@ -2,7 +2,7 @@
 'use strict';
 /** Two parameters as axes; each cell has the colour of its best run. */
 const HeatMap = (() => {
-  const {el, svg, isNumber, short, numericAxis, colour, ranks, select} = Elements;
+  const {el, svg, isNumber, short, mark, numericAxis, colour, ranks, select} = Elements;
   const kMostSteps = 24, kBins = 14;
 
   /** The steps of an axis: its values if they are few, else equal parts of its range. */
@@ -12,10 +12,10 @@ const HeatMap = (() => {
     const numeric = sweep.parameters[index].numeric;
     if (numeric) distinct.sort((a, b) => a - b);
     if (!numeric || distinct.length <= kMostSteps) {
-      return {labels: distinct.map((value) => short(value)), of: (value) => distinct.indexOf(value)};
+      return {labels: distinct.map(mark), of: (value) => distinct.indexOf(value)};
     }
     const axis = numericAxis(values);
-    const labels = Array.from({length: kBins}, (_, i) => short(axis.at((i + 0.5) / kBins), 3));
+    const labels = Array.from({length: kBins}, (_, i) => mark(axis.at((i + 0.5) / kBins)));
     return {labels, of: (value) => Math.min(kBins - 1, Math.floor(axis.share(value) * kBins))};
   }
 
@@ -41,7 +41,7 @@ const HeatMap = (() => {
     const cells = cellsOf(sweep, x, y, xSteps, ySteps);
     const bests = new Map([...cells].map(([at, runs]) => [at, bestOf(runs, metric)]));
     const scale = ranks([...bests.values()].filter(Boolean).map((run) => run.metrics[metric]));
-    const left = 92, top = 8, width = 900 - left, height = Math.min(460, Math.max(120, rows * 34));
+    const left = 118, top = 8, width = 900 - left, height = Math.min(460, Math.max(120, rows * 34));
     const w = width / columns, h = height / rows;
     const picture = svg('svg', {viewBox: `0 0 908 ${height + top + 58}`, role: 'img', class: 'heat',
       'aria-label': `${sweep.metrics[metric]} over ${sweep.parameters[x].name} and ${sweep.parameters[y].name}`});

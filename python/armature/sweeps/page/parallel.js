@@ -2,7 +2,7 @@
 'use strict';
 /** Parallel coordinates: an axis for each parameter and metric, a line for each run that has a result. */
 const Parallel = (() => {
-  const {el, svg, isNumber, short, numericAxis, colour, ranks} = Elements;
+  const {el, svg, isNumber, short, mark, numericAxis, colour, ranks} = Elements;
   const kWidth = 960, kHeight = 340, kTop = 44, kBottom = 26, kSide = 60;
 
   function axesOf(sweep, runs) {
@@ -14,11 +14,11 @@ const Parallel = (() => {
       const axis = {name, metric: i >= count, value: (run) => valueOf(run, i), range: null};
       if (i >= count || sweep.parameters[i].numeric) {
         const numeric = numericAxis(values.filter(isNumber));
-        return {...axis, ends: [short(numeric.least, 3), short(numeric.most, 3)], share: (run) => numeric.share(valueOf(run, i))};
+        return {...axis, ends: [mark(numeric.least), mark(numeric.most)], share: (run) => numeric.share(valueOf(run, i))};
       }
       const distinct = [...new Set(values)].sort();
       const last = Math.max(1, distinct.length - 1);
-      return {...axis, ends: [distinct[0], distinct[distinct.length - 1]], share: (run) => distinct.indexOf(valueOf(run, i)) / last};
+      return {...axis, ends: [mark(distinct[0]), mark(distinct[distinct.length - 1])], share: (run) => distinct.indexOf(valueOf(run, i)) / last};
     });
   }
 
@@ -66,15 +66,15 @@ const Parallel = (() => {
       return share < 0.02 ? 0 : share > 0.98 ? 1 : share;  // the ends are easily reached
     };
     let from = null;
-    const mark = (a, b) => {
+    const keep = (a, b) => {
       axis.range = Math.abs(a - b) < 0.02 ? null : [Math.min(a, b), Math.max(a, b)];
       const [low, high] = axis.range ?? [0, 0];
       brush.setAttribute('y', kTop + (1 - high) * length);
       brush.setAttribute('height', (high - low) * length);
       filter();
     };
-    grip.addEventListener('pointerdown', (event) => { from = shareAt(event); grip.setPointerCapture(event.pointerId); mark(from, from); });
-    grip.addEventListener('pointermove', (event) => from !== null && mark(from, shareAt(event)));
+    grip.addEventListener('pointerdown', (event) => { from = shareAt(event); grip.setPointerCapture(event.pointerId); keep(from, from); });
+    grip.addEventListener('pointermove', (event) => from !== null && keep(from, shareAt(event)));
     grip.addEventListener('pointerup', () => { from = null; });
     return svg('g', {class: axis.metric ? 'axis metric' : 'axis'}, svg('line', {x1: x, x2: x, y1: kTop, y2: kTop + length}), brush,
       svg('text', {x, y: isCrowded && index % 2 ? kTop - 32 : kTop - 19, 'text-anchor': 'middle', class: 'name'}, axis.name),
