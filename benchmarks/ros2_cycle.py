@@ -59,7 +59,7 @@ def run(arguments, deployment, *options):
     trace = arguments.build / "ros2_cycle_trace.json"
     done = subprocess.run([arguments.build / "bin/armature", "run", "--statistics", "--trace", trace, "--for",
                            f"{arguments.seconds}s", *options, deployment], capture_output=True, text=True)
-    if done.returncode not in (0, 4):
+    if done.returncode not in (0, 1, 4):
         sys.exit(done.stdout + done.stderr)
     medians = {name: statistics.median(durations) for name, durations in cycles_of(trace).items()}
     counts = {name: (int(cycles), int(skipped)) for name, cycles, skipped in SKIPPED.findall(done.stdout + done.stderr)}
