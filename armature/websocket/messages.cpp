@@ -32,15 +32,15 @@ bool Messages::offer(std::uint32_t client, std::string binary) {
   return true;
 }
 
-void Messages::send(std::uint32_t client, std::string text) {
+void Messages::send(std::uint32_t client, Outgoing message) {
   const std::scoped_lock lock(mutex_);
   const auto found = clients_.find(client);
   if (found == clients_.end() || found->second.given_up) return;
-  if (found->second.queued_bytes + text.size() > options_.most_bytes) {
+  if (found->second.queued_bytes + message.content.size() > options_.most_bytes) {
     found->second.given_up = true;
     return found->second.ring();
   }
-  put(found->second, {true, std::move(text)});
+  put(found->second, std::move(message));
 }
 
 void Messages::put(Client& client, Outgoing message) {
@@ -54,11 +54,12 @@ std::vector<std::string> Messages::addresses() const {
   return addresses_;
 }
 
-std::optional<std::uint32_t> Messages::enter(std::function<void()> ring) {
+std::optional<std::uint32_t> Messages::enter(std::function<void()> ring,
+                                             std::unique_ptr<ride::Connection> inside) {
   const std::scoped_lock lock(mutex_);
   if (clients_.size() >= options_.clients) return std::nullopt;
   clients_[++last_].ring = std::move(ring);
-  incoming_.push_back({last_, Incoming::Kind::kCame});
+  incoming_.push_back({last_, Incoming::Kind::kCame, {}, std::move(inside)});
   came_.notify_all();
   return last_;
 }
@@ -66,7 +67,7 @@ std::optional<std::uint32_t> Messages::enter(std::function<void()> ring) {
 void Messages::leave(std::uint32_t client) {
   const std::scoped_lock lock(mutex_);
   if (clients_.erase(client) == 0) return;
-  incoming_.push_back({client, Incoming::Kind::kGone});
+  incoming_.push_back({client, Incoming::Kind::kGone, {}, nullptr});
   came_.notify_all();
 }
 
@@ -75,8 +76,8 @@ void Messages::receive(std::uint32_t client, bool text, std::string content) {
   const auto found = clients_.find(client);
   if (found == clients_.end()) return;
   ++found->second.asked;
-  incoming_.push_back(
-      {client, text ? Incoming::Kind::kText : Incoming::Kind::kBinary, std::move(content)});
+  incoming_.push_back({client, text ? Incoming::Kind::kText : Incoming::Kind::kBinary,
+                       std::move(content), nullptr});
   came_.notify_all();
 }
 

@@ -7,13 +7,16 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/base/time.hpp"
+#include "armature/ride/transport.hpp"
 
 namespace armature::websocket {
 
@@ -25,6 +28,9 @@ struct Incoming {
   std::uint32_t client = 0;  ///< its number, from 1, which no other gets
   Kind kind = Kind::kCame;
   std::string content{};
+  /// Of who came: its own connection to the node that listens there, where it has the identity of
+  /// the options. What is asked by it is under the node's policy.
+  std::unique_ptr<ride::Connection> inside{};
 };
 
 /// A message to a client.
@@ -45,6 +51,7 @@ class Messages {
   struct Options {
     std::string subprotocol{};  ///< as clients ask for it
     std::string path{};         ///< behind which the secret stands: `/foxglove/`
+    std::string identity{};     ///< of its clients: `foxglove`, in policies `foxglove@web`
     std::size_t clients = 8;
     std::size_t message_bytes = 256 * 1024;  ///< of a client; a larger message ends the connection
     std::size_t asked = 64;                  ///< messages of a client that wait for `take`
@@ -66,7 +73,10 @@ class Messages {
   /// @return false: it is lost, or the client has gone
   bool offer(std::uint32_t client, std::string binary);
   /// What must not be lost: the client is disconnected if it does not take it.
-  void send(std::uint32_t client, std::string text);
+  void send(std::uint32_t client, std::string text) { send(client, {true, std::move(text)}); }
+  void send_binary(std::uint32_t client, std::string binary) {
+    send(client, {false, std::move(binary)});
+  }
   /// Where clients connect, with the secret: `ws://127.0.0.1:8080/foxglove/0123...`.
   std::vector<std::string> addresses() const;
 
@@ -75,7 +85,8 @@ class Messages {
   /// @param ring  called by any thread, and not after `leave`, when `next` may have something, or
   ///              `reads` is another than before
   /// @return the client's number; nothing if there are too many
-  std::optional<std::uint32_t> enter(std::function<void()> ring);
+  std::optional<std::uint32_t> enter(std::function<void()> ring,
+                                     std::unique_ptr<ride::Connection> inside);
   void leave(std::uint32_t client);
   void receive(std::uint32_t client, bool text, std::string content);
   /// More of the client is to be read.
@@ -95,6 +106,7 @@ class Messages {
     bool given_up = false;
   };
 
+  void send(std::uint32_t client, Outgoing message);
   void put(Client& client, Outgoing message);
 
   const Options options_;

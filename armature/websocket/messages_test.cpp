@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/websocket/messages.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +32,7 @@ class Correspondence : public ::testing::Test {
   Correspondence() {
     messages_ = std::make_shared<Messages>(Messages::Options{.subprotocol = "talk.v1",
                                                              .path = "/talk/",
+                                                             .identity = "talker",
                                                              .clients = 3,
                                                              .message_bytes = 1000,
                                                              .asked = 4,
@@ -71,9 +76,9 @@ class Correspondence : public ::testing::Test {
   std::vector<Incoming> taken(std::size_t count) {
     std::vector<Incoming> all;
     while (all.size() < count) {
-      const auto more = messages_->take(kPatience);
+      auto more = messages_->take(kPatience);
       if (more.empty()) break;
-      all.insert(all.end(), more.begin(), more.end());
+      std::ranges::move(more, std::back_inserter(all));
     }
     return all;
   }
@@ -136,6 +141,21 @@ TEST_F(Correspondence, MessagesComeWholeHoweverTheyAreCut) {
   EXPECT_TRUE(messages_->offer(number, std::string(40'000, 'v')));
   EXPECT_EQ(message_to(*visitor), "text");
   EXPECT_EQ(message_to(*visitor), std::string(40'000, 'v'));
+}
+
+TEST_F(Correspondence, EachHasAConnectionToTheNodeWithTheIdentity) {
+  const auto visitor = client();
+  const auto came = taken(1);
+  ASSERT_NE(came.at(0).inside, nullptr);
+  const auto outer = server_->accept();
+  ASSERT_NE(outer, nullptr);
+  EXPECT_EQ(outer->identity(), "talker");
+  const std::string asked = "asked";
+  std::size_t size = 0;
+  EXPECT_EQ(came[0].inside->send(std::as_bytes(std::span(asked)), size), ride::Progress::kDone);
+  std::array<std::byte, 16> room{};
+  EXPECT_EQ(outer->wait_and_receive(room, size, kPatience), ride::Progress::kDone);
+  EXPECT_EQ(size, asked.size());
 }
 
 TEST_F(Correspondence, WhoLeavesIsTold) {

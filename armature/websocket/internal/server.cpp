@@ -365,19 +365,27 @@ bool Server::open(lws* page) {
   auto bridge = std::make_unique<Bridge>(page, std::move(inner), options_);
   if (!bridge->watch(vhost_)) return false;
   bridges_[page] = std::move(bridge);
+  hand_to_node(ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
+  return true;
+}
+
+void Server::hand_to_node(std::unique_ptr<ride::Connection> connection) {
   const std::lock_guard lock(mutex_);
-  accepted_.push_back(
-      ride::make_connection(std::move(outer), name.empty() ? "page" : name + "@tls"));
+  accepted_.push_back(std::move(connection));
   const std::byte ring{};
   std::size_t sent = 0;
   static_cast<void>(ringer_->send(std::span(&ring, 1), sent));
-  return true;
 }
 
 bool Server::open_messages(lws* visitor) {
   Messages& messages = *options_.messages;
-  const auto client = messages.enter([this] { lws_cancel_service(context_); });
+  auto pair = StreamSocket::make_pair("a client of " + messages.options().subprotocol);
+  if (!pair) return false;
+  auto& [inner, outer] = pair.value();
+  const auto client = messages.enter([this] { lws_cancel_service(context_); },
+                                     ride::make_connection(std::move(inner)));
   if (!client) return false;
+  hand_to_node(ride::make_connection(std::move(outer), messages.options().identity));
   correspondents_[visitor] =
       std::make_unique<Correspondent>(visitor, messages, *client, options_.time_to_take);
   return true;

@@ -78,6 +78,7 @@ class Server final : public ride::Listener {
   std::string proven_name(lws* visitor) const;
   bool open(lws* page);
   bool open_messages(lws* visitor);
+  void hand_to_node(std::unique_ptr<ride::Connection> connection);
 
   const std::unique_ptr<platform::StreamListener> listener_;
   const ride::Address address_;
