@@ -186,6 +186,19 @@ function masked(text) {
   return Buffer.concat([head, Buffer.alloc(4), payload]);
 }
 
+test("the WAM is drawn, moved by its measured positions", { timeout: 60_000 }, async () => {
+  const arm = await robot(file_of("robots/wam/demo/studio.yaml"), "wam");
+  const { foxglove } = await studio(arm.address);
+  const one = await client(foxglove);
+  one.subscribe("/tf");
+  one.subscribe("/scene");
+  await until(() => one.of("/tf").length > 2 && one.of("/scene").length > 0, () => `a scene; ${one.said()}`);
+  assert.ok(one.of("/tf")[0].value.transforms.length >= 7);
+  const { entities } = one.of("/scene")[0].value;
+  assert.ok(entities.length >= 5 && entities.every((each) => each.cubes.length + each.cylinders.length + each.spheres.length > 0));
+  assert.ok(!/stands still/.test(one.said()), one.said());
+});
+
 test("the policy decides what a client sees", { timeout: 60_000 }, async () => {
   const head = await robot(kJanus, "guarded");
   const policy = join(folder, "studio.policy");

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/foxglove/internal/protocol.hpp"
 
+#include <random>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "armature/foxglove/internal/flow_json.hpp"
 
 namespace armature::foxglove::internal {
 namespace {
@@ -64,6 +71,33 @@ TEST(FoxgloveRequest, DepthIsBounded) {
   const auto set = parsed<SetParameters>(
       R"({"op":"setParameters","parameters":[{"name":"a","value":)" + deep + "}]}");
   EXPECT_LT(set.parameters.at(0).value.dump().size(), 200u);
+}
+
+TEST(FoxgloveRequest, WhateverComesIsTakenOrRefusedWithAReason) {
+  const std::vector<std::string> seeds{
+      R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":3}]})",
+      R"({"op":"setParameters","parameters":[{"name":"a","value":[1,{"b":"c\u00e9"},null]}]})",
+      R"({"op":"getParameters","parameterNames":["a"],"id":"x"})"};
+  std::mt19937 random(1);
+  int taken = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text = seeds[random() % seeds.size()];
+    for (std::size_t changes = random() % 4; changes > 0; --changes) {
+      const std::size_t place = random() % text.size();
+      if (random() % 2 == 0) text[place] = static_cast<char>(random());
+      if (random() % 3 == 0) text.erase(place, random() % 8);
+      if (random() % 3 == 0) text.insert(place, text.substr(0, random() % text.size()));
+      if (text.empty()) text = "{";
+    }
+    const auto request = parse_request(text);
+    if (!request) {
+      EXPECT_FALSE(request.error().empty()) << text;
+    } else if (const auto* set = std::get_if<SetParameters>(&request.value())) {
+      for (const Parameter& one : set->parameters) static_cast<void>(text_of_json(one.value).ok());
+      ++taken;
+    }
+  }
+  EXPECT_GT(taken, 100);
 }
 
 TEST(FoxgloveMessage, ValuesAreBinaryWithNumberAndTime) {
