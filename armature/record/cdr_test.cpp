@@ -50,7 +50,7 @@ TEST(Cdr, EveryTypeIsReadBackAsTheJsonThatRecordingsHave) {
                                   -std::numeric_limits<double>::infinity()};
   EXPECT_EQ(read_back(odd), R"({"value":[null,1e999,-1e999]})");
   EXPECT_EQ(read_back(Gait::kTurningOnTheSpot), R"({"value":"turning_on_the_spot"})");
-  EXPECT_EQ(read_back(std::string("a\nb")), R"({"value":"a\nb"})");
+  EXPECT_EQ(read_back(std::string("a\nb")), R"({"value":"a\u000ab"})");
   EXPECT_EQ(read_back(std::vector<Pose>{{1, 2}}), R"({"value":[{"x":1,"y":2}]})");
 }
 
