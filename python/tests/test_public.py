@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every public call has a type, which mypy checks, and a test."""
 import inspect
+import os
 import re
 import subprocess
 import sys
@@ -76,7 +77,7 @@ def run(file: str) -> float:
 
 reveal_type(Double().gain)
 ''')
-    checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path / "cache"),
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", os.environ["ARMATURE_BUILD"] + "/mypy",
                               str(PACKAGE), str(user)], env={"MYPYPATH": str(PACKAGE.parent), "PATH": "/usr/bin:/bin"},
                              capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout + checked.stderr
