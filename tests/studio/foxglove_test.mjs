@@ -4,8 +4,8 @@
 import assert from "node:assert/strict";
 import { connect } from "node:net";
 import { after, test } from "node:test";
-import { Client, client, file_of, finish, folder, robot, studio, until } from "./foxglove_session.mjs";
-import { writeFileSync } from "node:fs";
+import { begin, Client, client, file_of, finish, folder, robot, studio, until } from "./foxglove_session.mjs";
+import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 after(finish);
@@ -218,6 +218,24 @@ test("the policy decides what a client sees", { timeout: 60_000 }, async () => {
   const [name, value] = [...all].find(([, content]) => typeof content === "number");
   await reader.ask((id) => reader.library.setParameters([{ name, value: value + 1 }], id));
   assert.ok(reader.statuses.some((status) => /not allowed/i.test(status.message)), reader.said());
+});
+
+test("an application that serves pages offers it, too, under its own policy", { timeout: 60_000 }, async () => {
+  const pages = join(folder, "pages");
+  mkdirSync(pages);
+  writeFileSync(join(pages, "index.html"), "<p>a page</p>");
+  writeFileSync(join(folder, "own.policy"), "allow foxglove@web read armature,BridgeRef,PID1\nallow foxglove@web configure PID1\n");
+  const file = join(folder, "served.yaml");
+  writeFileSync(file, `include: ${kJanus}\nnetwork: {listen: "ws://127.0.0.1:0", pages: pages, policy: own.policy}\n`);
+  const { found } = await begin(["run", file, "--sim", "--pace", "1"], /Foxglove finds it at (\S+)/);
+  const one = await client(found[1]);
+  assert.ok([...one.channels.keys()].every((topic) => /^(BridgeRef|PID1)\./.test(topic)), [...one.channels.keys()].join());
+  one.subscribe("BridgeRef.nAxesSensorPosition");
+  await until(() => one.messages.length > 2, () => `values; ${one.said()}`);
+  const before = (await one.ask((id) => one.library.getParameters(["PID1.Kp"], id))).get("PID1.Kp");
+  const after = await one.ask((id) => one.library.setParameters([{ name: "PID1.Kp", value: before + 1 }, { name: "PID2.Kp", value: 1 }], id));
+  assert.deepEqual([...after], [["PID1.Kp", before + 1]]);
+  assert.ok(one.statuses.some((status) => /'PID2.Kp' is left as it is: there is no such property/.test(status.message)), one.said());
 });
 
 test("without the secret nobody comes in", { timeout: 30_000 }, async () => {
