@@ -15,43 +15,45 @@
 namespace armature::control {
 namespace {
 
-using Vector = std::array<double, 3>;
-using Quaternion = std::array<double, 4>;
+using FrameVector = std::array<double, 3>;
+using FrameTurn = std::array<double, 4>;
 using Colours = std::map<std::string, std::array<double, 4>>;
 
 constexpr std::array<double, 4> kPlain{0.62, 0.66, 0.72, 1.0};
 constexpr double kBoneRadius = 0.02;  ///< [m]
 
-Quaternion product(const Quaternion& a, const Quaternion& b) {
+FrameTurn turn_after(const FrameTurn& a, const FrameTurn& b) {
   return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],
           a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0],
           a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
           a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-Vector turned(const Quaternion& by, const Vector& vector) {
-  const Quaternion back{-by[0], -by[1], -by[2], by[3]};
-  const Quaternion result = product(product(by, {vector[0], vector[1], vector[2], 0.0}), back);
+FrameVector turned_by(const FrameTurn& by, const FrameVector& vector) {
+  const FrameTurn back{-by[0], -by[1], -by[2], by[3]};
+  const FrameTurn result = turn_after(turn_after(by, {vector[0], vector[1], vector[2], 0.0}), back);
   return {result[0], result[1], result[2]};
 }
 
-double length_of(const Vector& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+double frame_length(const FrameVector& vector) {
+  return std::hypot(vector[0], vector[1], vector[2]);
+}
 
-Quaternion about(const Vector& axis, double angle) {
+FrameTurn turn_about(const FrameVector& axis, double angle) {
   const double part = std::sin(angle / 2.0);
   return {axis[0] * part, axis[1] * part, axis[2] * part, std::cos(angle / 2.0)};
 }
 
 /// URDF turns about the fixed axes x, y and z, in this order.
-Quaternion from_roll_pitch_yaw(const Vector& angles) {
-  return product(product(about({0, 0, 1}, angles[2]), about({0, 1, 0}, angles[1])),
-                 about({1, 0, 0}, angles[0]));
+FrameTurn from_roll_pitch_yaw(const FrameVector& angles) {
+  return turn_after(turn_after(turn_about({0, 0, 1}, angles[2]), turn_about({0, 1, 0}, angles[1])),
+                    turn_about({1, 0, 0}, angles[0]));
 }
 
 /// The turn that brings z into a direction.
-Quaternion along(const Vector& direction) {
-  const double length = length_of(direction);
-  const Vector unit{direction[0] / length, direction[1] / length, direction[2] / length};
+FrameTurn turn_along(const FrameVector& direction) {
+  const double length = frame_length(direction);
+  const FrameVector unit{direction[0] / length, direction[1] / length, direction[2] / length};
   if (unit[2] < -1.0 + 1e-9) return {1.0, 0.0, 0.0, 0.0};
   const double w = std::sqrt((1.0 + unit[2]) / 2.0);
   return {-unit[1] / (2.0 * w), unit[0] / (2.0 * w), 0.0, w};
@@ -59,7 +61,7 @@ Quaternion along(const Vector& direction) {
 
 /// Numbers with blanks between them; those that are missing stay as they were.
 template <std::size_t N>
-std::array<double, N> numbers(pugi::xml_attribute attribute, std::array<double, N> otherwise) {
+std::array<double, N> numbers_in(pugi::xml_attribute attribute, std::array<double, N> otherwise) {
   std::istringstream text(attribute.value());
   text.imbue(std::locale::classic());
   for (double& number : otherwise) {
@@ -70,14 +72,14 @@ std::array<double, N> numbers(pugi::xml_attribute attribute, std::array<double, 
 }
 
 FramePose pose_of(pugi::xml_node origin) {
-  return {numbers<3>(origin.attribute("xyz"), {}),
-          from_roll_pitch_yaw(numbers<3>(origin.attribute("rpy"), {}))};
+  return {numbers_in<3>(origin.attribute("xyz"), {}),
+          from_roll_pitch_yaw(numbers_in<3>(origin.attribute("rpy"), {}))};
 }
 
 std::array<double, 4> colour_of(pugi::xml_node visual, const Colours& known) {
   const pugi::xml_node material = visual.child("material");
   if (const pugi::xml_node own = material.child("color")) {
-    return numbers<4>(own.attribute("rgba"), kPlain);
+    return numbers_in<4>(own.attribute("rgba"), kPlain);
   }
   const auto found = known.find(material.attribute("name").value());
   return found == known.end() ? kPlain : found->second;
@@ -91,7 +93,7 @@ std::optional<LinkShape> shape_of(pugi::xml_node visual, const std::string& link
   const pugi::xml_node cylinder = geometry.child("cylinder");
   const pugi::xml_node sphere = geometry.child("sphere");
   if (box) {
-    shape.size = numbers<3>(box.attribute("size"), {});
+    shape.size = numbers_in<3>(box.attribute("size"), {});
   } else if (cylinder) {
     const double width = 2.0 * cylinder.attribute("radius").as_double();
     shape.kind = LinkShape::Kind::kCylinder;
@@ -117,8 +119,8 @@ RobotFrames::Joint joint_of(pugi::xml_node node) {
   joint.moves =
       (joint.slides || type == "revolute" || type == "continuous") && !node.child("mimic");
   joint.origin = pose_of(node.child("origin"));
-  joint.axis = numbers<3>(node.child("axis").attribute("xyz"), {1.0, 0.0, 0.0});
-  const double length = length_of(joint.axis);
+  joint.axis = numbers_in<3>(node.child("axis").attribute("xyz"), {1.0, 0.0, 0.0});
+  const double length = frame_length(joint.axis);
   for (double& part : joint.axis) part = length > 0.0 ? part / length : 0.0;
   return joint;
 }
@@ -126,9 +128,9 @@ RobotFrames::Joint joint_of(pugi::xml_node node) {
 }  // namespace
 
 FramePose combined(const FramePose& outer, const FramePose& inner) {
-  Vector position = turned(outer.rotation, inner.position);
+  FrameVector position = turned_by(outer.rotation, inner.position);
   for (std::size_t i = 0; i < 3; ++i) position[i] += outer.position[i];
-  return {position, product(outer.rotation, inner.rotation)};
+  return {position, turn_after(outer.rotation, inner.rotation)};
 }
 
 base::Result<RobotFrames> RobotFrames::parse(const std::string& text) {
@@ -146,7 +148,7 @@ base::Result<RobotFrames> RobotFrames::parse(const std::string& text) {
   Colours colours;
   for (const pugi::xml_node material : robot.children("material")) {
     colours[material.attribute("name").value()] =
-        numbers<4>(material.child("color").attribute("rgba"), kPlain);
+        numbers_in<4>(material.child("color").attribute("rgba"), kPlain);
   }
   for (const pugi::xml_node link : robot.children("link")) {
     frames.links_.emplace_back(link.attribute("name").value());
@@ -182,10 +184,10 @@ void RobotFrames::add_bones() {
     if (!has_shape(link)) bare.insert(link);
   }
   for (const Joint& joint : joints_) {
-    const Vector& end = joint.origin.position;
-    const double length = length_of(end);
+    const FrameVector& end = joint.origin.position;
+    const double length = frame_length(end);
     if (!bare.contains(joint.parent) || length == 0.0) continue;
-    const FramePose middle{{end[0] / 2.0, end[1] / 2.0, end[2] / 2.0}, along(end)};
+    const FramePose middle{{end[0] / 2.0, end[1] / 2.0, end[2] / 2.0}, turn_along(end)};
     shapes_.push_back({joint.parent,
                        LinkShape::Kind::kCylinder,
                        middle,
@@ -228,8 +230,8 @@ void RobotFrames::add_behind(const std::string& link, std::vector<std::size_t>& 
 FramePose RobotFrames::pose(std::size_t joint, double position) const {
   const Joint& one = joints_[joint];
   if (!one.moves) return one.origin;
-  if (!one.slides) return combined(one.origin, {{}, about(one.axis, position)});
-  const Vector way{one.axis[0] * position, one.axis[1] * position, one.axis[2] * position};
+  if (!one.slides) return combined(one.origin, {{}, turn_about(one.axis, position)});
+  const FrameVector way{one.axis[0] * position, one.axis[1] * position, one.axis[2] * position};
   return combined(one.origin, {way, {0.0, 0.0, 0.0, 1.0}});
 }
 
